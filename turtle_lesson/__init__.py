@@ -1,0 +1,49 @@
+"""Turtle Lesson: learn to build a ROS 2 robot controller in notebooks, with nothing to install but Python packages.
+
+Importing this package makes `rclpy`, `launch`, the message packages and their kin importable, unless a real ROS 2 is
+sourced, which is never hidden. `start()` makes a world to work in.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .ros.core import virtual_random, virtual_time
+from .ros.interfaces import finder
+
+if TYPE_CHECKING:
+    from .lesson import Lesson, start
+
+__version__ = "0.1.0"
+__all__ = ["Lesson", "load_ipython_extension", "start"]
+
+SITE = str(Path(__file__).resolve().parent / "ros" / "site")
+
+
+def _make_importable() -> None:
+    """Put what a learner imports last on the path, the way sourcing a setup file adds to it."""
+    if SITE not in sys.path:
+        sys.path.append(SITE)
+    finder.install()
+    virtual_time.install()
+    virtual_random.install()
+
+
+def load_ipython_extension(shell: Any) -> None:
+    """What `%load_ext turtle_lesson` does: errors are shown from the learner's point of view."""
+    from .notebook import prepare
+
+    prepare(shell)
+
+
+def __getattr__(name: str) -> Any:
+    if name in {"Lesson", "start"}:
+        from . import lesson
+
+        return getattr(lesson, name)
+    raise AttributeError(f"module 'turtle_lesson' has no attribute {name!r}")
+
+
+_make_importable()

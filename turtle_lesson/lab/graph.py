@@ -1,0 +1,73 @@
+"""The ROS graph as a diagram: who publishes, who hears, who offers and who calls."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .mermaid import flowchart
+from .system import Ends, NodeView, read_system, services_of, topics_of
+from .words import count, listed
+
+
+class GraphPicture:
+    """A diagram of the ROS graph, drawn by the notebook itself, and the same in words.
+
+    `text` is one paragraph, `mermaid` the diagram in Mermaid's language ("" when there is no node to show).
+    """
+
+    def __init__(self, text: str, mermaid: str = "") -> None:
+        self.text = text
+        self.mermaid = mermaid
+
+    def __repr__(self) -> str:
+        return self.text
+
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
+        """What Jupyter shows: JupyterLab draws the first, other front ends the second, and all can read the text."""
+        if not self.mermaid:
+            return {"text/plain": self.text}
+        return {
+            "text/vnd.mermaid": self.mermaid,
+            "text/markdown": f"```mermaid\n{self.mermaid}```",
+            "text/plain": self.text,
+        }
+
+
+def plot_graph(node: Any) -> GraphPicture:
+    """Return the ROS graph that `node` (an rclpy Node) sees, as a diagram and in words.
+
+    Left out, as by ROS's own tools: hidden names, and the topics and services that every node has.
+    """
+    nodes = read_system(node)
+    if not nodes:
+        return GraphPicture("No node is running. Start some: ros2 run turtlesim turtlesim_node, or lesson.launch(…).")
+    text = describe(nodes)
+    return GraphPicture(text, flowchart(nodes, _summary(nodes), text))
+
+
+def describe(nodes: list[NodeView]) -> str:
+    """Return the graph in words: the numbers, then a sentence for each node."""
+    types = topics_of(nodes) | services_of(nodes)
+    sentences = [f"The ROS graph has {_summary(nodes)}."]
+    sentences += [_node_sentence(node) for node in nodes]
+    sentences.append(_types_sentence(types))
+    return " ".join(filter(None, sentences))
+
+
+def _summary(nodes: list[NodeView]) -> str:
+    amount = sum(node.copies for node in nodes)
+    topics, services = topics_of(nodes), services_of(nodes)
+    return listed([count(amount, "node"), count(len(topics), "topic"), count(len(services), "service")])
+
+
+def _node_sentence(node: NodeView) -> str:
+    verbs = {"publishes": node.publishes, "hears": node.hears, "offers": node.offers, "calls": node.calls}
+    parts = [f"{verb} {listed(list(ends))}" for verb, ends in verbs.items() if ends]
+    name = node.name if node.copies == 1 else f"{node.name} ({node.copies} nodes of this name)"
+    return f"{name} {'; '.join(parts)}." if parts else f"{name} uses no topic and no service."
+
+
+def _types_sentence(types: Ends) -> str:
+    if not types:
+        return ""
+    return f"Types: {', '.join(f'{name} {listed(kinds)}' for name, kinds in types.items())}."

@@ -1,0 +1,86 @@
+"""What every plot returns: a figure, and the same in words."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import style
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+SHARPNESS = 2
+"""Pixels drawn for each pixel shown, so that a picture is sharp on a fine screen."""
+
+
+class Picture:
+    """A figure and its exact text. Shown in a notebook it is the figure; printed, or read aloud, it is the text.
+
+    `text` is one paragraph. `figure` is a matplotlib Figure, or None where there was nothing to draw: then the text
+    says what is missing and what to try.
+    """
+
+    def __init__(self, text: str, figure: Figure | None = None) -> None:
+        self.text = text
+        self.figure = figure
+
+    def __repr__(self) -> str:
+        return self.text
+
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> Any:
+        """What Jupyter shows: PNG and text, with the size to show it at and the alternative text beside it."""
+        data: dict[str, Any] = {"text/plain": self.text}
+        if self.figure is None:
+            return data
+        width, height = (round(inches * style.DPI) for inches in self.figure.get_size_inches())
+        data["image/png"] = self.png()
+        return data, {"image/png": {"width": width, "height": height, "alt": self.text}}
+
+    def png(self) -> bytes:
+        """The figure as the bytes of a PNG file, the same bytes whenever it is drawn.
+
+        It has 256 colours: a flat drawing needs no more, and a page stores a quarter of the bytes.
+        """
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from PIL import Image
+
+        figure = self._figure()
+        with style.applied(), _sharp(figure):
+            canvas = FigureCanvasAgg(figure)
+            canvas.draw()
+            pixels = Image.fromarray(np.asarray(canvas.buffer_rgba()))
+        stream = io.BytesIO()
+        pixels.quantize(256, method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(stream, "png")
+        return stream.getvalue()
+
+    def save(self, path: str | Path) -> Path:
+        """Write the figure to a file, in the format that its ending names (png, svg, pdf); returns the path."""
+        path = Path(path)
+        if path.suffix.lower() == ".png":
+            path.write_bytes(self.png())
+            return path
+        without_date: dict[str, dict[str, Any]] = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
+        with style.applied():
+            self._figure().savefig(path, metadata=without_date.get(path.suffix.lower()))
+        return path
+
+    def _figure(self) -> Figure:
+        if self.figure is None:
+            raise ValueError(f"there is no figure yet, only a text: {self.text}")
+        return self.figure
+
+
+@contextmanager
+def _sharp(figure: Figure) -> Iterator[None]:
+    """Within this block the figure has `SHARPNESS` times its pixels."""
+    figure.dpi = style.DPI * SHARPNESS
+    try:
+        yield
+    finally:
+        figure.dpi = style.DPI

@@ -1,0 +1,97 @@
+"""The recorder: a node's ears. It hears a turtle's topics, and whatever the lab knows of the system it knows from here.
+
+It must not be seen: a subscription makes a topic appear in `ros2 topic list`, and lets a waiting publisher start. So
+it follows others, and only subscribes to a topic while somebody else publishes it (to `cmd_vel`: while a simulator
+listens to it).
+"""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable
+from typing import Any
+
+from .channel import Channel
+from .markers import apply
+from .recording import OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, STATUS_TYPE, Recording
+from .table import LIMIT, Listener
+
+POSE_TYPE = "turtlesim/msg/Pose"
+GLANCE_PERIOD = 1.0
+"""Seconds between two glances at the graph, for publishers that come late in a node's life."""
+
+
+class Recorder(Recording):
+    """Fills itself with what `node` (an rclpy Node, spun by somebody else) hears.
+
+    `origin` (ns) is the moment that plots call 0 s; without it, that is now on the node's clock.
+    """
+
+    def __init__(self, node: Any, *, turtle: str = "turtle1", origin: int | None = None, limit: int = LIMIT) -> None:
+        if origin is None:
+            origin = node.get_clock().now().nanoseconds
+        super().__init__(turtle=turtle, origin=origin, limit=limit)
+        self.node = node
+        self._channels = self._make_channels(node)
+        self._timer = node.create_timer(GLANCE_PERIOD, self._glance)
+        self._events = self._hear_of_new_nodes(node)
+        self.look()
+
+    def look(self) -> None:
+        """Look at the graph, and listen to what has a publisher by now. Done by itself when a node starts."""
+        for channel in self._channels.values():
+            channel.follow()
+
+    def _glance(self) -> None:
+        for channel in self._channels.values():
+            channel.glance()
+
+    def close(self) -> None:
+        """Stop listening; what was heard stays."""
+        for channel in self._channels.values():
+            channel.close()
+        self.node.destroy_subscription(self._events)
+        self.node.destroy_timer(self._timer)
+
+    def why_silent(self, topic: str) -> str:
+        """A sentence on why nothing was heard on a topic, and what to try."""
+        self.look()
+        return self._channels[topic].why_silent()
+
+    def _make_channels(self, node: Any) -> dict[str, Channel]:
+        commands = self.commands.listener("linear.x", "linear.y", "angular.z")
+        poses = self.poses.listener("x", "y", "theta", "linear_velocity")
+        channels = (
+            Channel(node, self.pose_topic, POSE_TYPE, lambda _: poses, _START_SIMULATOR),
+            Channel(node, self.command_topic, "geometry_msgs/msg/Twist", lambda _: commands, _START_NAVIGATOR, driven=True),
+            Channel(node, STATUS_TOPIC, STATUS_TYPE, self._status_listener, _START_MONITOR),
+            Channel(node, SCAN_TOPIC, "sensor_msgs/msg/LaserScan", lambda _: self._hear_scan, _START_DETECTOR),
+            Channel(
+                node, OBSTACLE_TOPIC, "visualization_msgs/msg/MarkerArray", lambda _: self._hear_markers, _START_SIMULATOR, latched=True
+            ),
+        )
+        return {channel.topic: channel for channel in channels}
+
+    def _status_listener(self, message_type: Any) -> Listener:
+        """A learner's TurtleStatus may lack a field that ours has: that column then holds nothing."""
+        known = message_type.get_fields_and_field_types()
+        return self.statuses.listener(*(name if name in known else "" for name in self.statuses.names))
+
+    def _hear_scan(self, message: Any, info: Any) -> None:
+        self.scans.append(info["source_timestamp"])
+        self.last_scan = message
+
+    def _hear_markers(self, message: Any, info: Any) -> None:
+        apply(message, self.obstacles)
+
+    def _hear_of_new_nodes(self, node: Any) -> Any:
+        """Look at the graph whenever a node has just started: every node then announces its parameters."""
+        event: Any = importlib.import_module("rcl_interfaces.msg").ParameterEvent
+        look: Callable[[Any], None] = lambda _: self.look()  # noqa: E731
+        return node.create_subscription(event, "/parameter_events", look, 100)
+
+
+_START_SIMULATOR = "Is the simulator running? Try lesson = start(simulator=True), or: ros2 run turtlesim turtlesim_node"
+_START_NAVIGATOR = "Try: ros2 run robot_controller navigator"
+_START_MONITOR = 'Try lesson.launch("robot_controller", "start_system.launch.py"), or: ros2 run robot_controller status_monitor'
+_START_DETECTOR = 'Try lesson.launch("robot_controller", "start_system.launch.py"), or: ros2 run robot_controller obstacle_detector'

@@ -1,0 +1,166 @@
+"""What the status monitor reported: position, heading, velocity and battery over robot time."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import style
+from .picture import Picture
+from .recording import STATUS_TOPIC, Recording
+from .words import angle, number, point, rate
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+def plot_status(recording: Recording, *, since: float | None = None, until: float | None = None) -> Picture:
+    """Return what came on /robot/status as a Picture, from `since` to `until` (seconds since the lesson's start).
+
+    Without a message, the Picture says why.
+    """
+    rows = recording.window(recording.statuses, since, until)
+    if not len(rows):
+        return Picture(_nothing(recording))
+    seconds = recording.seconds(rows["stamp"])
+    with style.applied():
+        figure = _draw(seconds, rows)
+    return Picture(_describe(seconds, rows), figure)
+
+
+# -- in words ----------------------------------------------------------------------------------------------------
+
+
+def _nothing(recording: Recording) -> str:
+    if not len(recording.statuses):
+        return f"No status yet. {recording.why_silent(STATUS_TOPIC)}"
+    first, last = recording.seconds(recording.statuses.array()["stamp"][[0, -1]])
+    return f"No status in these seconds: those heard are from {number(first)} s to {number(last)} s of robot time."
+
+
+def _describe(seconds: np.ndarray, rows: np.ndarray) -> str:
+    first, last = rows[0], rows[-1]
+    speeds = np.hypot(rows["vel_x"], rows["vel_y"])
+    return (
+        f"Status on {STATUS_TOPIC} from {number(seconds[0])} s to {number(seconds[-1])} s of robot time: {rate(rows['stamp'])}. "
+        f"Position from {point(first['x'], first['y'])} m to {point(last['x'], last['y'])} m; "
+        f"heading from {angle(first['theta'])} to {angle(last['theta'])}; "
+        f"speed at most {number(speeds.max())} m/s, {number(speeds[-1])} m/s at the end "
+        f"({number(last['vel_x'])} along x and {number(last['vel_y'])} along y); "
+        f"battery from {number(first['battery'], 1)} % to {number(last['battery'], 1)} %."
+    )
+
+
+# -- as a picture ------------------------------------------------------------------------------------------------
+
+
+def _draw(seconds: np.ndarray, rows: np.ndarray) -> Any:
+    figure = style.card(6.4, 5.05)
+    last = rows[-1]
+    style.heading(
+        figure,
+        "Status of the robot",
+        f"{len(rows)} messages on {STATUS_TOPIC}  ·  at {number(seconds[-1], 1)} s: "
+        f"{point(last['x'], last['y'])} m, {number(math.degrees(last['theta']), 0)}°, battery {number(last['battery'], 1)} %",
+    )
+    panels: list[Axes] = []
+    for row in range(4):
+        panel = style.axes_at(figure, 0.95, 3.56 - 1.02 * row, 4.75, 0.82, sharex=panels[0] if panels else None)
+        panel.tick_params(labelbottom=row == 3)
+        panels.append(panel)
+    _draw_position(panels[0], seconds, rows)
+    _draw_heading(panels[1], seconds, rows["theta"])
+    _draw_velocity(panels[2], seconds, rows)
+    _draw_battery(panels[3], seconds, rows["battery"])
+    panels[3].set_xlabel("robot time in seconds")
+    panels[3].set_xlim(*_span(seconds))
+    figure.align_ylabels(panels)
+    return figure
+
+
+def _draw_position(panel: Axes, seconds: np.ndarray, rows: np.ndarray) -> None:
+    panel.set_ylabel("position\nin m")
+    _lines(panel, seconds, {"x": (rows["x"], style.BLUE), "y": (rows["y"], style.VERMILLION)}, least=1.0)
+
+
+def _draw_heading(panel: Axes, seconds: np.ndarray, theta: np.ndarray) -> None:
+    """Radians on the left, the same in degrees on the right; no line across the jump from pi to minus pi."""
+    panel.set_ylabel("heading\nin rad")
+    broken = np.where(np.abs(np.diff(theta, prepend=theta[:1])) > math.pi, np.nan, theta)
+    panel.plot(seconds, broken, color=style.PURPLE, linewidth=1.8)
+    panel.set_ylim(-math.pi * 1.12, math.pi * 1.12)
+    panel.set_yticks([-math.pi, 0, math.pi], ["−π", "0", "π"])
+    panel.set_yticks([-math.pi / 2, math.pi / 2], minor=True)
+    panel.grid(which="minor")
+    degrees = panel.twinx()
+    degrees.set_ylim(panel.get_ylim())
+    degrees.set_yticks([-math.pi, -math.pi / 2, 0, math.pi / 2, math.pi], ["−180°", "−90°", "0°", "90°", "180°"], fontsize=7.5)
+    degrees.grid(False)
+    panel.tick_params(which="minor", length=0)
+
+
+def _draw_velocity(panel: Axes, seconds: np.ndarray, rows: np.ndarray) -> None:
+    panel.set_ylabel("velocity\nin m/s")
+    speed = np.hypot(rows["vel_x"], rows["vel_y"])
+    panel.fill_between(seconds, 0, speed, color=style.LINE, linewidth=0)
+    lines = {"x": (rows["vel_x"], style.BLUE), "y": (rows["vel_y"], style.VERMILLION), "speed": (speed, style.GREY)}
+    _lines(panel, seconds, lines, least=0.2, drawn=("x", "y"))
+
+
+def _draw_battery(panel: Axes, seconds: np.ndarray, battery: np.ndarray) -> None:
+    panel.set_ylabel("battery\nin %")
+    panel.fill_between(seconds, 0, battery, color="#d4efe5", linewidth=0)
+    panel.plot(seconds, battery, color=style.GREEN, linewidth=1.8)
+    panel.set_ylim(0, 108)
+    panel.set_yticks([0, 50, 100])
+
+
+def _lines(
+    panel: Axes, seconds: np.ndarray, lines: dict[str, Any], least: float, drawn: Sequence[str] = ("x", "y")
+) -> None:
+    """Lines with their name at their end, in a range of at least `least`, so that noise looks like noise."""
+    from matplotlib.ticker import MaxNLocator
+
+    values = np.concatenate([values[np.isfinite(values)] for values, _ in lines.values()])
+    low, high = (values.min(), values.max()) if len(values) else (0.0, 0.0)
+    spare = max(least - (high - low), 0.0) / 2 + 0.12 * max(high - low, least)
+    panel.set_ylim(low - spare, high + spare)
+    panel.yaxis.set_major_locator(MaxNLocator(nbins=3, steps=[1, 2, 5, 10]))
+    ends = spread([float(values[-1]) for values, _ in lines.values()], 0.22 * (high - low + 2 * spare))
+    for (name, (values, colour)), end in zip(lines.items(), ends, strict=True):
+        if name in drawn:
+            panel.plot(seconds, values, color=colour, linewidth=1.8)
+        panel.annotate(
+            name,
+            (1.0, end),
+            xycoords=("axes fraction", "data"),
+            xytext=(7, 0),
+            textcoords="offset points",
+            color=colour,
+            fontweight="bold" if name in drawn else "normal",
+            va="center",
+            annotation_clip=False,
+        )
+
+
+def spread(places: Sequence[float], least: float) -> list[float]:
+    """Return places for labels, moved apart until they are `least` from each other; what is no number counts as 0."""
+    wanted = np.nan_to_num(np.asarray(places, float), posinf=0.0, neginf=0.0)
+    order = np.argsort(wanted, kind="stable")
+    moved = wanted[order]
+    for above in range(1, len(moved)):
+        moved[above] = max(moved[above], moved[above - 1] + least)
+    moved += (wanted.sum() - moved.sum()) / len(moved)
+    placed = np.empty(len(moved))
+    placed[order] = moved
+    return placed.tolist()
+
+
+def _span(seconds: np.ndarray) -> tuple[float, float]:
+    """The range of the time axis: a little wider than the data, and from 0 if they start close to it."""
+    begin, end = float(seconds[0]), float(seconds[-1])
+    spare = 0.01 * (end - begin) or 0.5
+    return (0.0 if 0 <= begin < 5 * spare else begin - spare, end + spare)

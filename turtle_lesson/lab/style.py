@@ -1,0 +1,111 @@
+"""The one look of all pictures: quiet, readable on a light and on a dark page, and told apart by all eyes.
+
+Colours are those of Okabe and Ito (https://jfly.uni-koeln.de/color/). A picture is a nearly white card with round
+corners, so that the same file looks right in either theme. Matplotlib is imported with the first picture, not before,
+and `pyplot` never: its list of open figures is shared with the learner's own plots.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+BLUE, SKY, GREEN, ORANGE = "#0072B2", "#56B4E9", "#009E73", "#E69F00"
+VERMILLION, PURPLE, YELLOW = "#D55E00", "#CC79A7", "#F0E442"
+
+INK = "#24292f"
+"""Text and outlines."""
+GREY = "#5f6670"
+"""Secondary text: 5.6 : 1 on the card."""
+LINE = "#e4e4df"
+"""Grid lines."""
+CARD, CARD_EDGE = "#fcfcfa", "#d4d4ce"
+
+DPI = 100
+"""Pixels an inch at which a picture is shown; it is drawn with twice as many (see picture.py)."""
+
+SETTINGS: dict[str, Any] = {
+    "font.family": "sans-serif",
+    "font.sans-serif": ["DejaVu Sans"],  # the one font that comes with matplotlib, so it is there on every machine
+    "font.size": 9.0,
+    "text.color": INK,
+    "axes.edgecolor": CARD_EDGE,
+    "axes.facecolor": CARD,
+    "axes.labelcolor": GREY,
+    "axes.labelsize": 9.0,
+    "axes.linewidth": 0.8,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "axes.unicode_minus": True,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.formatter.useoffset": False,
+    "grid.color": LINE,
+    "grid.linewidth": 0.7,
+    "xtick.color": GREY,
+    "ytick.color": GREY,
+    "xtick.labelsize": 8.5,
+    "ytick.labelsize": 8.5,
+    "xtick.major.size": 0.0,
+    "ytick.major.size": 0.0,
+    "lines.linewidth": 1.6,
+    "lines.solid_capstyle": "round",
+    "lines.solid_joinstyle": "round",
+    "path.simplify": True,
+    "text.usetex": False,
+    "savefig.bbox": None,
+}
+
+
+@contextmanager
+def applied() -> Iterator[None]:
+    """Within this block, matplotlib draws in our style; the learner's own settings come back afterwards."""
+    # Matplotlib's first start ever lists the machine's fonts; its remark on that has no place below a learner's cell.
+    logging.getLogger("matplotlib.font_manager").setLevel(logging.ERROR)
+    import matplotlib
+
+    with matplotlib.rc_context(SETTINGS):
+        yield
+
+
+def card(width: float, height: float) -> Figure:
+    """An empty figure (inches): a card with round corners on a transparent ground."""
+    from matplotlib.figure import Figure
+    from matplotlib.patches import FancyBboxPatch
+    from matplotlib.transforms import IdentityTransform
+
+    figure = Figure(figsize=(width, height), dpi=DPI, facecolor="none")
+    edge = 2.0 / DPI
+    sheet = FancyBboxPatch(
+        (edge, edge),
+        width - 2 * edge,
+        height - 2 * edge,
+        boxstyle="round,pad=0,rounding_size=0.09",
+        facecolor=CARD,
+        edgecolor=CARD_EDGE,
+        linewidth=0.8,
+        transform=figure.dpi_scale_trans + IdentityTransform(),
+        zorder=-10,
+    )
+    figure.add_artist(sheet)
+    return figure
+
+
+def heading(figure: Figure, title: str, subtitle: str) -> None:
+    """Title and, in grey beneath it, the main figures, in the card's upper left corner."""
+    width, height = figure.get_size_inches()
+    figure.text(0.2 / width, 1 - 0.17 / height, title, fontsize=11.5, fontweight="bold", va="top")
+    figure.text(0.2 / width, 1 - 0.41 / height, subtitle.replace("-", "−"), fontsize=8.8, color=GREY, va="top")
+
+
+def axes_at(figure: Figure, left: float, bottom: float, width: float, height: float, **options: Any) -> Axes:
+    """Axes at a place given in inches from the card's lower left corner."""
+    full_width, full_height = figure.get_size_inches()
+    place = (left / full_width, bottom / full_height, width / full_width, height / full_height)
+    return figure.add_axes(place, **options)

@@ -1,0 +1,59 @@
+"""Numbers, angles and lists in plain words, the same on every machine: fixed decimals and never a minus zero."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+
+def number(value: float, decimals: int = 2) -> str:
+    """A number with a fixed count of decimals: `number(-0.001)` is "0.00", not "-0.00"."""
+    if math.isnan(value):
+        return "not a number"
+    if math.isinf(value):
+        return "infinite" if value > 0 else "minus infinite"
+    text = f"{value:.{decimals}f}"
+    return text[1:] if text.startswith("-") and not text.strip("-0.") else text
+
+
+def angle(radians: float) -> str:
+    """An angle in both units: `angle(1.5708)` is "1.57 rad (90.0°)"."""
+    return f"{number(radians)} rad ({number(math.degrees(radians), 1)}°)"
+
+
+def point(x: float, y: float) -> str:
+    """A place in the world, in metres: "(5.54, 5.54)"."""
+    return f"({number(x)}, {number(y)})"
+
+
+def count(amount: int, noun: str, plural: str = "") -> str:
+    """How many of a thing: "1 message", "2 messages", "no message"."""
+    if amount == 1:
+        return f"1 {noun}"
+    return f"{amount or 'no'} {noun if not amount else plural or noun + 's'}"
+
+
+def listed(items: Sequence[str]) -> str:
+    """A list in a sentence: "a, b and c"."""
+    return " and ".join([", ".join(items[:-1]), items[-1]] if len(items) > 1 else items)
+
+
+def turned(radians: float) -> float:
+    """An angle brought into (-pi, pi], as a turn from one heading to another."""
+    rest = math.remainder(radians, math.tau)
+    return math.pi if rest == -math.pi else rest
+
+
+def rate(stamps: np.ndarray) -> str:
+    """How often messages came, from the times (ns, ascending) at which they were sent."""
+    if len(stamps) < 2:
+        return count(len(stamps), "message")
+    gaps = np.diff(stamps) / 1e6
+    mean = float(gaps.mean())
+    frequency = f" ({number(1000 / mean, 1)} Hz)" if mean > 0 else ""
+    return (
+        f"{count(len(stamps), 'message')}, one every {number(mean, 1)} ms on average{frequency}, "
+        f"the shortest interval {number(float(gaps.min()), 1)} ms and the longest {number(float(gaps.max()), 1)} ms"
+    )

@@ -1,0 +1,18 @@
+"""What is special in Jupyter: tracebacks that end at the learner's own line."""
+
+from __future__ import annotations
+
+from types import TracebackType
+from typing import Any
+
+from .ros.core.tracebacks import shorten
+
+
+def prepare(shell: Any) -> None:
+    """Have errors in cells shown without the frames of the simulated ROS 2."""
+    shell.set_custom_exc((Exception,), _show)
+
+
+def _show(shell: Any, kind: type[BaseException], error: BaseException, trace: TracebackType, tb_offset: Any = None) -> None:
+    error.__traceback__ = shorten(trace)
+    shell.showtraceback((kind, error, error.__traceback__), tb_offset=0)

@@ -1,0 +1,20 @@
+"""The discrete-event core: a virtual clock, timed events and simulated processes. It knows nothing of ROS."""
+
+from .errors import DriveTimeout, NeverReturns, NeverWakes, SimulationError, WorldClosed
+from .process import Process
+from .simulation import EPOCH, NANOSECONDS, Simulation
+from .strand import Strand, running_strand
+
+__all__ = [
+    "EPOCH",
+    "NANOSECONDS",
+    "DriveTimeout",
+    "NeverReturns",
+    "NeverWakes",
+    "Process",
+    "Simulation",
+    "SimulationError",
+    "Strand",
+    "WorldClosed",
+    "running_strand",
+]

@@ -1,0 +1,140 @@
+"""While the simulation runs: Ctrl-C pauses it at a clean instant, and code that lets no time pass is found.
+
+Jupyter's stop button and Ctrl-C send SIGINT. Python would raise KeyboardInterrupt wherever it happens to be, which is
+in the middle of some simulated process, and kill that one alone. `Guard` asks the simulation to stop instead; the next
+run goes on from there. A process that computes without end is frozen in the middle of its computation.
+"""
+
+from __future__ import annotations
+
+import _thread
+import signal
+import sys
+import threading
+import time
+from types import FrameType, TracebackType
+from typing import TYPE_CHECKING, Any
+
+from .errors import NeverReturns
+from .strand import Strand, running_strand
+
+if TYPE_CHECKING:
+    from .simulation import Simulation
+
+_monotonic = time.monotonic  # the real one, whatever time.monotonic becomes
+
+patience = 10.0
+"""How long, in seconds of real time, a callback may compute while the virtual clock stands still."""
+
+interrupt_patience = 1.0
+"""How long after Ctrl-C, in seconds of real time, a computing callback is waited for before it is frozen."""
+
+
+class Guard:
+    """Watches one run of a simulation: `with Guard(simulation): …`, then `raise_if_interrupted()`."""
+
+    def __init__(self, simulation: Simulation) -> None:
+        self.simulation = simulation
+        self.interrupted = False
+        self.stuck = False
+        self._previous: Any = None
+        self._active = threading.current_thread() is threading.main_thread()
+
+    def __enter__(self) -> Guard:
+        if self._active:
+            self._previous = signal.signal(signal.SIGINT, self._on_signal)
+            _watchdog.watch(self)
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if self._active:
+            _watchdog.watch(None)
+            if self._previous is not None:
+                signal.signal(signal.SIGINT, self._previous)
+
+    def raise_if_interrupted(self) -> None:
+        """Raise KeyboardInterrupt in the cell if the user asked for it while the simulation ran."""
+        if self.interrupted:
+            raise KeyboardInterrupt
+
+    def _on_signal(self, number: int, frame: FrameType | None) -> None:
+        strand = running_strand()
+        if not self.stuck:
+            self.interrupted = True
+            self.simulation.halt()
+        elif strand is not None:
+            self.stuck = False
+            if self.interrupted:
+                self._freeze(strand)
+            else:
+                self._give_up_on(strand)
+
+    def _freeze(self, strand: Strand) -> None:
+        """Leave the strand in the middle of what it computes; the next run goes on there."""
+        self.simulation.put_back(strand)
+        self.simulation.hub.switch()
+
+    def _give_up_on(self, strand: Strand) -> None:
+        if strand.warned:
+            strand.process.abandon("it computes without end and ignores being told to stop")
+            self.simulation.hub.switch()
+        strand.warned = True
+        raise NeverReturns(
+            f"{strand.process.name} has computed for {patience:g} s without letting any time pass, so nothing else in "
+            "this world could happen. A callback should do a little and return; let a timer call it again. "
+            "To wait inside a loop, call time.sleep(seconds)."
+        )
+
+
+class _Watchdog:
+    """A thread that looks, a few times a second, whether the guarded simulation's clock still moves."""
+
+    def __init__(self) -> None:
+        self._guard: Guard | None = None
+        self._wanted = threading.Event()
+        self._thread: threading.Thread | None = None
+
+    def watch(self, guard: Guard | None) -> None:
+        self._guard = guard
+        if guard is None:
+            self._wanted.clear()
+            return
+        if self._thread is None or not self._thread.is_alive():
+            self._thread = threading.Thread(target=self._loop, name="turtle_lesson watchdog", daemon=True)
+            self._thread.start()
+        self._wanted.set()
+
+    def _loop(self) -> None:
+        seen: tuple[object, int] | None = None
+        since = _monotonic()
+        while True:
+            self._wanted.wait()
+            guard = self._guard
+            if guard is not None:
+                state = (guard, guard.simulation.now)
+                limit = interrupt_patience if guard.interrupted else patience
+                if state != seen:
+                    seen, since = state, _monotonic()
+                elif _monotonic() - since > limit and not _being_debugged():
+                    since = _monotonic()
+                    guard.stuck = True
+                    _thread.interrupt_main()
+            _sleep(min(0.25, patience / 4, interrupt_patience / 4))
+
+
+_sleep = time.sleep
+_watchdog = _Watchdog()
+
+
+def _being_debugged() -> bool:
+    """Whether the main thread waits for its user: in a debugger, or in input()."""
+    frame = sys._current_frames().get(threading.main_thread().ident or 0)
+    while frame is not None:
+        if frame.f_globals.get("__name__") in {"bdb", "pdb", "IPython.core.debugger"}:
+            return True
+        if frame.f_code.co_name in {"raw_input", "_input_request"}:
+            return True
+        frame = frame.f_back
+    return False

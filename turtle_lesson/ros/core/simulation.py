@@ -1,0 +1,264 @@
+"""The simulation: one clock in whole nanoseconds, one heap of timed events, one queue of strands that are due now.
+
+What makes it deterministic is the heap's key: time, then a counter, so that events of the same instant happen in the
+order in which they were asked for. All events of an instant happen first; then the strands that they woke go on, one
+after the other, in the order in which they were woken.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextvars
+import sys
+from collections import deque
+from collections.abc import Callable
+from heapq import heappop, heappush
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from .errors import DriveTimeout, NeverWakes, SimulationError, WorldClosed
+from .interrupts import Guard
+from .strand import Strand, running_greenlet, running_strand
+
+if TYPE_CHECKING:
+    from .process import Process
+
+NANOSECONDS = 1_000_000_000
+EPOCH = 1_800_000_000 * NANOSECONDS
+"""What the virtual wall clock (`time.time()`) shows when a world starts, in ns since 1970: 2027-01-15 08:00 UTC."""
+
+CLOCK_READ = 1_000
+"""What reading the clock costs in virtual time, in ns, so that a loop that only looks at the clock comes to an end."""
+
+DRIVE_LIMIT = 3_600 * NANOSECONDS
+"""How much robot time, in ns, a blocking call from a notebook cell may take before it is given up."""
+
+FOREVER = 1 << 62
+
+T = TypeVar("T")
+
+
+class Simulation:
+    """Runs timed events and strands in order. `now` is the virtual time in ns since the world's start."""
+
+    def __init__(self) -> None:
+        self.now = 0
+        self.hub = running_greenlet()
+        self.running = False
+        self.closed = False
+        self._heap: list[tuple[int, int, Callable[[Any], object], Any]] = []
+        self._ready: deque[Strand] = deque()
+        self._count = 0
+        self._limit = 0
+        self._halted = False
+        self._forgotten: list[Strand] = []
+        self._face: Process | None = None
+        self.current: Strand | None = None
+
+    # -- asking for things to happen -------------------------------------------------------------------------
+
+    def at(self, time: int, action: Callable[[Any], object], argument: Any) -> None:
+        """Have `action(argument)` called at virtual time `time` (ns), in the hub: it must be short and not block."""
+        self._count = count = self._count + 1
+        heappush(self._heap, (time, count, action, argument))
+
+    def call_later(self, delay: int, action: Callable[..., object], *arguments: Any) -> None:
+        """Have `action(*arguments)` called `delay` ns from now, in the hub."""
+        if delay < 0:
+            raise SimulationError(f"cannot call {action!r} in the past: the delay is {delay} ns; give 0 or more")
+        self.at(self.now + delay, lambda _: action(*arguments), None)
+
+    def wake(self, strand: Strand) -> None:
+        """Let a parked strand go on at this instant. Waking one that is not parked does nothing."""
+        if strand.parked:
+            strand.parked = False
+            self._ready.append(strand)
+
+    def put_back(self, strand: Strand) -> None:
+        """Have a strand that was stopped in its middle go on first, in the next run."""
+        self._ready.appendleft(strand)
+
+    def forget(self, strand: Strand) -> None:
+        """Never run a strand again. What it holds is given back when the world closes."""
+        strand.parked = False
+        self._forgotten.append(strand)
+        if strand in self._ready:
+            self._ready.remove(strand)
+
+    # -- what a strand may do --------------------------------------------------------------------------------
+
+    def sleep_until(self, time: int) -> None:
+        """Hold up the running strand until virtual time `time` (ns)."""
+        heap = self._heap
+        if not self._ready and time < self._limit and (not heap or heap[0][0] > time):
+            if time > self.now:
+                self.now = time  # nobody else has anything to do until then: no need to switch
+            return
+        strand = running_strand()
+        if strand is None:
+            raise SimulationError("only a simulated process can sleep in virtual time; in a cell use lesson.run(seconds)")
+        self.at(time, self.wake, strand)
+        strand.park()
+        while self.now < time:
+            strand.park()
+
+    def read_clock(self) -> int:
+        """The virtual time in ns, for somebody who looks at a clock: looking costs `CLOCK_READ`."""
+        if running_strand() is not None:
+            self.sleep_until(self.now + CLOCK_READ)
+        elif not self.running and not self.closed:
+            self.run_until(self.now + CLOCK_READ)
+        return self.now
+
+    # -- running ---------------------------------------------------------------------------------------------
+
+    def run_until(self, time: int) -> None:
+        """Run everything that happens before `time` (ns; half-open, so an event at `time` waits for the next run).
+
+        Raises KeyboardInterrupt at a clean instant when the user interrupts; the next run goes on from there.
+        """
+        if time < self.now:
+            raise SimulationError(f"cannot run back in time: it is {self.now} ns, asked for {time} ns")
+        self._run(time)
+        if not self._halted:
+            self.now = time
+
+    def drive(self, process: Any, function: Callable[..., T], *arguments: Any, **keywords: Any) -> T:
+        """Run the simulation until `function(*arguments, **keywords)`, called as part of `process`, has returned.
+
+        This is how a blocking call works from a plain notebook cell. Raises what the function raises.
+        """
+        outcome: list[T] = []
+        failure: list[BaseException] = []
+
+        def call() -> None:
+            try:
+                outcome.append(function(*arguments, **keywords))
+            except BaseException as error:
+                failure.append(error)
+            finally:
+                self._halted = True
+
+        strand = process.add_strand(call)
+        self._ready.append(strand)
+        deadline = self.now + DRIVE_LIMIT
+        try:
+            self._run(deadline)
+        except KeyboardInterrupt as interrupt:
+            self.raise_in(strand, interrupt)
+            if not failure and not outcome:
+                raise
+        if not strand.dead:
+            self.raise_in(strand, self._why_not_done(strand, deadline))
+        if failure:
+            raise failure[0]
+        return outcome[0]
+
+    def _why_not_done(self, strand: Strand, deadline: int) -> SimulationError:
+        what = strand.activity or "this call"
+        if not self._heap:
+            return NeverWakes(
+                f"{what} waits for something that can never happen: nothing in this world is running any more. "
+                "Start what should answer (ros2 run, lesson.launch), or give a timeout."
+            )
+        return DriveTimeout(
+            f"{what} was still not done after {DRIVE_LIMIT // NANOSECONDS} s of robot time, so it was given up. "
+            "Is the node that should answer running, and is the name spelled as in `ros2 service list`? "
+            "A timeout_sec lets you decide how long to wait."
+        )
+
+    def raise_in(self, strand: Strand, error: BaseException) -> None:
+        """Raise `error` where a strand waits, at once, and let it clean up until it waits again or ends."""
+        if strand.dead:
+            return
+        hub, face = self.hub, self._face
+        self.hub = running_greenlet()
+        self._enter(strand)
+        try:
+            strand.raise_inside(error)
+        finally:
+            self.hub = hub
+            self._leave()
+            if face is not None:
+                self._enter_process(face)
+
+    def _run(self, limit: int) -> None:
+        if self.closed:
+            raise WorldClosed("this world was closed by a later start(): use the lesson that start() returned last")
+        if self.running:
+            raise SimulationError("the simulation runs already: a callback cannot run it once more")
+        self.hub = running_greenlet()
+        self._limit = limit
+        self._halted = False
+        self.running = True
+        loop = asyncio._get_running_loop()
+        asyncio._set_running_loop(None)  # a simulated process is no part of Jupyter's event loop
+        guard = Guard(self)
+        try:
+            with guard:
+                self._loop(limit)
+        finally:
+            self.running = False
+            self._limit = 0
+            self._leave()
+            asyncio._set_running_loop(loop)
+        guard.raise_if_interrupted()
+
+    def _loop(self, limit: int) -> None:
+        heap, ready = self._heap, self._ready
+        context = contextvars.copy_context()
+        while True:
+            while ready:
+                strand = ready.popleft()
+                if strand.dead:
+                    continue
+                if strand.process is not self._face:
+                    self._enter(strand)
+                self.current = strand
+                strand.resume(context)
+                if self._halted:
+                    return
+            if self._halted or not heap or heap[0][0] >= limit:
+                return
+            time, _, action, argument = heappop(heap)
+            if time > self.now:
+                self.now = time
+            action(argument)
+            while heap and heap[0][0] <= self.now:
+                _, _, action, argument = heappop(heap)
+                action(argument)
+
+    def halt(self) -> None:
+        """Stop the loop as soon as the running strand lets go, even if it only looks at the clock in a loop."""
+        self._halted = True
+        self._limit = 0
+
+    # -- what a running process shows to Python (sys.argv, sys.stdout, sys.stderr) ------------------------------
+
+    def _enter(self, strand: Strand) -> None:
+        self._enter_process(strand.process)
+
+    def _enter_process(self, process: Process) -> None:
+        if self._face is None:
+            self._cell_face = (sys.argv, sys.stdout, sys.stderr)
+        self._face = process
+        _, stdout, stderr = self._cell_face
+        sys.argv = process.argv
+        sys.stdout = process.stdout or stdout
+        sys.stderr = process.stderr or stderr
+
+    def _leave(self) -> None:
+        if self._face is not None:
+            sys.argv, sys.stdout, sys.stderr = self._cell_face
+            self._face = None
+        self.current = None
+
+    @property
+    def cell_stdout(self) -> Any:
+        """Where the running cell prints to."""
+        return sys.stdout if self._face is None else self._cell_face[1]
+
+    def close(self) -> None:
+        """End the simulation for good: nothing of it runs again."""
+        self.closed = True
+        self._heap.clear()
+        self._ready.clear()

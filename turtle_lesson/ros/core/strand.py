@@ -1,0 +1,73 @@
+"""A strand: one line of execution in a simulated process, which can stop in the middle of a call and go on later.
+
+This module is the small switch interface between the simulation and whatever makes a call stoppable; today that is
+greenlet (https://greenlet.readthedocs.io). Nothing else in the project imports greenlet.
+
+A strand is *parked* (waits until somebody wakes it), *ready* (queued to go on at this instant), *running* or *dead*.
+The hub is the greenlet that runs the simulation's loop: the notebook cell itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextvars import Context
+from typing import TYPE_CHECKING, Any
+
+from greenlet import getcurrent, greenlet
+
+if TYPE_CHECKING:
+    from .process import Process
+    from .simulation import Simulation
+
+
+class Strand(greenlet):
+    """One line of execution of a process: its main program, or a worker of a multi-threaded executor."""
+
+    process: Process
+    simulation: Simulation
+    parked: bool
+    activity: str
+    warned: bool
+
+    def __init__(self, process: Process, target: Callable[[], Any]) -> None:
+        super().__init__(target)
+        self.process = process
+        self.simulation = process.simulation
+        self.parked = False
+        self.activity = ""
+        self.warned = False
+        self.parent = process.simulation.hub
+
+    def park(self) -> None:
+        """Stop here until woken. May also return early: callers check what they wait for, in a loop."""
+        self.parked = True
+        self.simulation.hub.switch()
+
+    def resume(self, context: Context | None) -> None:
+        """Go on from where the strand stopped (called by the hub). Printing follows `context`, the cell's."""
+        self.gr_context = context
+        hub = self.simulation.hub
+        if self.parent is not hub:
+            self.parent = hub
+        self.switch()
+
+    def raise_inside(self, error: BaseException) -> None:
+        """Go on, with `error` raised at the place where the strand stopped (called by the hub)."""
+        self.parked = False
+        self.parent = self.simulation.hub
+        self.throw(error)
+
+    def __repr__(self) -> str:
+        state = "dead" if self.dead else "parked" if self.parked else "ready or running"
+        return f"<Strand of {self.process.name}, {state}>"
+
+
+def running_strand() -> Strand | None:
+    """The strand that runs now, or None in plain Python code such as a notebook cell."""
+    current = getcurrent()
+    return current if type(current) is Strand else None
+
+
+def running_greenlet() -> greenlet:
+    """The greenlet that runs now, whatever it is: what the simulation takes as its hub."""
+    return getcurrent()

@@ -1,0 +1,91 @@
+"""Tracebacks for learners: the frames of their own code, ending at their own line, with paths that say something.
+
+The frames of this package are left out (unless nothing else is there), and so are the little carets under the code,
+which differ between Python versions.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+import traceback
+from pathlib import Path
+from types import TracebackType
+from typing import TextIO
+
+ROS_FOLDER = str(Path(__file__).resolve().parents[1]) + os.sep
+PACKAGE_FOLDER = str(Path(__file__).resolve().parents[3]) + os.sep
+_CELL = re.compile(r"ipykernel_\d+[/\\]|^<ipython-input-")
+
+
+def is_ours(filename: str) -> bool:
+    """Whether a file is part of the simulated ROS 2 and so no concern of a learner's."""
+    return filename.startswith(ROS_FOLDER) or filename.startswith("<generated ") or filename.startswith("<frozen ")
+
+
+def learners_frames(trace: TracebackType | None) -> list[TracebackType]:
+    """The entries of a traceback that belong to a learner's code, outermost first."""
+    entries = []
+    while trace is not None:
+        if not is_ours(trace.tb_frame.f_code.co_filename):
+            entries.append(trace)
+        trace = trace.tb_next
+    return entries
+
+
+def shorten(trace: TracebackType | None) -> TracebackType | None:
+    """A traceback with only the learner's frames; the whole one if there are none."""
+    entries = learners_frames(trace)
+    if not entries:
+        return trace
+    shortened: TracebackType | None = None
+    for entry in reversed(entries):
+        shortened = TracebackType(shortened, entry.tb_frame, entry.tb_lasti, entry.tb_lineno)
+    return shortened
+
+
+def shown_path(filename: str) -> str:
+    """A file's name as a learner knows it, the same on every machine where that is possible."""
+    if _CELL.search(filename):
+        return "a cell of this notebook"
+    if filename.startswith(PACKAGE_FOLDER):
+        return filename[len(PACKAGE_FOLDER) :].replace(os.sep, "/")
+    try:
+        return Path(filename).relative_to(Path.cwd()).as_posix()
+    except ValueError:
+        return filename
+
+
+def format_error(error: BaseException) -> str:
+    """The text of an error as Python prints it, cut to the learner's own frames."""
+    lines = ["Traceback (most recent call last):\n"]
+    for entry in learners_frames(error.__traceback__) or traceback_entries(error.__traceback__):
+        code = entry.tb_frame.f_code
+        summary = traceback.extract_tb(entry, limit=1)[0]
+        lines.append(f'  File "{shown_path(code.co_filename)}", line {entry.tb_lineno}, in {code.co_name}\n')
+        if summary.line:
+            lines.append(f"    {summary.line.strip()}\n")
+    lines.extend(traceback.format_exception_only(type(error), error))
+    return _cause(error) + "".join(lines)
+
+
+def _cause(error: BaseException) -> str:
+    if error.__cause__ is not None:
+        cause = format_error(error.__cause__)
+        return f"{cause}\nThe above exception was the direct cause of the following exception:\n\n"
+    return ""
+
+
+def traceback_entries(trace: TracebackType | None) -> list[TracebackType]:
+    """All entries of a traceback, outermost first."""
+    entries = []
+    while trace is not None:
+        entries.append(trace)
+        trace = trace.tb_next
+    return entries
+
+
+def print_error(error: BaseException, stream: TextIO | None = None) -> None:
+    """Print an error with the learner's frames."""
+    print(format_error(error), end="", file=stream or sys.stderr)

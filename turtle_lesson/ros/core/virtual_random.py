@@ -1,0 +1,105 @@
+"""Random numbers that each simulated process has for itself, seeded by the world's seed and the process's name.
+
+`random.random()` and the other functions of the standard module draw from the process that runs; everywhere else they
+are the real ones. So one program's draws never shift another's, and a run can be repeated. The same holds for
+numpy's unseeded `numpy.random.default_rng()` and for its old global functions.
+"""
+
+from __future__ import annotations
+
+import random
+import sys
+import zlib
+from collections.abc import Callable
+from typing import Any
+
+from greenlet import getcurrent
+
+from .strand import Strand
+
+_NUMPY_FUNCTIONS = (
+    "choice normal permutation rand randint randn random random_sample seed shuffle standard_normal uniform"
+).split()
+
+
+def _dispatch(name: str, real: Callable[..., Any]) -> Callable[..., Any]:
+    def draw(*arguments: Any, **keywords: Any) -> Any:
+        strand = getcurrent()
+        if type(strand) is Strand:
+            return getattr(strand.process.random, name)(*arguments, **keywords)
+        return real(*arguments, **keywords)
+
+    draw.__name__ = draw.__qualname__ = name
+    draw.__doc__ = real.__doc__
+    return draw
+
+
+def _draw_one(real: Callable[[], float]) -> Callable[[], float]:
+    """`random.random` is by far the most used, so it is spelled out."""
+
+    def random() -> float:
+        strand = getcurrent()
+        if type(strand) is Strand:
+            return strand.process.random.random()
+        return real()
+
+    return random
+
+
+def _numpy_state(strand: Strand) -> Any:
+    """The numpy RandomState of the process that runs, made at first use."""
+    state = strand.process.locals.get("numpy.random")
+    if state is None:
+        import numpy
+
+        state = numpy.random.RandomState(zlib.crc32(strand.process.seed.encode()))
+        strand.process.locals["numpy.random"] = state
+    return state
+
+
+def _dispatch_numpy(name: str, real: Callable[..., Any]) -> Callable[..., Any]:
+    def draw(*arguments: Any, **keywords: Any) -> Any:
+        strand = getcurrent()
+        if type(strand) is Strand:
+            return getattr(_numpy_state(strand), name)(*arguments, **keywords)
+        return real(*arguments, **keywords)
+
+    draw.__name__ = draw.__qualname__ = name
+    draw.__doc__ = real.__doc__
+    return draw
+
+
+def _default_rng(real: Callable[..., Any]) -> Callable[..., Any]:
+    def default_rng(seed: Any = None) -> Any:
+        strand = getcurrent()
+        if seed is None and type(strand) is Strand:
+            seed = strand.process.random.getrandbits(64)
+        return real(seed)
+
+    default_rng.__doc__ = real.__doc__
+    return default_rng
+
+
+_installed: set[str] = set()
+
+
+def install() -> None:
+    """Replace the functions of the standard `random` module; a second call does nothing."""
+    if "random" in _installed:
+        return
+    _installed.add("random")
+    for name, real in list(vars(random).items()):
+        if getattr(real, "__self__", None) is random._inst:  # type: ignore[attr-defined]
+            setattr(random, name, _dispatch(name, real))
+    random.random = _draw_one(random._inst.random)  # type: ignore[attr-defined,method-assign,assignment]
+
+
+def install_for_numpy() -> None:
+    """Do the same for `numpy.random`, once it has been imported."""
+    module: Any = sys.modules.get("numpy.random")
+    if module is None or "numpy" in _installed:
+        return
+    _installed.add("numpy")
+    for name in _NUMPY_FUNCTIONS:
+        setattr(module, name, _dispatch_numpy(name, getattr(module, name)))
+    module.default_rng = _default_rng(module.default_rng)

@@ -1,0 +1,178 @@
+"""CDR: the bytes of a message as ROS 2 sends and records them, little endian with the 4-byte header.
+
+`rosbags` does the work. It reads attributes of any object, if arrays are numpy arrays and bytes are numbers, so
+each message is shown to it as a plain portrait of itself; what it reads goes straight into our own classes.
+"""
+
+from __future__ import annotations
+
+from array import array
+from collections.abc import Callable
+from functools import cache
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
+from weakref import WeakKeyDictionary
+
+from turtle_lesson.ros.interfaces.checks import TYPE_CODES, numpy_name
+from turtle_lesson.ros.interfaces.definition import FieldType
+
+if TYPE_CHECKING:
+    from rosbags.typesys.store import Typestore
+
+# What DDS puts into a message without fields (rosidl_generator_c, EMPTY_STRUCTURE_REQUIRED_MEMBER_NAME).
+PLACEHOLDER = "structure_needs_at_least_one_member"
+
+_names: WeakKeyDictionary[type, str] = WeakKeyDictionary()
+
+
+def serialize(message: Any) -> bytes:
+    """The CDR bytes of a message, or of a service's request or response.
+
+    Raises:
+        TypeError: the object is no message of a generated class.
+        ValueError: the message holds what CDR cannot carry, such as a wstring or a list that is too long.
+    """
+    kind = type(message)
+    name = _name(kind)
+    try:
+        return bytes(_store().serialize_cdr(_portrait(message), name, little_endian=True))
+    except Exception as error:
+        raise ValueError(f"this {kind._TYPE_NAME} cannot be written as CDR: {error}") from error
+
+
+def deserialize(data: bytes | bytearray | memoryview, message_class: Any) -> Any:
+    """The message that CDR bytes hold.
+
+    Args:
+        data: bytes with their 4-byte header, little or big endian.
+        message_class: class of the message, e.g. `Twist` or `NavigateTo.Request`.
+
+    Raises:
+        TypeError: the class is none of a message.
+        ValueError: the bytes are cut short, too long or no such message.
+    """
+    name = _name(message_class)
+    try:
+        return _store().deserialize_cdr(bytes(data), name)
+    except Exception as error:
+        what = f"these {len(data)} bytes are no {message_class._TYPE_NAME}"
+        raise ValueError(f"{what}: {error}. Were they written with another definition, or cut short?") from error
+
+
+@cache
+def _store() -> Typestore:
+    from rosbags.typesys.store import Typestore
+
+    return Typestore()
+
+
+def _name(message_class: Any) -> str:
+    """The name under which rosbags knows a class; each class has its own, since definitions change."""
+    if not isinstance(message_class, type) or not hasattr(message_class, "_wire_copy"):
+        hint = "; of a service, give .Request or .Response" if hasattr(message_class, "Request") else ""
+        raise TypeError(f"expected a message class, got {message_class!r}{hint}")
+    name = _names.get(message_class)
+    if name is None:
+        name = f"{message_class._TYPE_NAME}#{len(_store().types)}"
+        _register(name, message_class)
+        _names[message_class] = name
+    return name
+
+
+def _register(name: str, message_class: Any) -> None:
+    members = message_class._DEFINITION.fields
+    fields = [(member.name, _description(member.type, message_class)) for member in members]
+    store: Any = _store()
+    store.fielddefs[name] = ((), fields or [(PLACEHOLDER, _base("uint8"))])
+    store.types[name] = _maker(message_class)
+
+
+def _description(type_: FieldType, message_class: Any) -> Any:
+    """rosbags' description of a type."""
+    from rosbags.interfaces import Nodetype
+
+    if type_.base == "wstring":
+        raise ValueError("wide strings have no agreed form in CDR; use string")
+    if type_.is_primitive:
+        element = _base("uint8" if type_.base in ("byte", "char") else type_.base)
+    else:
+        element = (Nodetype.NAME, _name(_class_of(message_class, type_)))
+    if not type_.is_array:
+        return element
+    return (Nodetype.ARRAY if type_.is_fixed else Nodetype.SEQUENCE, (element, type_.size or 0))
+
+
+def _base(name: str) -> Any:
+    from rosbags.interfaces import Nodetype
+
+    return Nodetype.BASE, (name, 0)
+
+
+def _class_of(message_class: Any, type_: FieldType) -> Any:
+    return message_class._ELEMENTS[type_]
+
+
+def _portrait(message: Any) -> SimpleNamespace:
+    fields = message._DEFINITION.fields
+    if not fields:
+        return SimpleNamespace(**{PLACEHOLDER: 0})
+    return SimpleNamespace(**{each.name: _shown(getattr(message, each.name), each.type) for each in fields})
+
+
+def _shown(value: Any, type_: FieldType) -> Any:
+    import numpy
+
+    if not type_.is_array:
+        if not type_.is_primitive:
+            return _portrait(value)
+        return value[0] if type_.base == "byte" else value
+    if type_.is_bounded and type_.size is not None and len(value) > type_.size:
+        raise ValueError(f"{len(value)} elements in a sequence of at most {type_.size}")
+    if not type_.is_primitive:
+        return [_portrait(each) for each in value]
+    if type_.base == "string":
+        return list(value)
+    if type_.base == "byte":
+        return numpy.frombuffer(b"".join(value), "uint8")
+    return numpy.asarray(value, numpy_name(type_.base)).ravel()
+
+
+def _maker(message_class: Any) -> Callable[..., Any]:
+    """A function that makes a message of the values that rosbags has read, in the order of the fields."""
+    readers = [("_" + member.name, _reader(member.type)) for member in message_class._DEFINITION.fields]
+
+    def make(*values: Any) -> Any:
+        message = object.__new__(message_class)
+        for (slot, read), value in zip(readers, values, strict=False):
+            setattr(message, slot, value if read is None else read(value))
+        return message
+
+    return make
+
+
+def _reader(type_: FieldType) -> Callable[[Any], Any] | None:
+    if type_.base == "byte":
+        return (lambda values: [bytes([each]) for each in values]) if type_.is_array else lambda value: bytes([value])
+    if not type_.is_array:
+        return _bounded_text(type_.string_bound) if type_.string_bound is not None else None
+    if not type_.is_primitive or type_.base in ("string", "bool"):
+        return lambda values: _limited(list(values), type_)
+    if type_.is_fixed:
+        return lambda values: values.copy()
+    code = TYPE_CODES[type_.base]
+    return lambda values: _limited(array(code, values.tobytes()), type_)
+
+
+def _bounded_text(bound: int) -> Callable[[str], str]:
+    def read(text: str) -> str:
+        if len(text) > bound:
+            raise ValueError(f"{len(text)} characters in a string of at most {bound}")
+        return text
+
+    return read
+
+
+def _limited(values: Any, type_: FieldType) -> Any:
+    if type_.is_bounded and type_.size is not None and len(values) > type_.size:
+        raise ValueError(f"{len(values)} elements in a sequence of at most {type_.size}")
+    return values

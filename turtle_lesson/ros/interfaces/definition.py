@@ -1,0 +1,356 @@
+"""Interface definitions: the text of `.msg`, `.srv` and `.action` files, read with ROS's rules.
+
+What is accepted and refused, and in which words, follows `rosidl_adapter.parser` of ROS 2 Humble. Whether the
+types of fields exist is not known here: that is the registry's part.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Literal
+
+from turtle_lesson.ros.interfaces import names
+from turtle_lesson.ros.interfaces.errors import (
+    DuplicateName,
+    IndentedLine,
+    InvalidActionSpecification,
+    InvalidDefinition,
+    InvalidFieldDefinition,
+    InvalidResourceName,
+    InvalidServiceSpecification,
+    InvalidType,
+)
+from turtle_lesson.ros.interfaces.values import Plain, Value, parse_plain, parse_value
+
+ArrayKind = Literal["none", "fixed", "unbounded", "bounded"]
+Line = tuple[int, str]  # line number in the file, counted from 1, and the text
+SEPARATOR = "---"
+
+
+@dataclass(frozen=True, slots=True)
+class FieldType:
+    """The type of a field: `float32`, `string<=5[]`, `geometry_msgs/Point[3]`, ...
+
+    Attributes:
+        base: primitive type, or the message's name without its package.
+        package: package of that message; None for a primitive type.
+        array: `none`, `fixed` (exactly `size`), `bounded` (up to `size`) or `unbounded`.
+        size: number of elements where the type says one.
+        string_bound: largest number of characters, for a bounded string.
+        folder: `msg`, except where an action's own messages hold its goal, result or feedback.
+    """
+
+    base: str
+    package: str | None = None
+    array: ArrayKind = "none"
+    size: int | None = None
+    string_bound: int | None = None
+    folder: str = "msg"
+
+    @property
+    def is_primitive(self) -> bool:
+        """Whether the elements are no messages."""
+        return self.package is None
+
+    @property
+    def is_array(self) -> bool:
+        """Whether the field holds several values."""
+        return self.array != "none"
+
+    @property
+    def is_fixed(self) -> bool:
+        """Whether the number of elements is exactly `size`."""
+        return self.array == "fixed"
+
+    @property
+    def is_bounded(self) -> bool:
+        """Whether the number of elements is at most `size`."""
+        return self.array == "bounded"
+
+    def __str__(self) -> str:
+        base = self.base if self.package is None else f"{self.package}/{self.base}"
+        bound = "" if self.string_bound is None else f"<={self.string_bound}"
+        count = {
+            "none": "",
+            "fixed": f"[{self.size}]",
+            "bounded": f"[<={self.size}]",
+            "unbounded": "[]",
+        }[self.array]
+        return base + bound + count
+
+
+@dataclass(frozen=True, slots=True)
+class Field:
+    """One field: type, name, default value (None where the file gives none) and line in the file."""
+
+    type: FieldType
+    name: str
+    default: Value | None = None
+    line: int = 0
+
+    def __str__(self) -> str:
+        text = f"{self.type} {self.name}"
+        if self.default is None:
+            return text
+        if isinstance(self.default, tuple):
+            return f"{text} {list(self.default)}"
+        return f"{text} '{self.default}'" if isinstance(self.default, str) else f"{text} {self.default}"
+
+
+@dataclass(frozen=True, slots=True)
+class Constant:
+    """One constant: primitive type, name, value and line in the file."""
+
+    type: str
+    name: str
+    value: Plain
+    line: int = 0
+
+    def __str__(self) -> str:
+        value = f"'{self.value}'" if isinstance(self.value, str) else self.value
+        return f"{self.type} {self.name}={value}"
+
+
+@dataclass(frozen=True, slots=True)
+class MessageDefinition:
+    """A message, or one part of a service or action: its fields and constants in the order of the file."""
+
+    package: str
+    name: str
+    fields: tuple[Field, ...]
+    constants: tuple[Constant, ...]
+    text: str
+    folder: str = "msg"
+    file: str | None = None
+
+    @property
+    def full_name(self) -> str:
+        """Name as ROS writes it, e.g. `geometry_msgs/msg/Twist`."""
+        return f"{self.package}/{self.folder}/{self.name}"
+
+    def parts(self) -> tuple[MessageDefinition, ...]:
+        """The messages in this definition: itself."""
+        return (self,)
+
+
+@dataclass(frozen=True, slots=True)
+class ServiceDefinition:
+    """A service: its request and its response, as messages `X_Request` and `X_Response`."""
+
+    package: str
+    name: str
+    request: MessageDefinition
+    response: MessageDefinition
+    text: str
+    file: str | None = None
+    folder: str = "srv"
+
+    @property
+    def full_name(self) -> str:
+        """Name as ROS writes it, e.g. `turtlesim/srv/Spawn`."""
+        return f"{self.package}/srv/{self.name}"
+
+    def parts(self) -> tuple[MessageDefinition, ...]:
+        """Request and response."""
+        return self.request, self.response
+
+
+@dataclass(frozen=True, slots=True)
+class ActionDefinition:
+    """An action: its goal, result and feedback, as messages `X_Goal`, `X_Result` and `X_Feedback`."""
+
+    package: str
+    name: str
+    goal: MessageDefinition
+    result: MessageDefinition
+    feedback: MessageDefinition
+    text: str
+    file: str | None = None
+    folder: str = "action"
+
+    @property
+    def full_name(self) -> str:
+        """Name as ROS writes it, e.g. `turtlesim/action/RotateAbsolute`."""
+        return f"{self.package}/action/{self.name}"
+
+    def parts(self) -> tuple[MessageDefinition, ...]:
+        """Goal, result and feedback."""
+        return self.goal, self.result, self.feedback
+
+
+Definition = MessageDefinition | ServiceDefinition | ActionDefinition
+
+
+def parse_message(package: str, name: str, text: str, file: str | None = None) -> MessageDefinition:
+    """Read the text of a `.msg` file; raise InvalidDefinition where ROS refuses it."""
+    return _parse_part(package, name, "msg", _numbered(text), file, text)
+
+
+def parse_service(package: str, name: str, text: str, file: str | None = None) -> ServiceDefinition:
+    """Read the text of a `.srv` file: request, a line `---`, response."""
+    parts = _split(text)
+    if len(parts) != 2:
+        unique = "" if len(parts) < 2 else "unique "
+        raise InvalidServiceSpecification(
+            f"Could not find {unique}separator '---' between request and response",
+            hint="A service is its request, one line of exactly three dashes, its response",
+        ).locate(interface=f"{package}/srv/{name}", file=file)
+    request, response = (
+        _parse_part(package, name + suffix, "srv", lines, file)
+        for suffix, lines in zip(("_Request", "_Response"), parts, strict=True)
+    )
+    return ServiceDefinition(package, name, request, response, text, file)
+
+
+def parse_action(package: str, name: str, text: str, file: str | None = None) -> ActionDefinition:
+    """Read the text of an `.action` file: goal, `---`, result, `---`, feedback."""
+    parts = _split(text)
+    if len(parts) != 3:
+        raise InvalidActionSpecification(
+            "Number of '---' separators nonconformant with action definition",
+            hint="An action is its goal, its result and its feedback, with a line of three dashes between",
+        ).locate(interface=f"{package}/action/{name}", file=file)
+    goal, result, feedback = (
+        _parse_part(package, name + suffix, "action", lines, file)
+        for suffix, lines in zip(("_Goal", "_Result", "_Feedback"), parts, strict=True)
+    )
+    return ActionDefinition(package, name, goal, result, feedback, text, file)
+
+
+def parse_type(text: str, package: str) -> FieldType:
+    """Read the type of a field; a message without a package is one of the `package` given."""
+    if not text:
+        raise IndentedLine("string index out of range", hint="Begin the line with the type, without spaces")
+    if not text.endswith("]"):
+        return _parse_base(text, package)
+    if "[" not in text:
+        raise InvalidType(f"the type {text} ends with ']' but does not contain a '['")
+    base, _, count = text[:-1].rpartition("[")
+    size = _positive(count.removeprefix("<="))
+    if count and size is None:
+        # The two names stand the wrong way round in ROS's text as well.
+        raise InvalidType(
+            f"the size of array type '<=' must be a valid integer value > 0 optionally prefixed with '{text}'"
+            " if it is only an upper bound",
+            hint=f"Write {base}[3], {base}[<=3] or {base}[]",
+        )
+    element = _parse_base(base, package)
+    kind: ArrayKind = "unbounded" if not count else "bounded" if count.startswith("<=") else "fixed"
+    return FieldType(element.base, element.package, kind, size, element.string_bound)
+
+
+def _parse_base(text: str, package: str) -> FieldType:
+    if text in names.PRIMITIVES:
+        return FieldType(text)
+    if text.startswith(("string<=", "wstring<=")):
+        base, _, count = text.partition("<=")
+        bound = _positive(count)
+        if bound is None:
+            raise InvalidType(
+                f"the upper bound of the string type '{text}' must be a valid integer value > 0",
+                hint=f"Write {base}<=10",
+            )
+        return FieldType(base, string_bound=bound)
+    return _parse_message_type(text, package)
+
+
+def _parse_message_type(text: str, package: str) -> FieldType:
+    parts = text.split("/")
+    if len(parts) > 2:
+        hint = f"Write '{parts[-3]}/{parts[-1]}'" if parts[1:-1] == ["msg"] else "Write 'package/Message'"
+        raise InvalidResourceName(text, hint=hint)
+    owner = parts[0] if len(parts) == 2 else package
+    names.check_package(owner)
+    names.check_message(parts[-1])
+    return FieldType(parts[-1], owner)
+
+
+def _positive(text: str) -> int | None:
+    try:
+        value = int(text)
+    except ValueError:
+        return None
+    return value if value > 0 else None
+
+
+def _numbered(text: str) -> list[Line]:
+    return list(enumerate(text.replace("\t", " ").splitlines(), start=1))
+
+
+def _split(text: str) -> list[list[Line]]:
+    parts: list[list[Line]] = [[]]
+    for number, line in _numbered(text):
+        if line == SEPARATOR:
+            parts.append([])
+        else:
+            parts[-1].append((number, line))
+    return parts
+
+
+def _parse_part(
+    package: str, name: str, folder: str, lines: list[Line], file: str | None, text: str | None = None
+) -> MessageDefinition:
+    members: list[Field | Constant] = []
+    interface = f"{package}/{folder}/{name}"
+    for number, raw in lines:
+        line = raw.partition("#")[0].rstrip()
+        if not line:
+            continue
+        try:
+            members.append(_parse_line(package, name, line, number))
+        except InvalidDefinition as error:
+            raise error.locate(interface=interface, file=file, line=number, line_text=line.strip()) from None
+    fields = tuple(each for each in members if isinstance(each, Field))
+    constants = tuple(each for each in members if isinstance(each, Constant))
+    try:
+        names.check_package(package)
+        names.check_message(name)
+        _check_unique("fields", fields)
+        _check_unique("constants", constants)
+    except InvalidDefinition as error:
+        raise error.locate(interface=interface, file=file) from None
+    body = "\n".join(line for _, line in lines) if text is None else text
+    return MessageDefinition(package, name, fields, constants, body, folder, file)
+
+
+def _parse_line(package: str, name: str, line: str, number: int) -> Field | Constant:
+    type_text, _, rest = line.partition(" ")
+    rest = rest.lstrip()
+    if not rest:
+        raise InvalidFieldDefinition(
+            line, hint="A field is its type and its name", printed=f"Error with: {package} {name} {line}"
+        )
+    if "=" in rest:
+        return _parse_constant(type_text, rest, number)
+    try:
+        return _parse_field(package, type_text, rest, number)
+    except InvalidDefinition as error:
+        error.printed = f"Error processing '{line}' of '{package}/{name}': '{error.reason}'"
+        raise
+
+
+def _parse_field(package: str, type_text: str, rest: str, number: int) -> Field:
+    type_ = parse_type(type_text, package)
+    name, _, default = rest.partition(" ")
+    names.check_field(name)
+    default = default.lstrip()
+    return Field(type_, name, parse_value(type_, default) if default else None, number)
+
+
+def _parse_constant(type_text: str, rest: str, number: int) -> Constant:
+    name, _, value = rest.partition("=")
+    if type_text not in names.PRIMITIVES:
+        raise InvalidType(f"the constant type '{type_text}' must be a primitive type")
+    names.check_constant(name.rstrip())
+    return Constant(type_text, name.rstrip(), parse_plain(type_text, value.lstrip()), number)
+
+
+def _check_unique(what: str, members: Iterable[Field | Constant]) -> None:
+    seen: set[str] = set()
+    for member in members:
+        if member.name in seen:
+            raise DuplicateName(f"the {what} iterable contains duplicate names: {member.name}").locate(
+                interface="", file=None, line=member.line, line_text=str(member)
+            )
+        seen.add(member.name)

@@ -1,0 +1,132 @@
+"""rclpy for the classroom: the client library's own names and signatures, on a virtual clock in one process.
+
+A program that uses this package runs unmodified on a real ROS 2. Facts about names, signatures and behaviour come from
+rclpy of Humble (https://docs.ros.org/en/humble/p/rclpy/) and from recordings of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from ._blocking import drives_the_simulation, in_a_plain_cell, spin_live
+from ._missing import explain_missing
+from .context import Context
+from .signals import SignalHandlerOptions
+from .utilities import get_default_context, ok, shutdown, try_shutdown
+
+if TYPE_CHECKING:
+    from .executors import Executor
+    from .node import Node
+    from .task import Future
+
+__all__ = [
+    "Context",
+    "create_node",
+    "get_default_context",
+    "get_global_executor",
+    "init",
+    "ok",
+    "shutdown",
+    "spin",
+    "spin_once",
+    "spin_until_future_complete",
+    "try_shutdown",
+]
+
+
+class InitContextManager:
+    """What `init` returns, so that `with rclpy.init(): …` shuts down at its end (rclpy of Jazzy and newer)."""
+
+    def __init__(self, context: Context) -> None:
+        self.context = context
+
+    def __enter__(self) -> InitContextManager:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.context.try_shutdown()
+
+
+def init(
+    *,
+    args: list[str] | None = None,
+    context: Context | None = None,
+    domain_id: int | None = None,
+    signal_handler_options: SignalHandlerOptions | None = None,
+) -> InitContextManager:
+    """Begin to use ROS in this process. `args` defaults to the process's sys.argv.
+
+    Raises RuntimeError if it was called before without a shutdown.
+    """
+    context = get_default_context() if context is None else context
+    context.init(args, domain_id=domain_id)
+    return InitContextManager(context)
+
+
+def get_global_executor() -> Executor:
+    """The executor that this process's `spin` functions use unless they are given another one."""
+    from turtle_lesson.ros.world import current_process
+
+    from .executors import SingleThreadedExecutor
+
+    shelf = current_process().locals
+    executor = shelf.get("rclpy.executor")
+    if executor is None or not executor.context.ok():
+        executor = shelf["rclpy.executor"] = SingleThreadedExecutor()
+    return executor
+
+
+def create_node(node_name: str, **keywords: Any) -> Node:
+    """Make a `Node`; the keywords are its constructor's."""
+    from .node import Node
+
+    return Node(node_name, **keywords)
+
+
+@drives_the_simulation
+def spin_once(node: Node, *, executor: Executor | None = None, timeout_sec: float | None = None) -> None:
+    """Run one callback of the node, or wait until the timeout (s) for one to become ready; None waits for ever."""
+    executor = get_global_executor() if executor is None else executor
+    try:
+        executor.add_node(node)
+        executor.spin_once(timeout_sec=timeout_sec)
+    finally:
+        executor.remove_node(node)
+
+
+def spin(node: Node, executor: Executor | None = None) -> None:
+    """Run the node's callbacks until the context is shut down.
+
+    In a plain notebook cell this is live, at the pace of the wall clock, until the cell is interrupted.
+    """
+    executor = get_global_executor() if executor is None else executor
+    if in_a_plain_cell():
+        spin_live(lambda: _spin(node, executor))
+    else:
+        _spin(node, executor)
+
+
+def _spin(node: Node, executor: Executor) -> None:
+    try:
+        executor.add_node(node)
+        while executor.context.ok():
+            executor.spin_once()
+    finally:
+        executor.remove_node(node)
+
+
+@drives_the_simulation
+def spin_until_future_complete(
+    node: Node, future: Future, executor: Executor | None = None, timeout_sec: float | None = None
+) -> None:
+    """Run the node's callbacks until the future is done, or the timeout (s) has passed; None waits for ever."""
+    executor = get_global_executor() if executor is None else executor
+    try:
+        executor.add_node(node)
+        executor.spin_until_future_complete(future, timeout_sec)
+    finally:
+        executor.remove_node(node)
+
+
+__getattr__: Callable[[str], Any] = explain_missing(__name__)

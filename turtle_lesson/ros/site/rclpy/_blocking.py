@@ -1,0 +1,58 @@
+"""Blocking calls work everywhere: in a simulated process they wait, in a plain notebook cell they run the simulation."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+from turtle_lesson.ros.core import NANOSECONDS, running_strand
+from turtle_lesson.ros.core.virtual_time import real_monotonic, real_sleep
+from turtle_lesson.ros.world import current_world
+
+T = TypeVar("T")
+LIVE_STEP = 0.02
+
+
+def in_a_plain_cell() -> bool:
+    """Whether the running code is no simulated process (a notebook cell, a test, a script)."""
+    return running_strand() is None
+
+
+def drives_the_simulation(function: Callable[..., T]) -> Callable[..., T]:
+    """Decorator for a blocking call: from a plain cell, it is run as part of the notebook's process until done."""
+
+    @functools.wraps(function)
+    def call(*arguments: Any, **keywords: Any) -> T:
+        if running_strand() is not None:
+            return function(*arguments, **keywords)
+        world = current_world()
+        return world.sim.drive(world.notebook, function, *arguments, **keywords)
+
+    return call
+
+
+def spin_live(function: Callable[[], None]) -> None:
+    """Run `function` in the notebook's process, with the simulation paced to the wall clock, until it returns."""
+    world = current_world()
+    simulation = world.sim
+    failure: list[BaseException] = []
+
+    def run() -> None:
+        try:
+            function()
+        except BaseException as error:
+            failure.append(error)
+
+    strand = world.notebook.add_strand(run)
+    simulation.put_back(strand)
+    began, origin = real_monotonic(), simulation.now
+    try:
+        while not strand.dead:
+            elapsed = round((real_monotonic() - began) * NANOSECONDS)
+            simulation.run_until(max(simulation.now, origin + elapsed))
+            real_sleep(LIVE_STEP)
+    except KeyboardInterrupt as interrupt:
+        simulation.raise_in(strand, interrupt)
+    if failure:
+        raise failure[0]

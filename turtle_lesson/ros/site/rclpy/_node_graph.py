@@ -1,0 +1,157 @@
+"""The part of a node that looks at the graph: who is there, under which names and types."""
+
+from __future__ import annotations
+
+import zlib
+from typing import TYPE_CHECKING, Any
+
+from turtle_lesson.ros.graph import Graph, NodeEntry, Reader, Writer
+from turtle_lesson.ros.graph.names import expand, remap
+
+from .topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
+from .validate_topic_name import validate_topic_name
+
+if TYPE_CHECKING:
+    from turtle_lesson.ros.graph.names import Remap
+
+NamesAndTypes = list[tuple[str, list[str]]]
+
+
+class NodeGraph:
+    """Mixed into Node."""
+
+    _graph: Graph
+    _entry: NodeEntry
+    _remaps: list[Remap]
+
+    def _full_name_of(self, name: Any, *, only_expand: bool = False, is_service: bool = False) -> str:
+        """From what a program calls a topic or service to its full name, remapped unless told otherwise."""
+        if not isinstance(name, str):
+            what = "service" if is_service else "topic"
+            raise TypeError(f"a {what} name must be a str, got {name!r}: is the order of the arguments (type, name, …)?")
+        validate_topic_name(name, is_service=is_service)
+        full_name = expand(name, self._entry.name, self._entry.namespace)
+        if only_expand:
+            return full_name
+        return remap(full_name, self._entry.name, self._entry.namespace, self._remaps)
+
+    def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
+        """The full name of a topic, after remapping."""
+        return self._full_name_of(topic, only_expand=only_expand)
+
+    def resolve_service_name(self, service: str, *, only_expand: bool = False) -> str:
+        """The full name of a service, after remapping."""
+        return self._full_name_of(service, only_expand=only_expand, is_service=True)
+
+    def get_topic_names_and_types(self, no_demangle: bool = False) -> NamesAndTypes:
+        """All topics, with their types."""
+        return [(name, topic.types) for name, topic in self._graph.topics().items()]
+
+    def get_service_names_and_types(self) -> NamesAndTypes:
+        """All services, with their types."""
+        return list(self._graph.services().items())
+
+    def get_node_names(self) -> list[str]:
+        """The names of all nodes, without their namespaces."""
+        return [entry.name for entry in self._graph.nodes]
+
+    def get_fully_qualified_node_names(self) -> list[str]:
+        """The full names of all nodes."""
+        return [entry.full_name for entry in self._graph.nodes]
+
+    def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
+        """Name and namespace of all nodes."""
+        return [(entry.name, entry.namespace) for entry in self._graph.nodes]
+
+    def get_node_names_and_namespaces_with_enclaves(self) -> list[tuple[str, str, str]]:
+        """Name, namespace and security enclave of all nodes."""
+        return [(entry.name, entry.namespace, "/") for entry in self._graph.nodes]
+
+    def _entry_of(self, node_name: str, node_namespace: str) -> NodeEntry:
+        for entry in self._graph.nodes:
+            if (entry.name, entry.namespace) == (node_name, node_namespace):
+                return entry
+        raise NodeNameNonExistentError(
+            f"Cannot get information of the node, node name not existing: {node_namespace.rstrip('/')}/{node_name}"
+        )
+
+    def get_publisher_names_and_types_by_node(
+        self, node_name: str, node_namespace: str, no_demangle: bool = False
+    ) -> NamesAndTypes:
+        """The topics that a node publishes. Raises NodeNameNonExistentError."""
+        return _types_by_topic(self._entry_of(node_name, node_namespace).writers)
+
+    def get_subscriber_names_and_types_by_node(
+        self, node_name: str, node_namespace: str, no_demangle: bool = False
+    ) -> NamesAndTypes:
+        """The topics that a node subscribes to. Raises NodeNameNonExistentError."""
+        return _types_by_topic(self._entry_of(node_name, node_namespace).readers)
+
+    def get_service_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
+        """The services that a node offers. Raises NodeNameNonExistentError."""
+        return _types_by_service(self._entry_of(node_name, node_namespace).servers)
+
+    def get_client_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
+        """The services that a node is a client of. Raises NodeNameNonExistentError."""
+        return _types_by_service(self._entry_of(node_name, node_namespace).clients)
+
+    def count_publishers(self, topic_name: str) -> int:
+        """How many publishers a topic has."""
+        return len(self._graph.topic(self._full_name_of(topic_name)).writers)
+
+    def count_subscribers(self, topic_name: str) -> int:
+        """How many subscriptions a topic has."""
+        return len(self._graph.topic(self._full_name_of(topic_name)).readers)
+
+    def count_services(self, service_name: str) -> int:
+        """How many servers a service has."""
+        return len(self._graph.servers(self._full_name_of(service_name, is_service=True)))
+
+    def count_clients(self, service_name: str) -> int:
+        """How many clients a service has."""
+        return len(self._graph.clients(self._full_name_of(service_name, is_service=True)))
+
+    def get_publishers_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[TopicEndpointInfo]:
+        """The publishers of a topic, one by one."""
+        kind = TopicEndpointTypeEnum.PUBLISHER
+        return [_info(*end, kind) for end in self._graph.topic(self._full_name_of(topic_name)).writers]
+
+    def get_subscriptions_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[TopicEndpointInfo]:
+        """The subscriptions of a topic, one by one."""
+        kind = TopicEndpointTypeEnum.SUBSCRIPTION
+        return [_info(*end, kind) for end in self._graph.topic(self._full_name_of(topic_name)).readers]
+
+
+class NodeNameNonExistentError(RuntimeError):
+    """The graph has no node of this name."""
+
+
+def _types_by_topic(ends: list[Any]) -> NamesAndTypes:
+    found: dict[str, set[str]] = {}
+    for end in ends:
+        for other, type_name in [*end.topic.writers, *end.topic.readers]:
+            if other is end:
+                found.setdefault(end.topic.name, set()).add(type_name)
+    return [(name, sorted(types)) for name, types in sorted(found.items())]
+
+
+def _types_by_service(ends: list[Any]) -> NamesAndTypes:
+    found: dict[str, set[str]] = {}
+    for end in ends:
+        found.setdefault(end.name, set()).add(end.type_name)
+    return [(name, sorted(types)) for name, types in sorted(found.items())]
+
+
+def _info(end: Writer | Reader, type_name: str, kind: TopicEndpointTypeEnum) -> TopicEndpointInfo:
+    node = end.node
+    ends: list[Any] = [*node.writers, *node.readers]
+    tag = f"{node.process.pid}/{node.full_name}/{end.topic.name}/{ends.index(end)}"
+    gid = [*zlib.crc32(tag.encode()).to_bytes(4, "big"), *node.process.pid.to_bytes(4, "big"), *([0] * 16)]
+    return TopicEndpointInfo(
+        node_name=node.name,
+        node_namespace=node.namespace,
+        topic_type=type_name,
+        endpoint_type=kind,
+        endpoint_gid=gid,
+        qos_profile=getattr(end, "profile", None),  # type: ignore[arg-type]
+    )

@@ -1,0 +1,70 @@
+"""Callback groups: which callbacks may run beside each other."""
+
+from __future__ import annotations
+
+from typing import Any
+
+
+class CallbackGroup:
+    """Base class. An executor asks `can_execute`, then `beginning_execution`, then calls `ending_execution`."""
+
+    def __init__(self) -> None:
+        self.entities: set[Any] = set()
+
+    def add_entity(self, entity: Any) -> None:
+        """Let something with a callback belong to this group."""
+        self.entities.add(entity)
+
+    def has_entity(self, entity: Any) -> bool:
+        """Whether something belongs to this group."""
+        return entity in self.entities
+
+    def can_execute(self, entity: Any) -> bool:
+        """Whether the callback may run now."""
+        raise NotImplementedError
+
+    def beginning_execution(self, entity: Any) -> bool:
+        """Note that the callback is about to run; False if it may not."""
+        raise NotImplementedError
+
+    def ending_execution(self, entity: Any) -> None:
+        """Note that the callback is done."""
+        raise NotImplementedError
+
+
+class ReentrantCallbackGroup(CallbackGroup):
+    """All callbacks may run at once, even one of them several times."""
+
+    def can_execute(self, entity: Any) -> bool:
+        """Always."""
+        return True
+
+    def beginning_execution(self, entity: Any) -> bool:
+        """Always."""
+        return True
+
+    def ending_execution(self, entity: Any) -> None:
+        """Nothing to note."""
+
+
+class MutuallyExclusiveCallbackGroup(CallbackGroup):
+    """One callback at a time. A coroutine keeps the group taken while it waits."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._active_entity: Any = None
+
+    def can_execute(self, entity: Any) -> bool:
+        """Whether no callback of the group runs or waits."""
+        return self._active_entity is None
+
+    def beginning_execution(self, entity: Any) -> bool:
+        """Take the group, if it is free."""
+        if self._active_entity is None:
+            self._active_entity = entity
+            return True
+        return False
+
+    def ending_execution(self, entity: Any) -> None:
+        """Free the group."""
+        self._active_entity = None

@@ -1,0 +1,171 @@
+"""Clients: the side that asks."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from turtle_lesson.ros.core import NANOSECONDS, NeverWakes, running_strand
+from turtle_lesson.ros.graph import ClientEnd
+
+from ._blocking import drives_the_simulation
+from ._entity import CLIENT, Entity
+from .callback_groups import CallbackGroup
+from .qos import QoSProfile
+from .task import Future
+
+if TYPE_CHECKING:
+    from .node import Node
+
+POLL = 250_000_000  # how often, in ns, the real one looks whether a service has appeared (client.py)
+
+
+class Client(Entity):
+    """Made by `Node.create_client`."""
+
+    _kind = CLIENT
+
+    def __init__(
+        self,
+        node: Node,
+        end: ClientEnd,
+        srv_type: Any,
+        srv_name: str,
+        qos_profile: QoSProfile,
+        callback_group: CallbackGroup,
+    ) -> None:
+        super().__init__(self._set_result, callback_group)
+        self._end = end
+        end.wake = self._signal
+        self._of_node = node
+        self.srv_type = srv_type
+        self.srv_name = srv_name
+        self.qos_profile = qos_profile
+        self._waiting: dict[int, Future] = {}
+
+    @property
+    def service_name(self) -> str:
+        """The service's full name."""
+        return self._end.name
+
+    def service_is_ready(self) -> bool:
+        """Whether somebody offers the service now."""
+        self._check_alive()
+        return bool(self._servers())
+
+    def _servers(self) -> list[Any]:
+        return self._of_node._graph.servers(self._end.name, self._end.type_name)
+
+    @drives_the_simulation
+    def wait_for_service(self, timeout_sec: float | None = None) -> bool:
+        """Wait until somebody offers the service; False if nobody does within the timeout (s). None waits for ever."""
+        strand, simulation = running_strand(), self._end.simulation
+        if strand is not None:
+            strand.activity = f"wait_for_service for {self._end.name}"
+        deadline = None if timeout_sec is None else simulation.now + int(timeout_sec * NANOSECONDS)
+        while not self.service_is_ready():
+            if not self._of_node.context.ok() or (deadline is not None and simulation.now >= deadline):
+                return False
+            until = simulation.now + POLL
+            simulation.sleep_until(until if deadline is None else min(until, deadline))
+        return True
+
+    def call_async(self, request: Any) -> Future:
+        """Send a request; the future will have the response. Raises TypeError for anything but a request."""
+        self._check_alive()
+        if not isinstance(request, self.srv_type.Request):
+            raise TypeError(f"expected a {self.srv_type.Request.__name__}, got {request!r}")
+        future = Future(executor=self._executor)
+        future._answered_by = self
+        self._waiting[self._end.ask(self._servers(), request)] = future
+        return future
+
+    @drives_the_simulation
+    def call(self, request: Any, timeout_sec: float | None = None) -> Any:
+        """Send a request and wait for the response; None after the timeout (s).
+
+        Works where another thread takes the answer, and in a plain notebook cell. Where nobody ever could, it raises
+        NeverWakes, which says why, instead of hanging as a real one does.
+        """
+        future = self.call_async(request)
+        strand = running_strand()
+        assert strand is not None
+        strand.activity = f"the call of {self._end.name}"
+        if timeout_sec is None:
+            self._check_it_can_be_answered(strand)
+        if strand.process.name == "notebook" and not self._taken_elsewhere(strand):
+            from . import get_global_executor
+
+            executor = self._executor or get_global_executor()
+            executor.add_node(self._of_node)
+            executor.spin_until_future_complete(future, timeout_sec)
+        else:
+            self._wait(future, strand, timeout_sec)
+        return future.result()
+
+    def _wait(self, future: Future, strand: Any, timeout_sec: float | None) -> None:
+        simulation = self._end.simulation
+        deadline = None if timeout_sec is None else simulation.now + int(timeout_sec * NANOSECONDS)
+        if deadline is not None:
+            simulation.at(deadline, simulation.wake, strand)
+
+        def wake(_: Future) -> None:
+            simulation.wake(strand)
+
+        wake._at_once = True  # type: ignore[attr-defined]
+        future.add_done_callback(wake)
+        while not future.done() and (deadline is None or simulation.now < deadline):
+            strand.park()
+
+    def _taken_elsewhere(self, strand: Any) -> bool:
+        return self._executor is not None and self._executor._spun_by_another(strand)
+
+    def _check_it_can_be_answered(self, strand: Any) -> None:
+        if not self._servers():
+            raise NeverWakes(
+                f"nobody offers the service {self._end.name} ({self._end.type_name}), so this call can never be answered. "
+                "Is its node running? wait_for_service(timeout_sec=…) waits for it."
+            )
+        if strand.process.name == "notebook" and (self._executor is None or not self._executor._spinning):
+            return
+        if not self._taken_elsewhere(strand):
+            raise NeverWakes(
+                f"this call of {self._end.name} can never be answered: the answer is taken by an executor thread, and the "
+                "only one there is waits in this very call. Use call_async and await it (in a callback group of its own), "
+                "or a MultiThreadedExecutor with the client in another callback group."
+            )
+        if not self.callback_group.can_execute(self):
+            raise NeverWakes(
+                f"this call of {self._end.name} can never be answered: its client is in the same mutually exclusive "
+                "callback group as the callback that waits here. Give the client a group of its own."
+            )
+
+    def _has_work(self) -> bool:
+        return bool(self._end.queue)
+
+    def _take(self) -> tuple[Any, ...] | None:
+        number, response = self._end.queue.popleft()
+        if self._end.queue:
+            self._signal()
+        future = self._waiting.pop(number, None)
+        return None if future is None else (future, response)
+
+    def _set_result(self, future: Future, response: Any) -> None:
+        if not future.cancelled():
+            future._set_executor(self._executor)  # type: ignore[arg-type]
+            future.set_result(response)
+
+    def get_pending_request(self, sequence_number: int) -> Future:
+        """The future of a request by its number; KeyError if there is none."""
+        return self._waiting[sequence_number]
+
+    def remove_pending_request(self, future: Future) -> None:
+        """Stop waiting for the response of a future."""
+        for number, waiting in list(self._waiting.items()):
+            if waiting is future:
+                del self._waiting[number]
+
+    def destroy(self) -> None:
+        """Leave the service; answers under way are dropped."""
+        if not self._destroyed:
+            super().destroy()
+            self._of_node._graph.remove_client(self._end)

@@ -1,0 +1,94 @@
+"""A context: one life of ROS in a process, from init to shutdown."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from turtle_lesson.ros.world import current_process
+
+from ._arguments import Arguments, parse_arguments
+
+if TYPE_CHECKING:
+    from .node import Node
+
+
+class Context:
+    """States: made, initialized (`ok()` is True), shut down. Each simulated process has a default one."""
+
+    def __init__(self) -> None:
+        self._process = current_process()
+        self._initialized = False
+        self._ended = False
+        self._callbacks: list[Callable[[], Any]] = []
+        self._nodes: list[Node] = []
+        self.arguments = Arguments()
+        self.domain_id = 0
+
+    def init(
+        self, args: list[str] | None = None, *, initialize_logging: bool = True, domain_id: int | None = None
+    ) -> None:
+        """Begin; `args` defaults to the process's arguments. Raises RuntimeError the second time."""
+        if self._initialized:
+            raise RuntimeError("Context.init() must only be called once")
+        self.arguments = parse_arguments(self._process.argv if args is None else args)
+        self.domain_id = domain_id or 0
+        self._initialized = True
+        self._process.at_exit.append(self._end)
+
+    def ok(self) -> bool:
+        """Whether the context is initialized and not shut down."""
+        return self._initialized and not self._ended
+
+    def get_domain_id(self) -> int:
+        """The ROS domain, which is only a number here: all processes of a world see each other."""
+        return self.domain_id
+
+    def shutdown(self) -> None:
+        """End it. Raises RuntimeError if it is not initialized, or ended already."""
+        if not self.ok():
+            raise RuntimeError("Context must be initialized before it can be shutdown")
+        self.try_shutdown()
+
+    def try_shutdown(self) -> None:
+        """End it, if it has not ended yet."""
+        if not self.ok():
+            return
+        self._ended = True
+        for callback in self._callbacks:
+            callback()
+        if self.shared_default:
+            del self._process.locals["rclpy.context"]
+
+    @property
+    def shared_default(self) -> bool:
+        """Whether this is its process's default context, which a later init replaces by a new one."""
+        return self._process.locals.get("rclpy.context") is self
+
+    def on_shutdown(self, callback: Callable[[], Any]) -> None:
+        """Have `callback()` called at the shutdown (at once if it has been)."""
+        if self._ended:
+            callback()
+        else:
+            self._callbacks.append(callback)
+
+    def track_node(self, node: Any) -> None:
+        """Remember a node, so that it leaves the graph when the process ends."""
+        self._nodes.append(node)
+
+    def untrack_node(self, node: Any) -> None:
+        """Forget a node that was destroyed."""
+        if node in self._nodes:
+            self._nodes.remove(node)
+
+    def _end(self) -> None:
+        """The process ends: what it leaves behind disappears."""
+        self._ended = True
+        for node in list(self._nodes):
+            node.destroy_node()
+
+    def __enter__(self) -> Context:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.try_shutdown()

@@ -1,0 +1,80 @@
+"""Durations: a span of time in whole nanoseconds."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .constants import S_TO_NS
+
+_LIMIT = 2**63
+
+
+class Duration:
+    """`Duration(seconds=…, nanoseconds=…)`; raises OverflowError beyond 63 bits, as ROS does."""
+
+    def __init__(self, *, seconds: float = 0, nanoseconds: int = 0) -> None:
+        total = int(seconds * S_TO_NS) + int(nanoseconds)
+        if not -_LIMIT <= total < _LIMIT:
+            raise OverflowError("Total nanoseconds value is too large to store in C duration.")
+        self._nanoseconds = total
+
+    @property
+    def nanoseconds(self) -> int:
+        """The span in ns."""
+        return self._nanoseconds
+
+    def to_msg(self) -> Any:
+        """As builtin_interfaces/msg/Duration."""
+        from builtin_interfaces.msg import Duration as Message
+
+        seconds, nanoseconds = divmod(self._nanoseconds, S_TO_NS)
+        return Message(sec=seconds, nanosec=nanoseconds)
+
+    @classmethod
+    def from_msg(cls, msg: Any) -> Duration:
+        """From builtin_interfaces/msg/Duration."""
+        return cls(seconds=msg.sec, nanoseconds=msg.nanosec)
+
+    def __repr__(self) -> str:
+        return f"Duration(nanoseconds={self._nanoseconds})"
+
+    def __str__(self) -> str:
+        return repr(self) if self._nanoseconds < 2**63 - 1 else "Infinite"
+
+    def __eq__(self, other: object) -> bool:
+        if isinstance(other, Duration):
+            return self._nanoseconds == other._nanoseconds
+        return NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._nanoseconds)
+
+    def __lt__(self, other: object) -> bool:
+        return self._nanoseconds < _ns(other)
+
+    def __le__(self, other: object) -> bool:
+        return self._nanoseconds <= _ns(other)
+
+    def __gt__(self, other: object) -> bool:
+        return self._nanoseconds > _ns(other)
+
+    def __ge__(self, other: object) -> bool:
+        return self._nanoseconds >= _ns(other)
+
+    def __add__(self, other: Duration) -> Duration:
+        return Duration(nanoseconds=self._nanoseconds + _ns(other))
+
+    def __sub__(self, other: Duration) -> Duration:
+        return Duration(nanoseconds=self._nanoseconds - _ns(other))
+
+    def __mul__(self, factor: float) -> Duration:
+        return Duration(nanoseconds=int(self._nanoseconds * factor))
+
+
+def _ns(other: object) -> int:
+    if isinstance(other, Duration):
+        return other.nanoseconds
+    raise TypeError(f"expected a Duration, got {other!r}: write Duration(seconds={other!r}) if you mean seconds")
+
+
+Infinite = Duration(nanoseconds=2**63 - 1)

@@ -1,0 +1,135 @@
+"""rclpy's exceptions, under their own names and with their own texts."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from turtle_lesson.ros.graph import names
+
+
+class NotInitializedException(Exception):
+    """ROS is used before `rclpy.init()`, or after the shutdown."""
+
+    def __init__(self, *args: object) -> None:
+        super().__init__("rclpy.init() has not been called", *args)
+
+
+class NoTypeSupportImportedException(Exception):
+    """A type is no ROS 2 interface."""
+
+    def __init__(self, *args: object) -> None:
+        super().__init__("no type_support imported")
+
+
+class NameValidationException(Exception):
+    """A name breaks the rules; the text has a caret under the bad character."""
+
+    def __init__(self, name_type: str, name: str, error_msg: str, invalid_index: int, *args: object) -> None:
+        super().__init__(names.flaw_text(name_type, name, names.Flaw(error_msg, invalid_index)), *args)
+
+
+class InvalidNamespaceException(NameValidationException):
+    """A namespace breaks the rules."""
+
+    def __init__(self, name: str, error_msg: str, invalid_index: int, *args: object) -> None:
+        super().__init__("namespace", name, error_msg, invalid_index)
+
+
+class InvalidNodeNameException(NameValidationException):
+    """A node's name breaks the rules."""
+
+    def __init__(self, name: str, error_msg: str, invalid_index: int, *args: object) -> None:
+        super().__init__("node name", name, error_msg, invalid_index)
+
+
+class InvalidTopicNameException(NameValidationException):
+    """A topic's name breaks the rules."""
+
+    def __init__(self, name: str, error_msg: str, invalid_index: int, *args: object) -> None:
+        super().__init__("topic name", name, error_msg, invalid_index)
+
+
+class InvalidServiceNameException(NameValidationException):
+    """A service's name breaks the rules."""
+
+    def __init__(self, name: str, error_msg: str, invalid_index: int, *args: object) -> None:
+        super().__init__("service name", name, error_msg, invalid_index)
+
+
+class ParameterException(Exception):
+    """Something is wrong with one or more parameters; `args` holds their names last."""
+
+    def __init__(self, error_msg: str, parameters: Any, *args: object) -> None:
+        super().__init__(error_msg, parameters, *args)
+
+
+class ParameterNotDeclaredException(ParameterException):
+    """A parameter is used that was never declared."""
+
+    def __init__(self, parameters: Any, *args: object) -> None:
+        super().__init__("Invalid access to undeclared parameter(s)", parameters, *args)
+
+
+class ParameterAlreadyDeclaredException(ParameterException):
+    """A parameter is declared twice."""
+
+    def __init__(self, parameters: Any, *args: object) -> None:
+        super().__init__("Parameter(s) already declared", parameters, *args)
+
+
+class InvalidParameterException(ParameterException):
+    """A parameter's name is not allowed."""
+
+    def __init__(self, parameter: Any, *args: object) -> None:
+        super().__init__("Invalid parameter name", parameter, *args)
+
+
+class InvalidParameterValueException(ParameterException):
+    """A parameter's value is refused."""
+
+    def __init__(self, parameter: Any, value: Any, reason: str, *args: object) -> None:
+        super().__init__(f"Invalid parameter value ({value}) for parameter. Reason: {reason}", parameter, *args)
+
+
+class InvalidParameterTypeException(ParameterException):
+    """A parameter that was declared with a type is given a value of another one."""
+
+    def __init__(self, desired_parameter: Any, expected_type: str) -> None:
+        Exception.__init__(
+            self,
+            f"Trying to set parameter '{desired_parameter.name}' to '{desired_parameter._value}' of type "
+            f"'{desired_parameter.type_.name}', expecting type '{expected_type}'",
+        )
+
+
+class ParameterImmutableException(ParameterException):
+    """A read-only parameter is to be changed."""
+
+    def __init__(self, parameter: Any, *args: object) -> None:
+        super().__init__("Attempted to modify read-only parameter", parameter, *args)
+
+
+class ParameterUninitializedException(ParameterException):
+    """A parameter that was declared with a type but without a value is read."""
+
+    def __init__(self, parameter_name: str, *args: object) -> None:
+        Exception.__init__(self, f"The parameter '{parameter_name}' is not initialized")
+
+
+class InvalidHandle(Exception):
+    """Something is used after it was destroyed."""
+
+
+class RCLError(Exception):
+    """An error that the real rclpy hears from the C library beneath it."""
+
+
+class UnknownROSArgsError(Exception):
+    """There are words after `--ros-args` that mean nothing."""
+
+
+class ROSInterruptException(Exception):
+    """A wait was cut short by the shutdown."""
+
+    def __init__(self) -> None:
+        super().__init__("rclpy.shutdown() has been called")

@@ -1,0 +1,406 @@
+"""Executors: they wait until callbacks are ready, and run them.
+
+One *cycle* takes everything that is ready at that moment and runs one callback of each: first tasks that can go on,
+then node by node timers, subscriptions, guard conditions, clients and services, each kind in order of creation. What
+becomes ready meanwhile waits for the next cycle. These are the rules of rclpy's executors.py; but where the real one
+builds a wait set for every cycle, entities here signal their executor, so that nothing is ever polled.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from turtle_lesson.ros.core import NANOSECONDS, Strand, running_strand
+from turtle_lesson.ros.world import current_process, current_world
+
+from ._blocking import drives_the_simulation, in_a_plain_cell, spin_live
+from ._entity import SERVICE, Entity
+from .context import Context
+from .task import Future, Task
+from .utilities import get_default_context
+
+if TYPE_CHECKING:
+    from .node import Node
+
+Job = Any  # an Entity, or a Task
+
+
+class TimeoutException(Exception):
+    """Nothing became ready in time."""
+
+
+class ShutdownException(Exception):
+    """The executor was shut down."""
+
+
+class ExternalShutdownException(Exception):
+    """The context was shut down while the executor was waiting."""
+
+
+class ConditionReachedException(Exception):
+    """What was waited for has happened."""
+
+
+class Executor:
+    """Base class: waits, chooses and runs. Subclasses may override `spin_once`, which `spin` calls."""
+
+    def __init__(self, *, context: Context | None = None) -> None:
+        self._context = get_default_context() if context is None else context
+        self._simulation = current_world().sim
+        self._process = current_process()
+        self._nodes: list[Node] = []
+        self._nodes_seen = 0
+        self._signalled: list[Entity] = []
+        self._batch: list[Job] = []
+        self._resumed: list[Task] = []
+        self._polled: list[Task] = []
+        self._held_up: list[Entity] = []
+        self._waiter: Strand | None = None
+        self._spinning: list[Strand] = []
+        self._is_shutdown = False
+        self._context.on_shutdown(self.wake)
+
+    @property
+    def context(self) -> Context:
+        """The context whose shutdown ends the spinning."""
+        return self._context
+
+    # -- nodes ---------------------------------------------------------------------------------------------------
+
+    def add_node(self, node: Node) -> bool:
+        """Run this node's callbacks from now on; False if it does so already. A node has one executor at a time."""
+        if node in self._nodes:
+            return False
+        if node.executor is not None:
+            node.executor.remove_node(node)
+        self._nodes.append(node)
+        self._nodes_seen += 1
+        node._executor, node._place = self, self._nodes_seen
+        for entity in node._entities():
+            self._adopt(entity, node)
+        return True
+
+    def _adopt(self, entity: Entity, node: Node) -> None:
+        entity._executor = self
+        entity._turn = (node._place, entity._kind, entity._number)
+        if entity._has_work():
+            entity._signal()
+
+    def remove_node(self, node: Node) -> None:
+        """No longer run this node's callbacks."""
+        if node in self._nodes:
+            self._nodes.remove(node)
+            node._executor = None
+            for entity in node._entities():
+                entity._executor = None
+
+    def get_nodes(self) -> list[Node]:
+        """The nodes of this executor, in the order in which they were added."""
+        return list(self._nodes)
+
+    # -- tasks ---------------------------------------------------------------------------------------------------
+
+    def create_task(self, callback: Any, *args: Any, **kwargs: Any) -> Task:
+        """Have a function called, or a coroutine run, by this executor; the task is a future of its result."""
+        task = Task(callback, args, kwargs, executor=self)
+        self._resume_task(task)
+        return task
+
+    def _resume_task(self, task: Task) -> None:
+        self._resumed.append(task)
+        self.wake()
+
+    def _poll_task(self, task: Task) -> None:
+        self._polled.append(task)
+
+    def wake(self) -> None:
+        """Have a waiting `spin_once` look again at what it waits for."""
+        if self._waiter is not None:
+            self._simulation.wake(self._waiter)
+
+    # -- spinning ------------------------------------------------------------------------------------------------
+
+    def spin(self) -> None:
+        """Run callbacks until shutdown. From a plain notebook cell: live, until the cell is interrupted."""
+        if in_a_plain_cell():
+            spin_live(self._spin)
+        else:
+            self._spin()
+
+    def _spin(self) -> None:
+        while self._context.ok() and not self._is_shutdown:
+            self.spin_once()
+
+    @drives_the_simulation
+    def spin_once(self, timeout_sec: float | None = None) -> None:
+        """Run one callback, waiting at most `timeout_sec` (s; None waits for ever) for one to become ready."""
+        self._spin_once(timeout_sec, None)
+
+    @drives_the_simulation
+    def spin_until_future_complete(self, future: Future, timeout_sec: float | None = None) -> None:
+        """Run callbacks until the future is done, or the timeout (s) is over."""
+        strand = running_strand()
+        if strand is not None:
+            strand.activity = "spin_until_future_complete"
+        future.add_done_callback(_at_once(lambda _: self.wake()))
+        deadline = self._deadline(timeout_sec)
+        while self._context.ok() and not future.done() and not future.cancelled() and not self._is_shutdown:
+            if deadline is not None and self._simulation.now >= deadline:
+                return
+            left = None if deadline is None else (deadline - self._simulation.now) / NANOSECONDS
+            self.spin_once_until_future_complete(future, left)
+
+    @drives_the_simulation
+    def spin_once_until_future_complete(self, future: Future, timeout_sec: float | None = None) -> None:
+        """Run one callback, unless the future is done before one becomes ready."""
+        future.add_done_callback(_at_once(lambda _: self.wake()))
+        self._spin_once(timeout_sec, future.done)
+
+    def _spin_once(self, timeout_sec: float | None, condition: Callable[[], bool] | None) -> None:
+        strand = running_strand()
+        assert strand is not None
+        self._spinning.append(strand)
+        try:
+            job = self._next(None if timeout_sec is None else self._deadline(timeout_sec), condition)
+            if job is not None:
+                self._execute(job)
+        finally:
+            self._spinning.pop()
+
+    def wait_for_ready_callbacks(
+        self,
+        timeout_sec: float | None = None,
+        nodes: list[Node] | None = None,
+        condition: Callable[[], bool] = lambda: False,
+    ) -> tuple[Task, Entity | None, Node | None]:
+        """What an executor of one's own builds on: the next ready callback as a task to be called, with its entity.
+
+        Raises TimeoutException, ConditionReachedException, ShutdownException or ExternalShutdownException.
+        """
+        job = self._next(self._deadline(timeout_sec), condition)
+        if job is None:
+            raise ConditionReachedException if condition() else TimeoutException
+        if isinstance(job, Task):
+            return job, job._entity, job._node
+        job.callback_group.beginning_execution(job)
+        return self._as_task(job), job, job._node
+
+    def _deadline(self, timeout_sec: float | None) -> int | None:
+        if timeout_sec is None or timeout_sec < 0:
+            return None
+        return self._simulation.now + int(timeout_sec * NANOSECONDS)
+
+    def _spun_by_another(self, strand: Strand) -> bool:
+        """Whether some other strand than this one is there to take what arrives."""
+        return any(spinner is not strand for spinner in self._spinning)
+
+    # -- choosing ------------------------------------------------------------------------------------------------
+
+    def _next(self, deadline: int | None, condition: Callable[[], bool] | None) -> Job | None:
+        """The next thing to run, or None at the deadline (ns) or when the condition holds."""
+        while True:
+            batch = self._batch
+            while batch:
+                job = batch.pop()
+                if isinstance(job, Task):
+                    if not job.done():
+                        return job
+                elif job._executor is self and job._has_work():
+                    if job.callback_group.can_execute(job):
+                        return job
+                    self._held_up.append(job)
+            if condition is not None and condition():
+                return None
+            if self._signalled or self._resumed:
+                self._begin_cycle()
+                continue
+            self._check_not_shut_down()
+            if deadline is not None and self._simulation.now >= deadline:
+                return None
+            self._wait(deadline)
+
+    def _begin_cycle(self) -> None:
+        batch: list[Job] = self._signalled
+        self._signalled = []
+        for entity in batch:
+            entity._listed_in = None
+        if len(batch) > 1:
+            batch.sort(key=_turn, reverse=True)  # taken from the end
+        if self._resumed or self._polled:
+            batch = [*batch, *self._polled, *self._resumed]
+            self._polled, self._resumed = [], []
+        self._batch = batch
+
+    def _check_not_shut_down(self) -> None:
+        if self._is_shutdown:
+            raise ShutdownException
+        if not self._context.ok():
+            raise ExternalShutdownException
+
+    def _wait(self, deadline: int | None) -> None:
+        strand = running_strand()
+        assert strand is not None
+        before, self._waiter = self._waiter, strand
+        if deadline is not None:
+            self._simulation.at(deadline, self._simulation.wake, strand)
+        try:
+            strand.park()
+        finally:
+            self._waiter = before
+
+    # -- running -------------------------------------------------------------------------------------------------
+
+    def _execute(self, job: Job) -> None:
+        """Run a job in this strand."""
+        if isinstance(job, Task):
+            self._run_task(job)
+        else:
+            job.callback_group.beginning_execution(job)
+            self._run(job)
+
+    def _run(self, entity: Any) -> None:
+        """Run the callback of an entity whose callback group has been taken."""
+        if entity._is_async:
+            self._run_task(self._as_task(entity))
+            return
+        try:
+            arguments = entity._take()
+            if arguments is not None:
+                result = entity.callback(*arguments)
+                if entity._kind == SERVICE:
+                    entity._done_with(arguments, result)
+        finally:
+            self._free(entity)
+
+    def _free(self, entity: Any) -> None:
+        """Give the callback group back, and let those look again who waited for it."""
+        entity.callback_group.ending_execution(entity)
+        if self._held_up:
+            held_up, self._held_up = self._held_up, []
+            for waiting in held_up:
+                waiting._signal()
+
+    def _as_task(self, entity: Any) -> Task:
+        task = Task(_call_and_await, (entity, entity._take()), executor=self)
+        task._entity, task._node = entity, entity._node
+        task._finally = lambda: self._free(entity)
+        return task
+
+    def _run_task(self, task: Task) -> None:
+        task()
+        if task._done and task._exception is not None:
+            raise task._exception
+
+    def shutdown(self, timeout_sec: float | None = None) -> bool:
+        """Stop: no more callbacks are run."""
+        self._is_shutdown = True
+        for node in list(self._nodes):
+            self.remove_node(node)
+        self.wake()
+        return True
+
+    def __enter__(self) -> Executor:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.shutdown()
+
+
+async def _call_and_await(entity: Any, arguments: tuple[Any, ...] | None) -> None:
+    if arguments is not None:
+        result = entity.callback(*arguments)
+        if entity._is_async:
+            result = await result
+        if entity._kind == SERVICE:
+            entity._done_with(arguments, result)
+
+
+def _turn(entity: Entity) -> tuple[int, int, int]:
+    return entity._turn
+
+
+def _at_once(callback: Any) -> Any:
+    callback._at_once = True
+    return callback
+
+
+class SingleThreadedExecutor(Executor):
+    """Runs one callback after the other, in the thread that spins: a callback that sleeps holds up all others."""
+
+
+class MultiThreadedExecutor(Executor):
+    """Runs callbacks side by side in up to `num_threads` threads (4 unless told), as their groups allow.
+
+    The threads are strands: while one waits or sleeps, another runs; none runs at the same instant of real time.
+    """
+
+    def __init__(self, num_threads: int | None = None, *, context: Context | None = None) -> None:
+        super().__init__(context=context)
+        self._num_threads = 4 if num_threads is None else num_threads
+        if self._num_threads < 1:
+            raise ValueError(f"num_threads must be at least 1, got {num_threads}")
+        if self._num_threads == 1:
+            warnings.warn(
+                "MultiThreadedExecutor is used with a single thread.\nUse the SingleThreadedExecutor instead.",
+                stacklevel=2,
+            )
+        self._threads = 0
+        self._idle: list[_Worker] = []
+        self._failures: list[BaseException] = []
+
+    def _next(self, deadline: int | None, condition: Callable[[], bool] | None) -> Job | None:
+        while not self._idle and self._threads >= self._num_threads and not self._failures:
+            if deadline is not None and self._simulation.now >= deadline:
+                return None
+            self._check_not_shut_down()
+            self._wait(deadline)
+
+        def interesting() -> bool:
+            return bool(self._failures) or (condition is not None and condition())
+
+        job = None if self._failures else super()._next(deadline, interesting)
+        if job is None and self._failures:
+            raise self._failures.pop(0)
+        return job
+
+    def _execute(self, job: Job) -> None:
+        if not isinstance(job, Task):
+            job.callback_group.beginning_execution(job)
+        if self._idle:
+            worker = self._idle.pop()
+        else:
+            self._threads += 1
+            worker = _Worker(self)
+        worker.give(job)
+
+
+class _Worker:
+    """One thread of a multi-threaded executor: a strand that runs the jobs it is given."""
+
+    def __init__(self, executor: MultiThreadedExecutor) -> None:
+        self._executor = executor
+        self._strand = executor._process.add_strand(self._loop)
+        self._strand.parked = True
+        self._job: Job | None = None
+
+    def give(self, job: Job) -> None:
+        self._job = job
+        self._strand.simulation.wake(self._strand)
+
+    def _loop(self) -> None:
+        executor = self._executor
+        while True:
+            while self._job is None:
+                self._strand.park()
+            job, self._job = self._job, None
+            try:
+                if isinstance(job, Task):
+                    executor._run_task(job)
+                else:
+                    executor._run(job)
+            except Exception as error:
+                executor._failures.append(error)
+            executor._idle.append(self)
+            executor.wake()

@@ -1,0 +1,488 @@
+"""Nodes: what a program makes to take part in the graph."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from types import FrameType
+from typing import TYPE_CHECKING, Any
+
+from turtle_lesson.ros.core import EPOCH, NANOSECONDS
+from turtle_lesson.ros.graph import NodeEntry
+from turtle_lesson.ros.graph.names import Remap
+from turtle_lesson.ros.world import current_process, current_world
+
+from . import type_support
+from ._arguments import parse_arguments
+from ._entity import Entity
+from ._node_graph import NodeGraph, NodeNameNonExistentError
+from ._node_parameters import NodeParameters
+from .callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup
+from .client import Client
+from .clock import Clock, ROSClock
+from .constants import S_TO_NS
+from .context import Context
+from .exceptions import InvalidHandle, NotInitializedException
+from .guard_condition import GuardCondition
+from .impl.logging_severity import LoggingSeverity
+from .impl.rcutils_logger import RcutilsLogger, publish_rosout
+from .parameter import Parameter
+from .publisher import Publisher
+from .qos import QoSProfile, checked_profile, qos_profile_services_default
+from .qos import qos_profile_parameter_events, DurabilityPolicy
+from .service import Service
+from .subscription import Subscription
+from .timer import Rate, Timer
+from .utilities import get_default_context
+from .validate_namespace import validate_namespace
+from .validate_node_name import validate_node_name
+
+if TYPE_CHECKING:
+    from .executors import Executor
+
+__all__ = ["Node", "NodeNameNonExistentError"]
+
+ROSOUT = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+class Node(NodeGraph, NodeParameters):
+    """A node of a name. Subclass it, or make one with `rclpy.create_node`.
+
+    Raises NotInitializedException before `rclpy.init()`, and InvalidNodeNameException or InvalidNamespaceException.
+    """
+
+    def __init__(
+        self,
+        node_name: str,
+        *,
+        context: Context | None = None,
+        cli_args: list[str] | None = None,
+        namespace: str | None = None,
+        use_global_arguments: bool = True,
+        enable_rosout: bool = True,
+        start_parameter_services: bool = True,
+        parameter_overrides: list[Parameter] | None = None,
+        allow_undeclared_parameters: bool = False,
+        automatically_declare_parameters_from_overrides: bool = False,
+        enable_logger_service: bool = False,
+    ) -> None:
+        self._context = get_default_context() if context is None else context
+        if not self._context.ok():
+            raise NotInitializedException("cannot create node")
+        self._remaps = self._rules(cli_args, use_global_arguments)
+        name, full_namespace = self._names(node_name, namespace)
+        world = current_world()
+        self._graph = world.graph
+        self._simulation = world.sim
+        self._entry = NodeEntry(name, full_namespace, current_process())
+        self._executor: Executor | None = None
+        self._place = 0
+        self._made = 0
+        self._publishers: list[Publisher] = []
+        self._waiting_entities: list[Entity] = []
+        self._destroyed = False
+        self._default_callback_group = MutuallyExclusiveCallbackGroup()
+        self._rate_group: CallbackGroup | None = None
+        self._clock = ROSClock()
+        self._logger = RcutilsLogger(self._entry.full_name.strip("/").replace("/", "."))
+        self._apply_log_levels()
+        self._graph.add_node(self._entry)
+        self._context.track_node(self)
+        self._setup_parameters(self._entry.full_name, parameter_overrides or [], allow_undeclared_parameters)
+        self._event_publisher: Publisher | None = None
+        self._rosout = self._publish_rosout() if enable_rosout else None
+        self.declare_parameter("use_sim_time", False)
+        if automatically_declare_parameters_from_overrides:
+            for override in self._overrides.values():
+                if not self.has_parameter(override.name):
+                    self.declare_parameter(override.name, override.value)
+        if start_parameter_services:
+            self._start_parameter_services()
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self._entry.full_name}>"
+
+    def __enter__(self) -> Node:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.destroy_node()
+
+    # -- names -----------------------------------------------------------------------------------------------------
+
+    def _rules(self, cli_args: list[str] | None, use_global_arguments: bool) -> list[Remap]:
+        own = parse_arguments(cli_args).remaps if cli_args else []
+        return own + (self._context.arguments.remaps if use_global_arguments else [])
+
+    def _names(self, node_name: str, namespace: str | None) -> tuple[str, str]:
+        if not isinstance(node_name, str):
+            raise TypeError(f"a node's name must be a str, got {node_name!r}")
+        namespace = namespace or "/"
+        namespace = namespace if namespace.startswith("/") else f"/{namespace}"
+        validate_node_name(node_name)
+        original = node_name
+        for rule in self._remaps:
+            if rule.node not in (None, original):
+                continue
+            if rule.match in {"__node", "__name"}:
+                node_name = rule.replacement
+            elif rule.match == "__ns":
+                namespace = rule.replacement
+        validate_node_name(node_name)
+        validate_namespace(namespace)
+        return node_name, namespace
+
+    def _apply_log_levels(self) -> None:
+        for name, level in self._context.arguments.log_levels.items():
+            from .logging import get_logging_severity_from_string
+
+            RcutilsLogger(name).set_level(get_logging_severity_from_string(level))
+
+    def get_name(self) -> str:
+        """The node's name."""
+        return self._entry.name
+
+    def get_namespace(self) -> str:
+        """The node's namespace."""
+        return self._entry.namespace
+
+    def get_fully_qualified_name(self) -> str:
+        """Namespace and name."""
+        return self._entry.full_name
+
+    # -- what it has -----------------------------------------------------------------------------------------------
+
+    def _entities(self) -> Iterator[Entity]:
+        return iter(list(self._waiting_entities))
+
+    def _of_kind(self, kind: type) -> Iterator[Any]:
+        return (entity for entity in list(self._waiting_entities) if isinstance(entity, kind))
+
+    @property
+    def publishers(self) -> Iterator[Publisher]:
+        """The node's publishers."""
+        return iter(list(self._publishers))
+
+    @property
+    def subscriptions(self) -> Iterator[Subscription]:
+        """The node's subscriptions."""
+        return self._of_kind(Subscription)
+
+    @property
+    def clients(self) -> Iterator[Client]:
+        """The node's clients."""
+        return self._of_kind(Client)
+
+    @property
+    def services(self) -> Iterator[Service]:
+        """The node's services."""
+        return self._of_kind(Service)
+
+    @property
+    def timers(self) -> Iterator[Timer]:
+        """The node's timers."""
+        return self._of_kind(Timer)
+
+    @property
+    def guards(self) -> Iterator[GuardCondition]:
+        """The node's guard conditions."""
+        return self._of_kind(GuardCondition)
+
+    @property
+    def waitables(self) -> Iterator[Any]:
+        """Other things that an executor waits for: none here."""
+        return iter(())
+
+    @property
+    def context(self) -> Context:  # type: ignore[override]
+        """The context that the node lives in."""
+        return self._context
+
+    @property
+    def default_callback_group(self) -> CallbackGroup:
+        """The group of callbacks that name none: one at a time."""
+        return self._default_callback_group
+
+    @property
+    def executor(self) -> Executor | None:
+        """The executor that runs the node's callbacks, if any."""
+        return self._executor
+
+    @executor.setter
+    def executor(self, new_executor: Executor | None) -> None:
+        if self._executor is new_executor:
+            return
+        if self._executor is not None:
+            self._executor.remove_node(self)
+        if new_executor is not None:
+            new_executor.add_node(self)
+
+    @property
+    def handle(self) -> Any:
+        """The node stands for itself: there is no C object beneath it."""
+        return self
+
+    def get_logger(self) -> RcutilsLogger:
+        """The node's logger."""
+        return self._logger
+
+    def get_clock(self) -> Clock:
+        """The node's clock, which shows ROS time."""
+        return self._clock
+
+    # -- making things ---------------------------------------------------------------------------------------------
+
+    def _check_alive(self) -> None:
+        if self._destroyed:
+            raise InvalidHandle("cannot use Destroyable because destruction was requested")
+
+    def _keep(self, entity: Any) -> Any:
+        self._made += 1
+        entity._number, entity._node = self._made, self
+        self._waiting_entities.append(entity)
+        if self._executor is not None:
+            self._executor._adopt(entity, self)
+        return entity
+
+    def create_publisher(
+        self,
+        msg_type: Any,
+        topic: str,
+        qos_profile: QoSProfile | int,
+        *,
+        callback_group: CallbackGroup | None = None,
+        event_callbacks: Any = None,
+        qos_overriding_options: Any = None,
+        publisher_class: type[Publisher] = Publisher,
+    ) -> Publisher:
+        """Publish messages of a type on a topic. `qos_profile`: a QoSProfile, or how many to keep for late takers.
+
+        Raises InvalidTopicNameException, AttributeError or RuntimeError (no message type), TypeError, ValueError.
+        """
+        self._check_alive()
+        profile = checked_profile(qos_profile)
+        full_name = self._full_name_of(topic)
+        type_support.check_is_valid_msg_type(msg_type)
+        self._check_one_type(full_name, msg_type)
+        kind = msg_type if isinstance(msg_type, type) else type(msg_type)
+        writer = self._graph.add_writer(self._entry, full_name, kind._TYPE_NAME, profile.quality())  # type: ignore[attr-defined]
+        writer.profile = profile  # type: ignore[attr-defined]
+        writer.on_mismatch = lambda policy: self._warn_mismatch(topic, policy, "subscription", "requesting", "sent to")
+        publisher = publisher_class(writer, kind, topic, profile, self._logger.name)
+        self._publishers.append(publisher)
+        return publisher
+
+    def create_subscription(
+        self,
+        msg_type: Any,
+        topic: str,
+        callback: Callable[..., Any],
+        qos_profile: QoSProfile | int,
+        *,
+        callback_group: CallbackGroup | None = None,
+        event_callbacks: Any = None,
+        qos_overriding_options: Any = None,
+        raw: bool = False,
+    ) -> Subscription:
+        """Have `callback(message)` called for each message of a topic; the queue keeps `qos_profile` of them.
+
+        Raises InvalidTopicNameException, AttributeError or RuntimeError (no message type), TypeError, ValueError.
+        """
+        self._check_alive()
+        profile = checked_profile(qos_profile)
+        full_name = self._full_name_of(topic)
+        type_support.check_is_valid_msg_type(msg_type)
+        self._check_one_type(full_name, msg_type)
+        reader = self._graph.add_reader(self._entry, full_name, msg_type._TYPE_NAME, profile.quality())
+        reader.profile = profile  # type: ignore[attr-defined]
+        reader.on_mismatch = lambda policy: self._warn_mismatch(
+            topic, policy, "publisher", "offering", "received from"
+        )
+        group = callback_group or self._default_callback_group
+        return self._keep(
+            Subscription(reader, msg_type, topic, callback, group, profile, raw, self._logger.name)
+        )
+
+    def _check_one_type(self, full_name: str, msg_type: Any) -> None:
+        """Within one process ROS refuses a second type on a topic; between processes it only never connects."""
+        topic = self._graph.topic(full_name)
+        for end, type_name in [*topic.writers, *topic.readers]:
+            if end.node.process is self._entry.process and type_name != msg_type._TYPE_NAME:
+                from .exceptions import RCLError
+
+                raise RCLError(
+                    f"failed to create topic [rt{full_name}] because it's already in use in this context with a different "
+                    f"message type: it is {type_name}, asked for was {msg_type._TYPE_NAME}"
+                )
+
+    def _warn_mismatch(self, topic: str, policy: str, who: str, verb: str, direction: str) -> None:
+        self._logger.warning(
+            f"New {who} discovered on topic '{topic}', {verb} incompatible QoS. "
+            f"No messages will be {direction} it. Last incompatible policy: {policy}"
+        )
+
+    def create_timer(
+        self,
+        timer_period_sec: float,
+        callback: Callable[..., Any],
+        callback_group: CallbackGroup | None = None,
+        clock: Clock | None = None,
+        autostart: bool = True,
+    ) -> Timer:
+        """Have `callback()` called every `timer_period_sec` seconds, for the first time after one period."""
+        self._check_alive()
+        period = int(float(timer_period_sec) * S_TO_NS)
+        group = callback_group or self._default_callback_group
+        return self._keep(Timer(callback, group, period, clock or self._clock, autostart=autostart))
+
+    def create_service(
+        self,
+        srv_type: Any,
+        srv_name: str,
+        callback: Callable[[Any, Any], Any],
+        *,
+        qos_profile: QoSProfile = qos_profile_services_default,
+        callback_group: CallbackGroup | None = None,
+    ) -> Service:
+        """Offer a service: `callback(request, response)` fills the response in and returns it.
+
+        Raises InvalidServiceNameException, AttributeError or RuntimeError (no service type).
+        """
+        self._check_alive()
+        full_name = self._full_name_of(srv_name, is_service=True)
+        type_support.check_is_valid_srv_type(srv_type)
+        server = self._graph.add_server(self._entry, full_name, srv_type._TYPE_NAME)
+        group = callback_group or self._default_callback_group
+        return self._keep(Service(server, srv_type, srv_name, callback, group, qos_profile))
+
+    def create_client(
+        self,
+        srv_type: Any,
+        srv_name: str,
+        *,
+        qos_profile: QoSProfile = qos_profile_services_default,
+        callback_group: CallbackGroup | None = None,
+    ) -> Client:
+        """Make a client of a service. Raises InvalidServiceNameException, AttributeError or RuntimeError."""
+        self._check_alive()
+        full_name = self._full_name_of(srv_name, is_service=True)
+        type_support.check_is_valid_srv_type(srv_type)
+        end = self._graph.add_client(self._entry, full_name, srv_type._TYPE_NAME)
+        group = callback_group or self._default_callback_group
+        return self._keep(Client(self, end, srv_type, srv_name, qos_profile, group))
+
+    def create_guard_condition(
+        self, callback: Callable[[], Any], callback_group: CallbackGroup | None = None
+    ) -> GuardCondition:
+        """Have `callback()` called whenever the guard condition is triggered."""
+        self._check_alive()
+        group = callback_group or self._default_callback_group
+        return self._keep(GuardCondition(callback, group, context=self._context))
+
+    def create_rate(self, frequency: float, clock: Clock | None = None) -> Rate:
+        """Something to sleep by, `frequency` times a second."""
+        if frequency <= 0:
+            raise ValueError("frequency must be > 0")
+        if self._rate_group is None:
+            from .callback_groups import ReentrantCallbackGroup
+
+            self._rate_group = ReentrantCallbackGroup()
+        timer = self.create_timer(1.0 / frequency, _nothing, self._rate_group, clock)
+        return Rate(timer, context=self._context)
+
+    # -- taking things away ----------------------------------------------------------------------------------------
+
+    def _destroy(self, entity: Any) -> bool:
+        if entity not in self._waiting_entities:
+            return False
+        self._waiting_entities.remove(entity)
+        entity.destroy()
+        return True
+
+    def destroy_publisher(self, publisher: Publisher) -> bool:
+        """Stop publishing; False if it is not this node's."""
+        if publisher not in self._publishers:
+            return False
+        self._publishers.remove(publisher)
+        publisher.destroy()
+        return True
+
+    def destroy_subscription(self, subscription: Subscription) -> bool:
+        """Stop hearing; False if it is not this node's."""
+        return self._destroy(subscription)
+
+    def destroy_client(self, client: Client) -> bool:
+        """Take a client away; False if it is not this node's."""
+        return self._destroy(client)
+
+    def destroy_service(self, service: Service) -> bool:
+        """Take a service away; False if it is not this node's."""
+        return self._destroy(service)
+
+    def destroy_timer(self, timer: Timer) -> bool:
+        """Take a timer away; False if it is not this node's."""
+        return self._destroy(timer)
+
+    def destroy_guard_condition(self, guard: GuardCondition) -> bool:
+        """Take a guard condition away; False if it is not this node's."""
+        return self._destroy(guard)
+
+    def destroy_rate(self, rate: Rate) -> bool:
+        """Take a rate away; False if it is not this node's."""
+        return self._destroy(rate._timer)
+
+    def destroy_node(self) -> None:
+        """Leave the graph, with everything that the node has made."""
+        if self._destroyed:
+            return
+        if self._executor is not None:
+            self._executor.remove_node(self)
+        for publisher in list(self._publishers):
+            self.destroy_publisher(publisher)
+        for entity in list(self._waiting_entities):
+            self._destroy(entity)
+        if self._rosout is not None:
+            publish_rosout(self._logger.name, None)
+        self._destroyed = True
+        self._context.untrack_node(self)
+        self._graph.remove_node(self._entry)
+
+    # -- what every node has ---------------------------------------------------------------------------------------
+
+    def _publish_rosout(self) -> Publisher:
+        """Publish on /rosout what the logger prints."""
+        from rcl_interfaces.msg import Log
+
+        publisher = self.create_publisher(Log, "/rosout", ROSOUT)
+        writer = publisher._writer
+        assert writer is not None
+
+        def publish(message: str, severity: LoggingSeverity, frame: FrameType) -> None:
+            log = Log(level=int(severity), name=self._logger.name, msg=message)
+            log.stamp.sec, log.stamp.nanosec = divmod(EPOCH + self._simulation.now, NANOSECONDS)
+            log.file, log.function, log.line = frame.f_code.co_filename, frame.f_code.co_name, frame.f_lineno
+            publisher.publish(log)
+
+        publish_rosout(self._logger.name, publish)
+        return publisher
+
+    def _start_parameter_services(self) -> None:
+        from rcl_interfaces.msg import ParameterEvent
+
+        from .parameter_service import ParameterService
+
+        self._event_publisher = self.create_publisher(ParameterEvent, "/parameter_events", qos_profile_parameter_events)
+        self._parameter_service = ParameterService(self)
+
+    def _tell_parameter_event(self, parameters: list[Parameter]) -> None:
+        if self._event_publisher is None:
+            return
+        from rcl_interfaces.msg import ParameterEvent
+
+        event = ParameterEvent(node=self._entry.full_name)
+        event.stamp.sec, event.stamp.nanosec = divmod(EPOCH + self._simulation.now, NANOSECONDS)
+        event.changed_parameters = [parameter.to_parameter_msg() for parameter in parameters]
+        self._event_publisher.publish(event)
+
+
+def _nothing() -> None:
+    """The callback of a rate's timer."""

@@ -1,0 +1,206 @@
+"""Quality of service profiles. Numbers and presets are those of rclpy and rmw of Humble."""
+
+from __future__ import annotations
+
+import warnings
+from enum import Enum, IntEnum
+from typing import Any
+
+from turtle_lesson.ros.graph import Quality
+
+from .duration import Duration
+
+
+class InvalidQoSProfileException(Exception):
+    """A profile contradicts itself or lacks something."""
+
+    def __init__(self, *args: object) -> None:
+        super().__init__("Invalid QoSProfile", *args)
+
+
+class _Policy(IntEnum):
+    @property
+    def short_key(self) -> str:
+        """The policy's name as the command line has it."""
+        return self.name.lower()
+
+    @classmethod
+    def short_keys(cls) -> list[str]:
+        """All names as the command line has them."""
+        return [policy.name.lower() for policy in cls]
+
+    @classmethod
+    def get_from_short_key(cls, name: str) -> Any:
+        """The policy of a name."""
+        return cls[name.upper()]
+
+
+class HistoryPolicy(_Policy):
+    """How many messages a queue keeps."""
+
+    SYSTEM_DEFAULT = 0
+    KEEP_LAST = 1
+    KEEP_ALL = 2
+    UNKNOWN = 3
+
+
+class ReliabilityPolicy(_Policy):
+    """Whether a lost message is sent again."""
+
+    SYSTEM_DEFAULT = 0
+    RELIABLE = 1
+    BEST_EFFORT = 2
+    UNKNOWN = 3
+
+
+class DurabilityPolicy(_Policy):
+    """Whether late subscriptions get earlier messages."""
+
+    SYSTEM_DEFAULT = 0
+    TRANSIENT_LOCAL = 1
+    VOLATILE = 2
+    UNKNOWN = 3
+
+
+class LivelinessPolicy(_Policy):
+    """How a publisher shows that it lives."""
+
+    SYSTEM_DEFAULT = 0
+    AUTOMATIC = 1
+    MANUAL_BY_TOPIC = 3
+    UNKNOWN = 4
+
+
+QoSHistoryPolicy = HistoryPolicy
+QoSReliabilityPolicy = ReliabilityPolicy
+QoSDurabilityPolicy = DurabilityPolicy
+QoSLivelinessPolicy = LivelinessPolicy
+
+_FIELDS: dict[str, tuple[type, Any]] = {
+    "history": (HistoryPolicy, HistoryPolicy.KEEP_LAST),
+    "depth": (int, 0),
+    "reliability": (ReliabilityPolicy, ReliabilityPolicy.RELIABLE),
+    "durability": (DurabilityPolicy, DurabilityPolicy.VOLATILE),
+    "lifespan": (Duration, Duration()),
+    "deadline": (Duration, Duration()),
+    "liveliness": (LivelinessPolicy, LivelinessPolicy.SYSTEM_DEFAULT),
+    "liveliness_lease_duration": (Duration, Duration()),
+    "avoid_ros_namespace_conventions": (bool, False),
+}
+
+
+class QoSProfile:
+    """The policies of a publisher, subscription, service or client, as keyword arguments and attributes."""
+
+    def __init__(self, **policies: Any) -> None:
+        unknown = set(policies) - set(_FIELDS)
+        assert not unknown, f"Invalid arguments passed to constructor: {', '.join(sorted(unknown))}"
+        if "history" not in policies:
+            if "depth" not in policies:
+                raise InvalidQoSProfileException("History and/or depth settings are required.")
+            policies["history"] = HistoryPolicy.KEEP_LAST
+        if policies["history"] == HistoryPolicy.KEEP_LAST and "depth" not in policies:
+            raise InvalidQoSProfileException("History set to KEEP_LAST without a depth setting.")
+        for name, (_, default) in _FIELDS.items():
+            setattr(self, name, policies.get(name, default))
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name not in _FIELDS:
+            raise AttributeError(f"QoSProfile has no policy {name!r}; it has {', '.join(_FIELDS)}")
+        kind = _FIELDS[name][0]
+        if issubclass(kind, _Policy):
+            assert isinstance(value, (kind, int)), f"{name} must be a {kind.__name__}, got {value!r}"
+            value = kind(value)
+        assert isinstance(value, kind), f"{name} must be a {kind.__name__}, got {value!r}"
+        if name == "depth":
+            if value < 0:
+                raise ValueError("history depth must be greater than or equal to zero")
+            if value == 0 and getattr(self, "history", None) == HistoryPolicy.KEEP_LAST and "depth" in vars(self):
+                warnings.warn("A zero depth with KEEP_LAST doesn't make sense; no data could be stored.", stacklevel=3)
+        object.__setattr__(self, name, value)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, QoSProfile):
+            return False
+        return all(getattr(self, name) == getattr(other, name) for name in _FIELDS)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        def shown(value: Any) -> Any:
+            if isinstance(value, Duration):
+                return f"{value.nanoseconds} nanoseconds"
+            return int(value) if isinstance(value, _Policy) else value
+
+        return f"QoSProfile({', '.join(f'{name}={shown(getattr(self, name))}' for name in _FIELDS)})"
+
+    __str__ = __repr__
+
+    def quality(self) -> Quality:
+        """What of this profile decides about delivery in the simulated graph."""
+        policies = vars(self)
+        keep_all = policies["history"] == HistoryPolicy.KEEP_ALL
+        return Quality(
+            depth=None if keep_all else max(1, policies["depth"]),
+            reliable=policies["reliability"] != ReliabilityPolicy.BEST_EFFORT,
+            latched=policies["durability"] == DurabilityPolicy.TRANSIENT_LOCAL,
+        )
+
+
+def checked_profile(profile: Any) -> QoSProfile:
+    """A profile from what a program gives: a QoSProfile, or an int that means "keep the last n"."""
+    if isinstance(profile, QoSProfile):
+        return profile
+    if isinstance(profile, int) and not isinstance(profile, bool):
+        if profile < 0:
+            raise ValueError("history depth must be greater than or equal to zero")
+        return QoSProfile(depth=profile, history=HistoryPolicy.KEEP_LAST)
+    raise TypeError(f"Expected QoSProfile or int, but received {type(profile)}")
+
+
+def _keep_last(depth: int, reliability: ReliabilityPolicy = ReliabilityPolicy.RELIABLE) -> QoSProfile:
+    return QoSProfile(history=HistoryPolicy.KEEP_LAST, depth=depth, reliability=reliability)
+
+
+qos_profile_system_default = QoSProfile(
+    history=HistoryPolicy.SYSTEM_DEFAULT,
+    depth=0,
+    reliability=ReliabilityPolicy.SYSTEM_DEFAULT,
+    durability=DurabilityPolicy.SYSTEM_DEFAULT,
+)
+qos_profile_unknown = QoSProfile(
+    history=HistoryPolicy.UNKNOWN,
+    depth=0,
+    reliability=ReliabilityPolicy.UNKNOWN,
+    durability=DurabilityPolicy.UNKNOWN,
+    liveliness=LivelinessPolicy.UNKNOWN,
+)
+qos_profile_sensor_data = _keep_last(5, ReliabilityPolicy.BEST_EFFORT)
+qos_profile_services_default = _keep_last(10)
+qos_profile_parameters = _keep_last(1000)
+qos_profile_parameter_events = _keep_last(1000)
+qos_profile_default = _keep_last(10)
+qos_profile_action_status_default = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+class QoSPresetProfiles(Enum):
+    """The presets by name."""
+
+    UNKNOWN = qos_profile_unknown
+    DEFAULT = qos_profile_default
+    SYSTEM_DEFAULT = qos_profile_system_default
+    SENSOR_DATA = qos_profile_sensor_data
+    SERVICES_DEFAULT = qos_profile_services_default
+    PARAMETERS = qos_profile_parameters
+    PARAMETER_EVENTS = qos_profile_parameter_events
+    ACTION_STATUS_DEFAULT = qos_profile_action_status_default
+
+    @classmethod
+    def short_keys(cls) -> list[str]:
+        """All names as the command line has them."""
+        return [preset.name.lower() for preset in cls]
+
+    @classmethod
+    def get_from_short_key(cls, name: str) -> QoSProfile:
+        """The preset of a name."""
+        return cls[name.upper()].value

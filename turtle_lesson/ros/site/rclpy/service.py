@@ -1,0 +1,71 @@
+"""Services: the side that answers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from turtle_lesson.ros.graph import ServerEnd
+
+from ._entity import SERVICE, Entity
+from .callback_groups import CallbackGroup
+from .qos import QoSProfile
+
+
+class Service(Entity):
+    """Made by `Node.create_service`. The callback gets the request and a fresh response, and returns the response."""
+
+    _kind = SERVICE
+
+    def __init__(
+        self,
+        server: ServerEnd,
+        srv_type: Any,
+        srv_name: str,
+        callback: Callable[[Any, Any], Any],
+        callback_group: CallbackGroup,
+        qos_profile: QoSProfile,
+    ) -> None:
+        super().__init__(callback, callback_group)
+        self._server = server
+        server.wake = self._signal
+        self.srv_type = srv_type
+        self.srv_name = srv_name
+        self.qos_profile = qos_profile
+        self._asking: dict[int, Any] = {}
+
+    @property
+    def service_name(self) -> str:
+        """The service's full name."""
+        return self._server.name
+
+    def _has_work(self) -> bool:
+        return bool(self._server.queue)
+
+    def _take(self) -> tuple[Any, ...]:
+        request = self._server.queue.popleft()
+        if self._server.queue:
+            self._signal()
+        self._asking[id(request.message)] = request
+        return (request.message, self.srv_type.Response())
+
+    def _done_with(self, arguments: tuple[Any, ...], result: Any) -> None:
+        request = self._asking.pop(id(arguments[0]))
+        if not isinstance(result, self.srv_type.Response):
+            raise TypeError(
+                f"the callback of {self.service_name} returned {result!r}, but a {self.srv_type.Response.__name__} is "
+                "expected: end it with `return response`"
+            )
+        request.client.reply(request.number, result)
+
+    def send_response(self, response: Any, header: Any) -> None:
+        """Answer a request by hand."""
+        if not isinstance(response, self.srv_type.Response):
+            raise TypeError(f"expected a {self.srv_type.Response.__name__}, got {response!r}")
+        header.client.reply(header.number, response)
+
+    def destroy(self) -> None:
+        """Stop offering the service."""
+        if not self._destroyed:
+            super().destroy()
+            self._server.node.process.locals["world"].graph.remove_server(self._server)

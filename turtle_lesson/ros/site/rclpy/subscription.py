@@ -1,0 +1,90 @@
+"""Subscriptions."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from typing import Any
+
+from turtle_lesson.ros.core import EPOCH
+from turtle_lesson.ros.graph import Reader
+
+from ._entity import SUBSCRIPTION, Entity
+from .callback_groups import CallbackGroup
+from .qos import QoSProfile
+
+
+class Subscription(Entity):
+    """Made by `Node.create_subscription`. A callback with two parameters also gets the message's times (ns)."""
+
+    _kind = SUBSCRIPTION
+
+    def __init__(
+        self,
+        reader: Reader,
+        msg_type: type,
+        topic: str,
+        callback: Callable[..., Any] | None,
+        callback_group: CallbackGroup,
+        qos_profile: QoSProfile,
+        raw: bool,
+        logger_name: str,
+    ) -> None:
+        super().__init__(callback, callback_group)
+        self._reader = reader
+        self._queue = reader.queue
+        reader.wake = self._signal
+        self.msg_type = msg_type
+        self.topic = topic
+        self.qos_profile = qos_profile
+        self.raw = raw
+        self.event_handlers: list[Any] = []
+        self._logger_name = logger_name
+        if _wants_info(callback):
+            reader.keep_times()
+
+    @property
+    def topic_name(self) -> str:
+        """The topic's full name."""
+        return self._reader.topic.name
+
+    @property
+    def logger_name(self) -> str:
+        """The name of the node's logger."""
+        return self._logger_name
+
+    def get_publisher_count(self) -> int:
+        """How many publishers this subscription hears."""
+        return sum(self._reader in writer.readers for writer, _ in self._reader.topic.writers)
+
+    def _has_work(self) -> bool:
+        return bool(self._queue)
+
+    def _take(self) -> tuple[Any, ...]:
+        message = self._queue.popleft()
+        if self._queue:
+            self._signal()  # one message a cycle: the rest waits for the next one
+        if self.raw:
+            from .serialization import serialize_message
+
+            message = serialize_message(message)
+        times = self._reader.times
+        if times is None:
+            return (message,)
+        sent, received = times.popleft()
+        return (message, {"source_timestamp": EPOCH + sent, "received_timestamp": EPOCH + received})
+
+    def destroy(self) -> None:
+        """Leave the topic."""
+        if not self._destroyed:
+            super().destroy()
+            self._reader.node.process.locals["world"].graph.remove_topic_end(self._reader)
+
+
+def _wants_info(callback: Callable[..., Any] | None) -> bool:
+    try:
+        parameters = inspect.signature(callback).parameters.values() if callback is not None else ()
+    except (TypeError, ValueError):
+        return False
+    needed = [each for each in parameters if each.default is each.empty and each.kind in (0, 1)]
+    return len(needed) == 2

@@ -1,0 +1,97 @@
+"""Points in time, each on the clock that it was read from."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .clock_type import ClockType
+from .constants import S_TO_NS
+from .duration import Duration
+
+_LIMIT = 2**63
+
+
+class Time:
+    """`Time(seconds=…, nanoseconds=…, clock_type=…)`: ns since the clock's beginning, never negative."""
+
+    def __init__(
+        self, *, seconds: float = 0, nanoseconds: int = 0, clock_type: ClockType = ClockType.SYSTEM_TIME
+    ) -> None:
+        if not isinstance(clock_type, ClockType):
+            raise TypeError("Clock type must be a ClockType enum")
+        if seconds < 0:
+            raise ValueError("Seconds value must not be negative")
+        if nanoseconds < 0:
+            raise ValueError("Nanoseconds value must not be negative")
+        total = int(seconds * S_TO_NS) + int(nanoseconds)
+        if total >= _LIMIT:
+            raise OverflowError("Total nanoseconds value is too large to store in C time point.")
+        self._nanoseconds = total
+        self.clock_type = clock_type
+
+    @property
+    def nanoseconds(self) -> int:
+        """The time in ns."""
+        return self._nanoseconds
+
+    def seconds_nanoseconds(self) -> tuple[int, int]:
+        """Whole seconds, and the rest in ns."""
+        return divmod(self._nanoseconds, S_TO_NS)
+
+    def to_msg(self) -> Any:
+        """As builtin_interfaces/msg/Time."""
+        from builtin_interfaces.msg import Time as Message
+
+        seconds, nanoseconds = self.seconds_nanoseconds()
+        return Message(sec=seconds, nanosec=nanoseconds)
+
+    @classmethod
+    def from_msg(cls, msg: Any, clock_type: ClockType = ClockType.ROS_TIME) -> Time:
+        """From builtin_interfaces/msg/Time, which does not say which clock it is from: ROS time unless told."""
+        return cls(seconds=msg.sec, nanoseconds=msg.nanosec, clock_type=clock_type)
+
+    def __repr__(self) -> str:
+        return f"Time(nanoseconds={self._nanoseconds}, clock_type={self.clock_type.name})"
+
+    def __add__(self, other: object) -> Time:
+        if isinstance(other, Duration):
+            return Time(nanoseconds=self._nanoseconds + other.nanoseconds, clock_type=self.clock_type)
+        return NotImplemented
+
+    __radd__ = __add__
+
+    def __sub__(self, other: object) -> Any:
+        if isinstance(other, Time):
+            self._check(other, "Can't subtract times with different clock types")
+            return Duration(nanoseconds=self._nanoseconds - other._nanoseconds)
+        if isinstance(other, Duration):
+            return Time(nanoseconds=self._nanoseconds - other.nanoseconds, clock_type=self.clock_type)
+        return NotImplemented
+
+    def _check(self, other: Time, complaint: str = "Can't compare times with different clock types") -> None:
+        if self.clock_type != other.clock_type:
+            raise TypeError(complaint)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Time):
+            return NotImplemented
+        self._check(other)
+        return self._nanoseconds == other._nanoseconds
+
+    def __hash__(self) -> int:
+        return hash((self._nanoseconds, self.clock_type))
+
+    def __lt__(self, other: object) -> bool:
+        if not isinstance(other, Time):
+            return NotImplemented
+        self._check(other)
+        return self._nanoseconds < other._nanoseconds
+
+    def __le__(self, other: object) -> bool:
+        return self == other or self < other
+
+    def __gt__(self, other: object) -> bool:
+        return not self <= other
+
+    def __ge__(self, other: object) -> bool:
+        return not self < other

@@ -1,0 +1,31 @@
+"""Checks that a type is what it should be: a message, or a service."""
+
+from typing import Any
+
+
+def check_for_type_support(msg_or_srv_type: Any) -> None:
+    """Raise AttributeError for anything that is no ROS 2 interface."""
+    if not hasattr(msg_or_srv_type, "_TYPE_SUPPORT"):
+        name = getattr(msg_or_srv_type, "__name__", type(msg_or_srv_type).__name__)
+        raise AttributeError(
+            f"type object {name!r} has no attribute '_TYPE_SUPPORT': a message or service class is expected here, "
+            f"such as geometry_msgs.msg.Twist, but {msg_or_srv_type!r} came"
+        )
+
+
+def check_is_valid_msg_type(msg_type: Any) -> None:
+    """Raise RuntimeError for a service or action type."""
+    check_for_type_support(msg_type)
+    if "/msg/" not in msg_type._TYPE_NAME and not hasattr(msg_type, "get_fields_and_field_types"):
+        raise RuntimeError(
+            f"The message type provided is not valid ({msg_type}), this might be a service or action"
+        )
+
+
+def check_is_valid_srv_type(srv_type: Any) -> None:
+    """Raise RuntimeError for a message or action type."""
+    check_for_type_support(srv_type)
+    if not hasattr(srv_type, "Request") or not hasattr(srv_type, "Response"):
+        raise RuntimeError(
+            f"The service type provided is not valid ({srv_type}), this might be a message or action"
+        )

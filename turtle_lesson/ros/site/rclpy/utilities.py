@@ -1,0 +1,56 @@
+"""Small helpers of rclpy."""
+
+from __future__ import annotations
+
+import sys
+
+from turtle_lesson.ros.world import current_process
+
+from .constants import S_TO_NS
+from .context import Context
+
+
+def get_default_context(*, shutting_down: bool = False) -> Context:
+    """The context of this process that is used where none is named."""
+    shelf = current_process().locals
+    if "rclpy.context" not in shelf:
+        shelf["rclpy.context"] = Context()
+    return shelf["rclpy.context"]
+
+
+def ok(*, context: Context | None = None) -> bool:
+    """Whether ROS is initialized and not shut down in this process."""
+    return (get_default_context() if context is None else context).ok()
+
+
+def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
+    """End ROS in this process. Raises RuntimeError if there is nothing to end."""
+    (get_default_context() if context is None else context).shutdown()
+
+
+def try_shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
+    """End ROS in this process, if it has not ended yet."""
+    (get_default_context() if context is None else context).try_shutdown()
+
+
+def remove_ros_args(args: list[str] | None = None) -> list[str]:
+    """The arguments without those between `--ros-args` and `--`."""
+    kept, inside = [], False
+    for word in sys.argv if args is None else args:
+        if word == "--ros-args":
+            inside = True
+        elif word == "--" and inside:
+            inside = False
+        elif not inside:
+            kept.append(word)
+    return kept
+
+
+def timeout_sec_to_nsec(timeout_sec: float | None) -> int:
+    """Seconds to ns; None and negative numbers mean "wait for ever", which is -1."""
+    return -1 if timeout_sec is None or timeout_sec < 0 else int(timeout_sec * S_TO_NS)
+
+
+def get_rmw_implementation_identifier() -> str:
+    """The name of what carries messages: here nothing but memory."""
+    return "rmw_turtle_lesson"

@@ -1,0 +1,281 @@
+"""A small honest reader of a package's CMakeLists.txt: variables, `if`, and what ament packages are made of.
+
+It understands what a Python package needs (set, project, if, install, rosidl_generate_interfaces) and says
+so where a file needs more of CMake. Nothing is built or run.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from .cmake_conditions import is_true
+from .cmake_syntax import Argument, Call, CMakeError, read_calls
+
+__all__ = ["CMakeError", "CMakeFile", "Command", "Installed", "Program", "read_cmake"]
+
+_VARIABLE = re.compile(r"\\(.)|\$\{([^${}]*)\}", re.DOTALL)
+_ESCAPES = {"n": "\n", "t": "\t", "r": "\r"}
+_LOOPS = {"foreach": "endforeach", "while": "endwhile", "function": "endfunction", "macro": "endmacro"}
+_MATTERS = {"install", "rosidl_generate_interfaces", "project", "ament_package"}
+_INSTALL_WORDS = {
+    "DESTINATION", "RENAME", "PERMISSIONS", "FILE_PERMISSIONS", "DIRECTORY_PERMISSIONS", "CONFIGURATIONS",
+    "COMPONENT", "OPTIONAL", "TYPE", "EXCLUDE_FROM_ALL", "USE_SOURCE_PERMISSIONS", "PATTERN", "REGEX",
+    "EXCLUDE", "FILES_MATCHING", "MESSAGE_NEVER",
+}  # fmt: skip
+_INTERFACE_WORDS = {
+    "DEPENDENCIES", "LIBRARY_NAME", "SKIP_INSTALL", "SKIP_GROUP_MEMBERSHIP_CHECK", "ADD_LINTER_TESTS",
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Command:
+    """One command that takes effect: its name in lower case, its expanded arguments, its line."""
+
+    name: str
+    args: tuple[str, ...]
+    line: int
+
+
+@dataclass(frozen=True)
+class Program:
+    """A file that `install(PROGRAMS …)` names: where it lies, the folder it goes to, its name there."""
+
+    source: str
+    destination: str
+    name: str
+    line: int
+
+
+@dataclass(frozen=True)
+class Installed:
+    """A folder or file that `install(DIRECTORY …)` or `install(FILES …)` names, and the folder it goes to.
+
+    A folder whose name ends in `/` gives its content instead of itself, as in CMake.
+    """
+
+    source: str
+    destination: str
+    line: int
+    name: str | None = None
+
+
+@dataclass
+class CMakeFile:
+    """The commands of a CMakeLists.txt in the order of their effect, and what they mean for a package."""
+
+    commands: list[Command] = field(default_factory=list)
+    file: str = "CMakeLists.txt"
+
+    def named(self, name: str) -> list[Command]:
+        """All commands of a name."""
+        return [command for command in self.commands if command.name == name]
+
+    def project(self) -> Command:
+        """The `project(name)` command; the name is its first argument."""
+        for command in self.named("project"):
+            if command.args:
+                return command
+            raise CMakeError("project() needs a name: project(robot_controller)", command.line, self.file)
+        raise CMakeError("there is no project(…); write project(<the package's name>) first", 1, self.file)
+
+    def found_packages(self) -> list[str]:
+        """What `find_package` asks for."""
+        return [command.args[0] for command in self.named("find_package") if command.args]
+
+    def interfaces(self) -> list[tuple[str, int]]:
+        """The files in `rosidl_generate_interfaces`, such as `msg/TurtleStatus.msg`, each with its line."""
+        files = []
+        for command in self.named("rosidl_generate_interfaces"):
+            names, _ = _until(command.args[1:], _INTERFACE_WORDS)
+            files += [(name, command.line) for name in names]
+        return files
+
+    def programs(self) -> list[Program]:
+        """What `install(PROGRAMS …)` installs."""
+        found = []
+        for command in self._installs("PROGRAMS"):
+            names, options = _until(command.args[1:], _INSTALL_WORDS)
+            destination, rename = self._destination(command, options), options.get("RENAME")
+            if rename and len(names) > 1:
+                reason = "RENAME gives one name, so install one program at a time: install(PROGRAMS a.py …)"
+                raise CMakeError(reason, command.line, self.file)
+            for name in names:
+                found.append(Program(name, destination, rename or Path(name).name, command.line))
+        return found
+
+    def directories(self) -> list[Installed]:
+        """What `install(DIRECTORY …)` installs."""
+        return self._installed("DIRECTORY")
+
+    def files(self) -> list[Installed]:
+        """What `install(FILES …)` installs."""
+        return self._installed("FILES")
+
+    def _installed(self, kind: str) -> list[Installed]:
+        found = []
+        for command in self._installs(kind):
+            names, options = _until(command.args[1:], _INSTALL_WORDS)
+            destination = self._destination(command, options)
+            found += [Installed(name, destination, command.line, options.get("RENAME")) for name in names]
+        return found
+
+    def _installs(self, kind: str) -> list[Command]:
+        return [command for command in self.named("install") if command.args[:1] == (kind,)]
+
+    def _destination(self, command: Command, options: dict[str, str]) -> str:
+        if not options.get("DESTINATION"):
+            reason = f"install({command.args[0]} …) needs a DESTINATION, such as lib/${{PROJECT_NAME}}"
+            raise CMakeError(reason, command.line, self.file)
+        return options["DESTINATION"].rstrip("/")
+
+
+def _until(args: tuple[str, ...], words: set[str]) -> tuple[list[str], dict[str, str]]:
+    """The arguments before the first of CMake's own words, and for each of those words what follows it."""
+    names: list[str] = []
+    options: dict[str, str] = {}
+    word = None
+    for argument in args:
+        if argument in words:
+            word = argument
+            options.setdefault(word, "")
+        elif word is None:
+            names.append(argument)
+        else:
+            options[word] = options[word] or argument
+    return names, options
+
+
+def read_cmake(path: Path) -> CMakeFile:
+    """Read a CMakeLists.txt.
+
+    Raises:
+        CMakeError: where it is not understood, with the file and the line.
+    """
+    return evaluate(path.read_text(encoding="utf-8"), str(path), path.parent)
+
+
+def evaluate(text: str, file: str = "CMakeLists.txt", folder: Path | None = None) -> CMakeFile:
+    """The commands of the text that take effect, with their variables put in."""
+    where = (folder or Path(".")).as_posix()
+    variables = dict.fromkeys(("CMAKE_CURRENT_SOURCE_DIR", "CMAKE_SOURCE_DIR", "PROJECT_SOURCE_DIR"), where)
+    variables |= {"CMAKE_CURRENT_LIST_DIR": where, "BUILD_TESTING": "ON", "UNIX": "1"}
+    evaluator = _Evaluator(variables, file)
+    return CMakeFile(list(evaluator.run(read_calls(text, file))), file)
+
+
+class _Evaluator:
+    """Goes through the calls once, keeping the variables and which `if` branch is taken."""
+
+    def __init__(self, variables: dict[str, str], file: str) -> None:
+        self.variables = variables
+        self.file = file
+        self._branches: list[str] = []  # one per open if: "taken", "waiting" for its branch, or "done"
+        self._opened: list[int] = []
+        self._loop: tuple[str, int] | None = None
+
+    def run(self, calls: list[Call]) -> Iterator[Command]:
+        """The commands that take effect."""
+        for call in calls:
+            if self._loop:
+                self._inside_loop(call)
+            elif not self._conditional(call) and self._active:
+                yield from self._effect(call)
+        if self._branches:
+            raise CMakeError("this if() has no endif()", self._opened[-1], self.file)
+        if self._loop:
+            raise CMakeError(f"there is no {self._loop[0]}() that ends this", self._loop[1], self.file)
+
+    @property
+    def _active(self) -> bool:
+        return all(branch == "taken" for branch in self._branches)
+
+    def _inside_loop(self, call: Call) -> None:
+        """A loop's or function's body is not run, so nothing that matters may stand in it."""
+        assert self._loop is not None
+        if call.name == self._loop[0]:
+            self._loop = None
+        elif call.name in _MATTERS:
+            what = self._loop[0].removeprefix("end")
+            reason = f"{call.name}() inside of {what}() is not understood in this classroom; write it out"
+            raise CMakeError(reason, call.line, self.file)
+
+    def _conditional(self, call: Call) -> bool:
+        if call.name == "if":
+            taken = self._active and self._holds(call)
+            self._branches.append("taken" if taken else "waiting" if self._active else "done")
+            self._opened.append(call.line)
+        elif call.name in {"elseif", "else", "endif"}:
+            if not self._branches:
+                raise CMakeError(f"{call.name}() without an if() before it", call.line, self.file)
+            self._next_branch(call)
+        else:
+            return False
+        return True
+
+    def _next_branch(self, call: Call) -> None:
+        state = self._branches.pop()
+        if call.name == "endif":
+            self._opened.pop()
+        elif state == "waiting" and (call.name == "else" or self._holds(call)):
+            self._branches.append("taken")
+        else:
+            self._branches.append("waiting" if state == "waiting" else "done")
+
+    def _holds(self, call: Call) -> bool:
+        words = [(self.expand(argument), argument.quoted) for argument in call.args]
+        return is_true(words, self.variables, call.line, self.file)
+
+    def _effect(self, call: Call) -> Iterator[Command]:
+        if call.name in _LOOPS:
+            self._loop = (_LOOPS[call.name], call.line)
+            return
+        args = self._arguments(call)
+        if call.name == "set" and args:
+            self.variables[args[0]] = ";".join(_until(args[1:], {"CACHE", "PARENT_SCOPE"})[0])
+        elif call.name == "unset" and args:
+            self.variables.pop(args[0], None)
+        elif call.name == "list" and args[:1] == ("APPEND",) and len(args) > 1:
+            self.variables[args[1]] = ";".join(filter(None, [self.variables.get(args[1], ""), *args[2:]]))
+        elif call.name == "project" and args:
+            self.variables["PROJECT_NAME"] = self.variables["CMAKE_PROJECT_NAME"] = args[0]
+        elif call.name == "file" and args[:1] in {("GLOB",), ("GLOB_RECURSE",)}:
+            reason = f"file({args[0]} …) is not understood in this classroom; name the files one by one"
+            raise CMakeError(reason, call.line, self.file)
+        yield Command(call.name, args, call.line)
+
+    def _arguments(self, call: Call) -> tuple[str, ...]:
+        values: list[str] = []
+        for argument in call.args:
+            text = self.expand(argument)
+            values += [text] if argument.quoted else [part for part in _split(text) if part]
+        return tuple(values)
+
+    def expand(self, argument: Argument) -> str:
+        """The argument with its variables and escapes put in; an unset variable is empty, as in CMake."""
+        text = argument.text
+        if argument.raw:
+            return text
+        if text.count("${") > text.count("}"):
+            raise CMakeError(f"'{text}': a ${{ is not closed by }}", argument.line, self.file)
+        for _ in range(10):  # ${a_${b}} needs a round for each level
+            expanded = _VARIABLE.sub(self._replace, text)
+            if expanded == text or "${" not in expanded:
+                return expanded
+            text = expanded
+        return text
+
+    def _replace(self, match: re.Match[str]) -> str:
+        escaped, name = match.groups()
+        if escaped is None:
+            return self.variables.get(name, "")
+        if escaped == ";":
+            return "\\;"  # still to be seen when lists are split
+        return _ESCAPES.get(escaped, escaped)
+
+
+def _split(text: str) -> list[str]:
+    """The elements of a CMake list."""
+    return [part.replace("\\;", ";") for part in re.split(r"(?<!\\);", text)]

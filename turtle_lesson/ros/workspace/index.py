@@ -1,0 +1,129 @@
+"""The packages of a world, found by name: what `source install/setup.bash` fills in a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from ..core.tracebacks import shown_path
+from .errors import (
+    ExecutableNotFoundError,
+    LaunchFileNotFoundError,
+    PackageNotFoundError,
+    did_you_mean,
+)
+from .package import Package, Target
+
+__all__ = [
+    "ExecutableNotFoundError",
+    "LaunchFileNotFoundError",
+    "PackageIndex",
+    "PackageNotFoundError",
+    "find_launch_file",
+]
+
+
+class PackageIndex:
+    """Packages by name. One that is added later hides an earlier one of the same name, as an overlay does."""
+
+    def __init__(self) -> None:
+        self._layers: dict[str, list[Package]] = {}
+
+    def __repr__(self) -> str:
+        return f"<PackageIndex: {', '.join(self.names()) or 'empty'}>"
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._layers
+
+    def __iter__(self) -> Iterator[Package]:
+        return iter([layers[-1] for layers in self._layers.values()])
+
+    def add(self, package: Package) -> None:
+        """Make a package findable."""
+        self._layers.setdefault(package.name, []).append(package)
+
+    def remove(self, name: str) -> None:
+        """Take the uppermost package of this name out; what it hid is found again."""
+        self.get(name)
+        self._layers[name].pop()
+        if not self._layers[name]:
+            del self._layers[name]
+
+    def names(self) -> list[str]:
+        """The names of all packages, sorted."""
+        return sorted(self._layers)
+
+    def get(self, name: str) -> Package:
+        """The package of this name.
+
+        Raises:
+            PackageNotFoundError: with the real text, and with the name that was perhaps meant.
+        """
+        if name in self._layers:
+            return self._layers[name][-1]
+        text = f"package '{name}' not found, searching: {self.search_path()}"
+        hint = did_you_mean(name, self._layers)
+        raise PackageNotFoundError(text, hint or "Is it built, and is its setup file sourced?")
+
+    def search_path(self) -> list[str]:
+        """Where packages are looked for, the uppermost first, each place once."""
+        places = [shown_path(str(package.prefix or package.share)) for package in self]
+        return list(dict.fromkeys(reversed(places)))
+
+    def executable(self, package: str, executable: str) -> Target:
+        """What runs as `executable` of a package.
+
+        Raises:
+            PackageNotFoundError: if there is no such package.
+            ExecutableNotFoundError: if it has no such executable, with the real text.
+        """
+        found = self.get(package)
+        if executable in found.executables:
+            return found.executables[executable]
+        raise _no_executable(found, executable)
+
+
+def _no_executable(package: Package, executable: str) -> ExecutableNotFoundError:
+    libexec = shown_path(str(package.libexec))
+    if not package.executables:
+        prefix = shown_path(str(package.prefix or package.share))
+        return ExecutableNotFoundError(
+            f"package '{package.name}' found at '{prefix}', but libexec directory '{libexec}' does not exist",
+            "It installs no program; write in its CMakeLists.txt install(PROGRAMS <file> DESTINATION "
+            f"lib/${{PROJECT_NAME}} RENAME {executable}).",
+        )
+    names = ", ".join(sorted(package.executables))
+    hint = f"{did_you_mean(executable, package.executables)} {package.name} has: {names}.".strip()
+    text = f"executable '{executable}' not found on the libexec directory '{libexec}'"
+    return ExecutableNotFoundError(text, hint)
+
+
+def find_launch_file(packages: PackageIndex, package: str, file_name: str) -> Path:
+    """The launch file of this name that a package has installed.
+
+    Raises:
+        PackageNotFoundError, LaunchFileNotFoundError: with the texts of `ros2 launch`, and what to try.
+    """
+    found = packages.get(package)
+    files = found.shared_files(file_name)
+    if len(files) == 1:
+        return files[0]
+    share = shown_path(str(found.prefix / "share" / package if found.prefix else found.share))
+    directory = f"in the share directory of package '{package}'"
+    if files:
+        shown = [shown_path(str(file)) for file in files]
+        raise LaunchFileNotFoundError(f"file '{file_name}' was found more than once {directory}: {shown}")
+    text = f"file '{file_name}' was not found {directory} which is at '{share}'"
+    raise LaunchFileNotFoundError(text, _launch_file_hint(found, file_name))
+
+
+def _launch_file_hint(package: Package, file_name: str) -> str:
+    if package.source and (lying := sorted(package.source.rglob(file_name))):
+        place = lying[0].parent.relative_to(package.source).as_posix()
+        return (
+            f"It lies in {place}/, but is not installed: write install(DIRECTORY {place} DESTINATION "
+            "share/${PROJECT_NAME}) in CMakeLists.txt and build again."
+        )
+    known = sorted({file.name for file in package.shared_files("*.launch.py")})
+    there_are = f"There are: {', '.join(known)}." if known else "The package installs no launch file."
+    return did_you_mean(file_name, known) or there_are

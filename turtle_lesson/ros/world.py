@@ -1,0 +1,121 @@
+"""A world: one simulation with one ROS graph, the packages that can be found in it, and its processes.
+
+`start()` makes a fresh one; there is one current world at a time. Code in a simulated process sees the world that the
+process lives in; a notebook cell sees the current one, and is itself the process called `notebook`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, TextIO
+
+from .core import EPOCH, Process, Simulation, running_strand
+from .core import virtual_random, virtual_time
+from .graph import Graph
+from .workspace.index import PackageIndex
+
+FIRST_PID = 1001
+
+
+class World:
+    """One simulated computer with ROS 2 on it. `seed` decides about every random number in it."""
+
+    def __init__(self, seed: int = 0) -> None:
+        virtual_time.install()
+        virtual_random.install()
+        virtual_random.install_for_numpy()
+        self.seed = seed
+        self.sim = Simulation()
+        self.graph = Graph(self.sim)
+        self.packages = PackageIndex()
+        self.processes: list[Process] = []
+        self._pid = FIRST_PID
+        self._names: dict[str, int] = {}
+        self.notebook = self._make_process("notebook", argv=["notebook"])
+
+    @property
+    def now(self) -> int:
+        """The virtual time since the world's start, in ns."""
+        return self.sim.now
+
+    def _make_process(self, name: str, **details: Any) -> Process:
+        number = self._names[name] = self._names.get(name, 0) + 1
+        process = Process(self.sim, name, pid=self._pid, seed=f"{self.seed}/{name}/{number}", **details)
+        self._pid += 1
+        process.locals["world"] = self
+        return process
+
+    def spawn(
+        self,
+        target: Path | Callable[[], object],
+        *,
+        name: str,
+        argv: Sequence[str] = (),
+        stdout: TextIO | None = None,
+        stderr: TextIO | None = None,
+        on_exit: Callable[[Process], None] | None = None,
+    ) -> Process:
+        """Start a process at this instant: a Python file, run as `__main__`, or a callable.
+
+        Does not wait for it. The file's errors are the process's: they are shown, and its exit code is 1.
+        """
+        virtual_random.install_for_numpy()
+        arguments = list(argv) or [str(target) if isinstance(target, Path) else name]
+        process = self._make_process(name, argv=arguments, stdout=stdout, stderr=stderr, on_exit=on_exit)
+        self.processes.append(process)
+        process.start(_program(target) if isinstance(target, Path) else target)
+        return process
+
+    def close(self) -> None:
+        """End every process and the simulation; nothing of this world runs again."""
+        for process in [*self.processes, self.notebook]:
+            process.kill()
+        self.sim.close()
+
+
+def _program(path: Path) -> Callable[[], object]:
+    """What runs a Python file as the main program of a process."""
+
+    def run() -> None:
+        code = compile(path.read_bytes(), str(path), "exec")
+        exec(code, {"__name__": "__main__", "__file__": str(path), "__builtins__": __builtins__})
+
+    return run
+
+
+_current: World | None = None
+
+
+def current_process() -> Process:
+    """The process that the running code belongs to; for a notebook cell the current world's `notebook`."""
+    strand = running_strand()
+    return strand.process if strand is not None else current_world().notebook
+
+
+def current_world() -> World:
+    """The world that the running code lives in. If there is none yet, an empty one is made."""
+    global _current
+    strand = running_strand()
+    if strand is not None:
+        return strand.process.locals["world"]
+    if _current is None:
+        _current = World()
+    return _current
+
+
+def open_world(seed: int = 0) -> World:
+    """Close the current world, if there is one, and make a fresh one the current one."""
+    global _current
+    if _current is not None:
+        _current.close()
+    _current = World(seed)
+    return _current
+
+
+def wall_time(world: World) -> int:
+    """What the virtual wall clock shows, in ns since 1970."""
+    return EPOCH + world.sim.now
+
+
+__all__ = ["World", "current_process", "current_world", "open_world", "wall_time"]

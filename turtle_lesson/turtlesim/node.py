@@ -1,0 +1,211 @@
+"""The node ``/turtlesim``: shows the turtles' world to ROS as the turtlesim of ROS 2 Humble does.
+
+Plain ``rclpy``: services ``/spawn``, ``/kill``, ``/clear`` and ``/reset``; for each turtle the topics
+``cmd_vel``, ``pose`` and ``color_sensor`` and the services ``set_pen``, ``teleport_absolute`` and
+``teleport_relative``; the parameters of the background. A timer of 16 ms moves the world on and publishes.
+
+Where it differs from the real one:
+
+- there is no window, so the background's parameters can be set but are seen by nobody;
+- a turtle that pushes against a wall is reported when it gets there and then once a second, not 62.5 times a
+  second;
+- what ends the real program or leads its turtle to NaN is refused, with an error in the log;
+- a service answers at once, not at the next tick (its effect on a moving turtle comes with that tick in
+  both);
+- the action ``rotate_absolute`` is not there yet.
+"""
+
+import rclpy
+from geometry_msgs.msg import Twist
+from rcl_interfaces.msg import IntegerRange, ParameterDescriptor, ParameterEvent
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from std_srvs.srv import Empty
+from turtlesim.msg import Color, Pose
+from turtlesim.srv import Kill, SetPen, Spawn, TeleportAbsolute, TeleportRelative
+
+from turtle_lesson.turtlesim.turtle import HEIGHT, QUEUE_DEPTH, TICK, TICK_MS, Turtle, TurtleError
+from turtle_lesson.turtlesim.world import TurtleWorld, WallHit
+
+BACKGROUND = {"r": ("Red", 69), "g": ("Green", 86), "b": ("Blue", 255)}
+TICKS_BETWEEN_WALL_WARNINGS = 1000 // TICK_MS + 1
+
+
+class TurtlesimNode(Node):
+    """The simulator: a world of turtles, its clock, and what may be asked of the world as a whole."""
+
+    def __init__(self) -> None:
+        super().__init__("turtlesim")
+        self._declare_background()
+        self.create_service(Empty, "clear", self._on_clear)
+        self.create_service(Empty, "reset", self._on_reset)
+        self.create_service(Spawn, "spawn", self._on_spawn)
+        self.create_service(Kill, "kill", self._on_kill)
+        self.get_logger().info(f"Starting turtlesim with node name {self.get_fully_qualified_name()}")
+        self._world = TurtleWorld()
+        self._shown: dict[str, ShownTurtle] = {}
+        self._pushing: dict[str, int] = {}  # turtles at a wall: for how many ticks they have pushed
+        for turtle in self._world.turtles.values():
+            self._show(turtle, turtle.x, turtle.y)
+        self.create_timer(TICK, self._on_tick)
+
+    def _on_tick(self) -> None:
+        hits = self._world.tick()
+        if hits or self._pushing:
+            self._report(hits)
+        for shown in self._shown.values():
+            shown.publish()
+
+    def _report(self, hits: list[WallHit]) -> None:
+        """Warn of each turtle that has just come to a wall, or has pushed against it for another second."""
+        before = self._pushing
+        self._pushing = {hit.turtle.name: before.get(hit.turtle.name, -1) + 1 for hit in hits}
+        for hit in hits:
+            if self._pushing[hit.turtle.name] % TICKS_BETWEEN_WALL_WARNINGS == 0:
+                self.get_logger().warning(
+                    f"Oh no! I hit the wall! (Clamping from [x={hit.x:f}, y={hit.flipped_y:f}])"
+                )
+
+    def _on_spawn(self, request: Spawn.Request, response: Spawn.Response) -> Spawn.Response:
+        try:
+            turtle = self._world.spawn(request.x, request.y, request.theta, request.name)
+        except TurtleError as error:
+            self.get_logger().error(str(error))
+            response.name = ""
+        else:
+            self._show(turtle, request.x, request.y)
+            response.name = turtle.name
+        return response
+
+    def _on_kill(self, request: Kill.Request, response: Kill.Response) -> Kill.Response:
+        try:
+            turtle = self._world.kill(request.name)
+        except TurtleError as error:
+            self.get_logger().error(str(error))
+        else:
+            self._shown.pop(turtle.name).close()
+        return response
+
+    def _on_clear(self, _request: Empty.Request, response: Empty.Response) -> Empty.Response:
+        self.get_logger().info("Clearing turtlesim.")
+        self._world.clear()
+        return response
+
+    def _on_reset(self, _request: Empty.Request, response: Empty.Response) -> Empty.Response:
+        self.get_logger().info("Resetting turtlesim.")
+        for shown in self._shown.values():
+            shown.close()
+        self._shown.clear()
+        self._pushing.clear()
+        turtle = self._world.reset()
+        self._show(turtle, turtle.x, turtle.y)
+        return response
+
+    def _show(self, turtle: Turtle, x: float, y: float) -> None:
+        """Give a turtle its topics and services. (x, y) is what was asked for; the turtle keeps y less exactly."""
+        self._shown[turtle.name] = ShownTurtle(self, turtle)
+        theta = turtle.theta
+        self.get_logger().info(f"Spawning turtle [{turtle.name}] at x=[{x:f}], y=[{y:f}], theta=[{theta:f}]")
+
+    def _declare_background(self) -> None:
+        """Declare background_r, _g and _b, and listen for their changes as the real one does to repaint its
+        window."""
+        for letter, (colour, value) in BACKGROUND.items():
+            descriptor = ParameterDescriptor(
+                description=f"{colour} channel of the background color",
+                integer_range=[IntegerRange(from_value=0, to_value=255, step=1)],
+            )
+            self.declare_parameter(f"background_{letter}", value, descriptor)
+        quality = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
+        self.create_subscription(ParameterEvent, "/parameter_events", lambda _event: None, quality)
+
+
+class ShownTurtle:
+    """What ROS sees of one turtle: its topics and its services."""
+
+    def __init__(self, node: Node, turtle: Turtle) -> None:
+        self._node, self._turtle, self._name = node, turtle, turtle.name
+        name = turtle.name
+        self._subscription = node.create_subscription(Twist, f"{name}/cmd_vel", self._on_command, QUEUE_DEPTH)
+        self._pose_publisher = node.create_publisher(Pose, f"{name}/pose", QUEUE_DEPTH)
+        self._colour_publisher = node.create_publisher(Color, f"{name}/color_sensor", QUEUE_DEPTH)
+        self._services = [
+            node.create_service(SetPen, f"{name}/set_pen", self._on_set_pen),
+            node.create_service(TeleportRelative, f"{name}/teleport_relative", self._on_teleport_relative),
+            node.create_service(TeleportAbsolute, f"{name}/teleport_absolute", self._on_teleport_absolute),
+        ]
+        # One message each, filled anew and published 62.5 times a second: publish() keeps no hold of it.
+        self._pose, self._colour = Pose(), Color()
+        self._colour_in_message = (0, 0, 0)
+        self._rested = False
+
+    def publish(self) -> None:
+        """Publish the pose and the colour after a tick."""
+        turtle = self._turtle
+        if not (turtle.at_rest and self._rested):  # a turtle at rest says the same again
+            self._rested = turtle.at_rest
+            pose = self._pose
+            pose.x = turtle.x
+            pose.y = HEIGHT - turtle.flipped_y
+            pose.theta = turtle.theta
+            pose.linear_velocity = turtle.speed
+            pose.angular_velocity = turtle.angular
+        self._pose_publisher.publish(self._pose)
+        if turtle.colour != self._colour_in_message:
+            self._colour_in_message = turtle.colour
+            self._colour.r, self._colour.g, self._colour.b = turtle.colour
+        self._colour_publisher.publish(self._colour)
+
+    def close(self) -> None:
+        """Take the turtle's topics and services out of the graph."""
+        self._node.destroy_subscription(self._subscription)
+        self._node.destroy_publisher(self._pose_publisher)
+        self._node.destroy_publisher(self._colour_publisher)
+        for service in self._services:
+            self._node.destroy_service(service)
+
+    def _on_command(self, message: Twist) -> None:
+        try:
+            self._turtle.command(message.linear.x, message.linear.y, message.angular.z)
+        except TurtleError as error:
+            self._node.get_logger().error(str(error), throttle_duration_sec=1.0)
+
+    def _on_set_pen(self, request: SetPen.Request, response: SetPen.Response) -> SetPen.Response:
+        self._turtle.set_pen((request.r, request.g, request.b), off=bool(request.off))
+        return response
+
+    def _on_teleport_relative(
+        self, request: TeleportRelative.Request, response: TeleportRelative.Response
+    ) -> TeleportRelative.Response:
+        try:
+            self._turtle.teleport_relative(request.linear, request.angular)
+        except TurtleError as error:
+            self._node.get_logger().error(str(error))
+        return response
+
+    def _on_teleport_absolute(
+        self, request: TeleportAbsolute.Request, response: TeleportAbsolute.Response
+    ) -> TeleportAbsolute.Response:
+        try:
+            self._turtle.teleport_absolute(request.x, request.y, request.theta)
+        except TurtleError as error:
+            self._node.get_logger().error(str(error))
+        return response
+
+
+def main(args: list[str] | None = None) -> None:
+    """Run the simulator until it is told to stop; ``ros2 run turtlesim turtlesim_node`` calls this."""
+    rclpy.init(args=args)
+    node = TurtlesimNode()
+    try:
+        rclpy.spin(node)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        node.destroy_node()
+        rclpy.try_shutdown()
+
+
+if __name__ == "__main__":
+    main()

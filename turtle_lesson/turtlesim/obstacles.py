@@ -1,0 +1,204 @@
+"""Obstacles that a page places in the world: circles and boxes, and how they travel as a ROS message.
+
+They stand on the floor of the turtles' world (11.09 m by 11.09 m, the origin in the lower left corner) and
+never move. A turtle drives through them, as through the real turtlesim's empty world; a range sensor sees
+them.
+"""
+
+import difflib
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, fields
+from numbers import Real
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+if TYPE_CHECKING:
+    from visualization_msgs.msg import Marker, MarkerArray
+
+FRAME = "world"
+NAMESPACE = "obstacles"
+MARKER_HEIGHT = 0.5
+"""Height in metres at which a marker is drawn; the turtles' world itself is flat."""
+
+COLOUR = (0.90, 0.62, 0.0, 1.0)
+"""Red, green, blue and opacity: the orange of Okabe and Ito's palette, told apart from the turtle's blues by
+all eyes."""
+
+
+_EXAMPLES = {"Circle": "Circle(x=3.0, y=4.0, radius=0.5)", "Box": "Box(x=3.0, y=4.0, width=2.0, height=0.5)"}
+
+
+def _check_numbers(obstacle: "Circle | Box", positive: tuple[str, ...]) -> None:
+    """Turn all fields into floats; refuse what is no finite number, and a size that is not above zero."""
+    for field in fields(obstacle):
+        value = getattr(obstacle, field.name)
+        number = isinstance(value, Real) and not isinstance(value, bool)
+        if number and math.isfinite(value) and (field.name not in positive or value > 0):
+            object.__setattr__(obstacle, field.name, float(value))
+        else:
+            error = ValueError if number else TypeError
+            raise error(_complaint(type(obstacle).__name__, field.name, value, field.name in positive))
+
+
+def _complaint(kind: str, field: str, value: object, positive: bool) -> str:
+    wanted = "a number above zero" if positive else "a finite number"
+    unit = "radians" if field == "angle" else "metres"
+    return f"{kind}: {field} must be {wanted}, in {unit}, not {value!r}; try {_EXAMPLES[kind]}"
+
+
+@dataclass(frozen=True, slots=True)
+class Circle:
+    """A round obstacle: middle (x, y) and radius, in metres."""
+
+    x: float
+    y: float
+    radius: float
+
+    def __post_init__(self) -> None:
+        _check_numbers(self, positive=("radius",))
+
+    def __str__(self) -> str:
+        return f"circle at ({self.x:.2f}, {self.y:.2f}), radius {self.radius:.2f} m"
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """A rectangular obstacle: middle (x, y), width along its own x axis and height along its own y axis, in
+    metres.
+
+    ``angle`` in radians turns it about its middle, counter-clockwise.
+    """
+
+    x: float
+    y: float
+    width: float
+    height: float
+    angle: float = 0.0
+
+    def __post_init__(self) -> None:
+        _check_numbers(self, positive=("width", "height"))
+
+    def __str__(self) -> str:
+        text = f"box at ({self.x:.2f}, {self.y:.2f}), {self.width:.2f} m by {self.height:.2f} m"
+        if self.angle:
+            text += f", turned by {self.angle:.2f} rad ({math.degrees(self.angle):.0f}°)"
+        return text
+
+
+Obstacle: TypeAlias = Circle | Box
+
+WORLDS: dict[str, tuple[Obstacle, ...]] = {
+    "empty": (),
+    "three pillars": (Circle(8.5, 5.5, 0.4), Circle(3.5, 8.0, 0.5), Circle(4.0, 2.5, 0.6)),
+    "corridor": (Box(5.5, 7.0, 9.0, 0.3), Box(5.5, 4.0, 9.0, 0.3), Circle(9.0, 5.5, 0.3)),
+    "slalom": (Circle(2.0, 5.0, 0.3), Circle(4.0, 6.5, 0.3), Circle(7.0, 5.0, 0.3), Circle(9.0, 6.5, 0.3)),
+    "rooms": (
+        Box(2.0, 7.5, 4.0, 0.2),
+        Box(9.0, 7.5, 4.0, 0.2),
+        Box(7.5, 1.5, 0.2, 3.0),
+        Box(3.0, 2.5, 1.0, 0.6, angle=math.pi / 6),
+        Circle(9.3, 9.3, 0.5),
+    ),
+}
+"""Example worlds by name. All leave the middle, where the turtle starts, free by more than a metre."""
+
+
+def world_named(name: str) -> tuple[Obstacle, ...]:
+    """Return the obstacles of an example world. Raises KeyError, with the names there are, for any other
+    name."""
+    if name in WORLDS:
+        return WORLDS[name]
+    close = difflib.get_close_matches(str(name), WORLDS, n=1)
+    hint = f"; did you mean {close[0]!r}?" if close else ""
+    raise KeyError(f"no world is called {name!r}; there are {', '.join(map(repr, WORLDS))}{hint}")
+
+
+def describe(obstacles: Sequence[Obstacle]) -> str:
+    """Return the obstacles as text, a line each below their number."""
+    if not obstacles:
+        return "no obstacles"
+    count = "1 obstacle" if len(obstacles) == 1 else f"{len(obstacles)} obstacles"
+    return "\n".join(
+        [f"{count}:", *(f"  {number}. {each}" for number, each in enumerate(obstacles, start=1))]
+    )
+
+
+def to_marker_array(obstacles: Iterable[Obstacle], stamp: Any) -> "MarkerArray":
+    """Return a ``visualization_msgs/MarkerArray`` that shows exactly these obstacles.
+
+    Its first marker deletes what was shown before, so that the newest message is the whole truth. Then comes
+    a CYLINDER for each circle and a CUBE for each box, numbered from 0. ``stamp`` is a
+    ``builtin_interfaces/Time``.
+    """
+    from visualization_msgs.msg import Marker, MarkerArray
+
+    wipe = Marker(action=Marker.DELETEALL)
+    wipe.header.frame_id = FRAME
+    wipe.header.stamp = stamp
+    markers = [_to_marker(number, each, stamp) for number, each in enumerate(obstacles)]
+    return MarkerArray(markers=[wipe, *markers])
+
+
+def from_marker_array(message: "MarkerArray") -> tuple[Obstacle, ...]:
+    """Return the obstacles that a ``visualization_msgs/MarkerArray`` shows; the inverse of
+    ``to_marker_array``.
+
+    Markers are taken in their order: DELETEALL forgets all before it, DELETE the one of the same namespace
+    and number. Raises ValueError for a marker that is neither an upright round CYLINDER nor a CUBE.
+    """
+    from visualization_msgs.msg import Marker
+
+    shown: dict[tuple[str, int], Obstacle] = {}
+    for marker in message.markers:
+        key = (marker.ns, marker.id)
+        if marker.action == Marker.DELETEALL:
+            shown.clear()
+        elif marker.action == Marker.DELETE:
+            shown.pop(key, None)
+        else:
+            shown[key] = _from_marker(marker)
+    return tuple(shown.values())
+
+
+def _to_marker(number: int, obstacle: Obstacle, stamp: Any) -> "Marker":
+    from visualization_msgs.msg import Marker
+
+    marker = Marker(ns=NAMESPACE, id=number, action=Marker.ADD)
+    marker.header.frame_id = FRAME
+    marker.header.stamp = stamp
+    marker.pose.position.x = obstacle.x
+    marker.pose.position.y = obstacle.y
+    marker.pose.position.z = MARKER_HEIGHT / 2  # a marker's position is its middle: let it stand on the floor
+    marker.scale.z = MARKER_HEIGHT
+    marker.color.r, marker.color.g, marker.color.b, marker.color.a = COLOUR
+    if isinstance(obstacle, Circle):
+        marker.type = Marker.CYLINDER
+        marker.scale.x = marker.scale.y = 2 * obstacle.radius
+    else:
+        marker.type = Marker.CUBE
+        marker.scale.x, marker.scale.y = obstacle.width, obstacle.height
+        marker.pose.orientation.z = math.sin(obstacle.angle / 2)
+        marker.pose.orientation.w = math.cos(obstacle.angle / 2)
+    return marker
+
+
+def _from_marker(marker: "Marker") -> Obstacle:
+    from visualization_msgs.msg import Marker
+
+    x, y = marker.pose.position.x, marker.pose.position.y
+    width, height = marker.scale.x, marker.scale.y
+    if marker.type == Marker.CUBE:
+        return Box(x, y, width, height, _yaw(marker.pose.orientation))
+    if marker.type == Marker.CYLINDER and width == height:
+        return Circle(x, y, width / 2)
+    raise ValueError(
+        f"marker {marker.id} of namespace {marker.ns!r} is no obstacle: expected type CUBE ({Marker.CUBE}) "
+        f"or CYLINDER ({Marker.CYLINDER}) with scale.x equal to scale.y; "
+        f"it has type {marker.type} and scale ({width}, {height})"
+    )
+
+
+def _yaw(quaternion: Any) -> float:
+    """Return the turn about the z axis, in [-pi, pi], of a quaternion that turns about no other."""
+    yaw = 2 * math.atan2(quaternion.z, quaternion.w)
+    return math.remainder(yaw, 2 * math.pi)

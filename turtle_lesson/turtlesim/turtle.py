@@ -1,0 +1,202 @@
+"""One turtle: how it moves, tick by tick, equal to the turtlesim of ROS 2 Humble.
+
+No ROS in here. The arithmetic is that of ``turtle.cpp`` and ``turtle_frame.cpp``, which the recorded traces
+in ``tests/data/turtlesim`` confirm to the last bit of every float32:
+
+- the state is float64; the world's size, and the numbers that a spawn brings, are float32;
+- y is kept *flipped*, measured down from the upper wall, as on a screen: the warning at a wall shows that
+  number;
+- one tick is 16 ms: first the heading, then the step along the new heading;
+- the heading is kept in [-pi, pi) with a pi of only nine digits, 3.14159265: with the true one four poses of
+  the recorded trace come out different;
+- a command is taken up by the tick that follows it, one a tick and at most seven waiting (the real program
+  looks into its subscription once a tick), and holds until it is older than 1 s: 63 ticks. So 1 m/s moves
+  1.008 m.
+
+Where it differs: a number that is NaN, infinite or absurdly large is refused (the real turtle would be at NaN
+from then on, or beyond what its message can hold).
+"""
+
+import math
+import struct
+from collections import deque
+
+from turtle_lesson.turtlesim.canvas import BARE, CELL, DEFAULT_PEN, Canvas, Colour, cell_at
+
+TICK_MS = 16
+TICK = 0.001 * TICK_MS
+"""Duration of a tick in seconds."""
+
+COMMAND_TICKS = 63
+"""Ticks for which one command moves the turtle: the last one comes 0.992 s after the first."""
+
+QUEUE_DEPTH = 7
+_PI = 3.14159265
+_TWO_PI = 2.0 * _PI
+LARGEST = 1e38
+"""The largest number that is taken for a speed or a place: what comes of it still fits into a float32."""
+
+
+class TurtleError(ValueError):
+    """Something was asked of the world that it cannot do; the text says what, and is what the node logs."""
+
+
+def float32(value: float) -> float:
+    """Round to the precision of a float32, as a message does."""
+    return float(struct.unpack("f", struct.pack("f", value))[0])
+
+
+WIDTH = HEIGHT = float32(499 / 45)
+"""Size of the world in metres, 11.088889: 499 pixels, 45 to the metre."""
+
+
+class Turtle:
+    """One turtle: moving (its command is younger than 1 s) or ``at_rest``.
+
+    Attributes that others read: ``name``; ``x``, ``flipped_y`` (m) and ``theta`` (rad); ``speed`` (m/s, never
+    negative: the length of the velocity) and ``angular`` (rad/s); ``colour``, what its sensor sees;
+    ``at_rest``.
+    """
+
+    __slots__ = (
+        "_cell",
+        "_commands",
+        "_forward",
+        "_sideways",
+        "_teleports",
+        "_ticks_left",
+        "angular",
+        "at_rest",
+        "colour",
+        "flipped_y",
+        "name",
+        "pen",
+        "pen_on",
+        "speed",
+        "theta",
+        "x",
+    )
+
+    def __init__(self, name: str, x: float, flipped_y: float, theta: float) -> None:
+        self.name = name
+        self.x, self.flipped_y, self.theta = x, flipped_y, theta
+        self.pen: Colour = DEFAULT_PEN
+        self.pen_on = True
+        self.colour: Colour = BARE
+        self._cell = cell_at(x, flipped_y)
+        self._commands: deque[tuple[float, float, float]] = deque(maxlen=QUEUE_DEPTH)
+        self._teleports: list[tuple[bool, float, float, float]] = []
+        self._stop()
+        self.at_rest = False  # it may have been spawned beyond a wall
+
+    def __repr__(self) -> str:
+        return f"<Turtle {self.name}: x={self.x:.3f} y={self.y:.3f} theta={self.theta:.3f}>"
+
+    @property
+    def y(self) -> float:
+        """Height above the lower wall in metres, as a pose shows it."""
+        return HEIGHT - self.flipped_y
+
+    def command(self, forward: float, sideways: float = 0.0, angular: float = 0.0) -> None:
+        """Drive, from the next tick on, at these speeds (m/s, m/s to the left, rad/s to the left) for 63
+        ticks.
+
+        Raises TurtleError, and goes on as before, if one of them is not a usable number.
+        """
+        if not (abs(forward) <= LARGEST and abs(sideways) <= LARGEST and abs(angular) <= LARGEST):
+            raise TurtleError(
+                f"Turtle [{self.name}] ignores the velocity command linear.x={forward}, linear.y={sideways}, "
+                f"angular.z={angular}: each must be a finite number; try math.isfinite before publishing"
+            )
+        self._commands.append((forward, sideways, angular))
+        self.at_rest = False
+
+    def teleport_absolute(self, x: float, y: float, theta: float) -> None:
+        """Put the turtle at (x, y), in metres, heading theta, in radians, at the next tick."""
+        self._teleport(False, x, y, theta)
+
+    def teleport_relative(self, linear: float, angular: float) -> None:
+        """Turn the turtle by ``angular`` radians, then move it ``linear`` metres ahead, at the next tick."""
+        self._teleport(True, linear, 0.0, angular)
+
+    def set_pen(self, colour: Colour, off: bool = False) -> None:
+        """Lift the pen, or put it down with this colour."""
+        self.pen_on = not off
+        if not off:
+            self.pen = colour
+
+    def tick(self, canvas: Canvas) -> tuple[float, float] | None:
+        """Move on by 16 ms. Returns where it would be, as (x, flipped y), had a wall not held it up."""
+        if self.at_rest:
+            self.colour = canvas.cells.get(self._cell, BARE)
+            return None
+        if self._teleports:
+            self._carry_out_teleports(canvas)
+        self.colour = canvas.cells.get(self._cell, BARE)
+        if self._commands:
+            self._take_command()
+        if self._ticks_left:
+            self._ticks_left -= 1
+        else:
+            self._stop()
+        return self._move(canvas)
+
+    def _move(self, canvas: Canvas) -> tuple[float, float] | None:
+        theta = self.theta + self.angular * TICK
+        if not -3.14 < theta < 3.14:  # in between, the formula changes nothing
+            theta -= _TWO_PI * math.floor((theta + _PI) / _TWO_PI)
+        self.theta = theta
+        cos, sin = math.cos(theta), math.sin(theta)
+        forward, sideways = self._forward, self._sideways
+        x = self.x + (cos * forward * TICK - sin * sideways * TICK)
+        y = self.flipped_y - (cos * sideways * TICK + sin * forward * TICK)
+        wall = None
+        if not (0.0 <= x <= WIDTH and 0.0 <= y <= HEIGHT):
+            wall = (x, y)
+            x, y = min(max(x, 0.0), WIDTH), min(max(y, 0.0), HEIGHT)
+        if x != self.x or y != self.flipped_y:
+            self._step_to(x, y, canvas)
+        return wall
+
+    def _step_to(self, x: float, y: float, canvas: Canvas) -> None:
+        self._cell = cell_at(x, y)
+        if self.pen_on:
+            if (
+                self.speed * TICK < CELL
+            ):  # the usual case, and worth a short cut: the end touches the last one
+                canvas.cells[self._cell] = self.pen
+            else:
+                canvas.draw((self.x, self.flipped_y), (x, y), self.pen)
+        self.x, self.flipped_y = x, y
+
+    def _take_command(self) -> None:
+        self._forward, self._sideways, self.angular = self._commands.popleft()
+        self.speed = math.sqrt(self._forward * self._forward + self._sideways * self._sideways)
+        self._ticks_left = COMMAND_TICKS
+
+    def _stop(self) -> None:
+        self._forward = self._sideways = self.speed = self.angular = 0.0
+        self._ticks_left = 0
+        self.at_rest = True
+
+    def _teleport(self, relative: bool, x: float, y: float, theta: float) -> None:
+        if not (abs(x) <= LARGEST and abs(y) <= LARGEST and abs(theta) <= LARGEST):
+            raise TurtleError(
+                f"Turtle [{self.name}] stays where it is: each number of a teleport must be finite"
+            )
+        self._teleports.append((relative, x, y, theta))
+        self.at_rest = False
+
+    def _carry_out_teleports(self, canvas: Canvas) -> None:
+        for relative, x, y, theta in self._teleports:
+            start = (self.x, self.flipped_y)
+            if relative:
+                self.theta += theta
+                self.x += math.cos(self.theta) * x
+                self.flipped_y -= math.sin(self.theta) * x
+            else:
+                self.x, self.flipped_y, self.theta = x, max(0.0, HEIGHT - y), theta
+            if self.pen_on:
+                canvas.draw(start, (self.x, self.flipped_y), self.pen)
+        self._teleports.clear()
+        self._cell = cell_at(self.x, self.flipped_y)
