@@ -1,4 +1,4 @@
-"""Loads the package's node files as modules. They are programs, not a Python package, so they are found by path."""
+"""Loads the package's node files as modules: they are programs, not a Python package, so by their path."""
 
 import importlib.util
 import sys

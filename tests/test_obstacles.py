@@ -21,15 +21,12 @@ from turtle_lesson.turtlesim.obstacles import (
 )
 from turtle_lesson.turtlesim.world import HEIGHT, WIDTH
 
+# isort: split
+# Importing turtle_lesson made the message packages importable.
+from builtin_interfaces.msg import Time
+from visualization_msgs.msg import Marker
+
 MIDDLE = (WIDTH / 2, HEIGHT / 2)
-
-
-@pytest.fixture(scope="module")
-def messages() -> None:
-    """Message packages can be imported from now on."""
-    from turtle_lesson.ros.interfaces import finder
-
-    finder.install()
 
 
 def distance_to(obstacle: Obstacle, x: float, y: float) -> float:
@@ -42,9 +39,7 @@ def distance_to(obstacle: Obstacle, x: float, y: float) -> float:
     return math.hypot(max(along - obstacle.width / 2, 0), max(across - obstacle.height / 2, 0))
 
 
-def stamp(sec: int = 12, nanosec: int = 34) -> object:
-    from builtin_interfaces.msg import Time
-
+def stamp(sec: int = 12, nanosec: int = 34) -> Time:
     return Time(sec=sec, nanosec=nanosec)
 
 
@@ -127,10 +122,7 @@ def test_an_unknown_world_is_refused_with_the_names_there_are() -> None:
 # ---------------------------------------------------------------- as a message
 
 
-@pytest.mark.usefixtures("messages")
 def test_the_message_wipes_first_and_then_shows_each_obstacle_standing_on_the_floor() -> None:
-    from visualization_msgs.msg import Marker
-
     wipe, pillar, wall = to_marker_array(
         [Circle(3, 4, 0.5), Box(1, 2, 2, 0.25, math.pi / 2)], stamp()
     ).markers
@@ -148,7 +140,6 @@ def test_the_message_wipes_first_and_then_shows_each_obstacle_standing_on_the_fl
     assert (wall.color.r, wall.color.g, wall.color.b, wall.color.a) == pytest.approx(COLOUR)
 
 
-@pytest.mark.usefixtures("messages")
 def test_no_obstacles_are_a_message_too() -> None:
     message = to_marker_array((), stamp())
     assert len(message.markers) == 1
@@ -162,7 +153,6 @@ obstacle = st.builds(Circle, numbers, numbers, sizes) | st.builds(
 )
 
 
-@pytest.mark.usefixtures("messages")
 @given(st.lists(obstacle, max_size=5))
 def test_obstacles_come_back_from_their_message(obstacles: list[Obstacle]) -> None:
     came = from_marker_array(to_marker_array(obstacles, stamp()))
@@ -171,20 +161,14 @@ def test_obstacles_come_back_from_their_message(obstacles: list[Obstacle]) -> No
         assert dataclasses.astuple(after) == pytest.approx(dataclasses.astuple(before), abs=1e-12)
 
 
-@pytest.mark.usefixtures("messages")
 def test_a_marker_can_be_deleted_or_replaced_within_a_message() -> None:
-    from visualization_msgs.msg import Marker
-
     message = to_marker_array([Circle(1, 1, 1), Circle(2, 2, 1), Circle(3, 3, 1)], stamp())
     moved = to_marker_array([Circle(9, 9, 1)], stamp()).markers[1]
     message.markers.extend([Marker(ns="obstacles", id=1, action=Marker.DELETE), moved])
     assert from_marker_array(message) == (Circle(9, 9, 1), Circle(3, 3, 1))
 
 
-@pytest.mark.usefixtures("messages")
 def test_a_marker_that_is_no_obstacle_is_refused_with_what_was_expected() -> None:
-    from visualization_msgs.msg import Marker
-
     message = to_marker_array([Circle(1, 1, 1)], stamp())
     message.markers[1].type = Marker.SPHERE
     with pytest.raises(

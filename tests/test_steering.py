@@ -1,7 +1,7 @@
 """The navigator's control law, driving a little model of the turtle: no ROS, no clock.
 
-The model moves as turtlesim does, heading first, in steps of 16 ms, between the same walls. It gets a command ten
-times a second, and each takes effect after a delay.
+The model moves as turtlesim does, heading first, in steps of 16 ms, between the same walls. It gets a command
+ten times a second, and each takes effect after a delay.
 """
 
 import math
@@ -59,7 +59,7 @@ def place(x, y, theta=0.0):
 
 
 def drive(turtle, goal, limits=USUAL, longest=60.0):
-    """Steer as the node does: until the law says THERE and the turtle, at rest, is found within the tolerances.
+    """Steer as the node does: until the law says THERE and the turtle, at rest, is within the tolerances.
 
     Returns the commands that moved it.
     """
@@ -77,7 +77,7 @@ def drive(turtle, goal, limits=USUAL, longest=60.0):
 
 
 def longest_time(turtle, goal, limits):
-    """A generous bound: the way and two half turns at full speed, and 2 s for each of the three gentle ends."""
+    """A generous bound: the way and two half turns at full speed, and 2 s for each of three gentle ends."""
     distance, _ = navigator.errors(turtle, goal)
     return 1.1 * distance / limits.linear_speed + math.tau / limits.angular_speed + 6.0
 
@@ -93,8 +93,8 @@ places = st.builds(place, coordinates, coordinates, headings)
 @example(start=place(MIDDLE, MIDDLE, -math.pi), goal=place(1.0, MIDDLE, -math.pi), delay=0.016)
 @example(start=place(MIDDLE, MIDDLE, 3.0), goal=place(1.0, MIDDLE - 0.5, -3.0), delay=0.016)
 @example(start=place(MIDDLE, MIDDLE, 0.0), goal=place(1.0, MIDDLE, 0.0), delay=0.016)  # straight behind
-@example(start=place(0.0, 0.0, math.pi), goal=place(WORLD, WORLD, math.pi), delay=0.1)  # from corner to corner
-@example(start=place(1.0, 1.0, 0.0), goal=place(1.0, 7.0, 2.0), delay=0.1)  # once swung for ever between two ways round
+@example(start=place(0.0, 0.0, math.pi), goal=place(WORLD, WORLD, math.pi), delay=0.1)  # corner to corner
+@example(start=place(1.0, 1.0, 0.0), goal=place(1.0, 7.0, 2.0), delay=0.1)  # once swung to and fro for ever
 @example(start=place(MIDDLE, WORLD, 0.0), goal=place(MIDDLE + 0.3, WORLD, 0.0), delay=0.0)  # along a wall
 def test_every_goal_is_reached_from_everywhere_in_bounded_time(start, goal, delay):
     turtle = Turtle(start.x, start.y, start.theta, delay)
@@ -168,8 +168,8 @@ def test_a_turtle_that_is_carried_away_while_aligning_drives_again():
 
 
 def test_across_due_west_it_turns_the_short_way():
-    goal = place(0.0, 4.9, 0.0)
-    command = navigator.steer(place(5.0, 5.0, 3.1), goal, USUAL)  # the bearing is -3.12: 0.06 rad on, not 6.2 back
+    goal = place(0.0, 4.9, 0.0)  # its bearing is -3.12: 0.06 rad on, not 6.2 back
+    command = navigator.steer(place(5.0, 5.0, 3.1), goal, USUAL)
     assert command.phase is Phase.DRIVE and 0.0 < command.angular < 0.5
 
 

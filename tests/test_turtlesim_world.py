@@ -156,7 +156,8 @@ def test_one_command_of_a_metre_a_second_moves_the_turtle_a_little_more_than_a_m
     world.turtles["turtle1"].command(1.0)
     assert drive(world, 63).speed == 1.0
     turtle = drive(world, 1)
-    assert (turtle.speed, turtle.at_rest) == (0.0, True)
+    assert (turtle.speed, turtle.at_rest) == (0.0, False)
+    assert drive(world, 1).at_rest
     assert turtle.x - START[0] == pytest.approx(1.008)
 
 

@@ -14,10 +14,12 @@ DEPTH = 1000
 
 
 class Channel:
-    """Follows one topic of one type. `make_listener` is given the message class and returns the two-argument callback.
+    """Follows one topic of one type. `make_listener` is given the message class and returns the two-argument
+    callback.
 
-    With `driven`, it subscribes while somebody else subscribes (a topic that drives a machine); otherwise while
-    somebody publishes. `latched` asks for the last message from before, too. `remedy` is what to try in silence.
+    With `driven`, it subscribes while somebody else subscribes (a topic that drives a machine); otherwise
+    while somebody publishes. `latched` asks for the last message from before, too. `remedy` is what to try in
+    silence.
     """
 
     def __init__(
@@ -43,7 +45,9 @@ class Channel:
         self._count = -1
 
     def __repr__(self) -> str:
-        return f"<Channel {self.topic} [{self.type_name}], {'listening' if self._subscription else 'waiting'}>"
+        return (
+            f"<Channel {self.topic} [{self.type_name}], {'listening' if self._subscription else 'waiting'}>"
+        )
 
     def glance(self) -> None:
         """Follow, if the number of ends has changed since the last time: a cheap look, made often."""
@@ -86,10 +90,14 @@ class Channel:
     def _wanted(self) -> bool:
         """Whether somebody else is there at the other end (or, of a driven topic, at this end)."""
         if not self.driven:
-            return any(end.topic_type == self.type_name for end in self.node.get_publishers_info_by_topic(self.topic))
+            return any(
+                end.topic_type == self.type_name for end in self.node.get_publishers_info_by_topic(self.topic)
+            )
         me = (self.node.get_name(), self.node.get_namespace())
         ends = self.node.get_subscriptions_info_by_topic(self.topic)
-        return any(end.topic_type == self.type_name and (end.node_name, end.node_namespace) != me for end in ends)
+        return any(
+            end.topic_type == self.type_name and (end.node_name, end.node_namespace) != me for end in ends
+        )
 
     def _find_message_type(self) -> Any:
         """The message class, or None if it cannot be imported (a package that is not built and sourced)."""
@@ -102,7 +110,9 @@ class Channel:
     def _open(self, message_type: Any) -> None:
         self._message_type = message_type
         listener = with_time(self.node, self._make_listener(message_type))
-        self._subscription = self.node.create_subscription(message_type, self.topic, listener, self._quality())
+        self._subscription = self.node.create_subscription(
+            message_type, self.topic, listener, self._quality()
+        )
 
     def _quality(self) -> Any:
         """Best effort matches every publisher; only a latched topic has to be reliable to give its past."""
@@ -114,7 +124,8 @@ class Channel:
 
 
 def with_time(node: Any, listener: Listener) -> Callable[..., None]:
-    """A callback with the message's time for any rclpy: since Iron it gives message information, Humble's does not.
+    """A callback with the message's time for any rclpy: since Iron it gives message information, Humble's
+    does not.
 
     Reading the node's clock instead costs more, and tells when a message was handled, not when it was sent.
     """

@@ -40,7 +40,9 @@ def plot_graph(node: Any) -> GraphPicture:
     """
     nodes = read_system(node)
     if not nodes:
-        return GraphPicture("No node is running. Start some: ros2 run turtlesim turtlesim_node, or lesson.launch(…).")
+        return GraphPicture(
+            "No node is running. Start some: ros2 run turtlesim turtlesim_node, or lesson.launch(…)."
+        )
     text = describe(nodes)
     return GraphPicture(text, flowchart(nodes, _summary(nodes), text))
 

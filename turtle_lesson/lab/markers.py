@@ -15,7 +15,8 @@ DELETE, DELETEALL = 2, 3
 def apply(message: Any, obstacles: dict[tuple[str, int], Obstacle]) -> None:
     """Bring `obstacles` up to date with a MarkerArray: markers add, change and delete, one after the other.
 
-    A marker is known by its namespace and number. Shapes that no turtle could run into (text, arrows, …) are left out.
+    A marker is known by its namespace and number. Shapes that no turtle could run into (text, arrows, …) are
+    left out.
     """
     for marker in message.markers:
         key = (marker.ns, marker.id)

@@ -1,7 +1,8 @@
-"""The ROS graph as a Mermaid flowchart: rounded boxes are nodes, boxes topics, hexagons services.
+"""The ROS graph as a Mermaid flowchart: boxes with round ends are nodes, boxes topics, boxes with double
+sides services.
 
-Mermaid's language: https://mermaid.js.org/syntax/flowchart.html. Names stand in quotes, and everything in them that
-is no plain letter as a character code, so that no name can be taken for Mermaid's own words.
+Mermaid's language: https://mermaid.js.org/syntax/flowchart.html. Names stand in quotes, and everything in
+them that is no plain letter as a character code, so that no name can be taken for Mermaid's own words.
 """
 
 from __future__ import annotations
@@ -10,20 +11,25 @@ import re
 
 from .system import Ends, NodeView, services_of, topics_of
 
+SETTINGS = '%%{init: {"flowchart": {"nodeSpacing": 22, "rankSpacing": 32, "padding": 9}}}%%'
+"""Closer together than Mermaid's own 50 and 50, so that a system of four nodes is legible in a narrow window."""
+
 COLOURS = (
-    "classDef node fill:#cfe6f5,stroke:#0072B2,stroke-width:1.5px,color:#10222e",
-    "classDef topic fill:#fcfcfa,stroke:#8a8f96,color:#24292f",
-    "classDef service fill:#fbe6bd,stroke:#a86f00,color:#2e2410",
+    "classDef rosnode fill:#cfe6f5,stroke:#0072B2,stroke-width:1.5px,color:#10222e,font-size:14px",
+    "classDef rostopic fill:#fcfcfa,stroke:#8a8f96,color:#24292f,font-size:14px",
+    "classDef rosservice fill:#fbe6bd,stroke:#a86f00,color:#2e2410,font-size:14px",
 )
 """Fill, edge and text of each kind, all three given, so that a dark page shows them as a light one does."""
 
 
 def flowchart(nodes: list[NodeView], title: str, description: str) -> str:
     """Return the Mermaid text for these nodes; `title` and `description` are for a reader who cannot see it."""
-    lines = ["flowchart LR", f"accTitle: {_plain(title)}", f"accDescr: {_plain(description)}"]
-    lines += [f'n{number}("{_label(_counted(node))}"):::node' for number, node in enumerate(nodes)]
+    lines = [SETTINGS, "flowchart TD", f"accTitle: {_plain(title)}", f"accDescr: {_plain(description)}"]
+    lines += [f'n{number}(["{_label(_counted(node))}"]):::rosnode' for number, node in enumerate(nodes)]
     topics = topics_of(nodes)
-    lines += [f'{_id("t", topics, topic)}["{_label(topic, *types)}"]:::topic' for topic, types in topics.items()]
+    lines += [
+        f'{_id("t", topics, topic)}["{_label(topic, *types)}"]:::rostopic' for topic, types in topics.items()
+    ]
     for number, node in enumerate(nodes):
         lines += [f"n{number} --> {_id('t', topics, topic)}" for topic in node.publishes]
         lines += [f"{_id('t', topics, topic)} --> n{number}" for topic in node.hears]
@@ -37,12 +43,14 @@ def _services(nodes: list[NodeView]) -> list[str]:
     services = services_of(nodes)
     called = {service for node in nodes for service in node.calls}
     for service in sorted(called):
-        lines.append(f'{_id("s", services, service)}{{{{"{_label(service, *services[service])}"}}}}:::service')
+        lines.append(f'{_id("s", services, service)}[["{_label(service, *services[service])}"]]:::rosservice')
     for number, node in enumerate(nodes):
         lines += [f"n{number} -.-> {_id('s', services, service)}" for service in node.calls]
-        lines += [f"{_id('s', services, service)} -.-> n{number}" for service in node.offers if service in called]
+        lines += [
+            f"{_id('s', services, service)} -.-> n{number}" for service in node.offers if service in called
+        ]
         if waiting := [service for service in node.offers if service not in called]:
-            lines.append(f'w{number}{{{{"{_waiting_label(node, waiting)}"}}}}:::service')
+            lines.append(f'w{number}[["{_waiting_label(node, waiting)}"]]:::rosservice')
             lines.append(f"w{number} -.-> n{number}")
     return lines
 

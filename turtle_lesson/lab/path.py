@@ -24,11 +24,13 @@ SLACK = 0.05
 """A step longer than the speed explains by this much (m) is a jump: the turtle was put somewhere else."""
 
 
-def plot_path(recording: Recording, *, goal: Any = None, since: float | None = None, until: float | None = None) -> Picture:
+def plot_path(
+    recording: Recording, *, goal: Any = None, since: float | None = None, until: float | None = None
+) -> Picture:
     """Return the turtle's path as a Picture, from `since` to `until` (seconds since the lesson's start).
 
-    `goal` marks one goal (x, y) or (x, y, theta) in metres and radians, or a list of them; raises ValueError for
-    anything else. Without a pose, the Picture says why.
+    `goal` marks one goal (x, y) or (x, y, theta) in metres and radians, or a list of them; raises ValueError
+    for anything else. Without a pose, the Picture says why.
     """
     goals = read_goals(goal)
     poses = recording.window(recording.poses, since, until)
@@ -38,7 +40,12 @@ def plot_path(recording: Recording, *, goal: Any = None, since: float | None = N
     jumps = find_jumps(poses)
     driven = distance_driven(poses, jumps)
     obstacles = list(recording.obstacles.values())
-    sentences = [_journey(recording, poses, driven), _jumped(jumps), _at_wall(poses[-1]), _commanded(recording, commands)]
+    sentences = [
+        _journey(recording, poses, driven),
+        _jumped(jumps),
+        _at_wall(poses[-1]),
+        _commanded(recording, commands),
+    ]
     sentences += [_to_goal(each, poses[-1]) for each in goals]
     sentences.append(_standing(obstacles))
     with style.applied():
@@ -121,11 +128,20 @@ def _standing(obstacles: list[Obstacle]) -> str:
 
 
 def _draw(
-    recording: Recording, poses: np.ndarray, jumps: np.ndarray, driven: float, goals: list[Goal], obstacles: list[Obstacle]
+    recording: Recording,
+    poses: np.ndarray,
+    jumps: np.ndarray,
+    driven: float,
+    goals: list[Goal],
+    obstacles: list[Obstacle],
 ) -> Any:
     figure = style.card(5.3, 5.6)
     begin, end = (number(recording.seconds(pose["stamp"]), 1) for pose in (poses[0], poses[-1]))
-    style.heading(figure, f"Path of {recording.turtle}", f"{begin} s to {end} s of robot time  ·  {number(driven)} m driven")
+    style.heading(
+        figure,
+        f"Path of {recording.turtle}",
+        f"{begin} s to {end} s of robot time  ·  {number(driven)} m driven",
+    )
     axes = style.axes_at(figure, 0.55, 0.5, 4.5, 4.5)
     _draw_world(axes)
     draw_obstacles(axes, obstacles)
@@ -165,7 +181,10 @@ def _draw_trail(axes: Axes, poses: np.ndarray, jumps: np.ndarray) -> None:
     if kept.any():
         ages = np.linspace(0.0, 1.0, len(pieces))[kept]
         axes.add_collection(
-            LineCollection(list(pieces[kept]), colors=shades(ages), linewidths=2.2, capstyle="round", zorder=3), autolim=False
+            LineCollection(
+                list(pieces[kept]), colors=shades(ages), linewidths=2.2, capstyle="round", zorder=3
+            ),
+            autolim=False,
         )
         _draw_chevrons(axes, pieces[kept])
     _draw_start(axes, places)
@@ -194,7 +213,9 @@ def _draw_chevrons(axes: Axes, pieces: np.ndarray, size: float = 0.15) -> None:
         across = np.array([-along[1], along[0]])
         tip = pieces[mark, 1] + along / 2
         heads.append([tip - along + across * 0.8, tip, tip - along - across * 0.8])
-    axes.add_collection(LineCollection(heads, colors=style.BLUE, linewidths=1.6, capstyle="round", zorder=3.2), autolim=False)
+    axes.add_collection(
+        LineCollection(heads, colors=style.BLUE, linewidths=1.6, capstyle="round", zorder=3.2), autolim=False
+    )
 
 
 def _draw_start(axes: Axes, places: np.ndarray) -> None:

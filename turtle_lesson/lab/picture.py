@@ -20,10 +20,11 @@ SHARPNESS = 2
 
 
 class Picture:
-    """A figure and its exact text. Shown in a notebook it is the figure; printed, or read aloud, it is the text.
+    """A figure and its exact text. Shown in a notebook it is the figure; printed, or read aloud, it is the
+    text.
 
-    `text` is one paragraph. `figure` is a matplotlib Figure, or None where there was nothing to draw: then the text
-    says what is missing and what to try.
+    `text` is one paragraph. `figure` is a matplotlib Figure, or None where there was nothing to draw: then
+    the text says what is missing and what to try.
     """
 
     def __init__(self, text: str, figure: Figure | None = None) -> None:

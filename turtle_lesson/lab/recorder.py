@@ -1,8 +1,9 @@
-"""The recorder: a node's ears. It hears a turtle's topics, and whatever the lab knows of the system it knows from here.
+"""The recorder: a node's ears. It hears a turtle's topics, and whatever the lab knows of the system it knows
+from here.
 
-It must not be seen: a subscription makes a topic appear in `ros2 topic list`, and lets a waiting publisher start. So
-it follows others, and only subscribes to a topic while somebody else publishes it (to `cmd_vel`: while a simulator
-listens to it).
+It must not be seen: a subscription makes a topic appear in `ros2 topic list`, and lets a waiting publisher
+start. So it follows others, and only subscribes to a topic while somebody else publishes it (to `cmd_vel`:
+while a simulator listens to it).
 """
 
 from __future__ import annotations
@@ -27,7 +28,9 @@ class Recorder(Recording):
     `origin` (ns) is the moment that plots call 0 s; without it, that is now on the node's clock.
     """
 
-    def __init__(self, node: Any, *, turtle: str = "turtle1", origin: int | None = None, limit: int = LIMIT) -> None:
+    def __init__(
+        self, node: Any, *, turtle: str = "turtle1", origin: int | None = None, limit: int = LIMIT
+    ) -> None:
         if origin is None:
             origin = node.get_clock().now().nanoseconds
         super().__init__(turtle=turtle, origin=origin, limit=limit)
@@ -63,11 +66,25 @@ class Recorder(Recording):
         poses = self.poses.listener("x", "y", "theta", "linear_velocity")
         channels = (
             Channel(node, self.pose_topic, POSE_TYPE, lambda _: poses, _START_SIMULATOR),
-            Channel(node, self.command_topic, "geometry_msgs/msg/Twist", lambda _: commands, _START_NAVIGATOR, driven=True),
-            Channel(node, STATUS_TOPIC, STATUS_TYPE, self._status_listener, _START_MONITOR),
-            Channel(node, SCAN_TOPIC, "sensor_msgs/msg/LaserScan", lambda _: self._hear_scan, _START_DETECTOR),
             Channel(
-                node, OBSTACLE_TOPIC, "visualization_msgs/msg/MarkerArray", lambda _: self._hear_markers, _START_SIMULATOR, latched=True
+                node,
+                self.command_topic,
+                "geometry_msgs/msg/Twist",
+                lambda _: commands,
+                _START_NAVIGATOR,
+                driven=True,
+            ),
+            Channel(node, STATUS_TOPIC, STATUS_TYPE, self._status_listener, _START_MONITOR),
+            Channel(
+                node, SCAN_TOPIC, "sensor_msgs/msg/LaserScan", lambda _: self._hear_scan, _START_DETECTOR
+            ),
+            Channel(
+                node,
+                OBSTACLE_TOPIC,
+                "visualization_msgs/msg/MarkerArray",
+                lambda _: self._hear_markers,
+                _START_SIMULATOR,
+                latched=True,
             ),
         )
         return {channel.topic: channel for channel in channels}
@@ -91,7 +108,9 @@ class Recorder(Recording):
         return node.create_subscription(event, "/parameter_events", look, 100)
 
 
-_START_SIMULATOR = "Is the simulator running? Try lesson = start(simulator=True), or: ros2 run turtlesim turtlesim_node"
+_START_SIMULATOR = (
+    "Is the simulator running? Try lesson = start(simulator=True), or: ros2 run turtlesim turtlesim_node"
+)
 _START_NAVIGATOR = "Try: ros2 run robot_controller navigator"
 _START_MONITOR = 'Try lesson.launch("robot_controller", "start_system.launch.py"), or: ros2 run robot_controller status_monitor'
 _START_DETECTOR = 'Try lesson.launch("robot_controller", "start_system.launch.py"), or: ros2 run robot_controller obstacle_detector'

@@ -78,4 +78,6 @@ class Recording:
         try:
             return self.origin + round(seconds * NANOSECONDS)
         except (TypeError, ValueError, OverflowError):
-            raise ValueError(f"{name} is a time in seconds since the lesson's start, such as {name}=10.0; got {seconds!r}") from None
+            raise ValueError(
+                f"{name} is a time in seconds since the lesson's start, such as {name}=10.0; got {seconds!r}"
+            ) from None

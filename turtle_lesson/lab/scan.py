@@ -25,8 +25,8 @@ SIDE = math.radians(30)
 class Beams:
     """A scan's beams: their angles (rad, positive to the left), ranges (m), and which of them see something.
 
-    As sensor_msgs/msg/LaserScan says, a range below its minimum or above its maximum, or none at all, is to be
-    discarded; one at the maximum itself is what a detector that sees nothing reports.
+    As sensor_msgs/msg/LaserScan says, a range below its minimum or above its maximum, or none at all, is to
+    be discarded; one at the maximum itself is what a detector that sees nothing reports.
     """
 
     angles: np.ndarray
@@ -85,7 +85,11 @@ def _counted(beams: Beams) -> str:
     seen, amount = int(beams.sees.sum()), len(beams.ranges)
     if amount and seen == amount:
         return "All of them see something."
-    return f"{count(seen, 'beam').capitalize()} of {amount} {'sees' if seen < 2 else 'see'} something." if amount else ""
+    return (
+        f"{count(seen, 'beam').capitalize()} of {amount} {'sees' if seen < 2 else 'see'} something."
+        if amount
+        else ""
+    )
 
 
 def _agreement(beams: Beams) -> str:
@@ -97,7 +101,10 @@ def _agreement(beams: Beams) -> str:
 def _nearest(beams: Beams) -> str:
     if not beams.sees.any():
         return ""
-    parts = [f"{name} {number(beams.ranges[best])} m at {angle(beams.angles[best])}" for name, best in _sectors(beams)]
+    parts = [
+        f"{name} {number(beams.ranges[best])} m at {angle(beams.angles[best])}"
+        for name, best in _sectors(beams)
+    ]
     best = nearest_beam(beams)
     return f"The nearest is {number(beams.ranges[best])} m away at {angle(beams.angles[best])}. Nearest by side: {'; '.join(parts)}."
 
@@ -118,7 +125,9 @@ def _sectors(beams: Beams) -> list[tuple[str, int]]:
         "left": (turn > SIDE) & ~behind,
         "behind": behind,
     }
-    return [(name, nearest_beam(beams, among)) for name, among in sectors.items() if (beams.sees & among).any()]
+    return [
+        (name, nearest_beam(beams, among)) for name, among in sectors.items() if (beams.sees & among).any()
+    ]
 
 
 # -- as a picture ------------------------------------------------------------------------------------------------
@@ -135,8 +144,14 @@ def _draw(beams: Beams, second: float) -> Any:
     figures = f"{seen} of {len(beams.ranges)} beams see something"
     if seen:
         best = nearest_beam(beams)
-        figures += f", the nearest at {number(beams.ranges[best])} m, {number(math.degrees(beams.angles[best]), 0)}°"
-    style.heading(figure, "What the obstacle detector sees", f"{SCAN_TOPIC} at {number(second, 1)} s of robot time  ·  {figures}")
+        figures += (
+            f", the nearest at {number(beams.ranges[best])} m, {number(math.degrees(beams.angles[best]), 0)}°"
+        )
+    style.heading(
+        figure,
+        "What the obstacle detector sees",
+        f"{SCAN_TOPIC} at {number(second, 1)} s of robot time  ·  {figures}",
+    )
     axes = style.axes_at(figure, 0.25, 0.12, width, height)
     axes.set(xlim=(-side * reach, side * reach), ylim=(low * reach, high * reach), aspect="equal")
     axes.axis("off")
@@ -164,7 +179,12 @@ def _draw_rings(axes: Axes, reach: float, side: float) -> None:
     arc = np.linspace(-side, side, 181)
     axes.fill(*_polar(arc, np.full(181, reach)), color=style.CARD, zorder=0)
     for ring in np.append(np.arange(step, reach - 0.3 * step, step), reach):
-        axes.plot(*_polar(arc, np.full(181, ring)), color=style.CARD_EDGE if ring < reach else style.GREY, linewidth=0.8, zorder=2)
+        axes.plot(
+            *_polar(arc, np.full(181, ring)),
+            color=style.CARD_EDGE if ring < reach else style.GREY,
+            linewidth=0.8,
+            zorder=2,
+        )
         _label(axes, 0.0, ring, f"{ring:g} m")
     for degrees in range(-90, 91, 30) if side < 3 else range(-180, 180, 30):
         turn = math.radians(degrees)
@@ -175,7 +195,16 @@ def _draw_rings(axes: Axes, reach: float, side: float) -> None:
 
 def _label(axes: Axes, turn: float, ring: float, text: str) -> None:
     box = {"boxstyle": "round,pad=0.12", "facecolor": style.CARD, "edgecolor": "none", "alpha": 0.85}
-    axes.text(*_polar(turn, ring), text, fontsize=7.5, color=style.GREY, ha="center", va="center", bbox=box, zorder=4)
+    axes.text(
+        *_polar(turn, ring),
+        text,
+        fontsize=7.5,
+        color=style.GREY,
+        ha="center",
+        va="center",
+        bbox=box,
+        zorder=4,
+    )
 
 
 def _label_angle(axes: Axes, turn: float, reach: float) -> None:
@@ -195,12 +224,31 @@ def _draw_beams(axes: Axes, beams: Beams, reach: float) -> None:
     xs, ys = _polar(beams.angles, ends)
     axes.fill(np.append(xs, 0.0), np.append(ys, 0.0), color="#dceefa", linewidth=0, zorder=1.5)
     rays = np.stack([np.column_stack([0.04 * xs, 0.04 * ys]), np.column_stack([xs, ys])], axis=1)
-    axes.add_collection(LineCollection(list(rays), colors="#bfe0f5", linewidths=0.5, zorder=1.6), autolim=False)
+    axes.add_collection(
+        LineCollection(list(rays), colors="#bfe0f5", linewidths=0.5, zorder=1.6), autolim=False
+    )
     if not beams.sees.any():
         return
-    axes.plot(xs[beams.sees], ys[beams.sees], "o", markersize=3.4, color=style.VERMILLION, markeredgewidth=0, zorder=6)
+    axes.plot(
+        xs[beams.sees],
+        ys[beams.sees],
+        "o",
+        markersize=3.4,
+        color=style.VERMILLION,
+        markeredgewidth=0,
+        zorder=6,
+    )
     best = nearest_beam(beams)
-    axes.plot(xs[best], ys[best], "o", markersize=10, markerfacecolor="none", markeredgecolor=style.INK, markeredgewidth=1.2, zorder=7)
+    axes.plot(
+        xs[best],
+        ys[best],
+        "o",
+        markersize=10,
+        markerfacecolor="none",
+        markeredgecolor=style.INK,
+        markeredgewidth=1.2,
+        zorder=7,
+    )
 
 
 def _nice_step(reach: float) -> float:

@@ -18,7 +18,8 @@ if TYPE_CHECKING:
 
 
 def plot_status(recording: Recording, *, since: float | None = None, until: float | None = None) -> Picture:
-    """Return what came on /robot/status as a Picture, from `since` to `until` (seconds since the lesson's start).
+    """Return what came on /robot/status as a Picture, from `since` to `until` (seconds since the lesson's
+    start).
 
     Without a message, the Picture says why.
     """
@@ -68,7 +69,9 @@ def _draw(seconds: np.ndarray, rows: np.ndarray) -> Any:
     )
     panels: list[Axes] = []
     for row in range(4):
-        panel = style.axes_at(figure, 0.95, 3.56 - 1.02 * row, 4.75, 0.82, sharex=panels[0] if panels else None)
+        panel = style.axes_at(
+            figure, 0.95, 3.56 - 1.02 * row, 4.75, 0.82, sharex=panels[0] if panels else None
+        )
         panel.tick_params(labelbottom=row == 3)
         panels.append(panel)
     _draw_position(panels[0], seconds, rows)
@@ -97,7 +100,11 @@ def _draw_heading(panel: Axes, seconds: np.ndarray, theta: np.ndarray) -> None:
     panel.grid(which="minor")
     degrees = panel.twinx()
     degrees.set_ylim(panel.get_ylim())
-    degrees.set_yticks([-math.pi, -math.pi / 2, 0, math.pi / 2, math.pi], ["−180°", "−90°", "0°", "90°", "180°"], fontsize=7.5)
+    degrees.set_yticks(
+        [-math.pi, -math.pi / 2, 0, math.pi / 2, math.pi],
+        ["−180°", "−90°", "0°", "90°", "180°"],
+        fontsize=7.5,
+    )
     degrees.grid(False)
     panel.tick_params(which="minor", length=0)
 
@@ -106,7 +113,11 @@ def _draw_velocity(panel: Axes, seconds: np.ndarray, rows: np.ndarray) -> None:
     panel.set_ylabel("velocity\nin m/s")
     speed = np.hypot(rows["vel_x"], rows["vel_y"])
     panel.fill_between(seconds, 0, speed, color=style.LINE, linewidth=0)
-    lines = {"x": (rows["vel_x"], style.BLUE), "y": (rows["vel_y"], style.VERMILLION), "speed": (speed, style.GREY)}
+    lines = {
+        "x": (rows["vel_x"], style.BLUE),
+        "y": (rows["vel_y"], style.VERMILLION),
+        "speed": (speed, style.GREY),
+    }
     _lines(panel, seconds, lines, least=0.2, drawn=("x", "y"))
 
 

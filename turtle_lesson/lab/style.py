@@ -1,8 +1,8 @@
 """The one look of all pictures: quiet, readable on a light and on a dark page, and told apart by all eyes.
 
-Colours are those of Okabe and Ito (https://jfly.uni-koeln.de/color/). A picture is a nearly white card with round
-corners, so that the same file looks right in either theme. Matplotlib is imported with the first picture, not before,
-and `pyplot` never: its list of open figures is shared with the learner's own plots.
+Colours are those of Okabe and Ito (https://jfly.uni-koeln.de/color/). A picture is a nearly white card with
+round corners, so that the same file looks right in either theme. Matplotlib is imported with the first
+picture, not before, and `pyplot` never: its list of open figures is shared with the learner's own plots.
 """
 
 from __future__ import annotations
@@ -32,7 +32,9 @@ DPI = 100
 
 SETTINGS: dict[str, Any] = {
     "font.family": "sans-serif",
-    "font.sans-serif": ["DejaVu Sans"],  # the one font that comes with matplotlib, so it is there on every machine
+    "font.sans-serif": [
+        "DejaVu Sans"
+    ],  # the one font that comes with matplotlib, so it is there on every machine
     "font.size": 9.0,
     "text.color": INK,
     "axes.edgecolor": CARD_EDGE,
@@ -101,7 +103,9 @@ def heading(figure: Figure, title: str, subtitle: str) -> None:
     """Title and, in grey beneath it, the main figures, in the card's upper left corner."""
     width, height = figure.get_size_inches()
     figure.text(0.2 / width, 1 - 0.17 / height, title, fontsize=11.5, fontweight="bold", va="top")
-    figure.text(0.2 / width, 1 - 0.41 / height, subtitle.replace("-", "−"), fontsize=8.8, color=GREY, va="top")
+    figure.text(
+        0.2 / width, 1 - 0.41 / height, subtitle.replace("-", "−"), fontsize=8.8, color=GREY, va="top"
+    )
 
 
 def axes_at(figure: Figure, left: float, bottom: float, width: float, height: float, **options: Any) -> Axes:

@@ -19,8 +19,8 @@ LIMIT = 200_000
 class Table:
     """Rows of one time stamp (ns) and a few numbers; of all rows the newest `limit` are kept.
 
-    A row is packed into 8 bytes for each of its numbers. Beside five appends to five columns, packing takes two
-    thirds of the time, and this is done 62.5 times for each second of robot time.
+    A row is packed into 8 bytes for each of its numbers. Beside five appends to five columns, packing takes
+    two thirds of the time, and this is done 62.5 times for each second of robot time.
     """
 
     def __init__(self, *names: str, limit: int = LIMIT) -> None:
@@ -44,8 +44,8 @@ class Table:
     def listener(self, *paths: str) -> Listener:
         """Return a subscription callback that adds a row for each message.
 
-        `paths` says where in the message the numbers are, such as `x` or `linear.x`, in the order of `names`; a
-        path "" stands for a number that the message does not have.
+        `paths` says where in the message the numbers are, such as `x` or `linear.x`, in the order of `names`;
+        a path "" stands for a number that the message does not have.
         """
         read = _reader(paths or self.names)
         rows, pack, add = self._rows, self._row.pack, self._rows.extend

@@ -103,7 +103,7 @@ class TurtlesimNode(Node):
         return response
 
     def _show(self, turtle: Turtle, x: float, y: float) -> None:
-        """Give a turtle its topics and services. (x, y) is what was asked for; the turtle keeps y less exactly."""
+        """Give a turtle its topics and services; (x, y) is the place asked for, before y was flipped."""
         self._shown[turtle.name] = ShownTurtle(self, turtle)
         theta = turtle.theta
         self.get_logger().info(f"Spawning turtle [{turtle.name}] at x=[{x:f}], y=[{y:f}], theta=[{theta:f}]")
@@ -138,13 +138,11 @@ class ShownTurtle:
         # One message each, filled anew and published 62.5 times a second: publish() keeps no hold of it.
         self._pose, self._colour = Pose(), Color()
         self._colour_in_message = (0, 0, 0)
-        self._rested = False
 
     def publish(self) -> None:
         """Publish the pose and the colour after a tick."""
         turtle = self._turtle
-        if not (turtle.at_rest and self._rested):  # a turtle at rest says the same again
-            self._rested = turtle.at_rest
+        if not turtle.at_rest:  # at rest, the message from before says it all
             pose = self._pose
             pose.x = turtle.x
             pose.y = HEIGHT - turtle.flipped_y

@@ -51,11 +51,11 @@ WIDTH = HEIGHT = float32(499 / 45)
 
 
 class Turtle:
-    """One turtle: moving (its command is younger than 1 s) or ``at_rest``.
+    """One turtle. It moves while its command is younger than 1 s, and is then soon ``at_rest``.
 
     Attributes that others read: ``name``; ``x``, ``flipped_y`` (m) and ``theta`` (rad); ``speed`` (m/s, never
     negative: the length of the velocity) and ``angular`` (rad/s); ``colour``, what its sensor sees;
-    ``at_rest``.
+    ``at_rest``, that the last tick has changed nothing of all these but perhaps the colour.
     """
 
     __slots__ = (
@@ -63,6 +63,7 @@ class Turtle:
         "_commands",
         "_forward",
         "_sideways",
+        "_stopped",
         "_teleports",
         "_ticks_left",
         "angular",
@@ -77,6 +78,9 @@ class Turtle:
         "x",
     )
 
+    at_rest: bool
+    _stopped: bool
+
     def __init__(self, name: str, x: float, flipped_y: float, theta: float) -> None:
         self.name = name
         self.x, self.flipped_y, self.theta = x, flipped_y, theta
@@ -87,7 +91,7 @@ class Turtle:
         self._commands: deque[tuple[float, float, float]] = deque(maxlen=QUEUE_DEPTH)
         self._teleports: list[tuple[bool, float, float, float]] = []
         self._stop()
-        self.at_rest = False  # it may have been spawned beyond a wall
+        self._wake()  # it may have been spawned beyond a wall
 
     def __repr__(self) -> str:
         return f"<Turtle {self.name}: x={self.x:.3f} y={self.y:.3f} theta={self.theta:.3f}>"
@@ -109,7 +113,7 @@ class Turtle:
                 f"angular.z={angular}: each must be a finite number; try math.isfinite before publishing"
             )
         self._commands.append((forward, sideways, angular))
-        self.at_rest = False
+        self._wake()
 
     def teleport_absolute(self, x: float, y: float, theta: float) -> None:
         """Put the turtle at (x, y), in metres, heading theta, in radians, at the next tick."""
@@ -137,6 +141,9 @@ class Turtle:
             self._take_command()
         if self._ticks_left:
             self._ticks_left -= 1
+        elif self._stopped:
+            self.at_rest = True
+            return None
         else:
             self._stop()
         return self._move(canvas)
@@ -177,7 +184,10 @@ class Turtle:
     def _stop(self) -> None:
         self._forward = self._sideways = self.speed = self.angular = 0.0
         self._ticks_left = 0
-        self.at_rest = True
+        self._stopped = True
+
+    def _wake(self) -> None:
+        self._stopped = self.at_rest = False
 
     def _teleport(self, relative: bool, x: float, y: float, theta: float) -> None:
         if not (abs(x) <= LARGEST and abs(y) <= LARGEST and abs(theta) <= LARGEST):
@@ -185,7 +195,7 @@ class Turtle:
                 f"Turtle [{self.name}] stays where it is: each number of a teleport must be finite"
             )
         self._teleports.append((relative, x, y, theta))
-        self.at_rest = False
+        self._wake()
 
     def _carry_out_teleports(self, canvas: Canvas) -> None:
         for relative, x, y, theta in self._teleports:

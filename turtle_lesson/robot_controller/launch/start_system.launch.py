@@ -26,7 +26,7 @@ def generate_launch_description() -> LaunchDescription:
             DeclareLaunchArgument(
                 "source",
                 default_value="mock",
-                description="Where scans come from: mock (made up) or world (the obstacles around the turtle)",
+                description="Where scans come from: mock (made up) or world (what is around the turtle)",
             ),
             Node(
                 package="robot_controller",

@@ -5,7 +5,8 @@ Run it with `ros2 run robot_controller navigator`, then ask, for example:
 
     ros2 service call /navigate_to robot_controller/srv/NavigateTo "{x: 8.0, y: 3.0, theta: 1.57}"
 
-It closes the loop: ten times a second a timer compares the newest pose with the goal and sends the next command.
+It closes the loop: ten times a second a timer compares the newest pose with the goal, and sends the next
+command.
 """
 
 from __future__ import annotations
@@ -25,9 +26,8 @@ from rclpy.qos import qos_profile_sensor_data
 from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 from rclpy.time import Time
-from sensor_msgs.msg import LaserScan
-
 from robot_controller.srv import NavigateTo
+from sensor_msgs.msg import LaserScan
 
 try:
     from turtlesim.msg import Pose
@@ -40,29 +40,29 @@ WORLD_SIZE = 11.088889
 STEERING_PERIOD = 0.1
 """Time between two commands, s. The gains below are sized for it."""
 
-DRIVE_GAIN = 3.0
-TURN_GAIN = 4.0
+DRIVE_GAIN = 4.0
+TURN_GAIN = 5.0
 """Speed for each metre of distance, and turning speed for each radian of error, 1/s.
 
-One command takes away 0.3 of the distance and 0.4 of the angle, so that the turtle comes to rest without swinging
-even when a command takes effect as late as the next one is due.
+One command takes away 0.4 of the distance and half of the angle. So the turtle comes to rest without swinging
+if commands take effect within 0.03 s, and still comes to rest if they are late by a whole period.
 """
 
-DRIVE_CONE = 0.3
+DRIVE_CONE = 0.5
 """The turtle drives while it faces the goal this well, rad; otherwise it turns on the spot."""
 
-ABOUT_TURN = 2.0
-"""Beyond this angle, rad, a turn goes on the way round that it began, even if the other is the shorter by now.
+ABOUT_TURN = 1.5
+"""Beyond this angle, rad, a turn goes on the way round that it began, even if the other is shorter by now.
 
-Without that, a turtle that has to turn about could swing for ever: each late command carries it across the point where
-the other way round is the shorter one, and the next command calls it back.
+Without that, a turtle that has to turn about could swing for ever: each late command carries it across the
+point where the other way round is the shorter one, and the next command calls it back.
 """
 
 AIM = 0.25
-"""Steering goes on until the errors are this part of their tolerances: room for what a command in flight still adds."""
+"""Steering goes on until the errors are this part of their tolerances: a late command may still add some."""
 
 PATIENCE = 1.0
-"""How long the navigator waits for a pose, s."""
+"""Without a pose for so long, s, there is no turtle to drive."""
 
 
 class Place(Protocol):
@@ -118,8 +118,8 @@ def reached(pose: Place, goal: Place, limits: Limits) -> bool:
 def steer(pose: Place, goal: Place, limits: Limits, turning: float = 0.0) -> Command:
     """Return the next command on the way from a pose to a goal: turn, drive, then turn to the goal's heading.
 
-    Where the turtle is decides what comes next, so that it also recovers from being moved. All that it is told of the
-    past is `turning`, the turning speed of the command before.
+    Where the turtle is decides what comes next, so that it also recovers from being moved. All that it is
+    told of the past is `turning`, the turning speed of the command before.
     """
     distance, turn = errors(pose, goal)
     if distance > AIM * limits.goal_tolerance:
@@ -151,7 +151,8 @@ def refusal(goal: Place) -> str | None:
         return f"x={goal.x}, y={goal.y}, theta={goal.theta} is no pose: all three must be finite numbers"
     beyond = WORLD_SIZE + 1e-5  # the wall itself, rounded to float32 as messages are, is a little beyond
     if not (0.0 <= goal.x <= beyond and 0.0 <= goal.y <= beyond):
-        return f"({goal.x:.2f}, {goal.y:.2f}) is outside the world: x and y must be from 0 to {WORLD_SIZE:.2f}"
+        where = f"({goal.x:.2f}, {goal.y:.2f})"
+        return f"{where} is outside the world: x and y must be from 0 to {WORLD_SIZE:.2f}"
     return None
 
 
@@ -170,7 +171,6 @@ class Drive:
     started: Time | None = None  # when the first command went out
     stopped: Time | None = None  # when the turtle was told to stand still
     turning: float = 0.0  # the turning speed of the last command
-    ticks_without_pose: int = 0
 
     @property
     def seconds(self) -> float:
@@ -183,20 +183,20 @@ class Drive:
 PARAMETERS = (
     ("goal_timeout", 10.0, 0.1, 3600.0, "Longest time that a goal may take, s; the launch file sets 5.0"),
     ("linear_speed", 4.0, 0.01, 10.0, "Highest speed, m/s; it comes down near the goal"),
-    ("angular_speed", 4.0, 0.01, 10.0, "Highest turning speed, rad/s"),
+    ("angular_speed", 6.0, 0.01, 10.0, "Highest turning speed, rad/s"),
     ("goal_tolerance", 0.2, 0.01, 2.0, "A goal counts as reached within this distance, m"),
     ("heading_tolerance", 0.1, 0.01, math.pi, "... and within this angle of its heading, rad"),
-    ("obstacle_warning_distance", 0.4, 0.0, 10.0, "Warn of obstacles nearer than this, m; the mock scan shows 0.5"),
+    ("obstacle_warning_distance", 0.4, 0.0, 10.0, "Warn of what is nearer than this, m; mock scans show 0.5"),
 )
-"""Name, default, lowest and highest value, description. All are read when used: `ros2 param set` works at once."""
+"""Name, default, lowest and highest value, description. Read when used: `ros2 param set` works at once."""
 
 
 class NavigatorNode(Node):
     """Offers `/navigate_to`; listens to the turtle's pose and to the scan; commands the turtle.
 
-    The service's callback waits for its drive to end, and a callback group stays taken while one of its callbacks
-    waits. So the service has a group of its own, a reentrant one: poses and steering go on meanwhile, and a second
-    request is heard (and refused) at once.
+    The service's callback waits for its drive to end, and a callback group stays taken while one of its
+    callbacks waits. So the service has a group of its own, a reentrant one: poses and steering go on
+    meanwhile, and a second request is heard (and refused) at once.
     """
 
     def __init__(self) -> None:
@@ -207,26 +207,29 @@ class NavigatorNode(Node):
                 name, default, ParameterDescriptor(description=text, floating_point_range=[allowed])
             )
         self._pose: Pose | None = None
+        self._ticks_without_pose = 0
         self._drive: Drive | None = None
         self._obstacle_near = False
         self._commands = self.create_publisher(Twist, "/turtle1/cmd_vel", 10)
         self.create_subscription(Pose, "/turtle1/pose", self.on_pose, 1)  # only the newest pose is of use
-        # A real laser scanner publishes "best effort". This profile hears that, and reliable publishers as well.
+        # A real laser scanner publishes "best effort". This profile hears that, and reliable publishers as
+        # well.
         self.create_subscription(LaserScan, "/obstacles", self.on_scan, qos_profile_sensor_data)
         self.create_service(
             NavigateTo, "/navigate_to", self.on_navigate_to, callback_group=ReentrantCallbackGroup()
         )
-        # The timer also runs while there is nothing to do, because Python notices a Ctrl-C only when rclpy returns
-        # from waiting, and it might wait for ever where nothing happens.
+        # The timer also runs while there is nothing to do, because Python notices a Ctrl-C only when rclpy
+        # returns from waiting, and it might wait for ever where nothing happens.
         self._timer = self.create_timer(STEERING_PERIOD, self.on_steering_timer)
         self.get_logger().info("Navigator ready for goals on /navigate_to")
 
     def on_pose(self, pose: Pose) -> None:
         """Keep the newest pose for the next tick of the timer."""
         self._pose = pose
+        self._ticks_without_pose = 0
 
     def on_scan(self, scan: LaserScan) -> None:
-        """Warn of what is near: all the time while driving, once while standing. The turtle keeps to its path."""
+        """Warn of what is near: repeatedly while driving, once while standing. The path stays the same."""
         distance = nearest(scan)
         near = distance < self._value("obstacle_warning_distance")
         if near and (self._drive is not None or not self._obstacle_near):
@@ -254,6 +257,7 @@ class NavigatorNode(Node):
 
     def on_steering_timer(self) -> None:
         """Go on with the drive that is under way, if any."""
+        self._ticks_without_pose += 1
         if self._drive is not None:
             self._continue(self._drive)
 
@@ -263,9 +267,9 @@ class NavigatorNode(Node):
             self._send(0.0, 0.0)
 
     def _continue(self, drive: Drive) -> None:
-        """Do what is next for this drive. Each pose is used once: without news of the turtle it must not move."""
-        pose, self._pose = self._pose, None
-        if pose is None:
+        """Do what is next. Without news of the turtle since the last tick it must not move."""
+        pose = self._pose
+        if pose is None or self._ticks_without_pose > 1:
             self._wait_for_pose(drive)
         elif drive.stopped is None:
             self._move(drive, pose)
@@ -286,25 +290,23 @@ class NavigatorNode(Node):
 
     def _send(self, linear: float, angular: float) -> None:
         command = Twist()
-        command.linear.x = round(linear, 6)  # a micrometre a second is fine enough, and easier to read in an echo
+        command.linear.x = round(linear, 6)  # fine enough, and easier to read in an echo
         command.angular.z = round(angular, 6)
         self._commands.publish(command)
 
     def _wait_for_pose(self, drive: Drive) -> None:
         if drive.started is not None:
             self._send(0.0, 0.0)
-        drive.ticks_without_pose += 1
-        if drive.ticks_without_pose * STEERING_PERIOD > PATIENCE:
+        if self._ticks_without_pose * STEERING_PERIOD > PATIENCE:
             self.get_logger().error(
-                f"Goal given up: no pose heard on /turtle1/pose for {PATIENCE:.0f} s. Is the simulator running? "
-                "Start it with: ros2 run turtlesim turtlesim_node"
+                f"Goal given up: no pose heard on /turtle1/pose for {PATIENCE:.0f} s. "
+                "Is the simulator running? Start it with: ros2 run turtlesim turtlesim_node"
             )
             drive.stopped = drive.stopped or self.get_clock().now()
             self._end(drive, False)
 
     def _move(self, drive: Drive, pose: Pose) -> None:
         """Send the next command, or stop the turtle if it is there or its time is over."""
-        drive.ticks_without_pose = 0
         now = self.get_clock().now()
         drive.started = drive.started or now
         command = steer(pose, drive.goal, self._limits(), drive.turning)
@@ -316,7 +318,7 @@ class NavigatorNode(Node):
             self._send(command.linear, command.angular)
 
     def _judge(self, drive: Drive, pose: Pose) -> None:
-        """The turtle has come to rest. Say how it went, or go on if it rolled out of the tolerance and has time."""
+        """The turtle is at rest. Say how it went, or go on if it is not near enough and there is time."""
         limits = self._limits()
         success = reached(pose, drive.goal, limits)
         if not success and not self._time_over(drive, self.get_clock().now()):
@@ -346,8 +348,8 @@ class NavigatorNode(Node):
 
 def main(args: list[str] | None = None) -> None:
     """Run the node until it is interrupted: what `ros2 run robot_controller navigator` does."""
-    # With its usual signal handlers rclpy shuts down before the KeyboardInterrupt arrives here, and a node that is
-    # shut down can no longer stop the turtle. Without them the last command still goes out.
+    # With its usual signal handlers rclpy shuts down before the KeyboardInterrupt arrives here, and a node
+    # that is shut down can no longer stop the turtle. Without them the last command still goes out.
     rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
     node = NavigatorNode()
     try:

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""The obstacle detector: publishes what a laser scanner on the turtle would see, half a turn from right to left.
+"""The obstacle detector: publishes what a laser scanner on the turtle would see, from right to left.
 
-Run it with `ros2 run robot_controller obstacle_detector`, and watch it with `ros2 topic echo /obstacles`.
-By itself it makes up its readings. With `--ros-args -p source:=world` it measures: from the turtle's pose to the walls
-and to the obstacles that the simulator shows on `/world/obstacles`.
+Run it with `ros2 run robot_controller obstacle_detector`, and watch it with `ros2 topic echo /obstacles`. By
+itself it makes up its readings. With `--ros-args -p source:=world` it measures: from the turtle's pose to the
+walls and to the obstacles that the simulator shows on `/world/obstacles`.
 """
 
 from __future__ import annotations
@@ -51,10 +51,10 @@ PATIENCE = 1.0
 """Without a pose for so long, s, there is nothing to measure from."""
 
 NOT_ZERO = 1e-300
-"""Added to a beam's components, it changes nothing but an exact 0, by which a beam along an axis would divide."""
+"""Added to a beam's components, it changes only an exact 0, by which a beam along an axis would divide."""
 
-# The directions of the beams in the turtle's own frame. A scan turns all of them to the turtle's heading with four
-# multiplications a beam; these, unlike a sine, give the same bits on every machine.
+# The directions of the beams in the turtle's own frame. A scan turns all of them to the turtle's heading with
+# four multiplications a beam; these, unlike a sine, give the same bits on every machine.
 _ANGLES = [math.radians(degree) for degree in range(-90, 91)]
 _FORWARD = np.array([math.cos(angle) for angle in _ANGLES])
 _LEFT = np.array([math.sin(angle) for angle in _ANGLES])
@@ -63,8 +63,8 @@ _LEFT = np.array([math.sin(angle) for angle in _ANGLES])
 class Obstacles(NamedTuple):
     """What stands in the world, in metres, a row for each obstacle.
 
-    `circles` has the columns x, y, radius; `boxes` has x, y, half the length along its own axes x and y, and the
-    cosine and sine of its heading.
+    `circles` has the columns x, y, radius; `boxes` has x, y, half the length along its own axes x and y, and
+    the cosine and sine of its heading.
     """
 
     circles: Floats
@@ -75,7 +75,7 @@ NOTHING = Obstacles(np.empty((0, 3)), np.empty((0, 6)))
 
 
 def cast_rays(x: float, y: float, heading: float, obstacles: Obstacles) -> npt.NDArray[np.float32]:
-    """Return the distance in metres to the first wall or obstacle, for each beam from the right (-90°) to the left.
+    """Return the distance in metres to the first wall or obstacle, for each beam from right (-90°) to left.
 
     A place inside an obstacle reads 0 everywhere; what is further than RANGE_MAX reads RANGE_MAX.
     """
@@ -124,9 +124,10 @@ def _through(middle: Floats, half: Floats, along: Floats) -> tuple[Floats, Float
 
 
 def show(shown: dict[tuple[str, int], Marker], message: MarkerArray) -> Obstacles:
-    """Bring the shown markers up to date with a message, as a viewer does, and return the obstacles they stand for.
+    """Bring the shown markers up to date, as a viewer does, and return the obstacles that they stand for.
 
-    An upright CYLINDER is a circle, a CUBE is a box that may be turned; markers of other types are no obstacles.
+    An upright CYLINDER is a circle, a CUBE is a box that may be turned; markers of other types are no
+    obstacles.
     """
     for marker in message.markers:
         if marker.action == Marker.DELETEALL:
@@ -152,9 +153,10 @@ def _box(marker: Marker) -> tuple[float, ...]:
 
 
 class ObstacleDetectorNode(Node):
-    """Publishes `/obstacles` at the rate of the parameter `scan_rate`, from the parameter `source`: mock or world.
+    """Publishes `/obstacles`, `scan_rate` times a second, from the parameter `source`: mock or world.
 
-    It listens to the turtle and to the obstacles only while it measures, because 62 poses a second are not free.
+    It listens to the turtle and to the obstacles only while it measures, because 62 poses a second are not
+    free.
     """
 
     def __init__(self) -> None:
@@ -175,7 +177,7 @@ class ObstacleDetectorNode(Node):
         self.declare_parameter(
             "seed",
             0,
-            ParameterDescriptor(description="Start of the mock's chance: same seed, same readings", read_only=True),
+            ParameterDescriptor(description="Same seed, same made-up readings", read_only=True),
         )
         self._random = Random(self.get_parameter("seed").value)
         self._pose: Pose | None = None
@@ -225,7 +227,8 @@ class ObstacleDetectorNode(Node):
         self._pose, self._obstacles, self._ticks_without_pose = None, NOTHING, 0
         self._markers.clear()
         if wanted:
-            # The obstacles were published long ago, and only once. "Transient local" asks for what was sent before.
+            # The obstacles were published long ago, and only once. "Transient local" asks for what was sent
+            # before.
             latched = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
             self._ears.append(
                 self.create_subscription(MarkerArray, "/world/obstacles", self.on_obstacles, latched)

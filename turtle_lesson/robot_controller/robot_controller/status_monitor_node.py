@@ -12,7 +12,6 @@ import rclpy
 from rcl_interfaces.msg import IntegerRange, ParameterDescriptor
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
-
 from robot_controller.msg import TurtleStatus
 
 try:
@@ -21,10 +20,10 @@ except ImportError:  # ROS 2 Kilted and newer keep turtlesim's messages in a pac
     from turtlesim_msgs.msg import Pose
 
 SIMULATOR_STEP = 0.016
-"""Time between two poses, s. Turtlesim moves the turtle by exactly this step, however late the message arrives."""
+"""Time between two poses, s. Turtlesim moves by exactly this step, however late a message arrives."""
 
 FULL_BATTERY = 1000
-"""Charge at the start, in tenths of a percent; each status uses up one. (Whole numbers add up without rounding.)"""
+"""Charge at the start, in tenths of a percent: whole numbers add up without rounding. A status uses one."""
 
 PATIENCE = 1.0
 """Without a pose for so long, s, the turtle is reported as lost."""
@@ -33,9 +32,10 @@ PATIENCE = 1.0
 def world_velocity(before: Pose, now: Pose) -> tuple[float, float]:
     """Return the velocity along the world's axes, m/s, between two poses that follow each other.
 
-    A pose tells its speed without a direction: driving backwards or sideways looks the same, and a turtle that
-    pushes against a wall claims to be moving. So the velocity comes from the way between the poses. The speed that
-    the pose tells is only its upper limit, for the case that a pose was missed or the turtle was teleported.
+    A pose tells its speed without a direction: driving backwards or sideways looks the same, and a turtle
+    that pushes against a wall claims to be moving. So the velocity comes from the way between the poses. The
+    speed that the pose tells is only its upper limit, for the case that a pose was missed or the turtle was
+    teleported.
     """
     dx, dy = now.x - before.x, now.y - before.y
     way = math.hypot(dx, dy)
@@ -48,8 +48,8 @@ def world_velocity(before: Pose, now: Pose) -> tuple[float, float]:
 class StatusMonitorNode(Node):
     """Publishes `/robot/status` at the rate of the parameter `publish_rate`, from the poses it has heard.
 
-    It publishes from the start, so that the status is also a sign of life. Until the first pose is heard all but
-    the battery is zero; when poses stop coming the velocity is; and the log says so.
+    It publishes from the start, so that the status is also a sign of life. Until the first pose is heard all
+    but the battery is zero; when poses stop coming the velocity is; and the log says so.
     """
 
     def __init__(self) -> None:

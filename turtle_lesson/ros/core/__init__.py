@@ -3,7 +3,7 @@
 from .errors import DriveTimeout, NeverReturns, NeverWakes, SimulationError, WorldClosed
 from .process import Process
 from .simulation import EPOCH, NANOSECONDS, Simulation
-from .strand import Strand, running_strand
+from .strand import Strand, getcurrent, running_strand
 
 __all__ = [
     "EPOCH",
@@ -16,5 +16,6 @@ __all__ = [
     "SimulationError",
     "Strand",
     "WorldClosed",
+    "getcurrent",
     "running_strand",
 ]

@@ -10,6 +10,7 @@ from __future__ import annotations
 import asyncio
 import contextvars
 import sys
+import weakref
 from collections import deque
 from collections.abc import Callable
 from heapq import heappop, heappush
@@ -50,9 +51,9 @@ class Simulation:
         self._count = 0
         self._limit = 0
         self._halted = False
+        self._strands: weakref.WeakSet[Strand] = weakref.WeakSet()
         self._forgotten: list[Strand] = []
         self._face: Process | None = None
-        self.current: Strand | None = None
 
     # -- asking for things to happen -------------------------------------------------------------------------
 
@@ -72,6 +73,10 @@ class Simulation:
         if strand.parked:
             strand.parked = False
             self._ready.append(strand)
+
+    def know(self, strand: Strand) -> None:
+        """Remember a new strand."""
+        self._strands.add(strand)
 
     def put_back(self, strand: Strand) -> None:
         """Have a strand that was stopped in its middle go on first, in the next run."""
@@ -121,6 +126,10 @@ class Simulation:
         self._run(time)
         if not self._halted:
             self.now = time
+
+    def settle(self) -> None:
+        """Let everything happen that is due at this instant, without letting time pass."""
+        self._run(self.now + 1)
 
     def drive(self, process: Any, function: Callable[..., T], *arguments: Any, **keywords: Any) -> T:
         """Run the simulation until `function(*arguments, **keywords)`, called as part of `process`, has returned.
@@ -172,21 +181,21 @@ class Simulation:
             return
         hub, face = self.hub, self._face
         self.hub = running_greenlet()
-        self._enter(strand)
+        self._enter(strand.process)
         try:
             strand.raise_inside(error)
         finally:
             self.hub = hub
             self._leave()
             if face is not None:
-                self._enter_process(face)
+                self._enter(face)
 
     def _run(self, limit: int) -> None:
         if self.closed:
             raise WorldClosed("this world was closed by a later start(): use the lesson that start() returned last")
         if self.running:
             raise SimulationError("the simulation runs already: a callback cannot run it once more")
-        self.hub = running_greenlet()
+        self._take_hub()
         self._limit = limit
         self._halted = False
         self.running = True
@@ -203,6 +212,15 @@ class Simulation:
             asyncio._set_running_loop(loop)
         guard.raise_if_interrupted()
 
+    def _take_hub(self) -> None:
+        """The greenlet that runs now becomes the hub. Strands end where their parent goes on: there, too."""
+        hub = running_greenlet()
+        if hub is not self.hub:
+            self.hub = hub
+            for strand in self._strands:
+                if not strand.dead:
+                    strand.parent = hub
+
     def _loop(self, limit: int) -> None:
         heap, ready = self._heap, self._ready
         context = contextvars.copy_context()
@@ -212,18 +230,17 @@ class Simulation:
                 if strand.dead:
                     continue
                 if strand.process is not self._face:
-                    self._enter(strand)
-                self.current = strand
-                strand.resume(context)
+                    self._enter(strand.process)
+                strand.gr_context = context  # or what it prints would go to an earlier cell
+                strand.switch()
                 if self._halted:
                     return
             if self._halted or not heap or heap[0][0] >= limit:
                 return
-            time, _, action, argument = heappop(heap)
-            if time > self.now:
-                self.now = time
+            now, _, action, argument = heappop(heap)
+            self.now = now
             action(argument)
-            while heap and heap[0][0] <= self.now:
+            while heap and heap[0][0] == now:
                 _, _, action, argument = heappop(heap)
                 action(argument)
 
@@ -234,23 +251,18 @@ class Simulation:
 
     # -- what a running process shows to Python (sys.argv, sys.stdout, sys.stderr) ------------------------------
 
-    def _enter(self, strand: Strand) -> None:
-        self._enter_process(strand.process)
-
-    def _enter_process(self, process: Process) -> None:
+    def _enter(self, process: Process) -> None:
         if self._face is None:
             self._cell_face = (sys.argv, sys.stdout, sys.stderr)
         self._face = process
-        _, stdout, stderr = self._cell_face
         sys.argv = process.argv
-        sys.stdout = process.stdout or stdout
-        sys.stderr = process.stderr or stderr
+        sys.stdout = process.stdout or self._cell_face[1]
+        sys.stderr = process.stderr or self._cell_face[2]
 
     def _leave(self) -> None:
         if self._face is not None:
             sys.argv, sys.stdout, sys.stderr = self._cell_face
             self._face = None
-        self.current = None
 
     @property
     def cell_stdout(self) -> Any:

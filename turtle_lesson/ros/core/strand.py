@@ -10,10 +10,11 @@ The hub is the greenlet that runs the simulation's loop: the notebook cell itsel
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextvars import Context
 from typing import TYPE_CHECKING, Any
 
 from greenlet import getcurrent, greenlet
+
+__all__ = ["Strand", "getcurrent", "running_greenlet", "running_strand"]
 
 if TYPE_CHECKING:
     from .process import Process
@@ -37,19 +38,12 @@ class Strand(greenlet):
         self.activity = ""
         self.warned = False
         self.parent = process.simulation.hub
+        process.simulation.know(self)
 
     def park(self) -> None:
         """Stop here until woken. May also return early: callers check what they wait for, in a loop."""
         self.parked = True
         self.simulation.hub.switch()
-
-    def resume(self, context: Context | None) -> None:
-        """Go on from where the strand stopped (called by the hub). Printing follows `context`, the cell's."""
-        self.gr_context = context
-        hub = self.simulation.hub
-        if self.parent is not hub:
-            self.parent = hub
-        self.switch()
 
     def raise_inside(self, error: BaseException) -> None:
         """Go on, with `error` raised at the place where the strand stopped (called by the hub)."""

@@ -13,9 +13,7 @@ import zlib
 from collections.abc import Callable
 from typing import Any
 
-from greenlet import getcurrent
-
-from .strand import Strand
+from .strand import Strand, getcurrent
 
 _NUMPY_FUNCTIONS = (
     "choice normal permutation rand randint randn random random_sample seed shuffle standard_normal uniform"

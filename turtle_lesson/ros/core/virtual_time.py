@@ -11,10 +11,8 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from greenlet import getcurrent
-
 from .simulation import EPOCH, NANOSECONDS
-from .strand import Strand
+from .strand import Strand, getcurrent
 
 real_time = time.time
 real_sleep = time.sleep

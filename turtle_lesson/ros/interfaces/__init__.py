@@ -1,8 +1,8 @@
-"""ROS 2 interfaces: from the text of `.msg`, `.srv` and `.action` files to Python classes and their CDR bytes.
+"""ROS 2 interfaces: from the text of `.msg`, `.srv` and `.action` files to Python classes and CDR bytes.
 
-    >>> from turtle_lesson.ros.interfaces import finder, registry
-    >>> finder.install()
-    >>> from geometry_msgs.msg import Twist
+>>> from turtle_lesson.ros.interfaces import finder, registry
+>>> finder.install()
+>>> from geometry_msgs.msg import Twist
 """
 
 from turtle_lesson.ros.interfaces import finder

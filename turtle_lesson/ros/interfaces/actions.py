@@ -5,7 +5,7 @@ Which fields they have follows `rosidl_parser.definition.Action`.
 
 from __future__ import annotations
 
-from turtle_lesson.ros.interfaces.definition import ActionDefinition, Field, FieldType, MessageDefinition
+from turtle_lesson.ros.interfaces.model import ActionDefinition, Field, FieldType, MessageDefinition
 
 GOAL_ID = Field(FieldType("UUID", "unique_identifier_msgs"), "goal_id")
 STAMP = Field(FieldType("Time", "builtin_interfaces"), "stamp")

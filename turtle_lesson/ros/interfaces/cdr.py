@@ -1,7 +1,8 @@
 """CDR: the bytes of a message as ROS 2 sends and records them, little endian with the 4-byte header.
 
-`rosbags` does the work. It reads attributes of any object, if arrays are numpy arrays and bytes are numbers, so
-each message is shown to it as a plain portrait of itself; what it reads goes straight into our own classes.
+`rosbags` does the work. It reads the attributes of any object, if arrays are numpy arrays and bytes are
+numbers, so each message is shown to it as a plain portrait of itself; what it reads goes straight into our
+own classes.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 from weakref import WeakKeyDictionary
 
 from turtle_lesson.ros.interfaces.checks import TYPE_CODES, numpy_name
-from turtle_lesson.ros.interfaces.definition import FieldType
+from turtle_lesson.ros.interfaces.model import FieldType
 
 if TYPE_CHECKING:
     from rosbags.typesys.store import Typestore
@@ -32,12 +33,13 @@ def serialize(message: Any) -> bytes:
         TypeError: the object is no message of a generated class.
         ValueError: the message holds what CDR cannot carry, such as a wstring or a list that is too long.
     """
-    kind = type(message)
-    name = _name(kind)
+    if isinstance(message, type):
+        raise TypeError(f"expected a message, got the class {message.__name__}")
+    name = _name(type(message))
     try:
         return bytes(_store().serialize_cdr(_portrait(message), name, little_endian=True))
     except Exception as error:
-        raise ValueError(f"this {kind._TYPE_NAME} cannot be written as CDR: {error}") from error
+        raise ValueError(f"this {message._TYPE_NAME} cannot be written as CDR: {error}") from error
 
 
 def deserialize(data: bytes | bytearray | memoryview, message_class: Any) -> Any:
@@ -55,8 +57,11 @@ def deserialize(data: bytes | bytearray | memoryview, message_class: Any) -> Any
     try:
         return _store().deserialize_cdr(bytes(data), name)
     except Exception as error:
-        what = f"these {len(data)} bytes are no {message_class._TYPE_NAME}"
-        raise ValueError(f"{what}: {error}. Were they written with another definition, or cut short?") from error
+        reason = str(error).replace(name, message_class._TYPE_NAME).rstrip(".")
+        raise ValueError(
+            f"these {len(data)} bytes are no {message_class._TYPE_NAME} (cut short, or written with another"
+            f" definition?): {reason}"
+        ) from error
 
 
 @cache
@@ -71,23 +76,26 @@ def _name(message_class: Any) -> str:
     if not isinstance(message_class, type) or not hasattr(message_class, "_wire_copy"):
         hint = "; of a service, give .Request or .Response" if hasattr(message_class, "Request") else ""
         raise TypeError(f"expected a message class, got {message_class!r}{hint}")
-    name = _names.get(message_class)
-    if name is None:
-        name = f"{message_class._TYPE_NAME}#{len(_store().types)}"
-        _register(name, message_class)
-        _names[message_class] = name
+    if message_class not in _names:
+        _names[message_class] = _register(message_class)
+    return _names[message_class]
+
+
+def _register(message_class: Any) -> str:
+    members = message_class._DEFINITION.fields
+    kinds = message_class._KINDS
+    fields = [
+        (member.name, _description(member.type, kind.element_class))
+        for member, kind in zip(members, kinds, strict=True)
+    ]
+    store: Any = _store()
+    name = f"{message_class._TYPE_NAME}#{len(store.types)}"
+    store.fielddefs[name] = ((), fields or [(PLACEHOLDER, _base("uint8"))])
+    store.types[name] = _maker(message_class)
     return name
 
 
-def _register(name: str, message_class: Any) -> None:
-    members = message_class._DEFINITION.fields
-    fields = [(member.name, _description(member.type, message_class)) for member in members]
-    store: Any = _store()
-    store.fielddefs[name] = ((), fields or [(PLACEHOLDER, _base("uint8"))])
-    store.types[name] = _maker(message_class)
-
-
-def _description(type_: FieldType, message_class: Any) -> Any:
+def _description(type_: FieldType, element_class: Any) -> Any:
     """rosbags' description of a type."""
     from rosbags.interfaces import Nodetype
 
@@ -96,7 +104,7 @@ def _description(type_: FieldType, message_class: Any) -> Any:
     if type_.is_primitive:
         element = _base("uint8" if type_.base in ("byte", "char") else type_.base)
     else:
-        element = (Nodetype.NAME, _name(_class_of(message_class, type_)))
+        element = (Nodetype.NAME, _name(element_class))
     if not type_.is_array:
         return element
     return (Nodetype.ARRAY if type_.is_fixed else Nodetype.SEQUENCE, (element, type_.size or 0))
@@ -106,10 +114,6 @@ def _base(name: str) -> Any:
     from rosbags.interfaces import Nodetype
 
     return Nodetype.BASE, (name, 0)
-
-
-def _class_of(message_class: Any, type_: FieldType) -> Any:
-    return message_class._ELEMENTS[type_]
 
 
 def _portrait(message: Any) -> SimpleNamespace:
@@ -134,6 +138,8 @@ def _shown(value: Any, type_: FieldType) -> Any:
         return list(value)
     if type_.base == "byte":
         return numpy.frombuffer(b"".join(value), "uint8")
+    if type_.base == "bool":
+        return numpy.array(list(value), "bool")
     return numpy.asarray(value, numpy_name(type_.base)).ravel()
 
 
@@ -152,11 +158,17 @@ def _maker(message_class: Any) -> Callable[..., Any]:
 
 def _reader(type_: FieldType) -> Callable[[Any], Any] | None:
     if type_.base == "byte":
-        return (lambda values: [bytes([each]) for each in values]) if type_.is_array else lambda value: bytes([value])
+        return (
+            (lambda values: [bytes([each]) for each in values])
+            if type_.is_array
+            else lambda value: bytes([value])
+        )
     if not type_.is_array:
         return _bounded_text(type_.string_bound) if type_.string_bound is not None else None
-    if not type_.is_primitive or type_.base in ("string", "bool"):
-        return lambda values: _limited(list(values), type_)
+    if type_.base == "bool":
+        return lambda values: _limited(values.tolist(), type_)
+    if not type_.is_primitive or type_.base == "string":
+        return lambda values: _limited(values, type_)
     if type_.is_fixed:
         return lambda values: values.copy()
     code = TYPE_CODES[type_.base]

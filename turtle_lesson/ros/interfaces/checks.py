@@ -11,11 +11,11 @@ from __future__ import annotations
 from array import array
 from collections import UserList, UserString
 from collections.abc import Callable, Collection, Sequence, Set
-from math import isinf
+from math import inf, isinf
 from struct import Struct
 from typing import Any
 
-from turtle_lesson.ros.interfaces.definition import FieldType
+from turtle_lesson.ros.interfaces.model import FieldType
 from turtle_lesson.ros.interfaces.values import integer_bounds
 
 Check = Callable[[Any], Any]
@@ -91,7 +91,9 @@ def bool_check(name: str) -> Check:
 
     def check(value: Any) -> bool:
         if not isinstance(value, bool):
-            raise refusal(f"The '{name}' field must be of type 'bool'", f"Got {shown(value)}; write True or False")
+            raise refusal(
+                f"The '{name}' field must be of type 'bool'", f"Got {shown(value)}; write True or False"
+            )
         return value
 
     return check
@@ -111,14 +113,17 @@ def byte_check(name: str) -> Check:
 
 def string_check(name: str, bound: int | None) -> Check:
     """Check of a string field, bounded or not."""
+    limit = inf if bound is None else bound
 
     def check(value: Any) -> str:
         if not isinstance(value, str):
-            raise refusal(f"The '{name}' field must be of type 'str'", f"Got {shown(value)}; str(...) makes a text")
+            raise refusal(
+                f"The '{name}' field must be of type 'str'", f"Got {shown(value)}; str(...) makes a text"
+            )
         return value
 
     def check_bounded(value: Any) -> str:
-        if not (isinstance(value, str | UserString) and bound is not None and len(value) <= bound):
+        if not (isinstance(value, str | UserString) and len(str(value)) <= limit):
             text = f"The '{name}' field must be string value not longer than {bound}"
             raise refusal(text, f"Got {shown(value)}")
         return str(value) if isinstance(value, UserString) else value
@@ -144,7 +149,8 @@ def list_check(name: str, type_: FieldType, element_class: type) -> Check:
     bound = type_.string_bound
 
     def is_element(value: Any) -> bool:
-        return isinstance(value, element_class) and (bound is None or len(value) <= bound)
+        known: Any = value if isinstance(value, element_class) else None
+        return known is not None and (bound is None or len(known) <= bound)
 
     def check(value: Any) -> Any:
         if _is_collection(value) and _fits(type_, len(value)):
@@ -158,7 +164,7 @@ def list_check(name: str, type_: FieldType, element_class: type) -> Check:
 
 
 def sequence_check(name: str, type_: FieldType) -> Check:
-    """Check of a sequence of numbers, which is stored as `array.array`; one of the right kind is taken as is."""
+    """Check of a sequence of numbers, stored as `array.array`; one of the right kind is taken as is."""
     code = TYPE_CODES[type_.base]
     number = float if type_.base in FLOAT_BOUNDS else int
     allowed = {number}
@@ -239,7 +245,9 @@ def _quick_array(code: str, value: Collection[Any]) -> array[Any] | None:
     try:
         if code != "f":
             return array(code, value)
-        packed = Struct(f"={len(value)}f").pack(*value)  # faster than array("f", value), and it finds overflow
+        packed = Struct(f"={len(value)}f").pack(
+            *value
+        )  # faster than array("f", value), and it finds overflow
     except OverflowError:
         return None
     return None if _LARGEST in packed else array(code, packed)

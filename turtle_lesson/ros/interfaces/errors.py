@@ -1,11 +1,13 @@
 """What can be wrong with an interface definition, and how we say it.
 
-ROS 2 refuses a wrong `.msg` or `.srv` file with a one-line reason (`rosidl_adapter.parser`). The reason is kept
-word for word in `InvalidDefinition.reason`, since it is what a learner meets in a real build; around it we put
-the file, the line, and what to try.
+ROS 2 refuses a wrong `.msg` or `.srv` file with a one-line reason (`rosidl_adapter.parser`). The reason is
+kept word for word in `InvalidDefinition.reason`, since it is what a learner meets in a real build; around it
+we put the file, the line, and what to try.
 """
 
 from __future__ import annotations
+
+from pathlib import PurePath
 
 
 class InvalidDefinition(ValueError):
@@ -37,11 +39,11 @@ class InvalidDefinition(ValueError):
     def locate(
         self, *, interface: str, file: str | None, line: int | None = None, line_text: str | None = None
     ) -> InvalidDefinition:
-        """Note where the fault lies, as far as it is not known yet; return the error itself."""
-        self.interface = self.interface or interface
-        self.file = self.file or file
-        if self.line is None and line is not None:
-            self.line, self.line_text = line, line_text
+        """Note where the fault lies, unless that is known already; return the error itself."""
+        if self.interface is None:
+            self.interface, self.file = interface, file
+            if self.line is None:
+                self.line, self.line_text = line, line_text
         return self
 
     @property
@@ -51,11 +53,19 @@ class InvalidDefinition(ValueError):
         return f"rosidl_adapter.parser.{self.ros_error}" if own else self.ros_error
 
     def __str__(self) -> str:
-        where = self.file or self.interface or ""
-        if self.line is not None:
-            where += f", line {self.line}, '{self.line_text}'"
+        where = self._where()
         text = f"{where}: {self.reason}" if where else self.reason
         return f"{text}. {self.hint}" if self.hint else text
+
+    def _where(self) -> str:
+        """File within its package, and line: the same text wherever the package lies."""
+        if self.interface is None:
+            return ""
+        where = self.interface
+        if self.file is not None:
+            package, folder, _ = self.interface.split("/")
+            where = f"{package}/{folder}/{PurePath(self.file).name}"
+        return where if self.line is None else f"{where}, line {self.line}, '{self.line_text}'"
 
     def __reduce__(self) -> tuple[object, ...]:
         return _rebuild, (type(self), self.reason), self.__dict__

@@ -1,8 +1,9 @@
 """Makes `from geometry_msgs.msg import Twist` work for every package of the registry.
 
 Real Python packages always come first, wherever on `sys.path` they are: where a ROS 2 is sourced, its own
-`geometry_msgs` is imported. A mere folder of that name without `__init__.py` does not count, as it would not beside
-an installed package: a workspace's source folder `robot_controller/` must not hide the messages built from it.
+`geometry_msgs` is imported. A mere folder of that name without `__init__.py` does not count, as it would not
+beside an installed package: a workspace's source folder `robot_controller/` must not hide the messages built
+from it.
 """
 
 from __future__ import annotations
@@ -12,11 +13,16 @@ from collections.abc import Sequence
 from importlib import import_module
 from importlib.machinery import ModuleSpec, PathFinder
 from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from turtle_lesson.ros.interfaces import names
 from turtle_lesson.ros.interfaces.registry import FOLDERS, Package, Registry, advice
 from turtle_lesson.ros.interfaces.registry import registry as the_registry
+
+if TYPE_CHECKING:
+    from importlib.abc import Loader
+else:
+    Loader = object  # importing importlib.abc would take longer than all the rest
 
 
 def install(registry: Registry = the_registry) -> None:
@@ -30,7 +36,9 @@ def install(registry: Registry = the_registry) -> None:
 def uninstall(registry: Registry = the_registry) -> None:
     """Undo `install`; what was imported stays imported."""
     sys.meta_path[:] = [
-        each for each in sys.meta_path if not (isinstance(each, InterfaceFinder) and each.registry is registry)
+        each
+        for each in sys.meta_path
+        if not (isinstance(each, InterfaceFinder) and each.registry is registry)
     ]
 
 
@@ -45,7 +53,7 @@ class InterfaceFinder:
     ) -> ModuleSpec | None:
         """Specification of one of our modules, or None to leave the name to others."""
         parts = fullname.split(".")
-        if len(parts) > 3 or len(parts) > 1 and parts[1] not in FOLDERS:
+        if len(parts) > 3 or (len(parts) > 1 and parts[1] not in FOLDERS):
             return None
         try:
             owner = self.registry.package(parts[0])
@@ -70,9 +78,7 @@ class InterfaceFinder:
         return None
 
 
-def _is_found_elsewhere(
-    fullname: str, path: Sequence[str] | None, target: ModuleType | None
-) -> bool:
+def _is_found_elsewhere(fullname: str, path: Sequence[str] | None, target: ModuleType | None) -> bool:
     """Whether another finder has a real module of this name, and not just a folder."""
     for other in sys.meta_path:
         find = getattr(other, "find_spec", None)
@@ -84,7 +90,7 @@ def _is_found_elsewhere(
     return False
 
 
-class _PackageLoader:
+class _PackageLoader(Loader):
     """Makes the outer package, e.g. `geometry_msgs`: nothing but a place for its inner ones."""
 
     def create_module(self, spec: ModuleSpec) -> None:
@@ -95,7 +101,7 @@ class _PackageLoader:
         module.__interfaces__ = True  # type: ignore[attr-defined]
 
 
-class _FolderLoader:
+class _FolderLoader(Loader):
     """Makes an inner package, e.g. `geometry_msgs.msg`, whose classes are made when first asked for."""
 
     def __init__(self, owner: Package, folder: str) -> None:
@@ -116,10 +122,12 @@ class _FolderLoader:
             setattr(module, name, found)
             return found
 
-        module.__dict__.update(__getattr__=get, __dir__=lambda: sorted({*module.__dict__, *known}), __all__=known)
+        module.__dict__.update(
+            __getattr__=get, __dir__=lambda: sorted({*module.__dict__, *known}), __all__=known
+        )
 
 
-class _InterfaceLoader:
+class _InterfaceLoader(Loader):
     """Makes the module of one interface, e.g. `geometry_msgs.msg._twist`."""
 
     def __init__(self, registry: Registry, interface: str) -> None:
@@ -135,7 +143,8 @@ class _InterfaceLoader:
 
 
 def _missing(owner: Package, folder: str, name: str) -> str:
-    return f"cannot import name '{name}' from '{owner.name}.{folder}' ({owner.directory}). {_hint(owner, folder, name)}"
+    text = f"cannot import name '{name}' from '{owner.name}.{folder}'. {_hint(owner, folder, name)}"
+    return text.rstrip(". ")
 
 
 def _missing_attribute(module: ModuleType, owner: Package, folder: str, name: str) -> str:

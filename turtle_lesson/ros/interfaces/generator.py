@@ -1,8 +1,9 @@
 """Python classes for interface definitions, as Humble's `rosidl_generator_py` would make them.
 
-The classes are written as source text and executed, which is what makes them fast: each constructor, setter and
-copy is straight code for just its fields. The text stays readable in tracebacks and for `inspect.getsource`.
-Beyond ROS's classes ours have `_wire_copy()`, which gives what a subscriber on another computer would get.
+The classes are written as source text and executed, which is what makes them fast: each constructor, setter
+and copy is straight code for just its fields. The text stays readable in tracebacks and for
+`inspect.getsource`. Beyond ROS's classes ours have `_wire_copy()`, which gives what a subscriber on another
+computer would get.
 """
 
 from __future__ import annotations
@@ -18,7 +19,9 @@ from typing import Any
 
 from turtle_lesson.ros.interfaces import message
 from turtle_lesson.ros.interfaces.actions import derived_parts
-from turtle_lesson.ros.interfaces.definition import (
+from turtle_lesson.ros.interfaces.errors import InvalidDefinition, InvalidMemberName, InvalidType
+from turtle_lesson.ros.interfaces.kinds import Kind, kind_of
+from turtle_lesson.ros.interfaces.model import (
     ActionDefinition,
     Definition,
     Field,
@@ -26,8 +29,6 @@ from turtle_lesson.ros.interfaces.definition import (
     MessageDefinition,
     ServiceDefinition,
 )
-from turtle_lesson.ros.interfaces.errors import InvalidDefinition, InvalidMemberName, InvalidType
-from turtle_lesson.ros.interfaces.kinds import Kind, kind_of
 from turtle_lesson.ros.interfaces.names import module_name
 from turtle_lesson.ros.interfaces.slot_types import slot_type
 from turtle_lesson.ros.interfaces.source import message_source, wrapper_source
@@ -83,7 +84,8 @@ class _Builder:
     def __init__(self, definition: Definition, resolve: Resolve) -> None:
         stem = module_name(definition.name)
         self._module = ModuleType(
-            f"{definition.package}.{definition.folder}.{stem}", f"Classes generated from {definition.full_name}."
+            f"{definition.package}.{definition.folder}.{stem}",
+            f"Classes generated from {definition.full_name}.",
         )
         self._file = f"generated/{definition.package}/{definition.folder}/{stem}.py"
         self._module.__file__ = self._file
@@ -110,7 +112,9 @@ class _Builder:
         """Add request, response and the class that holds both."""
         for part in definition.parts():
             self.add_message(part)
-        self._add_wrapper(definition, {"Request": definition.request.name, "Response": definition.response.name})
+        self._add_wrapper(
+            definition, {"Request": definition.request.name, "Response": definition.response.name}
+        )
 
     def add_action(self, definition: ActionDefinition) -> None:
         """Add goal, result, feedback, the class that holds them, and what carries them (`Impl`)."""
@@ -161,8 +165,12 @@ class _Builder:
             _check_for_python(member)
             return kind_of(definition, member, self._message_class(definition, member.type))
         except InvalidDefinition as error:
-            place = {"interface": definition.full_name, "file": definition.file}
-            raise error.locate(**place, line=member.line or None, line_text=str(member)) from None
+            raise error.locate(
+                interface=definition.full_name,
+                file=definition.file,
+                line=member.line or None,
+                line_text=str(member),
+            ) from None
 
     def _message_class(self, definition: MessageDefinition, type_: FieldType) -> type | None:
         if type_.is_primitive:
@@ -188,18 +196,26 @@ def _with_inner(kinds: tuple[Kind, ...]) -> Iterator[Kind]:
 
 
 def _signature_default(kind: Kind) -> str:
-    return f"{kind.message_class.__name__}()" if kind.message_class else kind.fresh.replace("_array('", "array('")
+    return (
+        f"{kind.message_class.__name__}()"
+        if kind.message_class
+        else kind.fresh.replace("_array('", "array('")
+    )
 
 
 def _check_for_python(member: Field) -> None:
     """Refuse what ROS's parser lets pass and its later steps do not."""
     if member.type.base in ("time", "duration"):
         better = f"builtin_interfaces/{member.type.base.capitalize()}"
-        raise InvalidType(f"the type '{member.type.base}' is of ROS 1", hint=f"Write '{better} {member.name}'")
+        raise InvalidType(
+            f"the type '{member.type.base}' is of ROS 1", hint=f"Write '{better} {member.name}'"
+        )
     if keyword.iskeyword(member.name):
         raise InvalidMemberName(
             f"Member name '{member.name}' is a reserved keyword in Python and is not supported at the moment."
             " Please use a different name"
         )
     if member.name in TAKEN:
-        raise InvalidMemberName(f"the field name '{member.name}' is taken", hint="Please use a different name")
+        raise InvalidMemberName(
+            f"the field name '{member.name}' is taken", hint="Please use a different name"
+        )

@@ -1,7 +1,7 @@
 """How each kind of field is checked, made fresh and copied, as pieces of the source of generated classes.
 
-A piece is an expression with `{value}` where the value belongs. Names that begin with an underscore are globals
-of the generated module; no field can have such a name.
+A piece is an expression with `{value}` where the value belongs. Names that begin with an underscore are
+globals of the generated module; no field can have such a name.
 """
 
 from __future__ import annotations
@@ -12,9 +12,9 @@ from math import isfinite
 from typing import Any
 
 from turtle_lesson.ros.interfaces import checks, message
-from turtle_lesson.ros.interfaces.definition import Field, FieldType, MessageDefinition
+from turtle_lesson.ros.interfaces.model import Field, FieldType, MessageDefinition, Plain
 from turtle_lesson.ros.interfaces.names import FLOATS, STRINGS
-from turtle_lesson.ros.interfaces.values import Plain, integer_bounds
+from turtle_lesson.ros.interfaces.values import integer_bounds
 
 ELEMENT_CLASSES: dict[str, type] = {"bool": bool, "byte": bytes, "string": str, "wstring": str}
 ZEROS: dict[str, Plain | bytes] = {"bool": False, "byte": b"\x00", "string": "", "wstring": ""}
@@ -35,6 +35,7 @@ class Kind:
         is_float32: whether transport rounds the value to a float32.
         same: expression that compares `{value}` with `{other}`.
         message_class: class of the value, where the field is one message.
+        element_class: class of the value or of its elements, where these are messages.
         objects: globals that these expressions use.
     """
 
@@ -48,6 +49,7 @@ class Kind:
     is_float32: bool = False
     same: str = "{value} == {other}"
     message_class: type | None = None
+    element_class: type | None = None
     objects: dict[str, Any] = field(default_factory=dict)
 
 
@@ -120,6 +122,7 @@ def _message_kind(member: Field, key: str, message_class: type) -> Kind:
         test=f"_type({{value}}) is {variable}",
         copy="{value}._wire_copy()",
         message_class=message_class,
+        element_class=message_class,
         objects={
             check: checks.message_check(member.name, message_class),
             fresh: message_class._FRESH,  # type: ignore[attr-defined]
@@ -183,6 +186,7 @@ def _list_kind(member: Field, key: str, message_class: type | None) -> Kind:
         check=check,
         fresh=_fresh_list(member, message_class),
         copy=f"{copy}({{value}})",
+        element_class=message_class,
         objects=objects,
     )
 
@@ -200,7 +204,7 @@ def _fresh_list(member: Field, message_class: type | None) -> str:
 
 def class_variable(message_class: type) -> str:
     """Global name of a message class in generated modules."""
-    return "_class_" + message_class._TYPE_NAME.replace("/", "_")  # type: ignore[attr-defined,no-any-return]
+    return "_class_" + message_class._TYPE_NAME.replace("/", "_")  # type: ignore[attr-defined]
 
 
 def _finite(text: str) -> str:

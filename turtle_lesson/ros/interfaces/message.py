@@ -15,7 +15,7 @@ plain_text = str.__str__  # a plain str, even of an instance of a subclass
 
 @dataclass(frozen=True, slots=True)
 class TypeSupport:
-    """Stands where ROS keeps the pointers to its C code: tells rclpy that a class is an interface, and which kind.
+    """Stands where ROS keeps pointers to its C code: tells that a class is an interface, and of which kind.
 
     Attributes:
         kind: `msg`, `srv` or `action`.

@@ -1,32 +1,31 @@
 """Which interface packages there are, and the classes made from their definition files.
 
-The built-in packages lie in `share/`, laid out as ROS installs them: `share/<package>/msg/<Name>.msg`. A workspace
-adds its own with `registry.add`. Files are read, and classes made, when first asked for.
+The built-in packages lie in `share/`, laid out as ROS installs them: `share/<package>/msg/<Name>.msg`. A
+workspace adds its own with `registry.add`. Files are read, and classes made, when first asked for.
 """
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from threading import RLock
 from types import ModuleType
 from typing import Any
 
 from turtle_lesson.ros.interfaces import names
-from turtle_lesson.ros.interfaces.definition import (
-    Definition,
-    FieldType,
-    parse_action,
-    parse_message,
-    parse_service,
-)
+from turtle_lesson.ros.interfaces.definition import parse_action, parse_message, parse_service
 from turtle_lesson.ros.interfaces.errors import InvalidDefinition, UnknownMessageType
 from turtle_lesson.ros.interfaces.generator import make_module
+from turtle_lesson.ros.interfaces.model import Definition, FieldType
 
 SHARE = Path(__file__).with_name("share")
 FOLDERS = ("msg", "srv", "action")
-PARSERS = {"msg": parse_message, "srv": parse_service, "action": parse_action}
+PARSERS: dict[str, Callable[[str, str, str, str], Definition]] = {
+    "msg": parse_message,
+    "srv": parse_service,
+    "action": parse_action,
+}
 
 
 class Package:
@@ -35,7 +34,7 @@ class Package:
     Args:
         name: the package's name.
         directory: folder that holds the definition files.
-        files: paths of the files that count, relative to the folder, as CMakeLists.txt names them; None for all.
+        files: the files that count, relative to the folder, as CMakeLists.txt names them; None for all.
     """
 
     def __init__(self, name: str, directory: Path, files: Iterable[str] | None = None) -> None:
@@ -51,7 +50,9 @@ class Package:
     def names_in(self, folder: str) -> list[str]:
         """Names of the interfaces of one folder."""
         paths = self._paths()
-        return sorted(path.stem for path in paths if path.parent.name == folder and path.suffix == f".{folder}")
+        return sorted(
+            path.stem for path in paths if path.parent.name == folder and path.suffix == f".{folder}"
+        )
 
     def has(self, interface: str) -> bool:
         """Whether there is an interface `msg/Twist`."""
@@ -98,7 +99,9 @@ class Registry:
         """Forget a package that was added, its classes, and its modules in `sys.modules`."""
         with self._lock:
             if package not in self._added:
-                raise LookupError(f"the interface package '{package}' was not added. {self._hint(package)}".rstrip())
+                raise LookupError(
+                    f"the interface package '{package}' was not added. {self._hint(package)}".rstrip()
+                )
             self._forget(package)
             del self._added[package]
 
@@ -123,7 +126,7 @@ class Registry:
         """The class of an interface.
 
         Args:
-            name: `geometry_msgs/msg/Twist`, `geometry_msgs/Twist`, or a part such as `turtlesim/srv/Spawn_Request`.
+            name: `geometry_msgs/msg/Twist`, `geometry_msgs/Twist`, or a part: `turtlesim/srv/Spawn_Request`.
 
         Raises:
             LookupError: there is no such package or interface.
@@ -137,7 +140,7 @@ class Registry:
         return found
 
     def module(self, package: str, interface: str) -> ModuleType:
-        """The generated module of an interface: `geometry_msgs.msg._twist` of `geometry_msgs`, `msg/Twist`."""
+        """The generated module of an interface: `geometry_msgs.msg._twist` for `msg/Twist`."""
         folder, _, name = interface.partition("/")
         whole = f"{folder}/{names.without_part(name)}"
         with self._lock:
@@ -147,7 +150,7 @@ class Registry:
             return owner.modules[whole]
 
     def check(self, package: str) -> list[InvalidDefinition]:
-        """All that a build would refuse: the first fault of each definition file, in the order of the names."""
+        """All that a build would refuse: the first fault of each definition file, in order of the names."""
         faults = []
         for interface in self.interface_names(package):
             try:
@@ -174,8 +177,9 @@ class Registry:
         try:
             message_class = self.get(name)
         except LookupError as error:
-            hint = "Did you mean 'std_msgs/Header'?" if type_.base == "Header" else error.args[0]
-            raise UnknownMessageType(f"the type '{type_}' is unknown", hint=hint) from None
+            hint = self._where_is(type_.base) or error.args[0]
+            whole = f"{type_.package}/{type_.base}"
+            raise UnknownMessageType(f"the type '{whole}' is unknown", hint=hint) from None
         self._uses[self._in_progress[-1]] |= self._uses[name]
         return message_class
 
@@ -184,7 +188,8 @@ class Registry:
         if len(parts) == 3 and parts[1] in FOLDERS:
             return parts[0], f"{parts[1]}/{parts[2]}"
         if len(parts) != 2:
-            raise LookupError(f"'{name}' names no interface: write it as 'geometry_msgs/msg/Twist'")
+            hint = self._where_is(parts[-1], "/msg")
+            raise LookupError(f"'{name}' is no name such as 'geometry_msgs/msg/Twist'. {hint}".rstrip())
         owner = self.package(parts[0])
         for folder in FOLDERS:
             if owner.has(f"{folder}/{names.without_part(parts[1])}"):
@@ -201,8 +206,16 @@ class Registry:
     def _find(self, package: str, interface: str) -> Package:
         owner = self.package(package)
         if not owner.has(interface):
-            raise LookupError(f"the package '{package}' has no interface '{interface}'. {advice(owner, interface)}".rstrip())
+            raise LookupError(
+                f"the package '{package}' has no interface '{interface}'. {advice(owner, interface)}".rstrip()
+            )
         return owner
+
+    def _where_is(self, name: str, folder: str = "") -> str:
+        """Say which packages have a message of this name."""
+        owners = [each for each in self.packages() if self.package(each).has(f"msg/{name}")]
+        found = " or ".join(f"'{owner}{folder}/{name}'" for owner in owners)
+        return f"Did you mean {found}?" if found else ""
 
     def _hint(self, package: str) -> str:
         return names.did_you_mean(package, self.packages())
@@ -231,7 +244,9 @@ registry = Registry()
 def forget_modules(package: str) -> None:
     """Take a package's interface modules out of `sys.modules`; a real Python package of that name stays."""
     inner = tuple(f"{package}.{folder}" for folder in FOLDERS)
-    for name in [each for each in sys.modules if each in inner or each.startswith(tuple(f"{i}." for i in inner))]:
+    for name in [
+        each for each in sys.modules if each in inner or each.startswith(tuple(f"{i}." for i in inner))
+    ]:
         del sys.modules[name]
     outer = sys.modules.get(package)
     if outer is None:
@@ -254,7 +269,9 @@ def _read(owner: Package, interface: str) -> str:
         return path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         reason = f"the file cannot be read ({error})"
-        raise InvalidDefinition(reason).locate(interface=f"{owner.name}/{interface}", file=str(path)) from None
+        raise InvalidDefinition(reason).locate(
+            interface=f"{owner.name}/{interface}", file=str(path)
+        ) from None
 
 
 def advice(owner: Package, interface: str) -> str:

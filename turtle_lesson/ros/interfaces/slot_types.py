@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from turtle_lesson.ros.interfaces.definition import FieldType
+from turtle_lesson.ros.interfaces.model import FieldType
 
 TYPE_NAMES = {"float32": "float", "float64": "double", "bool": "boolean", "byte": "octet", "char": "uint8"}
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from turtle_lesson.ros.interfaces.definition import Constant, Definition, MessageDefinition
 from turtle_lesson.ros.interfaces.kinds import Kind, class_variable, literal
+from turtle_lesson.ros.interfaces.model import Constant, Definition, MessageDefinition
 from turtle_lesson.ros.interfaces.slot_types import slot_type
 
 Lines = list[str]
@@ -72,7 +72,9 @@ def _metaclass(definition: MessageDefinition, kinds: tuple[Kind, ...]) -> Lines:
         f"    _TYPE_SUPPORT = _support_{definition.name}",
     ]
     for constant in definition.constants:
-        lines += _indent(_read_only(constant.name, f"Message constant '{constant.name}'.", _constant(constant)))
+        lines += _indent(
+            _read_only(constant.name, f"Message constant '{constant.name}'.", _constant(constant))
+        )
     for name, fresh in _defaults(definition, kinds):
         lines += _indent(_read_only(name, "Return default value of a message field.", fresh))
     return [*lines, "", ""]
@@ -167,7 +169,11 @@ def _property(kind: Kind) -> Lines:
 
 
 def _wire_copy(name: str, kinds: tuple[Kind, ...]) -> Lines:
-    lines = ["", "def _wire_copy(self):", '    """Copy that shares nothing, with numbers as transport leaves them."""']
+    lines = [
+        "",
+        "def _wire_copy(self):",
+        '    """Copy that shares nothing, with numbers as transport leaves them."""',
+    ]
     lines.append(f"    new = _new({name})")
     packed: list[tuple[str, str]] = []
     lines += _indent(_copy_fields("new", "self", kinds, packed))
@@ -179,7 +185,7 @@ def _wire_copy(name: str, kinds: tuple[Kind, ...]) -> Lines:
 
 
 def _copy_fields(new: str, old: str, kinds: tuple[Kind, ...], packed: list[tuple[str, str]]) -> Lines:
-    """Copy field by field; sub messages are copied in place, float32 fields are left for one packing at the end."""
+    """Copy field by field; sub messages in place, float32 fields left for one packing at the end."""
     lines: Lines = []
     for kind in kinds:
         target, source = f"{new}._{kind.name}", f"{old}._{kind.name}"

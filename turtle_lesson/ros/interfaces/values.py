@@ -6,16 +6,10 @@ The rules and the words are those of `rosidl_adapter.parser`.
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
 from turtle_lesson.ros.interfaces.errors import InvalidDefinition, InvalidValue, UnsupportedDefault
+from turtle_lesson.ros.interfaces.model import FieldType, Plain, Value
 from turtle_lesson.ros.interfaces.names import FLOATS, STRINGS
-
-if TYPE_CHECKING:
-    from turtle_lesson.ros.interfaces.definition import FieldType
-
-Plain = bool | int | float | str
-Value = Plain | tuple[Plain, ...]
 
 
 def integer_bounds(base: str) -> tuple[int, int]:
@@ -121,7 +115,8 @@ _STRING_ELEMENT = re.compile(r"""\s*(?:"((?:\\"|[^"])*)"|'((?:\\'|[^'])*)'|([^,"
 
 def _split_strings(text: str) -> list[str]:
     """Split at commas that stand outside quotes, and take the quotes off."""
-    elements, position = [], 0
+    elements: list[str] = []
+    position = 0
     while position < len(text.rstrip()):
         match = _STRING_ELEMENT.match(text, position)
         if match is None:

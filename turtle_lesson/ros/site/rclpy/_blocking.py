@@ -26,10 +26,15 @@ def drives_the_simulation(function: Callable[..., T]) -> Callable[..., T]:
     def call(*arguments: Any, **keywords: Any) -> T:
         if running_strand() is not None:
             return function(*arguments, **keywords)
-        world = current_world()
-        return world.sim.drive(world.notebook, function, *arguments, **keywords)
+        return drive(function, *arguments, **keywords)
 
     return call
+
+
+def drive(function: Callable[..., T], *arguments: Any, **keywords: Any) -> T:
+    """Run the simulation until `function(*arguments, **keywords)`, as part of the notebook's process, is done."""
+    world = current_world()
+    return world.sim.drive(world.notebook, function, *arguments, **keywords)
 
 
 def spin_live(function: Callable[[], None]) -> None:

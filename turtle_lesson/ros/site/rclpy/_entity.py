@@ -45,8 +45,8 @@ class Entity:
             self._listed_in = executor
             executor._signalled.append(self)
             strand = executor._waiter
-            if strand is not None:
-                strand.simulation.wake(strand)
+            if strand is not None and strand.parked:
+                executor._simulation.wake(strand)
 
     def _has_work(self) -> bool:
         """Whether there is work right now."""

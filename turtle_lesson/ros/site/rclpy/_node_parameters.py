@@ -117,12 +117,14 @@ class NodeParameters:
             del self._descriptors[parameter.name]
             raise exceptions.InvalidParameterValueException(parameter.name, parameter.value, reason)
         self._parameters[parameter.name] = parameter
+        self._tell_parameter_event("new", [parameter])
 
     def undeclare_parameter(self, name: str) -> None:
         """Forget a parameter. Raises ParameterNotDeclaredException or ParameterImmutableException."""
         self._check_declared(name)
         if self._descriptors[name].read_only:
             raise exceptions.ParameterImmutableException(name)
+        self._tell_parameter_event("deleted", [self._parameters[name]])
         del self._parameters[name], self._descriptors[name]
 
     # -- reading ---------------------------------------------------------------------------------------------------
@@ -208,11 +210,11 @@ class NodeParameters:
             self._parameters[parameter.name] = parameter
         for callback in self._after_set:
             callback(parameters)
-        self._tell_parameter_event(parameters)
+        self._tell_parameter_event("changed", parameters)
         return SetParametersResult(successful=True)
 
-    def _tell_parameter_event(self, parameters: list[Parameter]) -> None:
-        """Publish what was changed; Node does."""
+    def _tell_parameter_event(self, kind: str, parameters: list[Parameter]) -> None:
+        """Publish what was new, changed or deleted; Node does."""
 
     def _why_refused(self, parameter: Parameter, declaring: bool = False) -> str:
         """Why a value is not allowed, as the real one words it; '' if it is."""

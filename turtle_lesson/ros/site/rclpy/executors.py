@@ -12,10 +12,10 @@ import warnings
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from turtle_lesson.ros.core import NANOSECONDS, Strand, running_strand
+from turtle_lesson.ros.core import NANOSECONDS, Strand, getcurrent, running_strand
 from turtle_lesson.ros.world import current_process, current_world
 
-from ._blocking import drives_the_simulation, in_a_plain_cell, spin_live
+from ._blocking import drive, drives_the_simulation, in_a_plain_cell, spin_live
 from ._entity import SERVICE, Entity
 from .context import Context
 from .task import Future, Task
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from .node import Node
 
 Job = Any  # an Entity, or a Task
+Condition = Callable[[], bool] | None
 
 
 class TimeoutException(Exception):
@@ -133,10 +134,13 @@ class Executor:
         while self._context.ok() and not self._is_shutdown:
             self.spin_once()
 
-    @drives_the_simulation
     def spin_once(self, timeout_sec: float | None = None) -> None:
         """Run one callback, waiting at most `timeout_sec` (s; None waits for ever) for one to become ready."""
-        self._spin_once(timeout_sec, None)
+        strand = getcurrent()
+        if type(strand) is Strand:
+            self._spin_once(strand, None if timeout_sec is None else self._deadline(timeout_sec), None)
+        else:
+            drive(self.spin_once, timeout_sec)
 
     @drives_the_simulation
     def spin_until_future_complete(self, future: Future, timeout_sec: float | None = None) -> None:
@@ -156,14 +160,14 @@ class Executor:
     def spin_once_until_future_complete(self, future: Future, timeout_sec: float | None = None) -> None:
         """Run one callback, unless the future is done before one becomes ready."""
         future.add_done_callback(_at_once(lambda _: self.wake()))
-        self._spin_once(timeout_sec, future.done)
-
-    def _spin_once(self, timeout_sec: float | None, condition: Callable[[], bool] | None) -> None:
         strand = running_strand()
         assert strand is not None
+        self._spin_once(strand, self._deadline(timeout_sec), future.done)
+
+    def _spin_once(self, strand: Strand, deadline: int | None, condition: Condition) -> None:
         self._spinning.append(strand)
         try:
-            job = self._next(None if timeout_sec is None else self._deadline(timeout_sec), condition)
+            job = self._next(strand, deadline, condition)
             if job is not None:
                 self._execute(job)
         finally:
@@ -179,12 +183,13 @@ class Executor:
 
         Raises TimeoutException, ConditionReachedException, ShutdownException or ExternalShutdownException.
         """
-        job = self._next(self._deadline(timeout_sec), condition)
+        strand = running_strand()
+        assert strand is not None
+        job = self._next(strand, self._deadline(timeout_sec), condition)
         if job is None:
             raise ConditionReachedException if condition() else TimeoutException
         if isinstance(job, Task):
             return job, job._entity, job._node
-        job.callback_group.beginning_execution(job)
         return self._as_task(job), job, job._node
 
     def _deadline(self, timeout_sec: float | None) -> int | None:
@@ -198,17 +203,17 @@ class Executor:
 
     # -- choosing ------------------------------------------------------------------------------------------------
 
-    def _next(self, deadline: int | None, condition: Callable[[], bool] | None) -> Job | None:
-        """The next thing to run, or None at the deadline (ns) or when the condition holds."""
+    def _next(self, strand: Strand, deadline: int | None, condition: Condition) -> Job | None:
+        """The next thing to run, its callback group taken; None at the deadline (ns) or when the condition holds."""
         while True:
             batch = self._batch
             while batch:
                 job = batch.pop()
-                if isinstance(job, Task):
-                    if not job.done():
+                if job.__class__ is Task:
+                    if not job._done:
                         return job
                 elif job._executor is self and job._has_work():
-                    if job.callback_group.can_execute(job):
+                    if job.callback_group.beginning_execution(job):
                         return job
                     self._held_up.append(job)
             if condition is not None and condition():
@@ -219,15 +224,15 @@ class Executor:
             self._check_not_shut_down()
             if deadline is not None and self._simulation.now >= deadline:
                 return None
-            self._wait(deadline)
+            self._wait(strand, deadline)
 
     def _begin_cycle(self) -> None:
         batch: list[Job] = self._signalled
-        self._signalled = []
         for entity in batch:
             entity._listed_in = None
         if len(batch) > 1:
             batch.sort(key=_turn, reverse=True)  # taken from the end
+        self._signalled = self._batch  # which is empty now
         if self._resumed or self._polled:
             batch = [*batch, *self._polled, *self._resumed]
             self._polled, self._resumed = [], []
@@ -239,48 +244,46 @@ class Executor:
         if not self._context.ok():
             raise ExternalShutdownException
 
-    def _wait(self, deadline: int | None) -> None:
-        strand = running_strand()
-        assert strand is not None
+    def _wait(self, strand: Strand, deadline: int | None) -> None:
+        simulation = self._simulation
         before, self._waiter = self._waiter, strand
         if deadline is not None:
-            self._simulation.at(deadline, self._simulation.wake, strand)
+            simulation.at(deadline, simulation.wake, strand)
+        strand.parked = True
         try:
-            strand.park()
+            simulation.hub.switch()
         finally:
             self._waiter = before
 
     # -- running -------------------------------------------------------------------------------------------------
 
     def _execute(self, job: Job) -> None:
-        """Run a job in this strand."""
-        if isinstance(job, Task):
+        """Run a job, whose callback group has been taken, in this strand."""
+        if job.__class__ is Task:
             self._run_task(job)
+        elif job._is_async:
+            self._run_task(self._as_task(job))
         else:
-            job.callback_group.beginning_execution(job)
-            self._run(job)
+            try:
+                arguments = job._take()
+                if arguments is not None:
+                    result = job.callback(*arguments)
+                    if job._kind == SERVICE:
+                        job._done_with(arguments, result)
+            finally:
+                job.callback_group.ending_execution(job)
+                if self._held_up:
+                    self._release_held_up()
 
-    def _run(self, entity: Any) -> None:
-        """Run the callback of an entity whose callback group has been taken."""
-        if entity._is_async:
-            self._run_task(self._as_task(entity))
-            return
-        try:
-            arguments = entity._take()
-            if arguments is not None:
-                result = entity.callback(*arguments)
-                if entity._kind == SERVICE:
-                    entity._done_with(arguments, result)
-        finally:
-            self._free(entity)
+    def _release_held_up(self) -> None:
+        """Let those look again who waited for a callback group."""
+        held_up, self._held_up = self._held_up, []
+        for waiting in held_up:
+            waiting._signal()
 
     def _free(self, entity: Any) -> None:
-        """Give the callback group back, and let those look again who waited for it."""
         entity.callback_group.ending_execution(entity)
-        if self._held_up:
-            held_up, self._held_up = self._held_up, []
-            for waiting in held_up:
-                waiting._signal()
+        self._release_held_up()
 
     def _as_task(self, entity: Any) -> Task:
         task = Task(_call_and_await, (entity, entity._take()), executor=self)
@@ -350,30 +353,31 @@ class MultiThreadedExecutor(Executor):
         self._idle: list[_Worker] = []
         self._failures: list[BaseException] = []
 
-    def _next(self, deadline: int | None, condition: Callable[[], bool] | None) -> Job | None:
+    def _next(self, strand: Strand, deadline: int | None, condition: Condition) -> Job | None:
         while not self._idle and self._threads >= self._num_threads and not self._failures:
             if deadline is not None and self._simulation.now >= deadline:
                 return None
             self._check_not_shut_down()
-            self._wait(deadline)
+            self._wait(strand, deadline)
 
         def interesting() -> bool:
             return bool(self._failures) or (condition is not None and condition())
 
-        job = None if self._failures else super()._next(deadline, interesting)
+        job = None if self._failures else super()._next(strand, deadline, interesting)
         if job is None and self._failures:
             raise self._failures.pop(0)
         return job
 
     def _execute(self, job: Job) -> None:
-        if not isinstance(job, Task):
-            job.callback_group.beginning_execution(job)
         if self._idle:
             worker = self._idle.pop()
         else:
             self._threads += 1
             worker = _Worker(self)
         worker.give(job)
+
+    def _execute_here(self, job: Job) -> None:
+        super()._execute(job)
 
 
 class _Worker:
@@ -396,10 +400,7 @@ class _Worker:
                 self._strand.park()
             job, self._job = self._job, None
             try:
-                if isinstance(job, Task):
-                    executor._run_task(job)
-                else:
-                    executor._run(job)
+                executor._execute_here(job)
             except Exception as error:
                 executor._failures.append(error)
             executor._idle.append(self)

@@ -26,9 +26,15 @@ from .guard_condition import GuardCondition
 from .impl.logging_severity import LoggingSeverity
 from .impl.rcutils_logger import RcutilsLogger, publish_rosout
 from .parameter import Parameter
+from .parameter_service import ParameterService
 from .publisher import Publisher
-from .qos import QoSProfile, checked_profile, qos_profile_services_default
-from .qos import qos_profile_parameter_events, DurabilityPolicy
+from .qos import (
+    DurabilityPolicy,
+    QoSProfile,
+    checked_profile,
+    qos_profile_parameter_events,
+    qos_profile_services_default,
+)
 from .service import Service
 from .subscription import Subscription
 from .timer import Rate, Timer
@@ -88,15 +94,15 @@ class Node(NodeGraph, NodeParameters):
         self._graph.add_node(self._entry)
         self._context.track_node(self)
         self._setup_parameters(self._entry.full_name, parameter_overrides or [], allow_undeclared_parameters)
-        self._event_publisher: Publisher | None = None
         self._rosout = self._publish_rosout() if enable_rosout else None
+        self._event_publisher = self._publish_parameter_events() if start_parameter_services else None
         self.declare_parameter("use_sim_time", False)
         if automatically_declare_parameters_from_overrides:
             for override in self._overrides.values():
                 if not self.has_parameter(override.name):
                     self.declare_parameter(override.name, override.value)
         if start_parameter_services:
-            self._start_parameter_services()
+            self._parameter_service = ParameterService(self)
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self._entry.full_name}>"
@@ -465,22 +471,18 @@ class Node(NodeGraph, NodeParameters):
         publish_rosout(self._logger.name, publish)
         return publisher
 
-    def _start_parameter_services(self) -> None:
+    def _publish_parameter_events(self) -> Publisher:
+        """Publish on /parameter_events what becomes of the parameters."""
         from rcl_interfaces.msg import ParameterEvent
 
-        from .parameter_service import ParameterService
+        return self.create_publisher(ParameterEvent, "/parameter_events", qos_profile_parameter_events)
 
-        self._event_publisher = self.create_publisher(ParameterEvent, "/parameter_events", qos_profile_parameter_events)
-        self._parameter_service = ParameterService(self)
-
-    def _tell_parameter_event(self, parameters: list[Parameter]) -> None:
+    def _tell_parameter_event(self, kind: str, parameters: list[Parameter]) -> None:
         if self._event_publisher is None:
             return
-        from rcl_interfaces.msg import ParameterEvent
-
-        event = ParameterEvent(node=self._entry.full_name)
+        event = self._event_publisher.msg_type(node=self._entry.full_name)
         event.stamp.sec, event.stamp.nanosec = divmod(EPOCH + self._simulation.now, NANOSECONDS)
-        event.changed_parameters = [parameter.to_parameter_msg() for parameter in parameters]
+        setattr(event, f"{kind}_parameters", [parameter.to_parameter_msg() for parameter in parameters])
         self._event_publisher.publish(event)
 
 

@@ -1,0 +1,239 @@
+"""The front door: `start()` makes a fresh world, and a `Lesson` runs it, launches into it and shows what happened."""
+
+from __future__ import annotations
+
+import importlib.util
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .live import Player
+from .ros.console import CellOutput
+from .ros.core import NANOSECONDS
+from .ros.interfaces.registry import registry
+from .ros.workspace.index import find_launch_file
+from .ros.workspace.package import Package, read_source_package
+from .ros.world import World, open_world
+
+if TYPE_CHECKING:
+    from .lab.graph import GraphPicture
+    from .lab.picture import Picture
+    from .lab.recorder import Recorder
+    from .ros.launching import LaunchHandle
+    from .turtlesim.obstacles import Obstacle
+
+HERE = Path(__file__).resolve().parent
+FINISHED = HERE / "robot_controller"
+
+
+def start(seed: int = 0, package: str | Path | None = "finished", simulator: bool = True) -> Lesson:
+    """Make a fresh world, in which nothing of an earlier one goes on, and return the `Lesson` that runs it.
+
+    Args:
+        seed: decides about all random numbers in the world; the same seed gives the same run.
+        package: "finished" (the lesson's own robot_controller), None (no such package, as before it is built), or the
+            folder of another package's source.
+        simulator: whether the turtle simulator runs from the beginning.
+
+    Raises RuntimeError where a real ROS 2 is sourced, ValueError for anything else as `package`.
+    """
+    _check_no_real_ros()
+    _check_seed(seed)
+    source = _package_folder(package)
+    world = open_world(seed)
+    if "robot_controller" in registry.packages():
+        registry.remove("robot_controller")
+    world.packages.add(_turtlesim())
+    if source is not None:
+        _install(world, source)
+    return Lesson(world, simulator=simulator)
+
+
+def _check_no_real_ros() -> None:
+    found = importlib.util.find_spec("rclpy")
+    if found is None or found.origin is None or not Path(found.origin).resolve().is_relative_to(HERE):
+        place = found.origin if found else "nowhere"
+        raise RuntimeError(
+            f"a real ROS 2 is sourced here (rclpy is {place}), and the simulated one never hides it. Start Jupyter from a "
+            "terminal in which no setup file was sourced."
+        )
+
+
+def _check_seed(seed: object) -> None:
+    if not isinstance(seed, int):
+        raise ValueError(f"seed must be a whole number, got {seed!r}: try start(seed=0)")
+
+
+def _package_folder(package: str | Path | None) -> Path | None:
+    if package is None:
+        return None
+    if package == "finished":
+        return FINISHED
+    if Path(package).is_dir():
+        return Path(package).resolve()
+    raise ValueError(
+        f'package must be "finished", None or the folder of a package, got {package!r}, which is no folder here'
+    )
+
+
+def _turtlesim() -> Package:
+    """The simulator as a package, so that `ros2 run turtlesim turtlesim_node` and launch files find it."""
+    return Package("turtlesim", HERE / "turtlesim", executables={"turtlesim_node": _simulator_main})
+
+
+def _simulator_main() -> None:
+    from .turtlesim.node import main
+
+    main()
+
+
+def _install(world: World, folder: Path) -> None:
+    """Make a package's executables, launch files and interfaces findable, as building and sourcing it would."""
+    package = read_source_package(folder)
+    world.packages.add(package)
+    if package.interfaces:
+        if package.name in registry.packages():
+            registry.remove(package.name)
+        registry.add(package.name, folder, package.interfaces)
+
+
+class Lesson:
+    """A running world, and what a page does with it. Times are in seconds of robot time."""
+
+    def __init__(self, world: World, *, simulator: bool = True) -> None:
+        self._world = world
+        self._player = Player(world.sim)
+        self._obstacles: list[Obstacle] = []
+        self._markers: Any = None
+        self._recorder: Recorder | None = None
+        world.spawn(self._lab, name="lab", argv=["lab"])
+        if simulator:
+            out = CellOutput(world.sim)
+            world.spawn(_simulator_main, name="turtlesim", argv=["turtlesim_node"], stdout=out, stderr=out)
+        world.sim.settle()
+
+    def __repr__(self) -> str:
+        return f"<Lesson at {self.now:.3f} s of robot time>"
+
+    # -- time ------------------------------------------------------------------------------------------------------
+
+    @property
+    def now(self) -> float:
+        """The robot time: seconds since this world began."""
+        return self._world.now / NANOSECONDS
+
+    def run(self, seconds: float) -> None:
+        """Let `seconds` of robot time pass, as fast as the computer can.
+
+        An interrupt (the stop button) pauses the world; the next run goes on from there.
+        """
+        if not isinstance(seconds, (int, float)) or not 0 <= seconds < float("inf"):
+            raise ValueError(f"seconds must be a number of seconds, 0 or more, got {seconds!r}: try lesson.run(5)")
+        self._world.sim.run_until(self._world.now + round(seconds * NANOSECONDS))
+
+    def play(self, rate: float = 1.0) -> None:
+        """Let robot time go on by itself, `rate` times as fast as real time, until `pause()`. Other cells work on."""
+        self._player.play(rate)
+
+    def pause(self) -> None:
+        """Stop what `play` began."""
+        self._player.pause()
+
+    # -- programs --------------------------------------------------------------------------------------------------
+
+    def launch(self, package: str, launch_file: str, **arguments: Any) -> LaunchHandle:
+        """Start what a package's launch file says: `ros2 launch package launch_file name:=value …`.
+
+        Returns a handle whose `stop()` is Ctrl-C. Raises LaunchError, which says what is wrong and where.
+        """
+        from .ros.launching import launch_file as launch
+
+        path = find_launch_file(self._world.packages, package, launch_file)
+        handle = launch(self._world, path, {name: _as_text(value) for name, value in arguments.items()})
+        self._world.sim.settle()
+        return handle
+
+    # -- obstacles -------------------------------------------------------------------------------------------------
+
+    def place(self, *obstacles: Obstacle) -> None:
+        """Put obstacles (`Circle`, `Box`) into the world. They are published on /world/obstacles."""
+        self.set_obstacles([*self._obstacles, *obstacles])
+
+    def set_obstacles(self, obstacles: Iterable[Obstacle] | str) -> None:
+        """Replace all obstacles, by a list of them or by the name of a ready-made world."""
+        from .turtlesim.obstacles import WORLDS, Box, Circle
+
+        if isinstance(obstacles, str):
+            if obstacles not in WORLDS:
+                raise ValueError(f"there is no world called {obstacles!r}; there are {', '.join(map(repr, WORLDS))}")
+            obstacles = WORLDS[obstacles]
+        wanted = list(obstacles)
+        for each in wanted:
+            if not isinstance(each, (Circle, Box)):
+                raise TypeError(f"an obstacle is a Circle or a Box, got {each!r}: try Circle(x=8.0, y=5.5, radius=0.5)")
+        self._obstacles = wanted
+        self._publish_obstacles()
+
+    @property
+    def obstacles(self) -> tuple[Obstacle, ...]:
+        """The obstacles in the world."""
+        return tuple(self._obstacles)
+
+    def _publish_obstacles(self) -> None:
+        from .turtlesim.obstacles import to_marker_array
+
+        if self._markers is None:
+            from rclpy.qos import DurabilityPolicy, QoSProfile
+            from visualization_msgs.msg import MarkerArray
+
+            latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+            self._markers = self._recording.node.create_publisher(MarkerArray, "/world/obstacles", latched)
+        stamp = self._recording.node.get_clock().now().to_msg()
+        self._markers.publish(to_marker_array(self._obstacles, stamp))
+
+    # -- pictures --------------------------------------------------------------------------------------------------
+
+    def _lab(self) -> None:
+        """The lab's own process: a node with a hidden name that listens, and publishes the obstacles."""
+        import rclpy
+
+        from .lab.recorder import Recorder
+
+        rclpy.init()
+        node = rclpy.create_node("_lab", start_parameter_services=False, enable_rosout=False)
+        self._recorder = Recorder(node)
+        rclpy.spin(node)
+
+    @property
+    def _recording(self) -> Recorder:
+        assert self._recorder is not None
+        return self._recorder
+
+    def plot_path(self, **options: Any) -> Picture:
+        """The way that the turtle went, on the map, from what /turtle1/pose said."""
+        from .lab.path import plot_path
+
+        return plot_path(self._recording, **options)
+
+    def plot_status(self, **options: Any) -> Picture:
+        """Position, heading, velocity and battery over time, from what /robot/status said."""
+        from .lab.status import plot_status
+
+        return plot_status(self._recording, **options)
+
+    def plot_scan(self) -> Picture:
+        """The last scan that /obstacles brought, as the turtle sees it."""
+        from .lab.scan import plot_scan
+
+        return plot_scan(self._recording)
+
+    def plot_graph(self) -> GraphPicture:
+        """Which nodes there are, and by which topics and services they are joined."""
+        from .lab.graph import plot_graph
+
+        return plot_graph(self._recording.node)
+
+
+def _as_text(value: Any) -> str:
+    """A launch argument as one would type it after `name:=`."""
+    return str(value).lower() if isinstance(value, bool) else str(value)

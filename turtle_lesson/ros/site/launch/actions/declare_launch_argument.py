@@ -1,0 +1,92 @@
+"""`DeclareLaunchArgument`: an argument that a launch file takes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..action import Action
+from ..launch_context import LaunchContext
+from ..launch_description_entity import LaunchDescriptionEntity
+from ..some_types import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+class DeclareLaunchArgument(Action):
+    """Names an argument, with its default, what it is for, and which values it may have."""
+
+    def __init__(
+        self,
+        name: str,
+        *,
+        default_value: SomeSubstitutionsType | None = None,
+        description: str | None = None,
+        choices: list[str] | None = None,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self.__name = name
+        self.__default_value = (
+            None if default_value is None else normalize_to_list_of_substitutions(default_value)
+        )
+        if choices is not None:
+            _check_choices(choices, default_value)
+        self.__choices = choices
+        self.__description = _describe(description, choices)
+        self._conditionally_included = False
+
+    @property
+    def name(self) -> str:
+        """The argument's name."""
+        return self.__name
+
+    @property
+    def default_value(self) -> list[Substitution] | None:
+        """The default, or None if the argument must be given."""
+        return self.__default_value
+
+    @property
+    def description(self) -> str:
+        """What it is for."""
+        return self.__description
+
+    @property
+    def choices(self) -> list[str] | None:
+        """The values that it may have, or None for any."""
+        return self.__choices
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Take the default if nothing was given, and check the value.
+
+        Raises:
+            RuntimeError: if a value is missing, or not among the choices.
+        """
+        configurations = context.launch_configurations
+        if self.name not in configurations:
+            if self.default_value is None:
+                raise RuntimeError(f'Required launch argument "{self.name}" was not provided.')
+            configurations[self.name] = perform_substitutions(context, self.default_value)
+        if self.choices is not None and configurations[self.name] not in self.choices:
+            raise RuntimeError(
+                f'Argument "{self.name}" provided value "{configurations[self.name]}" is not valid. '
+                f"Valid options are: {self.choices}"
+            )
+        return None
+
+
+def _check_choices(choices: list[str], default_value: object) -> None:
+    if not choices:
+        raise RuntimeError("Provided choices arg is empty. Use None to ignore the choice list.")
+    if isinstance(default_value, str) and default_value not in choices:
+        raise RuntimeError(
+            f'Provided default_value "{default_value}" is not in provided choices "{choices}".'
+        )
+
+
+def _describe(description: str | None, choices: list[str] | None) -> str:
+    if description is None:
+        return "no description given" if choices is None else f"One of: {choices}"
+    if choices is None:
+        return description
+    end = "" if description.endswith(".") else "."
+    return f"{description}{end} Valid choices are: {choices}"

@@ -1,0 +1,108 @@
+"""Actions that change the environment variables which this launch sees."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+from ..action import Action
+from ..launch_context import LaunchContext
+from ..launch_description_entity import LaunchDescriptionEntity
+from ..some_types import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+class SetEnvironmentVariable(Action):
+    """Gives an environment variable a value."""
+
+    def __init__(self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__name = normalize_to_list_of_substitutions(name)
+        self.__value = normalize_to_list_of_substitutions(value)
+
+    @property
+    def name(self) -> list[Substitution]:
+        """The variable's name."""
+        return self.__name
+
+    @property
+    def value(self) -> list[Substitution]:
+        """Its new value."""
+        return self.__value
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Set it."""
+        name = perform_substitutions(context, self.name)
+        context.environment[name] = perform_substitutions(context, self.value)
+        return None
+
+
+class UnsetEnvironmentVariable(Action):
+    """Forgets an environment variable."""
+
+    def __init__(self, name: SomeSubstitutionsType, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__name = normalize_to_list_of_substitutions(name)
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Forget it."""
+        context.environment.pop(perform_substitutions(context, self.__name), None)
+        return None
+
+
+class AppendEnvironmentVariable(Action):
+    """Adds something to an environment variable that is a list, such as a path."""
+
+    def __init__(
+        self,
+        name: SomeSubstitutionsType,
+        value: SomeSubstitutionsType,
+        prepend: bool | SomeSubstitutionsType = False,
+        separator: SomeSubstitutionsType = os.pathsep,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self.__name = normalize_to_list_of_substitutions(name)
+        self.__value = normalize_to_list_of_substitutions(value)
+        self.__prepend = normalize_to_list_of_substitutions(
+            str(prepend) if isinstance(prepend, bool) else prepend
+        )
+        self.__separator = normalize_to_list_of_substitutions(separator)
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Add it."""
+        name = perform_substitutions(context, self.__name)
+        parts = [perform_substitutions(context, self.__value)]
+        if name in context.environment:
+            first = perform_substitutions(context, self.__prepend).lower() in {"true", "1"}
+            parts.insert(1 if first else 0, context.environment[name])
+        context.environment[name] = perform_substitutions(context, self.__separator).join(parts)
+        return None
+
+
+class PushEnvironment(Action):
+    """Begins a scope: what is set from here on is forgotten at the matching pop."""
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Begin it."""
+        context._push_environment()
+        return None
+
+
+class PopEnvironment(Action):
+    """Ends a scope."""
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """End it."""
+        context._pop_environment()
+        return None
+
+
+class ResetEnvironment(Action):
+    """Makes the environment what it was when the launch began."""
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Reset it."""
+        context._reset_environment()
+        return None

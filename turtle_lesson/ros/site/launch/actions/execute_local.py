@@ -1,0 +1,171 @@
+"""`ExecuteLocal`: run a program, show its output, react to its end."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from ..action import Action
+from ..conditions import evaluate_condition_expression
+from ..descriptions import Executable
+from ..event_handlers import OnProcessExit
+from ..events.process import ProcessExited
+from ..launch_context import LaunchContext
+from ..launch_description_entity import LaunchDescriptionEntity
+from ..some_types import SomeEntitiesType, SomeSubstitutionsType
+from ..substitution import Substitution
+from ..substitutions import LaunchConfiguration
+from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+OnExit = SomeEntitiesType | Callable[[ProcessExited, LaunchContext], SomeEntitiesType | None] | None
+
+SCREEN = {
+    "screen": {"stdout", "stderr"},
+    "both": {"stdout", "stderr"},
+    "full": {"stdout", "stderr"},
+    "log": {"stderr"},
+    "own_log": set(),
+    "none": set(),
+}
+"""What of a process's output reaches the screen, for each value of `output`."""
+
+
+@dataclass(frozen=True)
+class Program:
+    """What is to be run: a file or a `main()`, its arguments, and how the command reads on a robot."""
+
+    target: Any
+    argv: list[str]
+    shown: str
+
+
+class ExecuteLocal(Action):
+    """Base of the actions that run a program; in this classroom that can be a node's only."""
+
+    _completes_later = True
+
+    def __init__(
+        self,
+        *,
+        process_description: Executable,
+        shell: bool = False,
+        sigterm_timeout: SomeSubstitutionsType = LaunchConfiguration("sigterm_timeout", default=5),  # noqa: B008
+        sigkill_timeout: SomeSubstitutionsType = LaunchConfiguration("sigkill_timeout", default=5),  # noqa: B008
+        emulate_tty: bool = False,
+        output: SomeSubstitutionsType | Mapping[str, str | Iterable[str]] = "log",
+        output_format: str = "[{this.process_description.final_name}] {line}",
+        cached_output: bool = False,
+        log_cmd: bool = False,
+        on_exit: OnExit = None,
+        respawn: bool | SomeSubstitutionsType = False,
+        respawn_delay: float | None = None,
+        respawn_max_retries: int = -1,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self.__process_description = process_description
+        self.__shell = shell
+        self.sigterm_timeout = normalize_to_list_of_substitutions(sigterm_timeout)
+        self.sigkill_timeout = normalize_to_list_of_substitutions(sigkill_timeout)
+        self.emulate_tty = emulate_tty
+        self.__output = output if isinstance(output, Mapping) else normalize_to_list_of_substitutions(output)
+        self.output_format = output_format
+        self.__on_exit = on_exit
+        self.__respawn = normalize_to_list_of_substitutions(
+            str(respawn) if isinstance(respawn, bool) else respawn
+        )
+        self.respawn_delay = respawn_delay
+        self.respawn_max_retries = respawn_max_retries
+        self.process_details: dict[str, Any] | None = None
+        self.return_code: int | None = None
+        self._program: Program | None = None
+        self._respawns = False
+        self._on_screen: set[str] = set()
+
+    @property
+    def process_description(self) -> Executable:
+        """The command."""
+        return self.__process_description
+
+    @property
+    def output(self) -> Mapping[str, str | Iterable[str]] | list[Substitution]:
+        """Where its output goes."""
+        return self.__output
+
+    @property
+    def shell(self) -> bool:
+        """Whether the command is one for a shell."""
+        return self.__shell
+
+    def prepare(self, context: LaunchContext) -> None:
+        """Make everything text that was not yet."""
+        self._refuse_what_is_not_here()
+        self.process_description.prepare(context, self)
+        self._program = self._find_program(context)
+        self._respawns = evaluate_condition_expression(context, self.__respawn)
+        self._on_screen = _on_screen(context, self.__output)
+        self.process_details = {
+            "action": self,
+            "name": self.process_description.final_name,
+            "cmd": self._program.argv,
+            "cwd": None,
+            "env": None,
+        }
+
+    def _refuse_what_is_not_here(self) -> None:
+        if self.process_description.prefix:
+            raise NotImplementedError(
+                "prefix= puts another program (xterm, gdb, …) before the node; in this classroom nodes run inside "
+                "the notebook, so there is no command to put anything before. Leave prefix out"
+            )
+        if self.shell:
+            raise NotImplementedError("shell=True needs a shell, and this classroom has none yet")
+
+    def _find_program(self, context: LaunchContext) -> Program:
+        """What to run, for subclasses to say."""
+        command = " ".join(self.process_description.final_cmd)
+        raise NotImplementedError(
+            f"ExecuteProcess(cmd='{command}') would run a program of the operating system; this classroom starts "
+            "ROS nodes only, yet. Use Node(package=…, executable=…)"
+        )
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Have the process started."""
+        self.prepare(context)
+        if context.is_shutdown or context._host is None:
+            return None
+        if self.__on_exit is not None:
+            context.register_event_handler(OnProcessExit(target_action=self, on_exit=self.__on_exit))
+        context._host.start_process(self)
+        return None
+
+    def describe_conditional_sub_entities(
+        self,
+    ) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+        """What it gives when its process ends."""
+        if self.__on_exit is None or callable(self.__on_exit):
+            return []
+        return [OnProcessExit(target_action=self, on_exit=self.__on_exit).describe()]
+
+
+def _on_screen(context: LaunchContext, output: Any) -> set[str]:
+    """Which of `stdout` and `stderr` reach the screen.
+
+    Raises:
+        ValueError: for a value of `output` that launch does not know.
+    """
+    if isinstance(output, Mapping):
+        return {stream for name, where in output.items() for stream in _streams(name, where)}
+    value = perform_substitutions(context, output)
+    if value not in SCREEN:
+        raise ValueError(f'{value} is not a valid standard output config i.e. "screen", "log" or "both"')
+    return SCREEN[value]
+
+
+def _streams(name: str, where: str | Iterable[str]) -> set[str]:
+    if name not in {"stdout", "stderr", "both"}:
+        raise ValueError(f'{name} is not a valid output source i.e. "stdout", "stderr" or "both"')
+    if "screen" not in ({where} if isinstance(where, str) else set(where)):
+        return set()
+    return {"stdout", "stderr"} if name == "both" else {name}

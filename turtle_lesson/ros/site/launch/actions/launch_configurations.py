@@ -1,0 +1,93 @@
+"""Actions that set and forget launch configurations, and keep them within a scope."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from ..action import Action
+from ..launch_context import LaunchContext
+from ..launch_description_entity import LaunchDescriptionEntity
+from ..some_types import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+class SetLaunchConfiguration(Action):
+    """Gives a launch configuration a value."""
+
+    def __init__(self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__name = normalize_to_list_of_substitutions(name)
+        self.__value = normalize_to_list_of_substitutions(value)
+
+    @property
+    def name(self) -> list[Substitution]:
+        """The configuration's name."""
+        return self.__name
+
+    @property
+    def value(self) -> list[Substitution]:
+        """Its new value."""
+        return self.__value
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Set it."""
+        name = perform_substitutions(context, self.name)
+        context.launch_configurations[name] = perform_substitutions(context, self.value)
+        return None
+
+
+class UnsetLaunchConfiguration(Action):
+    """Forgets a launch configuration."""
+
+    def __init__(self, name: SomeSubstitutionsType, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__name = normalize_to_list_of_substitutions(name)
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Forget it."""
+        context.launch_configurations.pop(perform_substitutions(context, self.__name), None)
+        return None
+
+
+class PushLaunchConfigurations(Action):
+    """Begins a scope: what is set from here on is forgotten at the matching pop."""
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Begin it."""
+        context._push_launch_configurations()
+        return None
+
+
+class PopLaunchConfigurations(Action):
+    """Ends a scope."""
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """End it."""
+        context._pop_launch_configurations()
+        return None
+
+
+class ResetLaunchConfigurations(Action):
+    """Forgets all launch configurations but the given ones."""
+
+    def __init__(
+        self,
+        launch_configurations: Mapping[SomeSubstitutionsType, SomeSubstitutionsType] | None = None,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self.__kept = dict(launch_configurations or {})
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Forget them."""
+        kept = {
+            perform_substitutions(context, normalize_to_list_of_substitutions(name)): perform_substitutions(
+                context, normalize_to_list_of_substitutions(value)
+            )
+            for name, value in self.__kept.items()
+        }
+        context.launch_configurations.clear()
+        context.launch_configurations.update(kept)
+        return None

@@ -1,0 +1,58 @@
+"""`Executable`: a command to run, with what belongs to it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING
+
+from ._missing import explain_missing
+from .some_types import SomeSubstitutionsType
+from .substitution import Substitution
+from .utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from .action import Action
+    from .launch_context import LaunchContext
+
+Environment = Mapping[SomeSubstitutionsType, SomeSubstitutionsType]
+
+
+class Executable:
+    """The words of a command; `prepare` makes them text and gives the process its name."""
+
+    def __init__(
+        self,
+        *,
+        cmd: Iterable[SomeSubstitutionsType],
+        prefix: SomeSubstitutionsType | None = None,
+        name: SomeSubstitutionsType | None = None,
+        cwd: SomeSubstitutionsType | None = None,
+        env: Environment | None = None,
+        additional_env: Environment | None = None,
+        arguments: Iterable[SomeSubstitutionsType] | None = None,
+    ) -> None:
+        words = [*cmd, *(arguments or [])]
+        self.cmd = [normalize_to_list_of_substitutions(word) for word in words]
+        self.prefix = _pieces(prefix)
+        self.name = _pieces(name)
+        self.cwd = _pieces(cwd)
+        self.env = env
+        self.additional_env = additional_env
+        self.final_cmd: list[str] = []
+        self.final_name = ""
+
+    def prepare(self, context: LaunchContext, action: Action) -> None:
+        """Perform the substitutions; name the process after its program, with a number."""
+        self.final_cmd = [perform_substitutions(context, word) for word in self.cmd]
+        base = perform_substitutions(context, self.name) if self.name else os.path.basename(self.final_cmd[0])
+        host = context._host
+        number = host.next_process_number() if host is not None else 1
+        self.final_name = f"{base}-{number}"
+
+
+def _pieces(text: SomeSubstitutionsType | None) -> list[Substitution] | None:
+    return None if text is None else normalize_to_list_of_substitutions(text)
+
+
+__getattr__ = explain_missing(__name__, {})

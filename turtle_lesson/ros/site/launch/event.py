@@ -1,0 +1,7 @@
+"""`Event`: something that happened."""
+
+
+class Event:
+    """Base of all events."""
+
+    name = "launch.Event"

@@ -1,0 +1,34 @@
+"""`AnonName`: a name that nobody else has."""
+
+from __future__ import annotations
+
+from ..launch_context import LaunchContext
+from ..some_types import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+class AnonName(Substitution):
+    """The given name with a number behind it; the same name gives the same one within a launch.
+
+    The real one puts the machine, the process and random digits there; here it is the same in every run.
+    """
+
+    def __init__(self, name: SomeSubstitutionsType) -> None:
+        self.__name = normalize_to_list_of_substitutions(name)
+
+    @property
+    def name(self) -> list[Substitution]:
+        """The first part of the name."""
+        return self.__name
+
+    def describe(self) -> str:
+        """As in `AnonName('talker')`."""
+        return f"AnonName({' + '.join(part.describe() for part in self.name)})"
+
+    def perform(self, context: LaunchContext) -> str:
+        """The name."""
+        name = perform_substitutions(context, self.name)
+        known = context.launch_configurations
+        numbers = [key for key in known if key.startswith("anon")]
+        return str(known.setdefault(f"anon{name}", f"{name}_{len(numbers) + 1}"))

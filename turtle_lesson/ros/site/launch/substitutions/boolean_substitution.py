@@ -1,0 +1,86 @@
+"""Substitutions that give `true` or `false`: not, and, or, any, all."""
+
+from __future__ import annotations
+
+from ..launch_context import LaunchContext
+from ..some_types import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
+from .substitution_failure import SubstitutionFailure
+
+
+def truth(context: LaunchContext, value: SomeSubstitutionsType) -> bool:
+    """Whether a substitution's text says yes.
+
+    Raises:
+        SubstitutionFailure: if it says neither yes nor no.
+    """
+    text = perform_substitutions(context, normalize_to_list_of_substitutions(value)).strip()
+    if text.lower() in {"true", "1", "yes", "on"}:
+        return True
+    if text.lower() in {"false", "0", "no", "off"}:
+        return False
+    raise SubstitutionFailure(f"'{text}' is neither true nor false")
+
+
+class _Combination(Substitution):
+    """Several truth values made into one."""
+
+    def __init__(self, *args: SomeSubstitutionsType) -> None:
+        self._args = [normalize_to_list_of_substitutions(argument) for argument in args]
+
+    def describe(self) -> str:
+        """Its name with its parts."""
+        parts = ["".join(piece.describe() for piece in part) for part in self._args]
+        return f"{type(self).__name__}({' '.join(parts)})"
+
+    def perform(self, context: LaunchContext) -> str:
+        """`true` or `false`."""
+        return str(self._combine([truth(context, part) for part in self._args])).lower()
+
+    def _combine(self, values: list[bool]) -> bool:
+        raise NotImplementedError
+
+
+class NotSubstitution(_Combination):
+    """True if its part is false."""
+
+    def __init__(self, value: SomeSubstitutionsType) -> None:
+        super().__init__(value)
+
+    def _combine(self, values: list[bool]) -> bool:
+        return not values[0]
+
+
+class AndSubstitution(_Combination):
+    """True if both are."""
+
+    def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
+        super().__init__(left, right)
+
+    def _combine(self, values: list[bool]) -> bool:
+        return all(values)
+
+
+class OrSubstitution(_Combination):
+    """True if one is."""
+
+    def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
+        super().__init__(left, right)
+
+    def _combine(self, values: list[bool]) -> bool:
+        return any(values)
+
+
+class AllSubstitution(_Combination):
+    """True if all are."""
+
+    def _combine(self, values: list[bool]) -> bool:
+        return all(values)
+
+
+class AnySubstitution(_Combination):
+    """True if at least one is."""
+
+    def _combine(self, values: list[bool]) -> bool:
+        return any(values)
