@@ -261,7 +261,6 @@ def test_whatever_is_commanded_the_turtle_stays_inside(
 ) -> None:
     world = TurtleWorld()
     turtle = world.turtles["turtle1"]
-    turtle.set_pen((0, 0, 0), off=True)
     turtle.teleport_absolute(*teleport)
     for command in commands:
         turtle.command(*command)
@@ -411,3 +410,14 @@ def test_a_fast_line_has_no_gaps() -> None:
         for part in (0, 100, 250, 499, 500)
     )
     assert canvas.colour_at(5.0, 3.5) == BARE
+
+
+@pytest.mark.parametrize("far", [(1e38, 5.0), (-1e38, -1e38), (5.0, 1e9), (40.0, 5.0)])
+def test_of_a_line_to_a_far_place_only_the_part_in_the_picture_is_drawn(far: tuple[float, float]) -> None:
+    canvas = Canvas()
+    canvas.draw((5.0, 5.0), far, (1, 1, 1))
+    assert canvas.colour_at(5.0, 5.0) == (1, 1, 1)
+    assert 60 < len(canvas.cells) < 200
+    canvas.clear()
+    canvas.draw((-3.0, 20.0), (-4.0, 30.0), (1, 1, 1))
+    assert not canvas.cells

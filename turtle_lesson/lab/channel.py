@@ -1,8 +1,9 @@
-"""A channel: one topic that the recorder wants to hear, and the subscription to it while there is somebody to hear."""
+"""A channel: one topic that the recorder wants to hear, subscribed to while there is somebody to hear."""
 
 from __future__ import annotations
 
 import importlib
+import importlib.util
 from collections.abc import Callable
 from typing import Any
 
@@ -14,12 +15,11 @@ DEPTH = 1000
 
 
 class Channel:
-    """Follows one topic of one type. `make_listener` is given the message class and returns the two-argument
-    callback.
+    """Follows one topic of one type.
 
-    With `driven`, it subscribes while somebody else subscribes (a topic that drives a machine); otherwise
-    while somebody publishes. `latched` asks for the last message from before, too. `remedy` is what to try in
-    silence.
+    `make_listener` is given the message class and returns the two-argument callback. With `driven`, it
+    subscribes while somebody else subscribes (a topic that drives a machine); otherwise while somebody
+    publishes. `latched` asks for the last message from before, too. `remedy` is what to try in silence.
     """
 
     def __init__(
@@ -45,9 +45,8 @@ class Channel:
         self._count = -1
 
     def __repr__(self) -> str:
-        return (
-            f"<Channel {self.topic} [{self.type_name}], {'listening' if self._subscription else 'waiting'}>"
-        )
+        state = "listening" if self._subscription else "waiting"
+        return f"<Channel {self.topic} [{self.type_name}], {state}>"
 
     def glance(self) -> None:
         """Follow, if the number of ends has changed since the last time: a cheap look, made often."""
@@ -77,27 +76,27 @@ class Channel:
             return f"Nobody publishes {self.topic}. {self.remedy}"
         types = sorted({publisher.topic_type for publisher in publishers})
         if self.type_name not in types:
-            return f"{self.topic} is published as {listed(types)}, but this plot reads {self.type_name}: which node uses which type?"
+            mismatch = f"{self.topic} is published as {listed(types)}, but this plot reads {self.type_name}"
+            return f"{mismatch}: compare the types in ros2 topic info {self.topic} --verbose"
         if self._find_message_type() is None:
             package = self.type_name.split("/")[0]
-            return (
-                f"{self.topic} is published as {self.type_name}, but this notebook cannot import that type. "
-                f"Build and source its package: colcon build --packages-select {package}, then: source install/setup.bash"
-            )
-        names = sorted({_full_name(publisher) for publisher in publishers})
-        return f"{listed(names)} can publish {self.topic}, but no message has come yet. Let robot time pass: lesson.run(1.0)"
+            unknown = f"{self.topic} is published as {self.type_name}, but that type cannot be imported here"
+            return f"{unknown}: try colcon build --packages-select {package}, then source install/setup.bash"
+        names = listed(sorted({_full_name(publisher) for publisher in publishers}))
+        return f"{names} can publish {self.topic}, but no message came yet. Let time pass: lesson.run(1.0)"
 
     def _wanted(self) -> bool:
         """Whether somebody else is there at the other end (or, of a driven topic, at this end)."""
         if not self.driven:
-            return any(
-                end.topic_type == self.type_name for end in self.node.get_publishers_info_by_topic(self.topic)
-            )
+            ends = self.node.get_publishers_info_by_topic(self.topic)
+            return any(end.topic_type == self.type_name for end in ends)
         me = (self.node.get_name(), self.node.get_namespace())
-        ends = self.node.get_subscriptions_info_by_topic(self.topic)
-        return any(
-            end.topic_type == self.type_name and (end.node_name, end.node_namespace) != me for end in ends
-        )
+        others = [
+            end
+            for end in self.node.get_subscriptions_info_by_topic(self.topic)
+            if (end.node_name, end.node_namespace) != me
+        ]
+        return any(end.topic_type == self.type_name for end in others)
 
     def _find_message_type(self) -> Any:
         """The message class, or None if it cannot be imported (a package that is not built and sourced)."""
@@ -110,9 +109,8 @@ class Channel:
     def _open(self, message_type: Any) -> None:
         self._message_type = message_type
         listener = with_time(self.node, self._make_listener(message_type))
-        self._subscription = self.node.create_subscription(
-            message_type, self.topic, listener, self._quality()
-        )
+        quality = self._quality()
+        self._subscription = self.node.create_subscription(message_type, self.topic, listener, quality)
 
     def _quality(self) -> Any:
         """Best effort matches every publisher; only a latched topic has to be reliable to give its past."""
@@ -124,14 +122,15 @@ class Channel:
 
 
 def with_time(node: Any, listener: Listener) -> Callable[..., None]:
-    """A callback with the message's time for any rclpy: since Iron it gives message information, Humble's
-    does not.
+    """Return a callback for any rclpy. Since Iron it tells a message's time; Humble's own does not yet.
 
-    Reading the node's clock instead costs more, and tells when a message was handled, not when it was sent.
+    There the node's clock is read, which costs more, and tells when a message was
+    handled, not when it was sent.
     """
     from rclpy.subscription import Subscription
 
-    if hasattr(Subscription, "CallbackType"):
+    compiled = importlib.util.find_spec("rclpy._rclpy_pybind11") is not None
+    if hasattr(Subscription, "CallbackType") or not compiled:
         return listener
     clock = node.get_clock()
     return lambda message: listener(message, {"source_timestamp": clock.now().nanoseconds})

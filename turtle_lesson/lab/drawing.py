@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 SHELL, RIM, SKIN, OUTLINE = style.GREEN, "#00785a", "#8fd0b5", "#0b4636"
 
-# The turtle looks along +x. Its length is 1, its middle (0, 0). Ellipses: x, y, width, height, turn in degrees.
+# The turtle looks along +x, its length is 1, its middle (0, 0). Ellipses: x, y, width, height, degrees.
 LEGS = ((0.23, 0.27, 0.30, 0.15, 55.0), (-0.25, 0.25, 0.24, 0.13, 128.0))
 HEAD = (0.40, 0.0, 0.25, 0.21, 0.0)
 BODY = (-0.02, 0.0, 0.70, 0.58, 0.0)

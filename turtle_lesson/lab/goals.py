@@ -1,4 +1,4 @@
-"""Goals that a picture is asked to mark. A request to a service is not seen on any topic, so the caller names them."""
+"""Goals that a picture is to mark. No topic tells of a request to a service, so the caller names them."""
 
 from __future__ import annotations
 
@@ -42,14 +42,14 @@ def _read_goal(item: Any) -> Goal:
         numbers = []
     if len(numbers) not in (2, 3) or not all(map(math.isfinite, numbers)):
         raise ValueError(
-            f"a goal is (x, y) in metres or (x, y, theta) with the heading in radians, such as goal=(8.0, 8.0, 1.57), "
-            f"or a list of these; got {item!r}"
+            "a goal is (x, y) in metres, or (x, y, theta) with the heading in radians, or a list of these; "
+            f"got {item!r}; try goal=(8.0, 8.0, 1.57)"
         )
     return Goal(*numbers)
 
 
 def draw_goal(axes: Axes, goal: Goal) -> None:
-    """Draw a flag, the ring within which the goal counts as reached, and a pointer on it along the heading."""
+    """Draw a flag, the ring within which the goal counts as reached, and on it a pointer for the heading."""
     from matplotlib.patches import Circle, Polygon
 
     x, y, colour = goal.x, goal.y, style.VERMILLION

@@ -23,7 +23,7 @@ class GraphPicture:
         return self.text
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
-        """What Jupyter shows: JupyterLab draws the first, other front ends the second, and all can read the text."""
+        """What Jupyter shows: JupyterLab draws the first, other front ends the second, all have the text."""
         if not self.mermaid:
             return {"text/plain": self.text}
         return {

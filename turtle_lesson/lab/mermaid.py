@@ -12,7 +12,7 @@ import re
 from .system import Ends, NodeView, services_of, topics_of
 
 SETTINGS = '%%{init: {"flowchart": {"nodeSpacing": 22, "rankSpacing": 32, "padding": 9}}}%%'
-"""Closer together than Mermaid's own 50 and 50, so that a system of four nodes is legible in a narrow window."""
+"""Closer together than Mermaid's own 50 and 50, so that four nodes are legible in a narrow window."""
 
 COLOURS = (
     "classDef rosnode fill:#cfe6f5,stroke:#0072B2,stroke-width:1.5px,color:#10222e,font-size:14px",
@@ -23,7 +23,7 @@ COLOURS = (
 
 
 def flowchart(nodes: list[NodeView], title: str, description: str) -> str:
-    """Return the Mermaid text for these nodes; `title` and `description` are for a reader who cannot see it."""
+    """Return the Mermaid text for these nodes; `title` and `description` are for who cannot see it."""
     lines = [SETTINGS, "flowchart TD", f"accTitle: {_plain(title)}", f"accDescr: {_plain(description)}"]
     lines += [f'n{number}(["{_label(_counted(node))}"]):::rosnode' for number, node in enumerate(nodes)]
     topics = topics_of(nodes)
@@ -38,7 +38,7 @@ def flowchart(nodes: list[NodeView], title: str, description: str) -> str:
 
 
 def _services(nodes: list[NodeView]) -> list[str]:
-    """Services that a node calls have a box each; those that only wait share one box at the node that offers them."""
+    """Services that somebody calls have a box each; those of a node that nobody calls share one."""
     lines: list[str] = []
     services = services_of(nodes)
     called = {service for node in nodes for service in node.calls}
@@ -75,7 +75,7 @@ def _id(letter: str, names: Ends, name: str) -> str:
 
 
 def _escaped(text: str) -> str:
-    """Text for a quoted label: only letters, digits, slashes, single underscores and spaces stand for themselves."""
+    """Text for a quoted label: letters, digits, slashes, single underscores, spaces; codes for the rest."""
     return re.sub(r"[^A-Za-z0-9/ _]|_(?=_)", lambda match: f"#{ord(match.group())};", text)
 
 

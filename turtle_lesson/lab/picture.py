@@ -35,7 +35,7 @@ class Picture:
         return self.text
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> Any:
-        """What Jupyter shows: PNG and text, with the size to show it at and the alternative text beside it."""
+        """What Jupyter shows: PNG and text, and as metadata the size to show and the alternative text."""
         data: dict[str, Any] = {"text/plain": self.text}
         if self.figure is None:
             return data
@@ -61,7 +61,7 @@ class Picture:
         return stream.getvalue()
 
     def save(self, path: str | Path) -> Path:
-        """Write the figure to a file, in the format that its ending names (png, svg, pdf); returns the path."""
+        """Write the figure to a file in the format of its ending (png, svg, pdf); returns the path."""
         path = Path(path)
         if path.suffix.lower() == ".png":
             path.write_bytes(self.png())

@@ -1,5 +1,4 @@
-"""The recorder: a node's ears. It hears a turtle's topics, and whatever the lab knows of the system it knows
-from here.
+"""The recorder hears a turtle's topics: what the lab knows, it knows from there and from the graph.
 
 It must not be seen: a subscription makes a topic appear in `ros2 topic list`, and lets a waiting publisher
 start. So it follows others, and only subscribes to a topic while somebody else publishes it (to `cmd_vel`:
@@ -8,8 +7,6 @@ while a simulator listens to it).
 
 from __future__ import annotations
 
-import importlib
-from collections.abc import Callable
 from typing import Any
 
 from .channel import Channel
@@ -17,7 +14,6 @@ from .markers import apply
 from .recording import OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, STATUS_TYPE, Recording
 from .table import LIMIT, Listener
 
-POSE_TYPE = "turtlesim/msg/Pose"
 GLANCE_PERIOD = 1.0
 """Seconds between two glances at the graph, for publishers that come late in a node's life."""
 
@@ -62,37 +58,24 @@ class Recorder(Recording):
         return self._channels[topic].why_silent()
 
     def _make_channels(self, node: Any) -> dict[str, Channel]:
+        twist, pose = "geometry_msgs/msg/Twist", "turtlesim/msg/Pose"
+        scan, markers = "sensor_msgs/msg/LaserScan", "visualization_msgs/msg/MarkerArray"
         commands = self.commands.listener("linear.x", "linear.y", "angular.z")
         poses = self.poses.listener("x", "y", "theta", "linear_velocity")
         channels = (
-            Channel(node, self.pose_topic, POSE_TYPE, lambda _: poses, _START_SIMULATOR),
-            Channel(
-                node,
-                self.command_topic,
-                "geometry_msgs/msg/Twist",
-                lambda _: commands,
-                _START_NAVIGATOR,
-                driven=True,
-            ),
-            Channel(node, STATUS_TOPIC, STATUS_TYPE, self._status_listener, _START_MONITOR),
-            Channel(
-                node, SCAN_TOPIC, "sensor_msgs/msg/LaserScan", lambda _: self._hear_scan, _START_DETECTOR
-            ),
-            Channel(
-                node,
-                OBSTACLE_TOPIC,
-                "visualization_msgs/msg/MarkerArray",
-                lambda _: self._hear_markers,
-                _START_SIMULATOR,
-                latched=True,
-            ),
+            Channel(node, self.pose_topic, pose, lambda _: poses, _SIMULATOR),
+            Channel(node, self.command_topic, twist, lambda _: commands, _NAVIGATOR, driven=True),
+            Channel(node, STATUS_TOPIC, STATUS_TYPE, self._status_listener, _MONITOR),
+            Channel(node, SCAN_TOPIC, scan, lambda _: self._hear_scan, _DETECTOR),
+            Channel(node, OBSTACLE_TOPIC, markers, lambda _: self._hear_markers, _SIMULATOR, latched=True),
         )
         return {channel.topic: channel for channel in channels}
 
     def _status_listener(self, message_type: Any) -> Listener:
-        """A learner's TurtleStatus may lack a field that ours has: that column then holds nothing."""
+        """A learner's TurtleStatus may lack a number that ours has: that column then holds nothing."""
         known = message_type.get_fields_and_field_types()
-        return self.statuses.listener(*(name if name in known else "" for name in self.statuses.names))
+        numbers = {name for name, kind in known.items() if kind.rstrip("0123456789") in _NUMBERS}
+        return self.statuses.listener(*(name if name in numbers else "" for name in self.statuses.names))
 
     def _hear_scan(self, message: Any, info: Any) -> None:
         self.scans.append(info["source_timestamp"])
@@ -103,14 +86,17 @@ class Recorder(Recording):
 
     def _hear_of_new_nodes(self, node: Any) -> Any:
         """Look at the graph whenever a node has just started: every node then announces its parameters."""
-        event: Any = importlib.import_module("rcl_interfaces.msg").ParameterEvent
-        look: Callable[[Any], None] = lambda _: self.look()  # noqa: E731
-        return node.create_subscription(event, "/parameter_events", look, 100)
+        from rcl_interfaces.msg import ParameterEvent
+
+        def look(event: Any) -> None:
+            self.look()
+
+        return node.create_subscription(ParameterEvent, "/parameter_events", look, 100)
 
 
-_START_SIMULATOR = (
-    "Is the simulator running? Try lesson = start(simulator=True), or: ros2 run turtlesim turtlesim_node"
-)
-_START_NAVIGATOR = "Try: ros2 run robot_controller navigator"
-_START_MONITOR = 'Try lesson.launch("robot_controller", "start_system.launch.py"), or: ros2 run robot_controller status_monitor'
-_START_DETECTOR = 'Try lesson.launch("robot_controller", "start_system.launch.py"), or: ros2 run robot_controller obstacle_detector'
+_NUMBERS = {"float", "double", "int", "uint"}
+_LAUNCH = 'lesson.launch("robot_controller", "start_system.launch.py"), or: ros2 run robot_controller'
+_SIMULATOR = "Is the simulator running? Try start(simulator=True), or: ros2 run turtlesim turtlesim_node"
+_NAVIGATOR = f"Try {_LAUNCH} navigator"
+_MONITOR = f"Try {_LAUNCH} status_monitor"
+_DETECTOR = f"Try {_LAUNCH} obstacle_detector"

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from .table import LIMIT, Table
+from .words import number
 
 NANOSECONDS = 1_000_000_000
 
@@ -19,7 +20,7 @@ OBSTACLE_TOPIC = "/world/obstacles"
 
 @dataclass(frozen=True, slots=True)
 class Obstacle:
-    """A thing in the world seen from above: "circle" or "box", its middle and size in metres, its turn in radians."""
+    """A thing in the world seen from above: "circle" or "box", middle and size in metres, turn in radians."""
 
     shape: str
     x: float
@@ -69,6 +70,11 @@ class Recording:
         if until is not None:
             chosen &= rows["stamp"] <= self._stamp("until", until)
         return rows[chosen]
+
+    def span(self, table: Table) -> str:
+        """From when to when a table has rows: "0.02 s to 24.51 s of robot time"."""
+        first, last = self.seconds(table.array()["stamp"][[0, -1]])
+        return f"{number(first)} s to {number(last)} s of robot time"
 
     def why_silent(self, topic: str) -> str:
         """A sentence on why nothing was heard on a topic, and what to try."""

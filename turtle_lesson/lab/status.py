@@ -11,10 +11,11 @@ import numpy as np
 from . import style
 from .picture import Picture
 from .recording import STATUS_TOPIC, Recording
-from .words import angle, number, point, rate
+from .words import angle, count, number, point, rate
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 
 def plot_status(recording: Recording, *, since: float | None = None, until: float | None = None) -> Picture:
@@ -32,21 +33,21 @@ def plot_status(recording: Recording, *, since: float | None = None, until: floa
     return Picture(_describe(seconds, rows), figure)
 
 
-# -- in words ----------------------------------------------------------------------------------------------------
+# -- in words --------------------------------------------------------------------------------------------
 
 
 def _nothing(recording: Recording) -> str:
     if not len(recording.statuses):
         return f"No status yet. {recording.why_silent(STATUS_TOPIC)}"
-    first, last = recording.seconds(recording.statuses.array()["stamp"][[0, -1]])
-    return f"No status in these seconds: those heard are from {number(first)} s to {number(last)} s of robot time."
+    return f"No status in these seconds: statuses were heard from {recording.span(recording.statuses)}."
 
 
 def _describe(seconds: np.ndarray, rows: np.ndarray) -> str:
     first, last = rows[0], rows[-1]
     speeds = np.hypot(rows["vel_x"], rows["vel_y"])
     return (
-        f"Status on {STATUS_TOPIC} from {number(seconds[0])} s to {number(seconds[-1])} s of robot time: {rate(rows['stamp'])}. "
+        f"Status on {STATUS_TOPIC} from {number(seconds[0])} s to {number(seconds[-1])} s of robot time: "
+        f"{rate(rows['stamp'])}. "
         f"Position from {point(first['x'], first['y'])} m to {point(last['x'], last['y'])} m; "
         f"heading from {angle(first['theta'])} to {angle(last['theta'])}; "
         f"speed at most {number(speeds.max())} m/s, {number(speeds[-1])} m/s at the end "
@@ -55,18 +56,15 @@ def _describe(seconds: np.ndarray, rows: np.ndarray) -> str:
     )
 
 
-# -- as a picture ------------------------------------------------------------------------------------------------
+# -- as a picture --------------------------------------------------------------------------------------------
 
 
-def _draw(seconds: np.ndarray, rows: np.ndarray) -> Any:
+def _draw(seconds: np.ndarray, rows: np.ndarray) -> Figure:
     figure = style.card(6.4, 5.05)
     last = rows[-1]
-    style.heading(
-        figure,
-        "Status of the robot",
-        f"{len(rows)} messages on {STATUS_TOPIC}  ·  at {number(seconds[-1], 1)} s: "
-        f"{point(last['x'], last['y'])} m, {number(math.degrees(last['theta']), 0)}°, battery {number(last['battery'], 1)} %",
-    )
+    place = f"{point(last['x'], last['y'])} m, {number(math.degrees(last['theta']), 0)}°"
+    now = f"at {number(seconds[-1], 1)} s: {place}, battery {number(last['battery'], 1)} %"
+    style.heading(figure, "Status of the robot", f"{count(len(rows), 'message')} on {STATUS_TOPIC}  ·  {now}")
     panels: list[Axes] = []
     for row in range(4):
         panel = style.axes_at(
@@ -158,7 +156,7 @@ def _lines(
 
 
 def spread(places: Sequence[float], least: float) -> list[float]:
-    """Return places for labels, moved apart until they are `least` from each other; what is no number counts as 0."""
+    """Return places for labels, moved apart until they are `least` from each other; no number counts as 0."""
     wanted = np.nan_to_num(np.asarray(places, float), posinf=0.0, neginf=0.0)
     order = np.argsort(wanted, kind="stable")
     moved = wanted[order]

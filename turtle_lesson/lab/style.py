@@ -30,7 +30,7 @@ CARD, CARD_EDGE = "#fcfcfa", "#d4d4ce"
 DPI = 100
 """Pixels an inch at which a picture is shown; it is drawn with twice as many (see picture.py)."""
 
-SETTINGS: dict[str, Any] = {
+SETTINGS: Any = {
     "font.family": "sans-serif",
     "font.sans-serif": [
         "DejaVu Sans"
@@ -68,7 +68,8 @@ SETTINGS: dict[str, Any] = {
 @contextmanager
 def applied() -> Iterator[None]:
     """Within this block, matplotlib draws in our style; the learner's own settings come back afterwards."""
-    # Matplotlib's first start ever lists the machine's fonts; its remark on that has no place below a learner's cell.
+    # When matplotlib starts for the first time ever, it lists the machine's fonts, and says so if that takes
+    # long: a remark that has no place below a learner's cell.
     logging.getLogger("matplotlib.font_manager").setLevel(logging.ERROR)
     import matplotlib
 

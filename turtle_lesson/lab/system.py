@@ -1,4 +1,4 @@
-"""The ROS graph as a learner's `ros2 node list` shows it: visible nodes, and what each of them publishes, hears, offers and calls."""
+"""The ROS graph as ROS's own tools show it: the visible nodes, and what each of them does there."""
 
 from __future__ import annotations
 

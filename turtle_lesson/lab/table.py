@@ -59,7 +59,7 @@ class Table:
         return hear
 
     def array(self) -> np.ndarray:
-        """The rows as a numpy array of their own, with the fields `stamp` (ns, int64) and `names` (float64)."""
+        """The rows as a numpy array of their own: fields `stamp` (ns, int64) and `names` (float64)."""
         return np.frombuffer(bytes(self._rows[-self.limit * self._row.size :]), self._type)
 
     @property
@@ -73,7 +73,7 @@ class Table:
 
 
 def _reader(paths: tuple[str, ...]) -> Callable[[Any], tuple[float, ...]]:
-    """A function from a message to its numbers; `attrgetter` alone is the fast way, for two numbers and more."""
+    """A function from a message to its numbers; `attrgetter` alone is fastest, for two numbers and more."""
     if all(paths) and len(paths) > 1:
         return attrgetter(*paths)
     readers = [attrgetter(path) if path else _missing for path in paths]

@@ -1,4 +1,4 @@
-"""Numbers, angles and lists in plain words, the same on every machine: fixed decimals and never a minus zero."""
+"""Numbers, angles and lists in plain words, the same on every machine: fixed decimals, never a minus zero."""
 
 from __future__ import annotations
 
@@ -53,7 +53,8 @@ def rate(stamps: np.ndarray) -> str:
     gaps = np.diff(stamps) / 1e6
     mean = float(gaps.mean())
     frequency = f" ({number(1000 / mean, 1)} Hz)" if mean > 0 else ""
+    shortest, longest = (number(float(gap), 1) for gap in (gaps.min(), gaps.max()))
     return (
         f"{count(len(stamps), 'message')}, one every {number(mean, 1)} ms on average{frequency}, "
-        f"the shortest interval {number(float(gaps.min()), 1)} ms and the longest {number(float(gaps.max()), 1)} ms"
+        f"the shortest interval {shortest} ms and the longest {longest} ms"
     )

@@ -60,7 +60,6 @@ class World:
 
         Does not wait for it. The file's errors are the process's: they are shown, and its exit code is 1.
         """
-        virtual_random.install_for_numpy()
         arguments = list(argv) or [str(target) if isinstance(target, Path) else name]
         process = self._make_process(name, argv=arguments, stdout=stdout, stderr=stderr, on_exit=on_exit)
         self.processes.append(process)

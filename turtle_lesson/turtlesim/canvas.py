@@ -27,7 +27,8 @@ PIXELS_PER_METRE = 45.0
 CELL = 3 / PIXELS_PER_METRE
 """Side of a cell in metres."""
 
-_CELLS_PER_METRE = PIXELS_PER_METRE / 3
+_SIDE = 500 / PIXELS_PER_METRE
+_CELLS_PER_METRE = 1 / CELL
 _ROW = 1024  # more than the cells in a row, so that a cell is one integer
 
 
@@ -50,14 +51,26 @@ class Canvas:
         return self.cells.get(cell_at(x, y), BARE)
 
     def draw(self, start: tuple[float, float], end: tuple[float, float], colour: Colour) -> None:
-        """Draw a straight line between two points, each (x, y) in metres, both included."""
+        """Draw a straight line between two points, (x, y) in metres, as far as it lies in the picture."""
         (x0, y0), (x1, y1) = start, end
-        # Two samples a cell leave no gap; a turtle below 4 m/s needs no more than its two ends.
-        steps = int(max(abs(x1 - x0), abs(y1 - y0)) * _CELLS_PER_METRE * 2) + 1
+        dx, dy = x1 - x0, y1 - y0
+        begin, finish = _part_within(x0, dx, *_part_within(y0, dy, 0.0, 1.0))
+        if begin > finish:
+            return
+        # Two samples a cell leave no gap.
+        steps = int(max(abs(dx), abs(dy)) * (finish - begin) * _CELLS_PER_METRE * 2) + 1
         for step in range(steps + 1):
-            part = step / steps
-            self.cells[cell_at(x0 + (x1 - x0) * part, y0 + (y1 - y0) * part)] = colour
+            part = begin + (finish - begin) * step / steps
+            self.cells[cell_at(x0 + dx * part, y0 + dy * part)] = colour
 
     def clear(self) -> None:
         """Wipe everything that was drawn."""
         self.cells.clear()
+
+
+def _part_within(start: float, way: float, begin: float, finish: float) -> tuple[float, float]:
+    """Cut the part [begin, finish] of a way down to where start + part * way lies in the picture."""
+    if way == 0.0:
+        return (begin, finish) if 0.0 <= start <= _SIDE else (1.0, 0.0)
+    first, last = sorted((-start / way, (_SIDE - start) / way))
+    return max(begin, first), min(finish, last)

@@ -102,8 +102,7 @@ class Turtle:
         return HEIGHT - self.flipped_y
 
     def command(self, forward: float, sideways: float = 0.0, angular: float = 0.0) -> None:
-        """Drive, from the next tick on, at these speeds (m/s, m/s to the left, rad/s to the left) for 63
-        ticks.
+        """Drive at these speeds (m/s ahead, m/s to the left, rad/s to the left) for the next 63 ticks.
 
         Raises TurtleError, and goes on as before, if one of them is not a usable number.
         """
@@ -168,9 +167,7 @@ class Turtle:
     def _step_to(self, x: float, y: float, canvas: Canvas) -> None:
         self._cell = cell_at(x, y)
         if self.pen_on:
-            if (
-                self.speed * TICK < CELL
-            ):  # the usual case, and worth a short cut: the end touches the last one
+            if self.speed * TICK < CELL:  # the usual case is worth a short cut: no cell lies in between
                 canvas.cells[self._cell] = self.pen
             else:
                 canvas.draw((self.x, self.flipped_y), (x, y), self.pen)

@@ -131,11 +131,14 @@ def steer(pose: Place, goal: Place, limits: Limits, turning: float = 0.0) -> Com
 
 def _approach(pose: Place, goal: Place, limits: Limits, turning: float) -> Command:
     dx, dy = goal.x - pose.x, goal.y - pose.y
-    turn = wrap(math.atan2(dy, dx) - pose.theta)
+    distance, turn = math.hypot(dx, dy), wrap(math.atan2(dy, dx) - pose.theta)
     angular = turning_speed(turn, limits, turning)
     if abs(turn) > DRIVE_CONE:
         return Command(0.0, angular, Phase.TURN)
-    return Command(min(DRIVE_GAIN * math.hypot(dx, dy), limits.linear_speed), angular, Phase.DRIVE)
+    linear = min(DRIVE_GAIN * distance, limits.linear_speed)
+    aside = linear * abs(math.sin(turn))  # at this speed the goal slips away to the side, at most ...
+    slip = 0.5 * limits.angular_speed * distance  # ... so fast that the turtle can still turn after it
+    return Command(linear * slip / aside if aside > slip else linear, angular, Phase.DRIVE)
 
 
 def turning_speed(turn: float, limits: Limits, turning: float) -> float:

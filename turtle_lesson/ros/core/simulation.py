@@ -48,6 +48,8 @@ class Simulation:
         self.closed = False
         self._heap: list[tuple[int, int, Callable[[Any], object], Any]] = []
         self._ready: deque[Strand] = deque()
+        self.make_ready = self._ready.append
+        """Queue a strand that is parked no longer; `wake` does it with all care."""
         self._count = 0
         self._limit = 0
         self._halted = False
@@ -186,6 +188,8 @@ class Simulation:
             strand.raise_inside(error)
         finally:
             self.hub = hub
+            if strand.dead and strand in self._ready:
+                self._ready.remove(strand)
             self._leave()
             if face is not None:
                 self._enter(face)
@@ -227,8 +231,6 @@ class Simulation:
         while True:
             while ready:
                 strand = ready.popleft()
-                if strand.dead:
-                    continue
                 if strand.process is not self._face:
                     self._enter(strand.process)
                 strand.gr_context = context  # or what it prints would go to an earlier cell

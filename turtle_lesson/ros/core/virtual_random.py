@@ -7,8 +7,8 @@ numpy's unseeded `numpy.random.default_rng()` and for its old global functions.
 
 from __future__ import annotations
 
+import importlib
 import random
-import sys
 import zlib
 from collections.abc import Callable
 from typing import Any
@@ -93,11 +93,11 @@ def install() -> None:
 
 
 def install_for_numpy() -> None:
-    """Do the same for `numpy.random`, once it has been imported."""
-    module: Any = sys.modules.get("numpy.random")
-    if module is None or "numpy" in _installed:
+    """Do the same for `numpy.random`, which is imported for it."""
+    if "numpy" in _installed:
         return
     _installed.add("numpy")
+    module: Any = importlib.import_module("numpy.random")
     for name in _NUMPY_FUNCTIONS:
         setattr(module, name, _dispatch_numpy(name, getattr(module, name)))
     module.default_rng = _default_rng(module.default_rng)

@@ -6,6 +6,7 @@ process gets virtual time, everybody else (Jupyter, the event loop, other thread
 
 from __future__ import annotations
 
+import atexit
 import threading
 import time
 from collections.abc import Callable
@@ -62,12 +63,12 @@ def _start_thread(real: Callable[[threading.Thread], None]) -> Callable[[threadi
     return start
 
 
-_installed: list[str] = []
+_originals: dict[str, Any] = {}
 
 
 def install() -> None:
     """Replace the functions of the standard `time` module; a second call does nothing."""
-    if _installed:
+    if _originals:
         return
     replacements: dict[str, Any] = {
         "time": _seconds(time.time, EPOCH),
@@ -81,6 +82,12 @@ def install() -> None:
     for name, function in replacements.items():
         function.__name__ = function.__qualname__ = name
         function.__doc__ = getattr(time, name).__doc__
+        _originals[name] = getattr(time, name)
         setattr(time, name, function)
-        _installed.append(name)
+    atexit.register(_restore)  # nothing may ask which greenlet runs while Python takes itself apart
     threading.Thread.start = _start_thread(threading.Thread.start)  # type: ignore[method-assign]
+
+
+def _restore() -> None:
+    for name, function in _originals.items():
+        setattr(time, name, function)

@@ -149,6 +149,19 @@ class Registry:
                 owner.modules[whole] = self._make(owner, whole)
             return owner.modules[whole]
 
+    def resolve(self, type_: FieldType) -> Any:
+        """The class of a field's messages; UnknownMessageType where there is none."""
+        name = f"{type_.package}/{type_.folder}/{type_.base}"
+        try:
+            message_class = self.get(name)
+        except LookupError as error:
+            hint = self._where_is(type_.base) or error.args[0]
+            whole = f"{type_.package}/{type_.base}"
+            raise UnknownMessageType(f"the type '{whole}' is unknown", hint=hint) from None
+        if self._in_progress:
+            self._uses[self._in_progress[-1]] |= self._uses[name]
+        return message_class
+
     def check(self, package: str) -> list[InvalidDefinition]:
         """All that a build would refuse: the first fault of each definition file, in order of the names."""
         faults = []
@@ -168,20 +181,9 @@ class Registry:
         self._in_progress.append(name)
         self._uses[name] = {owner.name}
         try:
-            return make_module(definition, self._resolve)
+            return make_module(definition, self.resolve)
         finally:
             self._in_progress.pop()
-
-    def _resolve(self, type_: FieldType) -> Any:
-        name = f"{type_.package}/{type_.folder}/{type_.base}"
-        try:
-            message_class = self.get(name)
-        except LookupError as error:
-            hint = self._where_is(type_.base) or error.args[0]
-            whole = f"{type_.package}/{type_.base}"
-            raise UnknownMessageType(f"the type '{whole}' is unknown", hint=hint) from None
-        self._uses[self._in_progress[-1]] |= self._uses[name]
-        return message_class
 
     def _split(self, name: str) -> tuple[str, str]:
         parts = name.split("/")
@@ -214,6 +216,7 @@ class Registry:
     def _where_is(self, name: str, folder: str = "") -> str:
         """Say which packages have a message of this name."""
         owners = [each for each in self.packages() if self.package(each).has(f"msg/{name}")]
+        owners.sort(key=lambda owner: owner == "example_interfaces")
         found = " or ".join(f"'{owner}{folder}/{name}'" for owner in owners)
         return f"Did you mean {found}?" if found else ""
 

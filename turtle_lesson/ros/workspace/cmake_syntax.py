@@ -114,7 +114,7 @@ def _call(reader: _Reader) -> Call:
 
 
 def _arguments(reader: _Reader, name: str, line: int) -> list[Argument]:
-    arguments = []
+    arguments: list[Argument] = []
     depth = 1
     while True:
         reader.skip_blanks()

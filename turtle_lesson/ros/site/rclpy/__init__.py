@@ -110,8 +110,7 @@ def spin(node: Node, executor: Executor | None = None) -> None:
 def _spin(node: Node, executor: Executor) -> None:
     try:
         executor.add_node(node)
-        while executor.context.ok():
-            executor.spin_once()
+        executor._spin()
     finally:
         executor.remove_node(node)
 

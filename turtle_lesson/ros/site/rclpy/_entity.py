@@ -46,7 +46,8 @@ class Entity:
             executor._signalled.append(self)
             strand = executor._waiter
             if strand is not None and strand.parked:
-                executor._simulation.wake(strand)
+                strand.parked = False
+                executor._make_ready(strand)
 
     def _has_work(self) -> bool:
         """Whether there is work right now."""

@@ -59,6 +59,7 @@ class Executor:
         self._polled: list[Task] = []
         self._held_up: list[Entity] = []
         self._waiter: Strand | None = None
+        self._make_ready = self._simulation.make_ready
         self._spinning: list[Strand] = []
         self._is_shutdown = False
         self._context.on_shutdown(self.wake)
@@ -131,8 +132,19 @@ class Executor:
             self._spin()
 
     def _spin(self) -> None:
-        while self._context.ok() and not self._is_shutdown:
-            self.spin_once()
+        if type(self).spin_once is not Executor.spin_once:
+            while self._context.ok() and not self._is_shutdown:
+                self.spin_once()  # a learner's own executor
+            return
+        strand = running_strand()
+        assert strand is not None
+        self._spinning.append(strand)
+        context = self._context
+        try:
+            while context.ok() and not self._is_shutdown:  # the same, without beginning anew for each callback
+                self._execute(self._next(strand, None, None))
+        finally:
+            self._spinning.pop()
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
         """Run one callback, waiting at most `timeout_sec` (s; None waits for ever) for one to become ready."""
@@ -219,30 +231,39 @@ class Executor:
             if condition is not None and condition():
                 return None
             if self._signalled or self._resumed:
-                self._begin_cycle()
+                job = self._begin_cycle()
+                if job is not None:
+                    return job
                 continue
-            self._check_not_shut_down()
+            if self._is_shutdown or not self._context.ok():
+                self._say_it_is_shut_down()
             if deadline is not None and self._simulation.now >= deadline:
                 return None
             self._wait(strand, deadline)
 
-    def _begin_cycle(self) -> None:
+    def _begin_cycle(self) -> Job | None:
+        """Take all that is ready now as the next batch; if that is one callback alone, return it right away."""
         batch: list[Job] = self._signalled
+        if len(batch) == 1 and not self._resumed and not self._polled:
+            entity = batch.pop()
+            entity._listed_in = None
+            if entity._executor is self and entity._has_work():
+                if entity.callback_group.beginning_execution(entity):
+                    return entity
+                self._held_up.append(entity)
+            return None
         for entity in batch:
             entity._listed_in = None
-        if len(batch) > 1:
-            batch.sort(key=_turn, reverse=True)  # taken from the end
+        batch.sort(key=_turn, reverse=True)  # taken from the end
         self._signalled = self._batch  # which is empty now
         if self._resumed or self._polled:
             batch = [*batch, *self._polled, *self._resumed]
             self._polled, self._resumed = [], []
         self._batch = batch
+        return None
 
-    def _check_not_shut_down(self) -> None:
-        if self._is_shutdown:
-            raise ShutdownException
-        if not self._context.ok():
-            raise ExternalShutdownException
+    def _say_it_is_shut_down(self) -> None:
+        raise ShutdownException if self._is_shutdown else ExternalShutdownException
 
     def _wait(self, strand: Strand, deadline: int | None) -> None:
         simulation = self._simulation
@@ -357,7 +378,8 @@ class MultiThreadedExecutor(Executor):
         while not self._idle and self._threads >= self._num_threads and not self._failures:
             if deadline is not None and self._simulation.now >= deadline:
                 return None
-            self._check_not_shut_down()
+            if self._is_shutdown or not self._context.ok():
+                self._say_it_is_shut_down()
             self._wait(strand, deadline)
 
         def interesting() -> bool:

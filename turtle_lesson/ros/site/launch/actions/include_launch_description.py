@@ -88,7 +88,10 @@ class IncludeLaunchDescription(Action):
         for argument, includes in declared:
             if argument._conditionally_included or argument.default_value is not None:
                 continue
-            known = [*given, *(name for include in includes or [] for name in include._plain_argument_names())]
+            known = [
+                *given,
+                *(name for include in includes or [] for name in include._plain_argument_names()),
+            ]
             if argument.name not in known:
                 raise MissingLaunchArgumentError(
                     f"Included launch description missing required argument '{argument.name}' "

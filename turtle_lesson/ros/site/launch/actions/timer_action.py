@@ -28,7 +28,7 @@ class TimerAction(Action):
         **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
-        ensure_argument_type(actions, Iterable, "actions", "TimerAction")  # type: ignore[type-abstract]
+        ensure_argument_type(actions, Iterable, "actions", "TimerAction")
         self.__period = normalize_to_list_of_substitutions(
             str(period) if isinstance(period, int | float) else period
         )

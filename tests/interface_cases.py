@@ -1,0 +1,102 @@
+"""Shared by the tests of interfaces: recorded cases, packages in temporary folders, and hypothesis strategies."""
+
+import json
+from pathlib import Path
+
+from hypothesis import strategies as st
+
+from turtle_lesson.ros.interfaces import Registry, parse_message
+from turtle_lesson.ros.interfaces.checks import FLOAT_BOUNDS
+from turtle_lesson.ros.interfaces.generator import make_module
+from turtle_lesson.ros.interfaces.values import integer_bounds
+
+DATA = Path(__file__).with_name("data")
+ROBOT_CONTROLLER = {
+    "msg/TurtleStatus.msg": "float32 x\nfloat32 y\nfloat32 theta\nfloat32 vel_x\nfloat32 vel_y\nfloat32 battery\n",
+    "srv/NavigateTo.srv": "float32 x\nfloat32 y\nfloat32 theta\n---\nbool success\nfloat32 time_taken\n",
+}
+PRIMITIVES = ["bool", "byte", "char", "float32", "float64", "string"] + [
+    f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)
+]
+MESSAGES = ["geometry_msgs/Point", "std_msgs/Header", "std_msgs/Empty", "turtlesim/Pose", "sensor_msgs/Range"]
+
+built_in = Registry()
+
+
+def recorded(name):
+    """Cases recorded on a real ROS 2 Humble."""
+    return json.loads((DATA / name).read_text(encoding="utf-8"))
+
+
+def write_package(folder, files):
+    """Write definition files below a folder, and give the folder."""
+    for path, text in files.items():
+        (folder / path).parent.mkdir(parents=True, exist_ok=True)
+        (folder / path).write_text(text, encoding="utf-8")
+    return folder
+
+
+def message_class(text, package="demo_msgs", name="Demo"):
+    """The class of a message definition that lies in no file."""
+    definition = parse_message(package, name, text)
+    return getattr(make_module(definition, built_in.resolve), name)
+
+
+def find_class(name):
+    """A class of the usual packages by its bare name."""
+    for package in ("std_msgs", "geometry_msgs", "sensor_msgs", "builtin_interfaces"):
+        if f"msg/{name}" in built_in.interface_names(package):
+            return built_in.get(f"{package}/{name}")
+    raise LookupError(name)
+
+
+@st.composite
+def type_texts(draw):
+    """Types of fields as written: `float32`, `string<=5[3]`, `geometry_msgs/Point[]`, ..."""
+    base = draw(st.sampled_from(PRIMITIVES + MESSAGES))
+    if base == "string" and draw(st.booleans()):
+        base = f"string<={draw(st.integers(1, 9))}"
+    return base + draw(st.sampled_from(["", "", "[]", "[3]", "[<=4]"]))
+
+
+@st.composite
+def definition_texts(draw):
+    """Definitions of up to six fields."""
+    types = draw(st.lists(type_texts(), max_size=6))
+    return "".join(f"{type_} field{index}\n" for index, type_ in enumerate(types))
+
+
+def values_of(type_):
+    """Values that a field of a type accepts."""
+    element = _elements(type_)
+    if not type_.is_array:
+        return element
+    low, high = (type_.size, type_.size) if type_.is_fixed else (0, type_.size or 5)
+    return st.lists(element, min_size=low, max_size=high)
+
+
+def _elements(type_):
+    if not type_.is_primitive:
+        return messages(built_in.get(f"{type_.package}/{type_.base}"))
+    if type_.base in FLOAT_BOUNDS:
+        bound = FLOAT_BOUNDS[type_.base]
+        return st.floats(-bound, bound) | st.sampled_from([float("inf"), float("-inf")])
+    if type_.base == "string":
+        letters = st.characters(exclude_categories=["Cs"], exclude_characters="\0")
+        return st.text(letters, max_size=type_.string_bound or 12)
+    if type_.base == "bool":
+        return st.booleans()
+    if type_.base == "byte":
+        return st.binary(min_size=1, max_size=1)
+    return st.integers(*integer_bounds(type_.base))
+
+
+def messages(kind):
+    """Messages of a class, with values for all fields."""
+    fields = {field.name: values_of(field.type) for field in kind._DEFINITION.fields}
+    return st.builds(lambda values: kind(**values), st.fixed_dictionaries(fields))
+
+
+def any_messages():
+    """Messages of classes that are made on the way."""
+    return definition_texts().map(message_class).flatmap(messages)

@@ -1,0 +1,9 @@
+"""`launch_ros`: starting ROS nodes from a launch description (facts: the package launch_ros of ROS 2 Humble)."""
+
+from launch._missing import explain_missing
+
+from . import actions, descriptions, parameter_descriptions, substitutions
+
+__all__ = ["actions", "descriptions", "parameter_descriptions", "substitutions"]
+
+__getattr__ = explain_missing(__name__, {"events": "", "event_handlers": "", "utilities": ""})

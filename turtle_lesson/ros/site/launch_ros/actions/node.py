@@ -1,0 +1,190 @@
+"""`Node`: start a ROS node."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from launch import LaunchContext, LaunchDescriptionEntity, logging
+from launch.actions import ExecuteProcess
+from launch.actions.execute_local import Program
+from launch.some_types import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.substitutions import SubstitutionFailure
+from launch.utilities import (
+    ensure_argument_type,
+    normalize_to_list_of_substitutions,
+    perform_substitutions,
+)
+
+from turtle_lesson.ros.core.tracebacks import shown_path
+
+from .._names import check_namespace, check_node_name, in_namespace
+from .._values import as_argument, parameters_in
+from ..parameter_descriptions import Parameter, ParameterFile
+from ..substitutions import ExecutableInPackage
+
+Remapping = tuple[SomeSubstitutionsType, SomeSubstitutionsType]
+
+
+class Node(ExecuteProcess):
+    """Starts an executable of a package, with its name, namespace, parameters and remappings.
+
+    Args:
+        executable: the program; without a package, the path of a Python file.
+        package: the package that has it.
+        name: the node's name, or None for the one that the program chooses.
+        namespace: its namespace; a relative one goes within what PushRosNamespace set.
+        exec_name: what the process is called in the output; the executable's name if it is not given.
+        parameters: a list of dictionaries, paths of YAML files, or both; a later one counts more.
+        remappings: pairs of names, from and to.
+        ros_arguments: further words behind `--ros-args`.
+        arguments: further words before it, for the program itself.
+    """
+
+    def __init__(
+        self,
+        *,
+        executable: SomeSubstitutionsType,
+        package: SomeSubstitutionsType | None = None,
+        name: SomeSubstitutionsType | None = None,
+        namespace: SomeSubstitutionsType | None = None,
+        exec_name: SomeSubstitutionsType | None = None,
+        parameters: Sequence[Any] | None = None,
+        remappings: Iterable[Remapping] | None = None,
+        ros_arguments: Iterable[SomeSubstitutionsType] | None = None,
+        arguments: Iterable[SomeSubstitutionsType] | None = None,
+        **kwargs: Any,
+    ) -> None:
+        if parameters is not None:
+            ensure_argument_type(parameters, list, "parameters", "Node")
+        self.__in_package = None if package is None else ExecutableInPackage(executable, package)
+        program: SomeSubstitutionsType = executable if self.__in_package is None else self.__in_package
+        words = [
+            program,
+            *_words(arguments, "arguments"),
+            "--ros-args",
+            *_words(ros_arguments, "ros_arguments"),
+        ]
+        super().__init__(cmd=words, name=exec_name, **kwargs)
+        self.__package = package
+        self.__executable = executable
+        self.__node_name = name
+        self.__namespace = namespace
+        self.__parameters = [] if parameters is None else list(parameters)
+        self.__remappings = _pairs(remappings)
+        self.expanded_node_name = "<node_name_unspecified>"
+        self.expanded_node_namespace = "<node_namespace_unspecified>"
+        self.expanded_remapping_rules: list[tuple[str, str]] = []
+        self._ros_words: list[str] = []
+
+    @property
+    def node_package(self) -> SomeSubstitutionsType | None:
+        """The package, as it was given."""
+        return self.__package
+
+    @property
+    def node_executable(self) -> SomeSubstitutionsType:
+        """The executable, as it was given."""
+        return self.__executable
+
+    @property
+    def node_name(self) -> str:
+        """The node's full name, as far as the launch file decides it."""
+        return f"{self.expanded_node_namespace.rstrip('/')}/{self.expanded_node_name}"
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Have the node started."""
+        self._ros_words = [
+            *self._name_words(context),
+            *self._parameter_words(context),
+            *self._remapping_words(context),
+        ]
+        return super().execute(context)
+
+    def _name_words(self, context: LaunchContext) -> list[str]:
+        words = []
+        try:
+            if self.__node_name is not None:
+                self.expanded_node_name = _text(context, self.__node_name)
+                check_node_name(self.expanded_node_name)
+                words += ["-r", f"__node:={self.expanded_node_name}"]
+            own = None if self.__namespace is None else _text(context, self.__namespace)
+            namespace = in_namespace(context, own)
+            if namespace is not None:
+                self.expanded_node_namespace = namespace
+                check_namespace(namespace)
+                words += ["-r", f"__ns:={namespace}"]
+        except Exception:
+            what = f"package={self.__package}, executable={self.__executable}, name={self.__node_name}"
+            logging.get_logger("launch_ros.actions.node").error(
+                f"Error while expanding or validating node name or namespace for '{what}, "
+                f"namespace={self.__namespace}':"
+            )
+            raise
+        return words
+
+    def _parameter_words(self, context: LaunchContext) -> list[str]:
+        words = []
+        for entry in [*context.launch_configurations.get("global_params", []), *self.__parameters]:
+            if isinstance(entry, Mapping):
+                for name, value in parameters_in(context, entry):
+                    words += ["-p", f"{name}:={as_argument(value)}"]
+            elif isinstance(entry, Parameter):
+                name, value = entry.evaluate(context)
+                words += ["-p", f"{name}:={as_argument(value)}"]
+            else:
+                words += ["--params-file", str(_parameter_file(context, entry))]
+        return words
+
+    def _remapping_words(self, context: LaunchContext) -> list[str]:
+        own = [(_text(context, source), _text(context, target)) for source, target in self.__remappings]
+        self.expanded_remapping_rules = [*context.launch_configurations.get("ros_remaps", []), *own]
+        return [
+            word for source, target in self.expanded_remapping_rules for word in ("-r", f"{source}:={target}")
+        ]
+
+    def _find_program(self, context: LaunchContext) -> Program:
+        argv = [*self.process_description.final_cmd, *self._ros_words]
+        shown = " ".join([shown_path(argv[0]), *[word for word in argv[1:] if word.strip()]])
+        if self.__in_package is not None:
+            return Program(self.__in_package.target(context), argv, shown)
+        path = Path(argv[0])
+        if not path.is_file():
+            hint = "Did you leave package='…' out?"
+            raise SubstitutionFailure(f"executable '{argv[0]}' is no file", hint)
+        return Program(path.resolve(), argv, shown)
+
+
+def _text(context: LaunchContext, text: SomeSubstitutionsType) -> str:
+    return perform_substitutions(context, normalize_to_list_of_substitutions(text))
+
+
+def _words(words: Iterable[SomeSubstitutionsType] | None, name: str) -> list[SomeSubstitutionsType]:
+    if isinstance(words, str | Substitution):
+        raise TypeError(f"Node expected a list for '{name}', got {words!r}; write {name}=[{words!r}]")
+    return list(words or [])
+
+
+def _pairs(remappings: Iterable[Remapping] | None) -> list[Remapping]:
+    pairs = list(remappings or [])
+    for pair in pairs:
+        if isinstance(pair, str) or not isinstance(pair, Sequence) or len(pair) != 2:
+            raise TypeError(
+                f"Node expected 'remappings' to be a list of pairs, got {pair!r} in it; "
+                "write remappings=[('/from', '/to')]"
+            )
+    return pairs
+
+
+def _parameter_file(context: LaunchContext, entry: Any) -> Path:
+    if isinstance(entry, os.PathLike):
+        entry = os.fspath(entry)
+    file = entry if isinstance(entry, ParameterFile) else ParameterFile(entry)
+    path = file.evaluate(context)
+    if not path.is_file():
+        text = f"Parameter file path is not a file: {shown_path(str(path))}"
+        logging.get_logger("launch_ros.actions.node").warning(text)
+    return path

@@ -1,0 +1,5 @@
+"""`SetRemap` under its real module's name."""
+
+from .set_parameter import SetRemap
+
+__all__ = ["SetRemap"]
