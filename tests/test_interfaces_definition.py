@@ -36,7 +36,9 @@ def test_a_message_is_read_as_ros_reads_it(case):
     error = refusal(lambda: parse_message("pkg", "Name", case["text"]))
     assert (error.ros_error, error.reason) == (case["error"], case["reason"])
     assert error.printed == case.get("printed")
-    assert error.line == min(2, len(case["text"].splitlines()))  # where two or three lines, the second is to blame
+    assert error.line == min(
+        2, len(case["text"].splitlines())
+    )  # where two or three lines, the second is to blame
 
 
 @pytest.mark.parametrize("case", CASES["services"], ids=by_text)
@@ -87,17 +89,24 @@ def test_a_type_says_what_it_is_made_of():
     text = "string<=5[<=2] names\ngeometry_msgs/Point[3] corners\nfloat32[] ranges\nTwist t"
     names, corners, ranges, own = [field.type for field in parse_message("pkg", "Name", text).fields]
     assert (names.base, names.string_bound, names.array, names.size) == ("string", 5, "bounded", 2)
-    assert (corners.package, corners.base, corners.array, corners.size) == ("geometry_msgs", "Point", "fixed", 3)
+    assert (corners.package, corners.base, corners.array, corners.size) == (
+        "geometry_msgs",
+        "Point",
+        "fixed",
+        3,
+    )
     assert (ranges.package, ranges.array, ranges.size) == (None, "unbounded", None)
     assert own.package == "pkg"
 
 
 def test_an_error_names_file_line_and_remedy():
-    error = refusal(lambda: parse_message("pkg", "Status", "float32 x\n\nflot32 y # oh\n", "/far/msg/Status.msg"))
+    error = refusal(
+        lambda: parse_message("pkg", "Status", "float32 x\n\nflot32 y # oh\n", "/far/msg/Status.msg")
+    )
     assert (error.file, error.line, error.line_text) == ("/far/msg/Status.msg", 3, "flot32 y")
     assert str(error) == (
-        "pkg/msg/Status.msg, line 3, 'flot32 y': 'flot32' is an invalid message name. It should have the pattern"
-        " '^[A-Z][A-Za-z0-9]*$'. Did you mean 'float32'?"
+        "pkg/msg/Status.msg, line 3, 'flot32 y': 'flot32' is an invalid message name."
+        " It should have the pattern '^[A-Z][A-Za-z0-9]*$'. Did you mean 'float32'?"
     )
     assert error.qualified_ros_error == "rosidl_adapter.parser.InvalidResourceName"
 
@@ -135,8 +144,14 @@ def test_quoted_strings_in_a_default_list_may_hold_commas():
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
-        ("float32[] x 1.0", "value '1.0' can not be converted to type 'float32[]': array value must start with"),
-        ("int8[] x [1, 300]", "value '[1, 300]' can not be converted to type 'int8[]': element 1 with value '300'"),
+        (
+            "float32[] x 1.0",
+            "value '1.0' can not be converted to type 'float32[]': array value must start with",
+        ),
+        (
+            "int8[] x [1, 300]",
+            "value '[1, 300]' can not be converted to type 'int8[]': element 1 with value '300'",
+        ),
         ("float32] x", "the type float32] ends with ']' but does not contain a '['"),
         ("string<=0 s", "the upper bound of the string type 'string<=0' must be a valid integer value > 0"),
         ("byte b 300", "value '300' can not be converted to type 'byte': must be a valid integer value >= 0"),
@@ -191,7 +206,9 @@ def test_what_is_written_back_reads_the_same(text):
     assert again.fields == definition.fields
 
 
-@given(st.text() | st.lists(st.sampled_from([*"[]<=/#'\"\\- \n,1aA_", "string", "int8 ", "---"])).map("".join))
+@given(
+    st.text() | st.lists(st.sampled_from([*"[]<=/#'\"\\- \n,1aA_", "string", "int8 ", "---"])).map("".join)
+)
 def test_any_text_is_read_or_refused_with_a_reason(text):
     for parse in (parse_message, parse_service, parse_action):
         try:

@@ -63,6 +63,7 @@ def test_messages_services_and_actions_are_imported(demo):
 def test_a_module_lists_what_it_has(demo):
     import demo_msgs.msg
 
+    assert repr(demo_msgs.msg) == "<module 'demo_msgs.msg' (made from demo_msgs/msg)>"
     assert demo_msgs.msg.__all__ == ["Status", "StatusList"]
     assert {"Status", "StatusList"} <= set(dir(demo_msgs.msg))
     assert demo_msgs.msg.Status is demo_msgs.msg.Status
@@ -84,6 +85,8 @@ def test_import_and_registry_give_the_same_class(demo, registry):
 
     assert registry.get("demo_msgs/msg/Status") is registry.get("demo_msgs/Status") is Status
     assert registry.get("demo_msgs/srv/Charge_Request") is registry.get("demo_msgs/srv/Charge").Request
+    drive = registry.get("demo_msgs/action/Drive")
+    assert registry.get("demo_msgs/Drive_SendGoal_Request") is drive.Impl.SendGoalService.Request
 
 
 def test_a_missing_name_is_an_import_error_with_a_suggestion(demo):
@@ -112,7 +115,9 @@ def test_packages_and_folders_that_are_not_there(registry, tmp_path):
 
 
 def test_a_faulty_definition_is_told_with_file_and_line(registry, tmp_path):
-    write_package(tmp_path, {"msg/Bad.msg": "float32 x\nfloat y\n", "msg/User.msg": "Bad bad\n", "msg/Good.msg": ""})
+    write_package(
+        tmp_path, {"msg/Bad.msg": "float32 x\nfloat y\n", "msg/User.msg": "Bad bad\n", "msg/Good.msg": ""}
+    )
     registry.add("demo_msgs", tmp_path)
     with pytest.raises(InvalidDefinition) as caught:
         from demo_msgs.msg import User  # noqa: F401
@@ -125,7 +130,9 @@ def test_a_faulty_definition_is_told_with_file_and_line(registry, tmp_path):
 
 def test_a_message_cannot_contain_itself(registry, tmp_path):
     registry.add("demo_msgs", write_package(tmp_path, {"msg/A.msg": "B b", "msg/B.msg": "int8 x\nA[] a"}))
-    with pytest.raises(InvalidDefinition, match=r"itself: demo_msgs/msg/A -> demo_msgs/msg/B -> demo_msgs/msg/A"):
+    with pytest.raises(
+        InvalidDefinition, match=r"itself: demo_msgs/msg/A -> demo_msgs/msg/B -> demo_msgs/msg/A"
+    ):
         registry.get("demo_msgs/msg/A")
 
 
@@ -156,7 +163,9 @@ def test_a_real_package_comes_first_and_gets_its_messages_beside(demo, registry,
 
 
 def test_a_sourced_ros_is_never_hidden(registry, tmp_path, monkeypatch):
-    write_package(tmp_path, {"std_msgs/__init__.py": "", "std_msgs/msg/__init__.py": "String = 'the real one'\n"})
+    write_package(
+        tmp_path, {"std_msgs/__init__.py": "", "std_msgs/msg/__init__.py": "String = 'the real one'\n"}
+    )
     for name in [each for each in sys.modules if each.partition(".")[0] == "std_msgs"]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.syspath_prepend(tmp_path)
@@ -174,11 +183,13 @@ def test_a_mere_folder_does_not_hide_the_messages(demo, monkeypatch):
 
 def test_importing_does_not_load_what_is_slow_to_load():
     code = """
+import turtle_lesson
+before = set(sys.modules)
 from turtle_lesson.ros.interfaces import finder
 finder.install()
 from geometry_msgs.msg import Twist
 Twist()
-print(sorted({"numpy", "rosbags"} & set(sys.modules)))
+print(sorted({"numpy", "rosbags"} & (set(sys.modules) - before)))
 """
     assert run(code) == "[]\n"
 
@@ -210,7 +221,9 @@ def test_adding_again_replaces(demo, registry):
 
 
 def test_users_of_a_changed_message_change_with_it(demo, registry, tmp_path):
-    registry.add("user_msgs", write_package(tmp_path / "user", {"msg/Fleet.msg": "demo_msgs/Status[] robots\n"}))
+    registry.add(
+        "user_msgs", write_package(tmp_path / "user", {"msg/Fleet.msg": "demo_msgs/Status[] robots\n"})
+    )
     import user_msgs.msg
 
     old = user_msgs.msg.Fleet
@@ -225,7 +238,9 @@ def test_users_of_a_changed_message_change_with_it(demo, registry, tmp_path):
 def test_only_files_that_are_named_count(demo, registry):
     registry.add("demo_msgs", demo, ["msg/Status.msg", "./srv/Charge.srv"])
     assert registry.interface_names("demo_msgs") == ["msg/Status", "srv/Charge"]
-    with pytest.raises(ImportError, match=r"msg/StatusList\.msg is there, but CMakeLists\.txt does not name it"):
+    with pytest.raises(
+        ImportError, match=r"msg/StatusList\.msg is there, but CMakeLists\.txt does not name it"
+    ):
         from demo_msgs.msg import StatusList  # noqa: F401
     registry.add("demo_msgs", demo, ["msg/Nope.msg"])
     with pytest.raises(InvalidDefinition, match=r"demo_msgs/msg/Nope\.msg: the file cannot be read"):
@@ -256,7 +271,7 @@ def test_every_built_in_definition_is_sound():
     for package in registry.packages():
         for interface in registry.interface_names(package):
             kind = registry.get(f"{package}/{interface}")
-            assert kind._TYPE_NAME == f"{package}/{interface}"
+            assert f"{package}/{interface}" == kind._TYPE_NAME
             for part in kind._DEFINITION.parts():
                 message = registry.get(part.full_name)()
                 assert message._wire_copy() == message
@@ -265,10 +280,20 @@ def test_every_built_in_definition_is_sound():
 @pytest.mark.parametrize(
     ("name", "text"),
     [
-        ("geometry_msgs/msg/Twst", "the package 'geometry_msgs' has no interface 'msg/Twst'. Did you mean 'Twist'?"),
-        ("geometry_mgs/msg/Twist", "there is no interface package 'geometry_mgs'. Did you mean 'geometry_msgs'?"),
-        ("Twist", "'Twist' is no name such as 'geometry_msgs/msg/Twist'. Did you mean 'geometry_msgs/msg/Twist'?"),
+        (
+            "geometry_msgs/msg/Twst",
+            "the package 'geometry_msgs' has no interface 'msg/Twst'. Did you mean 'Twist'?",
+        ),
+        (
+            "geometry_mgs/msg/Twist",
+            "there is no interface package 'geometry_mgs'. Did you mean 'geometry_msgs'?",
+        ),
+        (
+            "Twist",
+            "'Twist' is no name such as 'geometry_msgs/msg/Twist'. Did you mean 'geometry_msgs/msg/Twist'?",
+        ),
         ("geometry_msgs/msgs/Twist", "'geometry_msgs/msgs/Twist' is no name such as"),
+        ("std_srvs/srv/Empty_Nope", "'std_srvs/srv/Empty_Nope' is no part of a service or action"),
         ("zzz/msg/X", "there is no interface package 'zzz'."),
     ],
 )

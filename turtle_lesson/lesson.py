@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from .live import Player
 from .ros.console import CellOutput
-from .ros.core import NANOSECONDS
+from .ros.core import EPOCH, NANOSECONDS
 from .ros.interfaces.registry import registry
 from .ros.workspace.index import find_launch_file
 from .ros.workspace.package import Package, read_source_package
@@ -201,7 +201,7 @@ class Lesson:
 
         rclpy.init()
         node = rclpy.create_node("_lab", start_parameter_services=False, enable_rosout=False)
-        self._recorder = Recorder(node)
+        self._recorder = Recorder(node, origin=EPOCH)
         rclpy.spin(node)
 
     @property

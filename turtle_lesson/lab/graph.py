@@ -44,7 +44,7 @@ def plot_graph(node: Any) -> GraphPicture:
             "No node is running. Start some: ros2 run turtlesim turtlesim_node, or lesson.launch(…)."
         )
     text = describe(nodes)
-    return GraphPicture(text, flowchart(nodes, _summary(nodes), text))
+    return GraphPicture(text, flowchart(nodes, f"ROS graph: {_summary(nodes)}", text))
 
 
 def describe(nodes: list[NodeView]) -> str:

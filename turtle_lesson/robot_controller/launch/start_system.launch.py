@@ -8,16 +8,19 @@ from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
+from launch_ros.parameter_descriptions import ParameterValue
 
 
 def generate_launch_description() -> LaunchDescription:
     """Return the four arguments with their default values, and the three nodes that take them."""
+    # As a float on purpose: `goal_timeout:=8` would be an integer otherwise, and the node would refuse it.
+    goal_timeout = ParameterValue(LaunchConfiguration("goal_timeout"), value_type=float)
     return LaunchDescription(
         [
             DeclareLaunchArgument(
                 "goal_timeout",
                 default_value="5.0",
-                description="Longest time that a goal may take, in seconds, with a decimal point",
+                description="Longest time that a goal may take, in seconds",
             ),
             DeclareLaunchArgument(
                 "publish_rate", default_value="10", description="Status messages a second, an integer"
@@ -33,7 +36,7 @@ def generate_launch_description() -> LaunchDescription:
                 executable="navigator",
                 name="navigator",
                 output="screen",
-                parameters=[{"goal_timeout": LaunchConfiguration("goal_timeout")}],
+                parameters=[{"goal_timeout": goal_timeout}],
             ),
             Node(
                 package="robot_controller",

@@ -161,8 +161,8 @@ def refusal(goal: Place) -> str | None:
 
 def nearest(scan: LaserScan) -> float:
     """Return the smallest valid reading of a scan in metres, or infinity if there is none."""
-    valid = (reading for reading in scan.ranges if scan.range_min <= reading <= scan.range_max)
-    return min(valid, default=math.inf)
+    low, high = scan.range_min, scan.range_max
+    return min([reading for reading in scan.ranges if low <= reading <= high], default=math.inf)
 
 
 @dataclass

@@ -137,7 +137,9 @@ def message_check(name: str, message_class: type) -> Check:
 
     def check(value: Any) -> Any:
         if not isinstance(value, message_class):
-            raise refusal(text, f"Got {shown(value)}")
+            same_name = str(type(value)) == str(message_class)
+            stale = "The package was built again since this message was made: import it anew"
+            raise refusal(text, stale if same_name else f"Got {shown(value)}")
         return value
 
     return check

@@ -65,11 +65,12 @@ class InterfaceFinder:
 
     def _spec(self, fullname: str, owner: Package, inner: list[str]) -> ModuleSpec | None:
         if not inner:
-            return ModuleSpec(fullname, _PackageLoader(), is_package=True)
+            return ModuleSpec(fullname, _PackageLoader(), origin="interfaces only", is_package=True)
         if not owner.names_in(inner[0]):
             return None
         if len(inner) == 1:
-            return ModuleSpec(fullname, _FolderLoader(owner, inner[0]), is_package=True)
+            origin = f"made from {owner.name}/{inner[0]}"
+            return ModuleSpec(fullname, _FolderLoader(owner, inner[0]), origin=origin, is_package=True)
         by_module = {names.module_name(name): name for name in owner.names_in(inner[0])}
         if inner[1] in by_module:
             return ModuleSpec(fullname, _InterfaceLoader(self.registry, f"{inner[0]}/{by_module[inner[1]]}"))

@@ -135,15 +135,17 @@ class Registry:
         found = self._classes.get(name)
         if found is None:
             package, interface = self._split(name)
-            found = getattr(self.module(package, interface), interface.partition("/")[2])
+            found = vars(self.module(package, interface)).get(interface.partition("/")[2])
+            if found is None:
+                raise LookupError(f"'{name}' is no part of a service or action")
             self._classes[name] = found
         return found
 
     def module(self, package: str, interface: str) -> ModuleType:
         """The generated module of an interface: `geometry_msgs.msg._twist` for `msg/Twist`."""
-        folder, _, name = interface.partition("/")
-        whole = f"{folder}/{names.without_part(name)}"
         with self._lock:
+            is_whole = self.package(package).has(interface)
+            whole = interface if is_whole else interface.partition("_")[0]  # X of X_SendGoal_Request
             owner = self._find(package, whole)
             if whole not in owner.modules:
                 owner.modules[whole] = self._make(owner, whole)
@@ -194,7 +196,7 @@ class Registry:
             raise LookupError(f"'{name}' is no name such as 'geometry_msgs/msg/Twist'. {hint}".rstrip())
         owner = self.package(parts[0])
         for folder in FOLDERS:
-            if owner.has(f"{folder}/{names.without_part(parts[1])}"):
+            if owner.has(f"{folder}/{parts[1].partition('_')[0]}"):
                 return parts[0], f"{folder}/{parts[1]}"
         return parts[0], f"msg/{parts[1]}"
 

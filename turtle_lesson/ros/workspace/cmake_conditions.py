@@ -1,7 +1,8 @@
 """Whether an `if(…)` of a CMakeLists.txt holds.
 
 Facts: https://cmake.org/cmake/help/latest/command/if.html. Names, NOT, AND, OR, DEFINED, STREQUAL, EQUAL,
-MATCHES and parentheses are understood; other tests count as false, as they mostly are for a package of Python files.
+MATCHES and parentheses are understood; other tests count as false, as they mostly are for a package of Python
+files.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Which packages the running code sees: those of the world that it runs in, or of the one that is being launched."""
+"""Which packages the running code sees: those of its world, or of the one that is being launched."""
 
 from __future__ import annotations
 

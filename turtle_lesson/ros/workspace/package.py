@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ..core.tracebacks import shown_path
 from .cmake import CMakeError, CMakeFile, Program, read_cmake
 from .errors import PackageError
 from .manifest import Manifest, read_manifest
@@ -66,9 +67,9 @@ def read_source_package(folder: Path | str) -> Package:
     Raises:
         PackageError, CMakeError: what a build would refuse, with the file, the line and what to try.
     """
-    folder = Path(folder)
+    folder = Path(folder).resolve()
     if not folder.is_dir():
-        raise PackageError(f"there is no folder {folder}")
+        raise PackageError(f"there is no folder {shown_path(str(folder))}")
     manifest = read_manifest(folder / "package.xml")
     if manifest.build_type != "ament_cmake":
         reason = f"build_type {manifest.build_type} cannot be used in this classroom yet, ament_cmake can"
@@ -175,8 +176,8 @@ def _warnings(cmake: CMakeFile, programs: list[Program], folder: Path, file: Pat
     for program in programs:
         if not (folder / program.source).read_bytes().startswith(b"#!"):
             found.append(
-                f"{program.source} does not begin with '#!/usr/bin/env python3': a real ROS 2 could not start "
-                "it (Exec format error)"
+                f"{program.source} does not begin with '#!/usr/bin/env python3': a real ROS 2 could not "
+                "start it (Exec format error)"
             )
     for program in cmake.programs():
         if program not in programs:

@@ -1,4 +1,4 @@
-"""`ament_index_python`: where packages are, as programs and launch files ask (facts: ament_index of Humble)."""
+"""`ament_index_python`: where packages are, for programs that ask (facts: ament_index of Humble)."""
 
 from .constants import AMENT_PREFIX_PATH_ENV_VAR
 from .packages import (

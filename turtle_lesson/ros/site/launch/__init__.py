@@ -1,11 +1,19 @@
-"""`launch`: describing which programs of a system are started, and how (facts: the package launch of ROS 2 Humble).
+"""`launch`: describing which programs are started, and how (facts: launch of ROS 2 Humble).
 
-The classes have the names and signatures of the real package, so a launch file runs here and on a robot; what is
-not here raises an ImportError that says so. `turtle_lesson.ros.launching` carries a description out.
+The classes have the names and signatures of the real package, so a launch file runs here and on a robot; what
+is not here raises an ImportError that says so. `turtle_lesson.ros.launching` carries a description out.
 """
 
-from . import actions, conditions, event_handlers, events, launch_description_sources, logging
-from . import substitutions, utilities
+from . import (
+    actions,
+    conditions,
+    event_handlers,
+    events,
+    launch_description_sources,
+    logging,
+    substitutions,
+    utilities,
+)
 from ._missing import explain_missing
 from .action import Action
 from .condition import Condition

@@ -22,7 +22,12 @@ class InvalidLaunchFileError(Exception):
             return "The launch file may have a syntax error, or its format is unknown"
         if len(self.likely_errors) == 1:
             what = f"Caught exception when trying to load file of format [{self.extension}]"
-            return f"{what}: {self.likely_errors[0]}"
-        lines = [f" - {type(error).__name__}: {error}" for error in self.likely_errors]
+            return f"{what}: {_text(self.likely_errors[0])}"
+        lines = [f" - {type(error).__name__}: {_text(error)}" for error in self.likely_errors]
         what = f"Caught multiple exceptions when trying to load file of format [{self.extension}]:"
         return "\n".join([what, *lines])
+
+
+def _text(error: BaseException) -> str:
+    """What the real one prints, without the classroom's hint behind it."""
+    return KeyError.__str__(error) if isinstance(error, KeyError) else str(error)

@@ -1,4 +1,4 @@
-"""`launch_ros`: starting ROS nodes from a launch description (facts: the package launch_ros of ROS 2 Humble)."""
+"""`launch_ros`: starting ROS nodes from a launch description (facts: launch_ros of ROS 2 Humble)."""
 
 from launch._missing import explain_missing
 

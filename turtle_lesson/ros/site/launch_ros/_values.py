@@ -1,7 +1,7 @@
 """From what a launch file gives as parameters to plain names and values.
 
-Facts: launch_ros's normalize_parameters.py and evaluate_parameters.py. A Python value keeps its type, text stays
-text, and what a substitution gives is read as YAML: `5.0` is a double, `10` an integer, `true` a boolean.
+Facts: launch_ros's normalize_parameters.py and evaluate_parameters.py. A Python value keeps its type, text
+stays text, and what a substitution gives is read as YAML: `5.0` is a double, `10` an integer, `true` a bool.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ def value_of(context: LaunchContext, value: Any) -> Any:
         return _from_sequence(context, value)
     raise ParameterTypeError(
         f"Unexpected type for parameter value {value!r}",
-        "It can be a bool, int, float, text, or a list of these.",
+        "It can be a bool, int, float, text, or a list.",
     )
 
 
@@ -75,8 +75,8 @@ def _from_text(text: str) -> Any:
     if isinstance(value, list):
         return uniform(value)
     raise ParameterTypeError(
-        "Allowed value types are bytes, bool, int, float, str, Sequence[bool], Sequence[int], Sequence[float], "
-        f"Sequence[str]. Got {type(value)}.",
+        "Allowed value types are bytes, bool, int, float, str, Sequence[bool], Sequence[int], "
+        f"Sequence[float], Sequence[str]. Got {type(value)}.",
         f"The text is {text!r}; ParameterValue(…, value_type=str) keeps it as text.",
     )
 
@@ -105,8 +105,8 @@ def uniform(items: list[Any]) -> list[Any]:
     if len(kinds) == 1 and kinds <= set(PLAIN):
         return items
     raise ParameterTypeError(
-        "Expected a non-empty sequence, with items of uniform type. Allowed sequence item types are bool, int, "
-        "float, str.",
+        "Expected a non-empty sequence, with items of uniform type. Allowed sequence item types are bool, "
+        "int, float, str.",
         f"Got {items!r}.",
     )
 

@@ -20,7 +20,7 @@ from ._values import uniform, value_of
 
 
 class ParameterValue:
-    """A value, with the type that it is to have: `ParameterValue(LaunchConfiguration('id'), value_type=str)`."""
+    """A value with its type: `ParameterValue(LaunchConfiguration('id'), value_type=str)`."""
 
     def __init__(self, value: Any, *, value_type: Any = None) -> None:
         self.__value = value
@@ -93,8 +93,9 @@ class ParameterFile:
         self.param_file = normalize_to_list_of_substitutions(param_file)
         if allow_substs is not False:
             raise NotImplementedError(
-                "ParameterFile(allow_substs=True), substitutions inside of a YAML file, is not in this classroom "
-                "yet; give those parameters in a dictionary behind the file: parameters=[file, {'rate': …}]"
+                "ParameterFile(allow_substs=True), substitutions inside of a YAML file, is not in this "
+                "classroom yet; give those parameters in a dictionary behind the file: "
+                "parameters=[file, {'rate': …}]"
             )
         self.allow_substs = allow_substs
 

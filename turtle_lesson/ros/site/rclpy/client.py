@@ -42,6 +42,9 @@ class Client(Entity):
         self.qos_profile = qos_profile
         self._waiting: dict[int, Future] = {}
 
+    def __repr__(self) -> str:
+        return f"<Client of {self.srv_name}>"
+
     @property
     def service_name(self) -> str:
         """The service's full name."""

@@ -57,6 +57,8 @@ class Context:
         self._ended = True
         for callback in self._callbacks:
             callback()
+        for node in list(self._nodes):
+            node.destroy_node()  # a node without a context could do nothing, so it does not stay in the graph
         if self.shared_default:
             del self._process.locals["rclpy.context"]
 

@@ -24,6 +24,9 @@ class Publisher:
         self.callback_group: CallbackGroup | None = None
         self._logger_name = logger_name
 
+    def __repr__(self) -> str:
+        return f"<Publisher of {self.topic}>"
+
     @property
     def topic_name(self) -> str:
         """The topic's full name."""

@@ -34,6 +34,9 @@ class Service(Entity):
         self.qos_profile = qos_profile
         self._asking: dict[int, Any] = {}
 
+    def __repr__(self) -> str:
+        return f"<Service {self.srv_name}>"
+
     @property
     def service_name(self) -> str:
         """The service's full name."""

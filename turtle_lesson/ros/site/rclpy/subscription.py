@@ -43,6 +43,9 @@ class Subscription(Entity):
         if _wants_info(callback):
             reader.keep_times()
 
+    def __repr__(self) -> str:
+        return f"<Subscription of {self.topic}>"
+
     @property
     def topic_name(self) -> str:
         """The topic's full name."""

@@ -50,6 +50,9 @@ class Timer(Entity):
         if autostart:
             self._arm()
 
+    def __repr__(self) -> str:
+        return f"<Timer, every {self._period / 1e9:g} s>"
+
     @property
     def clock(self) -> Clock:
         """The clock that the timer goes by."""

@@ -116,8 +116,8 @@ class ExecuteLocal(Action):
     def _refuse_what_is_not_here(self) -> None:
         if self.process_description.prefix:
             raise NotImplementedError(
-                "prefix= puts another program (xterm, gdb, …) before the node; in this classroom nodes run inside "
-                "the notebook, so there is no command to put anything before. Leave prefix out"
+                "prefix= puts another program (xterm, gdb, …) before the node; in this classroom nodes run "
+                "inside the notebook, so there is no command to put anything before. Leave prefix out"
             )
         if self.shell:
             raise NotImplementedError("shell=True needs a shell, and this classroom has none yet")
@@ -126,8 +126,8 @@ class ExecuteLocal(Action):
         """What to run, for subclasses to say."""
         command = " ".join(self.process_description.final_cmd)
         raise NotImplementedError(
-            f"ExecuteProcess(cmd='{command}') would run a program of the operating system; this classroom starts "
-            "ROS nodes only, yet. Use Node(package=…, executable=…)"
+            f"ExecuteProcess(cmd='{command}') would run a program of the operating system; this classroom "
+            "starts ROS nodes only, yet. Use Node(package=…, executable=…)"
         )
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:

@@ -7,7 +7,8 @@ from typing import Any
 
 from ..action import Action
 from ..event_handler import EventHandler
-from ..events import Shutdown, TimerEvent
+from ..event_handlers import OnShutdown
+from ..events import TimerEvent
 from ..launch_context import LaunchContext
 from ..launch_description_entity import LaunchDescriptionEntity
 from ..some_types import SomeSubstitutionsType
@@ -65,16 +66,9 @@ class TimerAction(Action):
         seconds = float(perform_substitutions(context, self.__period))
         self.__locals = context.get_locals_as_dict()
         if self.__cancel_on_shutdown:
-            context.register_event_handler(
-                EventHandler(matcher=self._is_shutdown, entities=[], handle_once=True)
-            )
+            context.register_event_handler(OnShutdown(on_shutdown=lambda event, context: self.cancel()))
         context._host.call_later(seconds, lambda: self._time_is_over(context))
         return None
-
-    def _is_shutdown(self, event: object) -> bool:
-        if isinstance(event, Shutdown):
-            self.cancel()
-        return False
 
     def _time_is_over(self, context: LaunchContext) -> None:
         if not self.__cancelled:

@@ -1,0 +1,103 @@
+"""The ROS graph in words and in Mermaid's language."""
+
+import re
+
+from hypothesis import given
+from hypothesis import strategies as st
+from lab_fakes import NAVIGATE, POSE, SCAN, STATUS, TWIST, GraphNode
+
+from turtle_lesson.lab import plot_graph
+
+PARAMETERS = "rcl_interfaces/srv/GetParameters"
+
+
+def lesson() -> GraphNode:
+    return GraphNode(
+        {
+            "/turtlesim": {
+                "pub": {"/turtle1/pose": POSE, "/rosout": "rcl_interfaces/msg/Log"},
+                "sub": {"/turtle1/cmd_vel": TWIST},
+                "srv": {"/kill": "turtlesim/srv/Kill", "/turtlesim/get_parameters": PARAMETERS, "/clear": "std_srvs/srv/Empty"},
+            },
+            "/navigator": {
+                "pub": {"/turtle1/cmd_vel": TWIST},
+                "sub": {"/turtle1/pose": POSE},
+                "srv": {"/navigate_to": NAVIGATE},
+            },
+            "/client": {"cli": {"/navigate_to": NAVIGATE, "/navigator/_action/hidden": NAVIGATE}},
+            "/_lab": {"sub": {"/turtle1/pose": POSE, "/obstacles": SCAN, "/robot/status": STATUS}},
+        }
+    )
+
+
+def test_the_graph_in_words():
+    assert repr(plot_graph(lesson())) == (
+        "The ROS graph has 3 nodes, 2 topics and 3 services. /client calls /navigate_to. "
+        "/navigator publishes /turtle1/cmd_vel; hears /turtle1/pose; offers /navigate_to. "
+        "/turtlesim publishes /turtle1/pose; hears /turtle1/cmd_vel; offers /clear and /kill. "
+        "Types: /turtle1/cmd_vel geometry_msgs/msg/Twist, /turtle1/pose turtlesim/msg/Pose, /clear std_srvs/srv/Empty, "
+        "/kill turtlesim/srv/Kill, /navigate_to robot_controller/srv/NavigateTo."
+    )
+
+
+def test_the_graph_in_mermaid():
+    drawn = plot_graph(lesson()).mermaid.splitlines()
+    assert drawn[1:3] == ["flowchart TD", "accTitle: ROS graph: 3 nodes, 2 topics and 3 services"]
+    assert drawn[4:-3] == [
+        'n0(["/client"]):::rosnode',
+        'n1(["/navigator"]):::rosnode',
+        'n2(["/turtlesim"]):::rosnode',
+        't0["/turtle1/cmd_vel<br/><small>geometry_msgs/msg/Twist</small>"]:::rostopic',
+        't1["/turtle1/pose<br/><small>turtlesim/msg/Pose</small>"]:::rostopic',
+        "n1 --> t0",
+        "t1 --> n1",
+        "n2 --> t1",
+        "t0 --> n2",
+        's2[["/navigate_to<br/><small>robot_controller/srv/NavigateTo</small>"]]:::rosservice',
+        "n0 -.-> s2",
+        "s2 -.-> n1",
+        'w2[["/clear<br/>/kill"]]:::rosservice',
+        "w2 -.-> n2",
+    ]
+
+
+def test_front_ends_get_what_they_can_draw():
+    picture = plot_graph(lesson())
+    bundle = picture._repr_mimebundle_()
+    assert list(bundle) == ["text/vnd.mermaid", "text/markdown", "text/plain"]
+    assert bundle["text/markdown"] == f"```mermaid\n{bundle['text/vnd.mermaid']}```"
+    assert bundle["text/plain"] == picture.text
+
+
+def test_hidden_names_are_left_out():
+    drawn = plot_graph(lesson()).mermaid
+    assert all(name not in drawn for name in ("_lab", "hidden", "rosout", "get_parameters", "/obstacles"))
+
+
+def test_two_nodes_of_one_name_are_counted():
+    text = plot_graph(GraphNode({"/twin": {"pub": {"/a": POSE}}}, twins=("/twin",))).text
+    assert text.startswith("The ROS graph has 2 nodes, 1 topic and no service. /twin (2 nodes of this name) publishes /a.")
+
+
+def test_a_node_without_anything():
+    assert "/lonely uses no topic and no service." in plot_graph(GraphNode({"/lonely": {}})).text
+
+
+def test_an_empty_graph_says_what_to_start():
+    picture = plot_graph(GraphNode({"/_lab": {}}))
+    assert picture.text.startswith("No node is running. Start some: ros2 run turtlesim turtlesim_node")
+    assert picture._repr_mimebundle_() == {"text/plain": picture.text}
+
+
+words = st.from_regex(r"[A-Za-z][A-Za-z0-9_]{0,30}", fullmatch=True) | st.sampled_from(["end", "graph", "class", "o", "x__y", "A_"])
+names = st.lists(words, min_size=1, max_size=4).map(lambda parts: "/" + "/".join(parts))
+
+
+@given(st.dictionaries(names, st.fixed_dictionaries({kind: st.dictionaries(names, st.just(POSE)) for kind in ("pub", "sub", "srv", "cli")})))
+def test_any_legal_names_give_lines_that_mermaid_can_read(nodes):
+    picture = plot_graph(GraphNode(nodes))
+    assert picture.text == plot_graph(GraphNode(dict(reversed(nodes.items())))).text
+    label = r'"([A-Za-z0-9/ _]|#\d+;|<br/>|</?small>)+"'
+    shapes = rf"[nstw]\d+(\(\[{label}\]\)|\[\[{label}\]\]|\[{label}\]):::ros(node|topic|service)"
+    for line in picture.mermaid.splitlines()[4:-3]:
+        assert re.fullmatch(rf"{shapes}|[nstw]\d+ -(\.-|-)> [nstw]\d+", line), line

@@ -1,0 +1,74 @@
+"""What a notebook gets of a picture: PNG and text, always the same, in our style and nobody else's."""
+
+import struct
+import subprocess
+import sys
+
+import pytest
+from lab_fakes import drive, recording, report, scan, see
+
+from turtle_lesson.lab import Picture, plot_path, plot_scan, plot_status
+
+PLOTS = {
+    "path": lambda: plot_path(drive(recording()), goal=(8, 8, 1)),
+    "status": lambda: plot_status(report(recording())),
+    "scan": lambda: plot_scan(see(recording(), scan([2.0] * 181))),
+}
+
+
+@pytest.fixture(params=PLOTS, name="make")
+def _make(request):
+    return PLOTS[request.param]
+
+
+def test_the_bundle_has_png_and_text_and_the_size_to_show(make):
+    picture = make()
+    data, metadata = picture._repr_mimebundle_()
+    assert sorted(data) == ["image/png", "text/plain"]
+    assert data["text/plain"] == picture.text == repr(picture) == metadata["image/png"]["alt"]
+    size = struct.unpack(">II", data["image/png"][16:24])
+    assert size == (2 * metadata["image/png"]["width"], 2 * metadata["image/png"]["height"])
+    assert metadata["image/png"]["width"] <= 640
+
+
+def test_a_text_is_one_paragraph(make):
+    assert "\n" not in make().text and "  " not in make().text
+
+
+def test_the_same_plot_twice_gives_the_same_bytes(make):
+    assert make().text == make().text
+    assert make().png() == make().png()
+
+
+def test_the_learners_own_settings_change_nothing_and_are_kept(make):
+    import matplotlib
+
+    expected = make().png()
+    with matplotlib.rc_context({"font.size": 30, "axes.facecolor": "red", "lines.linewidth": 9}):
+        assert make().png() == expected
+        assert matplotlib.rcParams["font.size"] == 30
+
+
+def test_a_picture_is_saved_in_the_format_of_its_ending(make, tmp_path):
+    picture = make()
+    assert picture.save(tmp_path / "a.png").read_bytes() == picture.png()
+    assert picture.save(str(tmp_path / "a.svg")).read_text(encoding="utf-8").startswith("<?xml")
+
+
+def test_without_a_figure_there_is_only_text(tmp_path):
+    picture = Picture("No path yet.")
+    assert picture._repr_mimebundle_() == {"text/plain": "No path yet."}
+    with pytest.raises(ValueError, match="there is no figure yet, only a text: No path yet"):
+        picture.save(tmp_path / "a.png")
+
+
+def test_pictures_leave_pyplot_alone():
+    code = (
+        "import sys, lab_fakes; from turtle_lesson.lab import plot_path\n"
+        "assert 'matplotlib' not in sys.modules, 'imported before the first picture'\n"
+        "plot_path(lab_fakes.drive(lab_fakes.recording())).png()\n"
+        "assert 'matplotlib.pyplot' not in sys.modules"
+    )
+    path = [*sys.path, __file__.rsplit("test_", 1)[0]]
+    run = [sys.executable, "-c", f"import sys; sys.path[:] = {path!r}\n{code}"]
+    assert subprocess.run(run, capture_output=True, text=True, check=False).stderr == ""

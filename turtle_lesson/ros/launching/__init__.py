@@ -1,0 +1,94 @@
+"""Carrying out a launch: files to descriptions, descriptions to running nodes, what `ros2 launch` prints.
+
+    handle = launch_file(world, path, {"rate": "5.0"})      # starts the nodes and returns at once
+    handle.stop()                                            # as Ctrl-C in a terminal
+
+A description is walked through in the cell that asks for it; its processes start at the current instant and
+run when the world runs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .errors import LaunchError
+
+if TYPE_CHECKING:
+    from launch import LaunchDescription
+
+    from ..world import World
+    from .arguments import LaunchArgument
+    from .handle import LaunchHandle
+
+__all__ = ["LaunchError", "launch_arguments", "launch_description", "launch_file", "show_arguments"]
+
+
+def launch_file(
+    world: World, path: Path | str, arguments: Mapping[str, object] | None = None
+) -> LaunchHandle:
+    """Carry out a launch file.
+
+    Args:
+        world: where the nodes are to run.
+        path: the file.
+        arguments: its launch arguments, as `name:=value` on a command line; values become text.
+
+    Raises:
+        LaunchError: if the file cannot be carried out; nothing was started then.
+    """
+    handle: LaunchHandle = _start().launch_file(world, Path(path), arguments or {})
+    return handle
+
+
+def launch_description(
+    world: World, description: LaunchDescription, arguments: Mapping[str, object] | None = None
+) -> LaunchHandle:
+    """Carry out a description that was made in a notebook cell. As `launch_file` otherwise."""
+    handle: LaunchHandle = _start().launch_description(world, description, arguments or {})
+    return handle
+
+
+def launch_arguments(world: World, path: Path | str) -> list[LaunchArgument]:
+    """The arguments that a launch file takes.
+
+    Raises:
+        LaunchError: if the file cannot be loaded.
+    """
+    arguments: list[LaunchArgument] = _start().launch_arguments(world, Path(path))
+    return arguments
+
+
+def show_arguments(world: World, path: Path | str) -> str:
+    """What `ros2 launch … --show-args` prints.
+
+    Raises:
+        LaunchError: if the file cannot be loaded.
+    """
+    from .arguments import as_shown
+
+    return as_shown(launch_arguments(world, path))
+
+
+def _start() -> Any:
+    """The module that does the work, once it is sure that `import launch` finds the classroom's package."""
+    from . import classroom
+
+    classroom.check()
+    from . import start
+
+    return start
+
+
+def __getattr__(name: str) -> Any:
+    """LaunchHandle and LaunchArgument, imported when first asked for, since they need the package launch."""
+    if name == "LaunchHandle":
+        from .handle import LaunchHandle
+
+        return LaunchHandle
+    if name == "LaunchArgument":
+        from .arguments import LaunchArgument
+
+        return LaunchArgument
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -1,0 +1,44 @@
+"""`LaunchHandle`: what a cell holds of a launch that it has started."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ..core import Process
+    from .service import LaunchService
+
+
+class LaunchHandle:
+    """A running launch: its processes, and how to stop it."""
+
+    def __init__(self, service: LaunchService, name: str) -> None:
+        self._service = service
+        self.name = name
+
+    @property
+    def processes(self) -> list[Process]:
+        """Its processes in the order of their start, dead ones included."""
+        return [entry.process for entry in self._service.processes if entry.process is not None]
+
+    @property
+    def names(self) -> list[str]:
+        """What its processes are called in the output, such as `navigator-1`."""
+        return [entry.name for entry in self._service.processes]
+
+    @property
+    def running(self) -> bool:
+        """Whether a process of it runs, or something in it is still to come."""
+        return self._service.running
+
+    def stop(self) -> None:
+        """End it, as Ctrl-C in its terminal would. Does nothing if it has ended already."""
+        if self.running:
+            text = "user interrupted with ctrl-c (SIGINT)"
+            self._service.screen.say("WARNING", "launch", text)
+            self._service.shut_down("ctrl-c (SIGINT)", due_to_sigint=True)
+
+    def __repr__(self) -> str:
+        alive = [entry.name for entry in self._service.processes if entry.alive]
+        state = f"running: {', '.join(alive)}" if alive else "running" if self.running else "ended"
+        return f"<Launch of {self.name}, {state}>"
