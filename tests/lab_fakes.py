@@ -1,4 +1,4 @@
-"""Recordings filled by hand, and a node that answers questions about a graph from a table: what the lab's tests draw."""
+"""Recordings filled by hand, and a node that answers for a graph: what the lab's tests draw."""
 
 from __future__ import annotations
 
@@ -23,7 +23,11 @@ def recording() -> Recording:
 
 
 def drive(
-    heard: Recording, *, seconds: float = 2.0, speed: float = 1.0, at: tuple[float, float, float] = (5.544445, 5.544445, 0.0)
+    heard: Recording,
+    *,
+    seconds: float = 2.0,
+    speed: float = 1.0,
+    at: tuple[float, float, float] = (5.544445, 5.544445, 0.0),
 ) -> Recording:
     """A turtle drives straight on, 62.5 poses and 10 statuses a second; returns the same recording."""
     x, y, theta = at
@@ -47,9 +51,8 @@ def report(heard: Recording, *, messages: int = 21, heading: float = 0.0) -> Rec
 def scan(ranges: list[float], *, degrees: tuple[float, float] = (-90.0, 90.0), step: float = 1.0) -> Any:
     """A message like sensor_msgs/msg/LaserScan, for ranges from 0 to 10 m."""
     low, high = (math.radians(each) for each in degrees)
-    return SimpleNamespace(
-        angle_min=low, angle_max=high, angle_increment=math.radians(step), range_min=0.0, range_max=10.0, ranges=ranges
-    )
+    angles = {"angle_min": low, "angle_max": high, "angle_increment": math.radians(step)}
+    return SimpleNamespace(**angles, range_min=0.0, range_max=10.0, ranges=ranges)
 
 
 def see(heard: Recording, message: Any, *, scans: int = 1) -> Recording:
@@ -66,8 +69,11 @@ def stand(heard: Recording, *obstacles: Obstacle) -> Recording:
     return heard
 
 
+Named = list[tuple[str, list[str]]]
+
+
 class GraphNode:
-    """Answers an rclpy node's questions about the graph, from {full name: {"pub": {topic: type}, "sub", "srv", "cli"}}."""
+    """Answers an rclpy node's questions about the graph: {node: {"pub" (sub, srv, cli): {topic: type}}}."""
 
     def __init__(self, nodes: dict[str, dict[str, dict[str, str]]], twins: tuple[str, ...] = ()) -> None:
         self.nodes = nodes
@@ -76,19 +82,19 @@ class GraphNode:
     def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
         return [_split(name) for name in (*self.nodes, *self.twins)]
 
-    def get_publisher_names_and_types_by_node(self, name: str, namespace: str) -> list[tuple[str, list[str]]]:
+    def get_publisher_names_and_types_by_node(self, name: str, namespace: str) -> Named:
         return self._ends("pub", name, namespace)
 
-    def get_subscriber_names_and_types_by_node(self, name: str, namespace: str) -> list[tuple[str, list[str]]]:
+    def get_subscriber_names_and_types_by_node(self, name: str, namespace: str) -> Named:
         return self._ends("sub", name, namespace)
 
-    def get_service_names_and_types_by_node(self, name: str, namespace: str) -> list[tuple[str, list[str]]]:
+    def get_service_names_and_types_by_node(self, name: str, namespace: str) -> Named:
         return self._ends("srv", name, namespace)
 
-    def get_client_names_and_types_by_node(self, name: str, namespace: str) -> list[tuple[str, list[str]]]:
+    def get_client_names_and_types_by_node(self, name: str, namespace: str) -> Named:
         return self._ends("cli", name, namespace)
 
-    def _ends(self, kind: str, name: str, namespace: str) -> list[tuple[str, list[str]]]:
+    def _ends(self, kind: str, name: str, namespace: str) -> Named:
         ends = self.nodes[f"{namespace.rstrip('/')}/{name}"].get(kind, {})
         return [(topic, [type_name]) for topic, type_name in ends.items()]
 

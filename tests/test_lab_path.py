@@ -14,15 +14,16 @@ def test_a_straight_drive():
     for number in range(20):
         heard.commands.append(START + number * 100_000_000, 1.0, 0.0, 0.0)
     assert repr(plot_path(heard)) == (
-        "Path of turtle1 from 0.02 s to 2.00 s of robot time: from (5.56, 5.54) m facing 0.00 rad (0.0°) it drove 1.98 m "
-        "to (7.54, 5.54) m facing 0.00 rad (0.0°), 1.98 m from its start. 20 commands on /turtle1/cmd_vel in that time."
+        "Path of turtle1 from 0.02 s to 2.00 s of robot time: from (5.56, 5.54) m facing 0.00 rad (0.0°) "
+        "it drove 1.98 m to (7.54, 5.54) m facing 0.00 rad (0.0°), 1.98 m from its start. "
+        "20 commands on /turtle1/cmd_vel in that time."
     )
 
 
 def test_a_turtle_that_stays():
     assert plot_path(drive(recording(), speed=0.0)).text == (
-        "Path of turtle1 from 0.02 s to 2.00 s of robot time: it stayed at (5.54, 5.54) m facing 0.00 rad (0.0°). "
-        "No command on /turtle1/cmd_vel in that time."
+        "Path of turtle1 from 0.02 s to 2.00 s of robot time: "
+        "it stayed at (5.54, 5.54) m facing 0.00 rad (0.0°). No command on /turtle1/cmd_vel in that time."
     )
 
 
@@ -62,25 +63,29 @@ def test_what_is_no_goal_is_refused_with_an_example(goal):
 
 
 def test_obstacles_are_named():
-    heard = stand(drive(recording()), Obstacle("circle", 8.5, 5.5, 0.8, 0.8), Obstacle("box", 3.0, 2.5, 2.0, 0.5, 0.3))
-    text = plot_path(heard).text
+    pillar, wall = Obstacle("circle", 8.5, 5.5, 0.8, 0.8), Obstacle("box", 3.0, 2.5, 2.0, 0.5, 0.3)
+    text = plot_path(stand(drive(recording()), pillar, wall)).text
     assert text.endswith("2 obstacles in the world: circle at (8.50, 5.50) m, box at (3.00, 2.50) m.")
 
 
 def test_a_part_of_the_time():
     heard = drive(recording(), seconds=3.0)
-    assert plot_path(heard, since=1.0, until=2.0).text.startswith("Path of turtle1 from 1.01 s to 2.00 s of robot time")
+    assert plot_path(heard, since=1.0, until=2.0).text.startswith(
+        "Path of turtle1 from 1.01 s to 2.00 s of robot time"
+    )
     late = plot_path(heard, since=10)
     assert late.text == "No path in these seconds: poses were heard from 0.02 s to 3.01 s of robot time."
     assert late.figure is None
-    with pytest.raises(ValueError, match="since is a time in seconds"):
-        plot_path(heard, since="soon")
+    for wrong in ("soon", math.nan, [1.0]):
+        with pytest.raises(ValueError, match=r"since must be a time in seconds .* try since=10.0"):
+            plot_path(heard, since=wrong)
 
 
 def test_nothing_heard_yet():
     picture = plot_path(recording())
     assert picture.figure is None
-    assert picture.text == "No path yet. No message has come on /turtle1/pose yet. Let robot time pass: lesson.run(1.0)."
+    silence = "No message has come on /turtle1/pose yet. Let robot time pass: lesson.run(1.0)."
+    assert picture.text == f"No path yet. {silence}"
 
 
 def test_one_pose_alone_can_be_drawn():

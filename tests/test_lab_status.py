@@ -11,8 +11,9 @@ from turtle_lesson.lab.status import spread
 
 def test_a_steady_stream():
     assert repr(plot_status(report(recording()))) == (
-        "Status on /robot/status from 0.10 s to 2.10 s of robot time: 21 messages, one every 100.0 ms on average (10.0 Hz), "
-        "the shortest interval 100.0 ms and the longest 100.0 ms. Position from (5.00, 5.00) m to (7.00, 5.00) m; "
+        "Status on /robot/status from 0.10 s to 2.10 s of robot time: 21 messages, "
+        "one every 100.0 ms on average (10.0 Hz), the shortest interval 100.0 ms and the longest 100.0 ms. "
+        "Position from (5.00, 5.00) m to (7.00, 5.00) m; "
         "heading from 0.00 rad (0.0°) to 0.00 rad (0.0°); speed at most 1.00 m/s, 1.00 m/s at the end "
         "(1.00 along x and 0.00 along y); battery from 100.0 % to 98.0 %."
     )
@@ -42,7 +43,7 @@ def test_a_status_without_a_battery_is_drawn_without_one():
 
 
 def test_nothing_heard_yet_or_in_these_seconds():
-    assert plot_status(recording()).text.startswith("No status yet. No message has come on /robot/status yet.")
+    assert "No status yet. No message has come on /robot/status yet." in plot_status(recording()).text
     late = plot_status(report(recording()), since=60).text
     assert late == "No status in these seconds: statuses were heard from 0.10 s to 2.10 s of robot time."
 

@@ -58,7 +58,7 @@ def test_half_a_circle_is_a_turn_to_the_left():
 def test_words_for_points_counts_and_lists():
     assert point(5.544445, -0.0001) == "(5.54, 0.00)"
     assert [count(each, "message") for each in (0, 1, 2)] == ["no message", "1 message", "2 messages"]
-    assert [listed(each) for each in ([], ["a"], ["a", "b"], ["a", "b", "c"])] == ["", "a", "a and b", "a, b and c"]
+    assert [listed(list(each)) for each in ("", "a", "ab", "abc")] == ["", "a", "a and b", "a, b and c"]
 
 
 def test_a_rate_names_mean_shortest_and_longest_interval():

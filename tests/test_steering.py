@@ -210,6 +210,7 @@ def test_a_goal_outside_the_world_is_refused_with_its_bounds(x, y):
 
 def test_the_nearest_reading_ignores_what_is_not_valid():
     scan = SimpleNamespace(range_min=0.1, range_max=10.0, ranges=[math.nan, 0.0, math.inf, 7.0, 0.5, 12.0])
-    assert navigator.nearest(scan) == 0.5
-    scan.ranges = [math.nan]
-    assert navigator.nearest(scan) == math.inf
+    assert navigator.nearest(scan, within=20.0) == 0.5
+    assert navigator.nearest(scan, within=0.5) is None
+    scan.ranges = [math.nan, 12.0]
+    assert navigator.nearest(scan, within=20.0) is None

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -81,9 +83,8 @@ class Recording:
         return f"No message has come on {topic} yet. Let robot time pass: lesson.run(1.0)."
 
     def _stamp(self, name: str, seconds: float) -> int:
-        try:
-            return self.origin + round(seconds * NANOSECONDS)
-        except (TypeError, ValueError, OverflowError):
+        if not isinstance(seconds, Real) or not math.isfinite(seconds):
             raise ValueError(
-                f"{name} is a time in seconds since the lesson's start, such as {name}=10.0; got {seconds!r}"
-            ) from None
+                f"{name} must be a time in seconds since the lesson's start, got {seconds!r}: try {name}=10.0"
+            )
+        return self.origin + round(seconds * NANOSECONDS)

@@ -61,6 +61,7 @@ SETTINGS: Any = {
     "lines.solid_joinstyle": "round",
     "path.simplify": True,
     "text.usetex": False,
+    "text.parse_math": False,
     "savefig.bbox": None,
 }
 

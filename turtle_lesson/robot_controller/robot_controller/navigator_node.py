@@ -136,9 +136,11 @@ def _approach(pose: Place, goal: Place, limits: Limits, turning: float) -> Comma
     if abs(turn) > DRIVE_CONE:
         return Command(0.0, angular, Phase.TURN)
     linear = min(DRIVE_GAIN * distance, limits.linear_speed)
-    aside = linear * abs(math.sin(turn))  # at this speed the goal slips away to the side, at most ...
-    slip = 0.5 * limits.angular_speed * distance  # ... so fast that the turtle can still turn after it
-    return Command(linear * slip / aside if aside > slip else linear, angular, Phase.DRIVE)
+    # Too fast past a goal that is still to one side, and the turtle circles it: it must be able to turn after it.
+    sideways, bearable = linear * abs(math.sin(turn)), 0.5 * limits.angular_speed * distance
+    if sideways > bearable:
+        linear *= bearable / sideways
+    return Command(linear, angular, Phase.DRIVE)
 
 
 def turning_speed(turn: float, limits: Limits, turning: float) -> float:
@@ -159,10 +161,10 @@ def refusal(goal: Place) -> str | None:
     return None
 
 
-def nearest(scan: LaserScan) -> float:
-    """Return the smallest valid reading of a scan in metres, or infinity if there is none."""
-    low, high = scan.range_min, scan.range_max
-    return min([reading for reading in scan.ranges if low <= reading <= high], default=math.inf)
+def nearest(scan: LaserScan, within: float) -> float | None:
+    """Return the smallest valid reading that is below a distance in metres, or None if there is none."""
+    low, high = scan.range_min, min(within, scan.range_max)
+    return min([reading for reading in scan.ranges if reading < high and reading >= low], default=None)
 
 
 @dataclass
@@ -188,7 +190,7 @@ PARAMETERS = (
     ("linear_speed", 4.0, 0.01, 10.0, "Highest speed, m/s; it comes down near the goal"),
     ("angular_speed", 6.0, 0.01, 10.0, "Highest turning speed, rad/s"),
     ("goal_tolerance", 0.2, 0.01, 2.0, "A goal counts as reached within this distance, m"),
-    ("heading_tolerance", 0.1, 0.01, math.pi, "... and within this angle of its heading, rad"),
+    ("heading_tolerance", 0.1, 0.01, math.pi, "A goal counts as reached within this angle of its heading, rad"),
     ("obstacle_warning_distance", 0.4, 0.0, 10.0, "Warn of what is nearer than this, m; mock scans show 0.5"),
 )
 """Name, default, lowest and highest value, description. Read when used: `ros2 param set` works at once."""
@@ -215,8 +217,7 @@ class NavigatorNode(Node):
         self._obstacle_near = False
         self._commands = self.create_publisher(Twist, "/turtle1/cmd_vel", 10)
         self.create_subscription(Pose, "/turtle1/pose", self.on_pose, 1)  # only the newest pose is of use
-        # A real laser scanner publishes "best effort". This profile hears that, and reliable publishers as
-        # well.
+        # Real laser scanners publish "best effort". This profile hears those, and reliable publishers, too.
         self.create_subscription(LaserScan, "/obstacles", self.on_scan, qos_profile_sensor_data)
         self.create_service(
             NavigateTo, "/navigate_to", self.on_navigate_to, callback_group=ReentrantCallbackGroup()
@@ -233,11 +234,10 @@ class NavigatorNode(Node):
 
     def on_scan(self, scan: LaserScan) -> None:
         """Warn of what is near: repeatedly while driving, once while standing. The path stays the same."""
-        distance = nearest(scan)
-        near = distance < self._value("obstacle_warning_distance")
-        if near and (self._drive is not None or not self._obstacle_near):
+        distance = nearest(scan, within=self._value("obstacle_warning_distance"))
+        if distance is not None and (self._drive is not None or not self._obstacle_near):
             self.get_logger().warning(f"Obstacle {distance:.2f} m away", throttle_duration_sec=2.0)
-        self._obstacle_near = near
+        self._obstacle_near = distance is not None
 
     async def on_navigate_to(
         self, request: NavigateTo.Request, response: NavigateTo.Response

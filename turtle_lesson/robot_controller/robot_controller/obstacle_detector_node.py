@@ -209,13 +209,13 @@ class ObstacleDetectorNode(Node):
 
     def on_scan_timer(self) -> None:
         """Publish one scan."""
-        measures = self._measures()
+        period, measures = self._period(), self._measures()
         if measures != bool(self._ears):
             self._listen(measures)
-        readings = self._measured() if measures else self._made_up()
+        readings = self._measured(period) if measures else self._made_up()
         if readings is not None:
-            self._publish(readings)
-        self._keep_pace()
+            self._publish(readings, period)
+        self._keep_pace(period)
 
     def _measures(self) -> bool:
         return self.get_parameter("source").value == "world"
@@ -239,10 +239,10 @@ class ObstacleDetectorNode(Node):
         chance = self._random.random
         return array("f", [MOCK_DISTANCE if chance() < MOCK_SHARE else RANGE_MAX for _ in range(BEAMS)])
 
-    def _measured(self) -> array[float] | None:
+    def _measured(self, period: float) -> array[float] | None:
         """Return the readings from where the turtle is, or None if nobody says where that is."""
         self._ticks_without_pose += 1
-        if self._ticks_without_pose * self._period() > PATIENCE:
+        if self._ticks_without_pose * period > PATIENCE:
             self.get_logger().warning(
                 f"No scan: no pose heard on /turtle1/pose for {PATIENCE:.0f} s. Is the simulator running? "
                 "Start it with: ros2 run turtlesim turtlesim_node",
@@ -255,13 +255,13 @@ class ObstacleDetectorNode(Node):
         # An array of the message's own type is taken as it is; a list would be checked number by number.
         return array("f", cast_rays(pose.x, pose.y, pose.theta, self._obstacles).tobytes())
 
-    def _publish(self, readings: array[float]) -> None:
+    def _publish(self, readings: array[float], period: float) -> None:
         scan = LaserScan()
         scan.header.stamp = self.get_clock().now().to_msg()
         scan.header.frame_id = "base_link"
         scan.angle_min, scan.angle_max = -math.pi / 2, math.pi / 2
         scan.angle_increment = math.pi / (BEAMS - 1)
-        scan.scan_time = self._period()  # time_increment stays 0: all beams are taken at one instant
+        scan.scan_time = period  # time_increment stays 0: all beams are taken at one instant
         scan.range_min, scan.range_max = 0.0, RANGE_MAX
         scan.ranges = readings
         self._publisher.publish(scan)
@@ -269,11 +269,11 @@ class ObstacleDetectorNode(Node):
     def _period(self) -> float:
         return 1.0 / self.get_parameter("scan_rate").value
 
-    def _keep_pace(self) -> None:
+    def _keep_pace(self, period: float) -> None:
         """Re-time the timer if `scan_rate` was changed since the last tick."""
-        period = round(1e9 * self._period())
-        if self._timer.timer_period_ns != period:
-            self._timer.timer_period_ns = period
+        nanoseconds = round(1e9 * period)
+        if self._timer.timer_period_ns != nanoseconds:
+            self._timer.timer_period_ns = nanoseconds
             self._timer.reset()
 
 

@@ -74,36 +74,35 @@ class StatusMonitorNode(Node):
 
     def on_publish_timer(self) -> None:
         """Publish one status, and use up a little of the battery."""
+        period = self._period()
         self._ticks_without_pose += 1
-        self._publisher.publish(self._status())
+        lost = self._ticks_without_pose * period > PATIENCE
+        self._publisher.publish(self._status(lost))
         self._charge = max(0, self._charge - 1)
-        if self._is_lost():
+        if lost:
             self.get_logger().warning(
                 f"No pose heard on /turtle1/pose for {PATIENCE:.0f} s: is the simulator running? "
                 "Start it with: ros2 run turtlesim turtlesim_node",
                 throttle_duration_sec=5.0,
             )
-        self._keep_pace()
+        self._keep_pace(period)
 
-    def _status(self) -> TurtleStatus:
+    def _status(self, lost: bool) -> TurtleStatus:
         status = TurtleStatus(battery=self._charge / 10)
         if self._pose is not None:
             status.x, status.y, status.theta = self._pose.x, self._pose.y, self._pose.theta
-            if self._before is not None and not self._is_lost():
+            if self._before is not None and not lost:
                 status.vel_x, status.vel_y = world_velocity(self._before, self._pose)
         return status
-
-    def _is_lost(self) -> bool:
-        return self._ticks_without_pose * self._period() > PATIENCE
 
     def _period(self) -> float:
         return 1.0 / self.get_parameter("publish_rate").value
 
-    def _keep_pace(self) -> None:
+    def _keep_pace(self, period: float) -> None:
         """Re-time the timer if `publish_rate` was changed since the last tick."""
-        period = round(1e9 * self._period())
-        if self._timer.timer_period_ns != period:
-            self._timer.timer_period_ns = period
+        nanoseconds = round(1e9 * period)
+        if self._timer.timer_period_ns != nanoseconds:
+            self._timer.timer_period_ns = nanoseconds
             self._timer.reset()
 
 

@@ -40,10 +40,10 @@ def node_name_flaw(name: str) -> Flaw | None:
     for index, letter in enumerate(name):
         if letter not in WORD:
             return Flaw("node name must not contain characters other than alphanumerics or '_'", index)
-    if name[0].isdigit():
+    if name[0] in string.digits:
         return Flaw("node name must not start with a number", 0)
     if len(name) > MAX_NODE_NAME:
-        return Flaw(f"node name length should not exceed '{MAX_NODE_NAME}'", MAX_NODE_NAME)
+        return Flaw(f"node name length should not exceed '{MAX_NODE_NAME}'", MAX_NODE_NAME - 1)
     return None
 
 
@@ -65,7 +65,7 @@ def namespace_flaw(namespace: str) -> Flaw | None:
     if match := re.search(r"/\d", namespace):
         return Flaw("namespace must not have a token that starts with a number", match.start() + 1)
     if len(namespace) > MAX_NAMESPACE:
-        return Flaw(f"namespace should not exceed '{MAX_NAMESPACE}'", MAX_NAMESPACE)
+        return Flaw(f"namespace should not exceed '{MAX_NAMESPACE}'", MAX_NAMESPACE - 1)
     return None
 
 
@@ -73,7 +73,7 @@ def topic_name_flaw(name: str) -> Flaw | None:
     """What is wrong with a topic's or service's name as a program gives it (`~`, `{node}` and relative names allowed)."""
     if not name:
         return Flaw("topic name must not be empty string", 0)
-    if name[0].isdigit():
+    if name[0] in string.digits:
         return Flaw("topic name token must not start with a number", 0)
     if name.endswith("/"):
         return Flaw("topic name must not end with a forward slash", len(name) - 1)

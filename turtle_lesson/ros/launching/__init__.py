@@ -22,7 +22,31 @@ if TYPE_CHECKING:
     from .arguments import LaunchArgument
     from .handle import LaunchHandle
 
-__all__ = ["LaunchError", "launch_arguments", "launch_description", "launch_file", "show_arguments"]
+__all__ = [
+    "LaunchError",
+    "find_launch_file",
+    "launch_arguments",
+    "launch_description",
+    "launch_file",
+    "show_arguments",
+]
+
+
+def find_launch_file(world: World, package: str, file_name: str) -> Path:
+    """The launch file of this name that a package has installed.
+
+    Raises:
+        LaunchError: with the words of `ros2 launch`, and what to try.
+    """
+    from ..workspace import index
+
+    try:
+        return index.find_launch_file(world.packages, package, file_name)
+    except index.PackageNotFoundError as error:
+        reason = f"Package '{package}' not found: {error.text!r}"
+        raise LaunchError(reason, None, error.hint) from None
+    except index.LaunchFileNotFoundError as error:
+        raise LaunchError(error.text, None, error.hint) from None
 
 
 def launch_file(

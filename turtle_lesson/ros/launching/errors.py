@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import linecache
 
-from ..core.tracebacks import learners_frames, shown_path
+from ..core.tracebacks import is_ours, learners_frames, shown_path
 
 Place = tuple[str, int]
 
@@ -51,7 +51,7 @@ def place_of(error: BaseException, written_at: Place | None = None) -> Place | N
     linecache.checkcache()
     causes = _causes(error)
     for cause in causes:
-        if isinstance(cause, SyntaxError) and cause.filename and cause.lineno:
+        if isinstance(cause, SyntaxError) and cause.filename and cause.lineno and not is_ours(cause.filename):
             return cause.filename, cause.lineno
     for cause in reversed(causes):
         if frames := learners_frames(cause.__traceback__):

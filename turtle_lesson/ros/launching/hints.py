@@ -113,7 +113,7 @@ _BY_TEXT: list[tuple[str, Hint]] = [
         lambda _: "Wrap the list: return LaunchDescription([…])",
     ),
     (
-        r"object has no attribute 'visit'",
+        r"object has no attribute '(?:visit|describe_sub_entities)'",
         lambda _: "Only actions such as Node(…) can stand in a description.",
     ),
     (r"is not a valid standard output config", lambda _: "The usual value is output='screen'."),

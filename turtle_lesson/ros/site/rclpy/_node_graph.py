@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from turtle_lesson.ros.graph import Graph, NodeEntry, Reader, Writer
 from turtle_lesson.ros.graph.names import expand, remap
 
+from .exceptions import NodeNameNonExistentError, RCLError
 from .topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 from .validate_topic_name import validate_topic_name
 
@@ -28,7 +29,8 @@ class NodeGraph:
         """From what a program calls a topic or service to its full name, remapped unless told otherwise."""
         if not isinstance(name, str):
             what = "service" if is_service else "topic"
-            raise TypeError(f"a {what} name must be a str, got {name!r}: is the order of the arguments (type, name, …)?")
+            complaint = f"a {what} name must be a str, got {name!r}: is the order of the arguments (type, name, …)?"
+            raise (RCLError if name is None else TypeError)(complaint)
         validate_topic_name(name, is_service=is_service)
         full_name = expand(name, self._entry.name, self._entry.namespace)
         if only_expand:
@@ -120,10 +122,6 @@ class NodeGraph:
         """The subscriptions of a topic, one by one."""
         kind = TopicEndpointTypeEnum.SUBSCRIPTION
         return [_info(*end, kind) for end in self._graph.topic(self._full_name_of(topic_name)).readers]
-
-
-class NodeNameNonExistentError(RuntimeError):
-    """The graph has no node of this name."""
 
 
 def _types_by_topic(ends: list[Any]) -> NamesAndTypes:

@@ -116,15 +116,19 @@ class ParameterUninitializedException(ParameterException):
         Exception.__init__(self, f"The parameter '{parameter_name}' is not initialized")
 
 
-class InvalidHandle(Exception):
+class InvalidHandle(RuntimeError):
     """Something is used after it was destroyed."""
 
 
-class RCLError(Exception):
+class RCLError(RuntimeError):
     """An error that the real rclpy hears from the C library beneath it."""
 
 
-class UnknownROSArgsError(Exception):
+class NodeNameNonExistentError(RCLError):
+    """The graph has no node of this name."""
+
+
+class UnknownROSArgsError(RuntimeError):
     """There are words after `--ros-args` that mean nothing."""
 
 

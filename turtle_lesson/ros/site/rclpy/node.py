@@ -14,14 +14,14 @@ from turtle_lesson.ros.world import current_process, current_world
 from . import type_support
 from ._arguments import parse_arguments
 from ._entity import Entity
-from ._node_graph import NodeGraph, NodeNameNonExistentError
+from ._mistakes import set_by_init
+from ._node_graph import NodeGraph
 from ._node_parameters import NodeParameters
 from .callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup
 from .client import Client
 from .clock import Clock, ROSClock
-from .constants import S_TO_NS
 from .context import Context
-from .exceptions import InvalidHandle, NotInitializedException
+from .exceptions import InvalidHandle, NodeNameNonExistentError, NotInitializedException, RCLError
 from .guard_condition import GuardCondition
 from .impl.logging_severity import LoggingSeverity
 from .impl.rcutils_logger import RcutilsLogger, publish_rosout
@@ -37,7 +37,7 @@ from .qos import (
 )
 from .service import Service
 from .subscription import Subscription
-from .timer import Rate, Timer
+from .timer import Rate, Timer, period_ns
 from .utilities import get_default_context
 from .validate_namespace import validate_namespace
 from .validate_node_name import validate_node_name
@@ -120,8 +120,11 @@ class Node(NodeGraph, NodeParameters):
         return own + (self._context.arguments.remaps if use_global_arguments else [])
 
     def _names(self, node_name: str, namespace: str | None) -> tuple[str, str]:
-        if not isinstance(node_name, str):
-            raise TypeError(f"a node's name must be a str, got {node_name!r}")
+        if node_name is None:
+            raise RCLError("error creating node: its name is None; a node needs a name, such as Node('talker')")
+        for what, given in (("name", node_name), ("namespace", namespace or "/")):
+            if not isinstance(given, str):
+                raise TypeError(f"a node's {what} must be a str, got {given!r}")
         namespace = namespace or "/"
         namespace = namespace if namespace.startswith("/") else f"/{namespace}"
         validate_node_name(node_name)
@@ -336,7 +339,7 @@ class Node(NodeGraph, NodeParameters):
     ) -> Timer:
         """Have `callback()` called every `timer_period_sec` seconds, for the first time after one period."""
         self._check_alive()
-        period = int(float(timer_period_sec) * S_TO_NS)
+        period = period_ns(timer_period_sec)
         group = callback_group or self._default_callback_group
         return self._keep(Timer(callback, group, period, clock or self._clock, autostart=autostart))
 
@@ -488,3 +491,6 @@ class Node(NodeGraph, NodeParameters):
 
 def _nothing() -> None:
     """The callback of a rate's timer."""
+
+
+set_by_init(Node, "_clock", "_destroyed", "_entry", "_graph", "_logger", "_overrides", "_parameters")

@@ -13,7 +13,9 @@ from turtle_lesson.ros.core import NeverWakes, running_strand
 
 from ._blocking import drives_the_simulation
 from ._entity import TIMER, Entity
+from ._mistakes import shown
 from .callback_groups import CallbackGroup
+from .constants import S_TO_NS
 from .exceptions import RCLError
 
 if TYPE_CHECKING:
@@ -21,6 +23,16 @@ if TYPE_CHECKING:
     from .context import Context
 
 SHORTEST = 47_000
+
+
+def period_ns(seconds: Any) -> int:
+    """A timer's period in ns. Raises TypeError, ValueError or OverflowError for what is no number of seconds."""
+    try:
+        return int(float(seconds) * S_TO_NS)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise type(error)(
+            f"a timer's period must be a number of seconds, got {shown(seconds)}: try create_timer(0.1, self.tick)"
+        ) from None
 
 
 class Timer(Entity):
@@ -40,7 +52,7 @@ class Timer(Entity):
     ) -> None:
         super().__init__(callback, callback_group)
         if timer_period_ns < 0:
-            raise RCLError("failed to create timer: timer period must be non-negative")
+            raise RCLError(f"failed to create timer: timer period must be non-negative, got {timer_period_ns / S_TO_NS:g} s")
         self._clock = clock
         self._simulation = clock._simulation
         self._period = int(timer_period_ns)

@@ -51,7 +51,7 @@ class PythonExpression(Substitution):
             if module.__name__ == "math":
                 names.update(vars(module))
         try:
-            return str(eval(text, {}, names))
+            return str(eval(compile(text, "<generated expression>", "eval"), {}, names))
         except Exception as error:
             reason = f"the Python expression {text!r} failed: {type(error).__name__}: {error}"
             hint = (

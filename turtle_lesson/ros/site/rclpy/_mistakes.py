@@ -1,0 +1,55 @@
+"""Mistakes that learners make, and the sentences that help them. Nothing here runs unless something went wrong."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from typing import Any
+
+
+def shown(value: object) -> str:
+    """A value as an error text shows it: without the addresses that Python prints for functions."""
+    if isinstance(value, type):
+        return f"the class {value.__name__}"
+    return f"the function {value.__name__}" if callable(value) and hasattr(value, "__name__") else repr(value)
+
+
+def did_you_mean(name: str, known: Iterable[str]) -> str:
+    """`; did you mean 'speed'?`, or nothing if no known name is like this one."""
+    close = difflib.get_close_matches(name, list(known), n=1)
+    return f"; did you mean {close[0]!r}?" if close else ""
+
+
+class _SetByInit:
+    """Stands on a class for an attribute that its __init__ sets. Looked up before that, it tells what was forgotten."""
+
+    def __get__(self, owner: object, kind: type) -> Any:
+        if owner is None:
+            return self
+        raise AttributeError(
+            f"this {kind.__name__} is no node yet: begin its __init__ with super().__init__('the_name_of_the_node')"
+        )
+
+
+def set_by_init(kind: type, *names: str) -> None:
+    """Have the class explain, for these attributes, that its __init__ has not been called."""
+    for name in names:
+        setattr(kind, name, _SetByInit())
+
+
+def explain_call(entity: Any, arguments: tuple[Any, ...] | None, error: TypeError) -> None:
+    """Add to an error that calling a callback raised (not one from inside it) how the callback is called."""
+    trace = error.__traceback__
+    if trace is None or trace.tb_next is not None:
+        return
+    if entity.callback is None or not callable(entity.callback):
+        error.add_note(
+            f"The callback of {entity!r} is {entity.callback!r}. Hand over the function itself, as in self.tick; "
+            "with brackets, as in self.tick(), it is called at once, and its result is handed over."
+        )
+    elif arguments is not None:
+        what = ", ".join(_PARTS.get(type(entity).__name__, ())[: len(arguments)])
+        error.add_note(f"The callback of {entity!r} is called with ({what}).")
+
+
+_PARTS = {"Subscription": ("message", "info"), "Service": ("request", "response")}
