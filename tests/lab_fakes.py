@@ -11,6 +11,7 @@ from turtle_lesson.lab import Obstacle, Recording
 START = 1_800_000_000_000_000_000
 """The virtual wall clock at a lesson's start, in ns."""
 
+SECOND = 1_000_000_000
 TICK = 16_000_000
 TWIST, POSE = "geometry_msgs/msg/Twist", "turtlesim/msg/Pose"
 STATUS, SCAN = "robot_controller/msg/TurtleStatus", "sensor_msgs/msg/LaserScan"

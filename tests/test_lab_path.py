@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from lab_fakes import START, TICK, drive, recording, stand
+from lab_fakes import SECOND, START, TICK, drive, recording, stand
 
 from turtle_lesson.lab import Obstacle, plot_path
 from turtle_lesson.lab.track import distance_driven, find_jumps
@@ -92,3 +92,12 @@ def test_one_pose_alone_can_be_drawn():
     heard = recording()
     heard.poses.append(START, 1.0, 1.0, 0.0, 0.0)
     assert plot_path(heard).png()
+
+
+def test_poses_that_are_no_numbers_are_left_out():
+    heard = drive(recording(), seconds=1.0)
+    heard.poses.append(START + SECOND, math.nan, 1.0, 0.0, 0.0)
+    picture = plot_path(heard)
+    assert "Left out: 1 pose with nan, which is no number." in picture.text and picture.png()
+    nowhere = plot_path(heard, since=1.0).text
+    assert nowhere == "No path to draw: 1 pose heard in that time, all with nan, which is no number."

@@ -38,7 +38,7 @@ def test_a_status_without_a_battery_is_drawn_without_one():
     for number in range(3):
         heard.statuses.append(START + number * 100_000_000, 1.0, 1.0, 0.0, 0.0, 0.0, math.nan)
     picture = plot_status(heard)
-    assert "battery from not a number % to not a number %" in picture.text
+    assert picture.text.endswith("0.00 m/s at the end (0.00 along x and 0.00 along y).")
     assert picture.png()
 
 

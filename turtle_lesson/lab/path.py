@@ -30,15 +30,18 @@ def plot_path(
     for anything else. Without a pose, the Picture says why.
     """
     goals = read_goals(goal)
-    poses = recording.window(recording.poses, since, until)
+    heard = recording.window(recording.poses, since, until)
+    poses = heard[np.isfinite(heard["x"]) & np.isfinite(heard["y"]) & np.isfinite(heard["theta"])]
+    broken = len(heard) - len(poses)
     if not len(poses):
-        return Picture(_nothing(recording))
+        return Picture(_nothing(recording, broken))
     commands = len(recording.window(recording.commands, since, until))
     jumps = find_jumps(poses)
     driven = distance_driven(poses, jumps)
     sentences = [
         _journey(recording, poses, driven),
         f"It was put elsewhere {count(len(jumps), 'time')} (teleport or reset)." if len(jumps) else "",
+        f"Left out: {count(broken, 'pose')} with nan, which is no number." if broken else "",
         _at_wall(poses[-1]),
         f"{count(commands, 'command').capitalize()} on {recording.command_topic} in that time.",
         *(_to_goal(each, poses[-1]) for each in goals),
@@ -52,7 +55,11 @@ def plot_path(
 # -- in words --------------------------------------------------------------------------------------------
 
 
-def _nothing(recording: Recording) -> str:
+def _nothing(recording: Recording, broken: int) -> str:
+    if broken:
+        return (
+            f"No path to draw: {count(broken, 'pose')} heard in that time, all with nan, which is no number."
+        )
     if not len(recording.poses):
         return f"No path yet. {recording.why_silent(recording.pose_topic)}"
     return f"No path in these seconds: poses were heard from {recording.span(recording.poses)}."

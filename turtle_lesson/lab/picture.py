@@ -20,8 +20,7 @@ SHARPNESS = 2
 
 
 class Picture:
-    """A figure and its exact text. Shown in a notebook it is the figure; printed, or read aloud, it is the
-    text.
+    """A figure and its exact text: a notebook shows the figure, print and a screen reader give the text.
 
     `text` is one paragraph. `figure` is a matplotlib Figure, or None where there was nothing to draw: then
     the text says what is missing and what to try.

@@ -19,10 +19,9 @@ if TYPE_CHECKING:
 
 
 def plot_status(recording: Recording, *, since: float | None = None, until: float | None = None) -> Picture:
-    """Return what came on /robot/status as a Picture, from `since` to `until` (seconds since the lesson's
-    start).
+    """Return what came on /robot/status as a Picture. Without a message, the Picture says why.
 
-    Without a message, the Picture says why.
+    `since` and `until` are in seconds since the lesson's start.
     """
     rows = recording.window(recording.statuses, since, until)
     if not len(rows):
@@ -45,15 +44,17 @@ def _nothing(recording: Recording) -> str:
 def _describe(seconds: np.ndarray, rows: np.ndarray) -> str:
     first, last = rows[0], rows[-1]
     speeds = np.hypot(rows["vel_x"], rows["vel_y"])
-    return (
-        f"Status on {STATUS_TOPIC} from {number(seconds[0])} s to {number(seconds[-1])} s of robot time: "
-        f"{rate(rows['stamp'])}. "
-        f"Position from {point(first['x'], first['y'])} m to {point(last['x'], last['y'])} m; "
-        f"heading from {angle(first['theta'])} to {angle(last['theta'])}; "
+    clauses = {
+        f"Position from {point(first['x'], first['y'])} m to {point(last['x'], last['y'])} m": last["x"]
+        + last["y"],
+        f"heading from {angle(first['theta'])} to {angle(last['theta'])}": last["theta"],
         f"speed at most {number(speeds.max())} m/s, {number(speeds[-1])} m/s at the end "
-        f"({number(last['vel_x'])} along x and {number(last['vel_y'])} along y); "
-        f"battery from {number(first['battery'], 1)} % to {number(last['battery'], 1)} %."
-    )
+        f"({number(last['vel_x'])} along x and {number(last['vel_y'])} along y)": speeds[-1],
+        f"battery from {number(first['battery'], 1)} % to {number(last['battery'], 1)} %": last["battery"],
+    }
+    time = f"{number(seconds[0])} s to {number(seconds[-1])} s of robot time"
+    known = "; ".join(clause for clause, value in clauses.items() if not math.isnan(value))
+    return f"Status on {STATUS_TOPIC} from {time}: {rate(rows['stamp'])}. {known[:1].upper()}{known[1:]}."
 
 
 # -- as a picture --------------------------------------------------------------------------------------------
@@ -67,9 +68,8 @@ def _draw(seconds: np.ndarray, rows: np.ndarray) -> Figure:
     style.heading(figure, "Status of the robot", f"{count(len(rows), 'message')} on {STATUS_TOPIC}  ·  {now}")
     panels: list[Axes] = []
     for row in range(4):
-        panel = style.axes_at(
-            figure, 0.95, 3.56 - 1.02 * row, 4.75, 0.82, sharex=panels[0] if panels else None
-        )
+        shared = panels[0] if panels else None
+        panel = style.axes_at(figure, 0.95, 3.56 - 1.02 * row, 4.75, 0.82, sharex=shared)
         panel.tick_params(labelbottom=row == 3)
         panels.append(panel)
     _draw_position(panels[0], seconds, rows)

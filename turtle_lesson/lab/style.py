@@ -32,9 +32,8 @@ DPI = 100
 
 SETTINGS: Any = {
     "font.family": "sans-serif",
-    "font.sans-serif": [
-        "DejaVu Sans"
-    ],  # the one font that comes with matplotlib, so it is there on every machine
+    # The one font that comes with matplotlib, so that it is there on every machine.
+    "font.sans-serif": ["DejaVu Sans"],
     "font.size": 9.0,
     "text.color": INK,
     "axes.edgecolor": CARD_EDGE,
@@ -63,6 +62,7 @@ SETTINGS: Any = {
     "text.usetex": False,
     "text.parse_math": False,
     "savefig.bbox": None,
+    "svg.hashsalt": "turtle lesson",
 }
 
 
@@ -82,7 +82,6 @@ def card(width: float, height: float) -> Figure:
     """An empty figure (inches): a card with round corners on a transparent ground."""
     from matplotlib.figure import Figure
     from matplotlib.patches import FancyBboxPatch
-    from matplotlib.transforms import IdentityTransform
 
     figure = Figure(figsize=(width, height), dpi=DPI, facecolor="none")
     edge = 2.0 / DPI
@@ -94,7 +93,7 @@ def card(width: float, height: float) -> Figure:
         facecolor=CARD,
         edgecolor=CARD_EDGE,
         linewidth=0.8,
-        transform=figure.dpi_scale_trans + IdentityTransform(),
+        transform=figure.dpi_scale_trans,
         zorder=-10,
     )
     figure.add_artist(sheet)
@@ -105,9 +104,8 @@ def heading(figure: Figure, title: str, subtitle: str) -> None:
     """Title and, in grey beneath it, the main figures, in the card's upper left corner."""
     width, height = figure.get_size_inches()
     figure.text(0.2 / width, 1 - 0.17 / height, title, fontsize=11.5, fontweight="bold", va="top")
-    figure.text(
-        0.2 / width, 1 - 0.41 / height, subtitle.replace("-", "−"), fontsize=8.8, color=GREY, va="top"
-    )
+    minus = subtitle.replace("-", "−")
+    figure.text(0.2 / width, 1 - 0.41 / height, minus, fontsize=8.8, color=GREY, va="top")
 
 
 def axes_at(figure: Figure, left: float, bottom: float, width: float, height: float, **options: Any) -> Axes:

@@ -14,8 +14,7 @@ SLACK = 0.05
 
 
 def find_jumps(poses: np.ndarray) -> np.ndarray:
-    """Return the indices of the poses that the turtle cannot have driven to, but was put at (teleport,
-    reset).
+    """Return the indices of the poses that the turtle cannot have driven to: teleport or reset.
 
     `poses` has the fields `stamp` (ns), `x`, `y` (m) and `speed` (m/s).
     """

@@ -69,7 +69,7 @@ class World:
     def close(self) -> None:
         """End every process and the simulation; nothing of this world runs again."""
         for process in [*self.processes, self.notebook]:
-            process.kill()
+            process.close()
         self.sim.close()
 
 

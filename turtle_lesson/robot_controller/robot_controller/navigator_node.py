@@ -136,7 +136,7 @@ def _approach(pose: Place, goal: Place, limits: Limits, turning: float) -> Comma
     if abs(turn) > DRIVE_CONE:
         return Command(0.0, angular, Phase.TURN)
     linear = min(DRIVE_GAIN * distance, limits.linear_speed)
-    # Too fast past a goal that is still to one side, and the turtle circles it: it must be able to turn after it.
+    # Too fast past a goal that is still to one side, and the turtle circles it: it has to turn to it first.
     sideways, bearable = linear * abs(math.sin(turn)), 0.5 * limits.angular_speed * distance
     if sideways > bearable:
         linear *= bearable / sideways
@@ -190,7 +190,7 @@ PARAMETERS = (
     ("linear_speed", 4.0, 0.01, 10.0, "Highest speed, m/s; it comes down near the goal"),
     ("angular_speed", 6.0, 0.01, 10.0, "Highest turning speed, rad/s"),
     ("goal_tolerance", 0.2, 0.01, 2.0, "A goal counts as reached within this distance, m"),
-    ("heading_tolerance", 0.1, 0.01, math.pi, "A goal counts as reached within this angle of its heading, rad"),
+    ("heading_tolerance", 0.1, 0.01, math.pi, "A goal counts as reached within this angle, rad"),
     ("obstacle_warning_distance", 0.4, 0.0, 10.0, "Warn of what is nearer than this, m; mock scans show 0.5"),
 )
 """Name, default, lowest and highest value, description. Read when used: `ros2 param set` works at once."""

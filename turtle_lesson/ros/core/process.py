@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Sequence
+from io import StringIO
 from random import Random
 from typing import Any, TextIO
 
@@ -84,6 +85,12 @@ class Process:
         """End the process without asking; its `finally` blocks still run, but none of them may wait."""
         self._end_main(SystemExit(KILLED))
         self.abandon(None)
+
+    def close(self) -> None:
+        """End the process in silence, because its world ends: nobody is told, and nothing it says is shown."""
+        self._on_exit = None
+        self.stdout = self.stderr = StringIO()
+        self.kill()
 
     def abandon(self, reason: str | None) -> None:
         """Take the process for dead although its program has not ended: it never runs again."""

@@ -60,7 +60,7 @@ def shown_path(filename: str) -> str:
 def format_error(error: BaseException) -> str:
     """The text of an error as Python prints it, cut to the learner's own frames."""
     lines = ["Traceback (most recent call last):\n"]
-    for entry in learners_frames(error.__traceback__) or traceback_entries(error.__traceback__):
+    for entry in _frames_to_show(error):
         code = entry.tb_frame.f_code
         summary = traceback.extract_tb(entry, limit=1)[0]
         lines.append(f'  File "{shown_path(code.co_filename)}", line {entry.tb_lineno}, in {code.co_name}\n')
@@ -68,6 +68,13 @@ def format_error(error: BaseException) -> str:
             lines.append(f"    {summary.line.strip()}\n")
     lines.extend(traceback.format_exception_only(type(error), error))
     return _cause(error) + "".join(lines)
+
+
+def _frames_to_show(error: BaseException) -> list[TracebackType]:
+    frames = learners_frames(error.__traceback__)
+    if not frames and not isinstance(error, SyntaxError):  # which names its own file and line
+        frames = traceback_entries(error.__traceback__)
+    return frames
 
 
 def _cause(error: BaseException) -> str:

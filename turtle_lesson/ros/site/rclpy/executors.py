@@ -17,6 +17,7 @@ from turtle_lesson.ros.world import current_process, current_world
 
 from ._blocking import drive, drives_the_simulation, in_a_plain_cell, spin_live
 from ._entity import SERVICE, Entity
+from ._mistakes import explain_call
 from .context import Context
 from .task import Future, Task
 from .utilities import get_default_context
@@ -270,7 +271,7 @@ class Executor:
             entity._listed_in = None
         self._signalled.clear()
         if self._resumed or self._polled:
-            batch += [*self._polled, *self._resumed]
+            batch += reversed([*self._polled, *self._resumed])
             self._polled, self._resumed = [], []
         self._batch = batch
 
@@ -303,6 +304,9 @@ class Executor:
                     result = job.callback(*arguments)
                     if job._kind == SERVICE:
                         job._done_with(arguments, result)
+            except TypeError as error:
+                explain_call(job, arguments, error)
+                raise
             finally:
                 job.callback_group.ending_execution(job)
                 if self._held_up:
@@ -346,7 +350,11 @@ class Executor:
 
 async def _call_and_await(entity: Any, arguments: tuple[Any, ...] | None) -> None:
     if arguments is not None:
-        result = entity.callback(*arguments)
+        try:
+            result = entity.callback(*arguments)
+        except TypeError as error:
+            explain_call(entity, arguments, error)
+            raise
         if entity._is_async:
             result = await result
         if entity._kind == SERVICE:

@@ -1,0 +1,174 @@
+"""Reading CMakeLists.txt: what counts, what is stepped over, and what is refused with its line."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from turtle_lesson.ros.workspace.cmake import CMakeError, CMakeFile, Installed, Program, evaluate
+from turtle_lesson.ros.workspace.cmake_syntax import read_calls
+
+PACKAGE = """\
+cmake_minimum_required(VERSION 3.8)
+project(robot_controller)
+
+if(CMAKE_COMPILER_IS_GNUCXX OR CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+  add_compile_options(-Wall -Wextra -Wpedantic)
+endif()
+
+# find dependencies
+find_package(ament_cmake REQUIRED)
+find_package(rosidl_default_generators REQUIRED)
+
+rosidl_generate_interfaces(${PROJECT_NAME}
+  "msg/TurtleStatus.msg"
+  "srv/NavigateTo.srv"
+  DEPENDENCIES geometry_msgs
+)
+
+install(PROGRAMS robot_controller/navigator_node.py
+  DESTINATION lib/${PROJECT_NAME} RENAME navigator)
+install(DIRECTORY launch config/
+  DESTINATION share/${PROJECT_NAME}/)
+
+if(BUILD_TESTING)
+  find_package(ament_lint_auto REQUIRED)
+endif()
+
+ament_package()
+"""
+
+
+def lines(text: str) -> list[tuple[str, tuple[str, ...]]]:
+    """The commands that take effect, as name and arguments."""
+    return [(command.name, command.args) for command in evaluate(text).commands]
+
+
+def refused(text: str) -> str:
+    with pytest.raises(CMakeError) as caught:
+        read = evaluate(text)
+        read.project(), read.programs(), read.directories()
+    return str(caught.value)
+
+
+def test_a_whole_package() -> None:
+    cmake = evaluate(PACKAGE)
+    assert cmake.project().args == ("robot_controller",)
+    assert cmake.found_packages() == ["ament_cmake", "rosidl_default_generators", "ament_lint_auto"]
+    assert cmake.interfaces() == [("msg/TurtleStatus.msg", 12), ("srv/NavigateTo.srv", 12)]
+    assert cmake.programs() == [
+        Program("robot_controller/navigator_node.py", "lib/robot_controller", "navigator", 18)
+    ]
+    assert cmake.directories() == [
+        Installed("launch", "share/robot_controller", 20),
+        Installed("config/", "share/robot_controller", 20),
+    ]
+    assert cmake.files() == []
+    assert not cmake.named("add_compile_options")
+
+
+def test_several_programs_keep_their_own_names() -> None:
+    text = (
+        "project(p)\ninstall(PROGRAMS a.py sub/b.py DESTINATION lib/p PERMISSIONS OWNER_READ OWNER_EXECUTE)"
+    )
+    assert [program.name for program in evaluate(text).programs()] == ["a.py", "b.py"]
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("SET(a b)\nmessage(${a})", ("b",)),
+        ("set(a b c)\nmessage(${a})", ("b", "c")),
+        ('set(a b c)\nmessage("${a}")', ("b;c",)),
+        ("set(a b)\nset(b_b c)\nmessage(${b_${a}})", ("c",)),
+        ("set(a b)\nlist(APPEND a c)\nmessage(${a})", ("b", "c")),
+        ("message(${unset} x)", ("x",)),
+        ('message("a b" c)', ("a b", "c")),
+        ('message("a\\"b")', ('a"b',)),
+        ("message([[${raw}]] [=[a]]b]=])", ("${raw}", "a]]b")),
+        ("message(a # comment ) here\n b)", ("a", "b")),
+        ("#[[ a\nlong comment() ]]message(a)", ("a",)),
+        ("message ( ( a ) )", ("(", "a", ")")),
+        ("message(a\\;b)", ("a;b",)),
+        ('message(-Dx="a b")', ('-Dx="a b"',)),
+        ("message($<BUILD_INTERFACE:x>)", ("$<BUILD_INTERFACE:x>",)),
+    ],
+)
+def test_arguments(text: str, expected: tuple[str, ...]) -> None:
+    assert lines(text)[-1] == ("message", expected)
+
+
+@pytest.mark.parametrize(
+    ("condition", "holds"),
+    [
+        ("ON", True),
+        ("0", False),
+        ("yes", True),
+        ("unset", False),
+        ("BUILD_TESTING", True),
+        ("NOT BUILD_TESTING", False),
+        ("unset OR BUILD_TESTING", True),
+        ("BUILD_TESTING AND NOT unset", True),
+        ("NOT (ON AND OFF)", True),
+        ("name STREQUAL turtle", True),
+        ('"${name}" STREQUAL "fish"', False),
+        ("DEFINED name", True),
+        ("name MATCHES ^tur", True),
+        ("EXISTS /somewhere", False),
+        ("CMAKE_VERSION VERSION_LESS 3.8", False),
+    ],
+)
+def test_conditions(condition: str, holds: bool) -> None:
+    text = f"set(name turtle)\nif({condition})\nyes()\nelse()\nno()\nendif()"
+    assert lines(text)[-1][0] == ("yes" if holds else "no")
+
+
+def test_one_branch_of_nested_conditions_counts() -> None:
+    text = "if(0)\na()\nif(1)\nb()\nelse()\nc()\nendif()\nelseif(1)\nd()\nelseif(1)\ne()\nelse()\nf()\nendif()\ng()"
+    assert [name for name, _ in lines(text)] == ["d", "g"]
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("project(p)\n\ninstall(PROGRAMS a.py", "line 3: the '(' of install is never closed"),
+        ("project(p)\nfind_package", "line 2: expected '(' after 'find_package'"),
+        ("project(p)\n)", "line 2: expected a command such as find_package(…), found ')'"),
+        ('project(p)\nset(a "b)', "line 2: this quote is never closed"),
+        ("#[[ never", "line 1: this #[[ comment never ends"),
+        ("if(1)\nproject(p)", "line 1: this if() has no endif()"),
+        ("endif()", "line 1: endif() without an if() before it"),
+        ("if()\nendif()", "line 1: if() needs a condition"),
+        ("if(a b)\nendif()", "line 1: if(a b) is no condition that CMake knows"),
+        ("set(a ${b)", "line 1: '${b': a ${ is not closed by }"),
+        ("foreach(a b)\nset(c d)", "line 1: there is no endforeach() that ends this"),
+        (
+            "foreach(f a)\ninstall(PROGRAMS ${f} DESTINATION x)\nendforeach()",
+            "line 2: install() inside of foreach()",
+        ),
+        ("file(GLOB m msg/*.msg)", "line 1: file(GLOB …) is not understood"),
+        ("set(a b)", "line 1: there is no project(…)"),
+        ("project()", "line 1: project() needs a name"),
+        ("project(p)\ninstall(PROGRAMS a.py)", "line 2: install(PROGRAMS …) needs a DESTINATION"),
+        ("project(p)\ninstall(PROGRAMS a b DESTINATION x RENAME c)", "line 2: RENAME gives one name"),
+    ],
+)
+def test_what_is_refused(text: str, said: str) -> None:
+    assert refused(text).startswith(f"CMakeLists.txt, {said}")
+
+
+@given(st.text(alphabet='ab(){}$"#[]= \\\n;', max_size=60))
+def test_any_text_is_read_or_refused(text: str) -> None:
+    try:
+        read = evaluate(text)
+    except CMakeError as error:
+        assert error.line >= 1
+    else:
+        assert isinstance(read, CMakeFile)
+
+
+@given(st.lists(st.text(alphabet="abc/._-", min_size=1, max_size=8), max_size=5))
+def test_plain_words_come_back_as_they_are(words: list[str]) -> None:
+    (call,) = read_calls(f"name({' '.join(words)})")
+    assert [argument.text for argument in call.args] == words

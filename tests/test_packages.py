@@ -1,0 +1,266 @@
+"""Packages as they lie in their source folder, and the index in which they are found."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import turtle_lesson
+from turtle_lesson.ros.workspace.cmake import CMakeError
+from turtle_lesson.ros.workspace.current import seeing
+from turtle_lesson.ros.workspace.index import (
+    ExecutableNotFoundError,
+    LaunchFileNotFoundError,
+    PackageIndex,
+    PackageNotFoundError,
+    find_launch_file,
+)
+from turtle_lesson.ros.workspace.package import Package, PackageError, read_source_package
+
+XML = """\
+<?xml version="1.0"?>
+<package format="3">
+  <name>{name}</name>
+  <version>0.0.0</version>
+  <description>TODO</description>
+  <buildtool_depend>ament_cmake</buildtool_depend>
+  <depend>rclpy</depend>
+  {group}
+  <export><build_type>{build_type}</build_type></export>
+</package>
+"""
+GROUP = "<member_of_group>rosidl_interface_packages</member_of_group>"
+CMAKE = """\
+cmake_minimum_required(VERSION 3.8)
+project(demo)
+find_package(rosidl_default_generators REQUIRED)
+rosidl_generate_interfaces(${PROJECT_NAME} "msg/Count.msg")
+install(PROGRAMS demo/talker_node.py DESTINATION lib/${PROJECT_NAME} RENAME talker)
+install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})
+ament_package()
+"""
+
+
+@pytest.fixture
+def demo(tmp_path: Path) -> Path:
+    """A good package."""
+    folder = tmp_path / "demo"
+    for name in ("demo", "msg", "launch"):
+        (folder / name).mkdir(parents=True)
+    (folder / "package.xml").write_text(XML.format(name="demo", group=GROUP, build_type="ament_cmake"))
+    (folder / "CMakeLists.txt").write_text(CMAKE)
+    (folder / "demo/talker_node.py").write_text("#!/usr/bin/env python3\nprint('hi')\n")
+    (folder / "msg/Count.msg").write_text("int32 count\n")
+    (folder / "launch/demo.launch.py").write_text("")
+    return folder
+
+
+def change(path: Path, old: str, new: str) -> None:
+    text = path.read_text()
+    assert old in text
+    path.write_text(text.replace(old, new))
+
+
+def refused(folder: Path) -> str:
+    with pytest.raises((PackageError, CMakeError)) as caught:
+        read_source_package(folder)
+    return str(caught.value).replace(str(folder), "demo")
+
+
+def test_a_good_package(demo: Path) -> None:
+    package = read_source_package(demo)
+    assert package.name == "demo"
+    assert package.executables == {"talker": demo / "demo/talker_node.py"}
+    assert package.interfaces == ["msg/Count.msg"]
+    assert package.shared_files("demo.launch.py") == [demo / "launch/demo.launch.py"]
+    assert package.warnings == []
+
+
+def test_the_finished_package_is_a_good_one() -> None:
+    folder = Path(turtle_lesson.__file__).parent / "robot_controller"
+    package = read_source_package(folder)
+    assert sorted(package.executables) == ["navigator", "obstacle_detector", "status_monitor"]
+    assert package.interfaces == ["msg/TurtleStatus.msg", "srv/NavigateTo.srv"]
+    assert package.shared_files("start_system.launch.py") == [folder / "launch/start_system.launch.py"]
+    assert package.warnings == []
+
+
+def test_what_is_missing(demo: Path, tmp_path: Path) -> None:
+    assert "there is no folder" in refused(tmp_path / "nowhere")
+    (demo / "CMakeLists.txt").rename(demo / "CMakeList.txt")
+    assert refused(demo).startswith("demo/CMakeLists.txt: it is missing")
+    (demo / "package.xml").unlink()
+    assert refused(demo).startswith("demo/package.xml: it is missing: a folder is a ROS 2 package if")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("<name>demo</name>", "", "demo/package.xml: it has no <name>"),
+        (
+            "<name>demo</name>",
+            "<name>My Demo</name>",
+            "demo/package.xml: the package name 'My Demo' is not allowed",
+        ),
+        ("</export>", "", "demo/package.xml, line 10: this is no well-formed XML (mismatched tag"),
+        ("<build_type>ament_cmake</build_type>", "", "demo/package.xml: it does not say how to build"),
+        (
+            "<build_type>ament_cmake",
+            "<build_type>ament_cmak",
+            "demo/package.xml: the build_type 'ament_cmak' is unknown. Did you mean 'ament_cmake'?",
+        ),
+        (
+            "<build_type>ament_cmake",
+            "<build_type>ament_python",
+            "demo/package.xml: build_type ament_python cannot be used in this classroom yet, ament_cmake can",
+        ),
+        (
+            GROUP,
+            "",
+            "demo/CMakeLists.txt, line 4: Packages installing interfaces must include "
+            "'<member_of_group>rosidl_interface_packages</member_of_group>' in their package.xml. Add that line",
+        ),
+        (
+            "<name>demo</name>",
+            "<name>demos</name>",
+            "demo/CMakeLists.txt, line 2: project(demo) and <name>demos</name> in package.xml must be the same",
+        ),
+    ],
+)
+def test_a_wrong_package_xml(demo: Path, old: str, new: str, said: str) -> None:
+    change(demo / "package.xml", old, new)
+    assert refused(demo).startswith(said)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        (
+            "talker_node.py D",
+            "talker.py D",
+            "line 5: install(PROGRAMS demo/talker.py …) names a file that does not",
+        ),
+        (
+            "Count.msg",
+            "Cout.msg",
+            "line 4: rosidl_generate_interfaces names 'msg/Cout.msg', which does not exist",
+        ),
+        ("Count.msg", "Count.txt", "line 4: 'msg/Count.txt' is no interface file"),
+        ("DIRECTORY launch", "DIRECTORY lunch", "line 6: install() names 'lunch', which does not exist"),
+        (
+            "find_package(rosidl_default_generators REQUIRED)\n",
+            "",
+            'line 3: Unknown CMake command "rosidl_generate_interfaces"',
+        ),
+        (
+            "project(demo)",
+            "project(demo)\nadd_executable(x x.cpp)",
+            "line 3: add_executable(x …) builds a C++",
+        ),
+        ("DIRECTORY launch", "DIRECTORY (", "line 6: the '(' of install is never closed"),
+    ],
+)
+def test_a_wrong_cmake_file(demo: Path, old: str, new: str, said: str) -> None:
+    change(demo / "CMakeLists.txt", old, new)
+    assert refused(demo).startswith(f"demo/CMakeLists.txt, {said}")
+
+
+def test_ament_package_is_needed(demo: Path) -> None:
+    change(demo / "CMakeLists.txt", "ament_package()", "")
+    assert "there is no ament_package()" in refused(demo)
+
+
+def test_what_would_fail_on_a_robot_is_a_warning(demo: Path) -> None:
+    (demo / "demo/talker_node.py").write_text("print('hi')\n")
+    change(
+        demo / "CMakeLists.txt", "ament_package()", "install(PROGRAMS demo/talker_node.py DESTINATION bin)"
+    )
+    (demo / "CMakeLists.txt").write_text((demo / "CMakeLists.txt").read_text() + "ament_package()\n")
+    no_shebang, elsewhere = read_source_package(demo).warnings
+    assert no_shebang.startswith("demo/talker_node.py does not begin with '#!/usr/bin/env python3'")
+    assert elsewhere.endswith("demo/talker_node.py goes to bin; ros2 run looks only in lib/${PROJECT_NAME}")
+
+
+def test_a_launch_file_that_is_not_installed_is_not_found(demo: Path) -> None:
+    change(demo / "CMakeLists.txt", "install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})\n", "")
+    index = PackageIndex()
+    index.add(read_source_package(demo))
+    with pytest.raises(LaunchFileNotFoundError, match=r"install\(DIRECTORY launch DESTINATION"):
+        find_launch_file(index, "demo", "demo.launch.py")
+
+
+# -- the index --------------------------------------------------------------------------------------------
+
+
+def make_index(*names: str) -> PackageIndex:
+    index = PackageIndex()
+    for name in names:
+        index.add(Package(name, Path("install") / name / "share" / name, prefix=Path("install") / name))
+    return index
+
+
+def test_packages_are_found_and_can_be_hidden_by_an_overlay() -> None:
+    index = make_index("turtlesim", "robot_controller")
+    overlay = Package("robot_controller", Path("overlay"))
+    index.add(overlay)
+    assert index.names() == ["robot_controller", "turtlesim"]
+    assert index.get("robot_controller") is overlay
+    index.remove("robot_controller")
+    assert index.get("robot_controller").prefix == Path("install/robot_controller")
+    index.remove("robot_controller")
+    assert "robot_controller" not in index
+    assert repr(index) == "<PackageIndex: turtlesim>"
+
+
+def test_an_unknown_package_is_refused_in_the_real_words() -> None:
+    index = make_index("turtlesim", "robot_controller")
+    with pytest.raises(PackageNotFoundError) as caught:
+        index.get("robot_controler")
+    assert caught.value.args[0] == (
+        "package 'robot_controler' not found, searching: ['install/robot_controller', 'install/turtlesim']"
+    )
+    assert str(caught.value).endswith("\". Did you mean 'robot_controller'?")
+    with pytest.raises(KeyError, match="Is it built, and is its setup file sourced"):
+        index.remove("zzz")
+
+
+def test_an_unknown_executable_is_refused_in_the_real_words() -> None:
+    index = PackageIndex()
+    index.add(Package("demo", Path("share"), {"talker": print}, prefix=Path("install/demo")))
+    assert index.executable("demo", "talker") is print
+    with pytest.raises(ExecutableNotFoundError) as caught:
+        index.executable("demo", "talkr")
+    assert str(caught.value) == (
+        "executable 'talkr' not found on the libexec directory 'install/demo/lib/demo'. Did you mean 'talker'? "
+        "demo has: talker."
+    )
+
+
+def test_programs_ask_through_ament_index_python(demo: Path) -> None:
+    from ament_index_python.packages import (
+        get_package_prefix,
+        get_package_share_directory,
+        get_package_share_path,
+        get_packages_with_prefixes,
+    )
+
+    index = make_index("turtlesim")
+    index.add(read_source_package(demo))
+    with seeing(index):
+        assert get_package_share_directory("demo") == str(demo)
+        assert get_package_share_path("turtlesim") == Path("install/turtlesim/share/turtlesim")
+        assert get_package_prefix("turtlesim") == str(Path("install/turtlesim"))
+        assert list(get_packages_with_prefixes()) == ["demo", "turtlesim"]
+        with pytest.raises(ValueError, match=r"'x.launch.py' is not a valid package name"):
+            get_package_prefix("x.launch.py")
+        with pytest.raises(PackageNotFoundError):
+            get_package_prefix("nowhere")
+
+
+def test_importing_the_classroom_does_not_load_launch() -> None:
+    code = "import sys, turtle_lesson.ros.launching; print('launch' in sys.modules, 'yaml' in sys.modules)"
+    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert result.stdout.split()[0] == "False"
