@@ -125,7 +125,8 @@ def test_conditions(condition: str, holds: bool) -> None:
 
 
 def test_one_branch_of_nested_conditions_counts() -> None:
-    text = "if(0)\na()\nif(1)\nb()\nelse()\nc()\nendif()\nelseif(1)\nd()\nelseif(1)\ne()\nelse()\nf()\nendif()\ng()"
+    inner = "if(1)\nb()\nelse()\nc()\nendif()"
+    text = f"if(0)\na()\n{inner}\nelseif(1)\nd()\nelseif(1)\ne()\nelse()\nf()\nendif()\ng()"
     assert [name for name, _ in lines(text)] == ["d", "g"]
 
 

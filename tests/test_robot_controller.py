@@ -491,6 +491,17 @@ def test_made_up_readings_follow_from_their_seed():
     assert made_up(seed=3, seconds=2.0) == made_up(seed=3, seconds=2.0) != made_up(seed=4, seconds=2.0)
 
 
+def test_without_a_seed_of_their_own_made_up_readings_follow_from_the_worlds():
+    def readings(world_seed):
+        system = System(seed=world_seed)
+        system.node("obstacle_detector")
+        heard = scans(system)
+        system.run(2.0)
+        return [reading for _, each in heard for reading in each.ranges]
+
+    assert readings(0) == readings(0) != readings(1)
+
+
 def test_from_the_world_it_sees_obstacles_and_walls_from_where_the_turtle_is(system):
     system.lesson.place(Circle(x=MIDDLE + 3.0, y=MIDDLE, radius=0.5), Box(MIDDLE, MIDDLE - 2.0, 1.0, 1.0))
     system.node("obstacle_detector", source="world")

@@ -9,8 +9,8 @@ walls and to the obstacles that the simulator shows on `/world/obstacles`.
 from __future__ import annotations
 
 import math
+import random
 from array import array
-from random import Random
 from typing import NamedTuple
 
 import numpy as np
@@ -176,10 +176,13 @@ class ObstacleDetectorNode(Node):
         )
         self.declare_parameter(
             "seed",
-            0,
-            ParameterDescriptor(description="Same seed, same made-up readings", read_only=True),
+            -1,
+            ParameterDescriptor(
+                description="Same seed, same made-up readings; -1: others at each start", read_only=True
+            ),
         )
-        self._random = Random(self.get_parameter("seed").value)
+        seed = self.get_parameter("seed").value
+        self._random = random.Random(random.getrandbits(32) if seed == -1 else seed)
         self._pose: Pose | None = None
         self._ticks_without_pose = 0
         self._markers: dict[tuple[str, int], Marker] = {}

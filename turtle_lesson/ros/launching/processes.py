@@ -83,8 +83,6 @@ class Processes:
 
     def ended(self, process: RunningProcess) -> None:
         """A process is dead: say how, tell whoever waits for it, start it again if it respawns."""
-        if getattr(self._service.world, "closing", False):
-            return
         if self._ending is not None:
             self._ending.append(process)
             return
