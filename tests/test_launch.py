@@ -5,6 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+import yaml
+from hypothesis import given
+from hypothesis import strategies as st
 from launch_world import FakeWorld, launch, node, write, write_launch_file
 
 from turtle_lesson.ros.launching import launch_arguments, launch_description, launch_file, show_arguments
@@ -238,6 +241,17 @@ def test_values_keep_their_type_and_substitutions_are_read_as_yaml(
     arguments = {"value": 5.0, "count": 10, "flag": True, "word": "fast", "list": "[1, 2]"}
     world, _ = launch(tmp_path, node(parameters=f"[{{'p': {given}}}]"), **arguments)
     assert world.argv() == ["--ros-args", "-p", f"p:={argument}"]
+
+
+plain = st.booleans() | st.integers() | st.floats(allow_nan=False) | st.text()
+
+
+@given(plain | st.lists(st.text(), min_size=1) | st.lists(st.floats(allow_nan=False), min_size=1))
+def test_yaml_reads_any_value_again_as_it_was(value: object) -> None:
+    from launch_ros._values import as_argument
+
+    again = yaml.safe_load(as_argument(value))
+    assert again == value and type(again) is type(value)
 
 
 def test_nested_parameters_get_dots_and_files_keep_their_place(

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from launch_world import FakeWorld, launch, node, write, write_launch_file
 
+from turtle_lesson.ros.core.tracebacks import learners_frames
 from turtle_lesson.ros.launching import LaunchError, find_launch_file, launch_file
 from turtle_lesson.ros.workspace.package import Package
 
@@ -275,6 +276,22 @@ def test_an_error_in_an_included_file_names_that_file(tmp_path: Path) -> None:
     )
     error = failure(outer)
     assert (error.reason, error.file, error.line) == ("division by zero", str(inner), 2)
+
+
+def test_the_cause_is_shown_where_it_says_more_than_one_line(tmp_path: Path) -> None:
+    text = """\
+        def robots(number):
+            return 10 // number
+
+        def generate_launch_description():
+            return robots(0)
+        """
+    error = failure(write(tmp_path, text))
+    assert error.line == 2
+    assert isinstance(error.__cause__, ZeroDivisionError)
+    assert len(learners_frames(error.__cause__.__traceback__)) == 2
+    plain = failure(write(tmp_path, "def generate_launch_description():\n    1 / 0\n"))
+    assert plain.line == 2 and plain.__cause__ is None and plain.__suppress_context__
 
 
 def test_an_error_that_comes_later_is_printed_and_ends_the_launch(

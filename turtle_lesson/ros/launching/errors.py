@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import linecache
 
-from ..core.tracebacks import is_ours, learners_frames, shown_path
+from ..core.tracebacks import is_ours, learners_frames, shorten, shown_path
 
 Place = tuple[str, int]
 
@@ -59,10 +59,19 @@ def place_of(error: BaseException, written_at: Place | None = None) -> Place | N
     return written_at
 
 
-def _causes(error: BaseException) -> list[BaseException]:
+def learners_cause(error: BaseException | None) -> BaseException | None:
+    """The error in the learner's own code that all came from, if its traceback has several lines."""
+    for cause in reversed(_causes(error)):
+        if len(learners_frames(cause.__traceback__)) > 1:
+            cause.__traceback__ = shorten(cause.__traceback__)
+            return cause
+    return None
+
+
+def _causes(error: BaseException | None) -> list[BaseException]:
     """The error and what it came from, the outermost first."""
     found = []
-    cause: BaseException | None = error
+    cause = error
     while cause is not None:
         found.append(cause)
         cause = cause.__cause__

@@ -9,11 +9,11 @@ from launch import LaunchDescription, LaunchDescriptionSource
 from launch.actions import IncludeLaunchDescription
 from launch.launch_description_sources import AnyLaunchDescriptionSource
 
-from ..core.tracebacks import shorten, shown_path
+from ..core.tracebacks import shown_path
 from ..workspace.current import seeing
 from ..world import World
 from .arguments import LaunchArgument, as_text, declared_in, unknown_warnings
-from .errors import LaunchError
+from .errors import LaunchError, learners_cause
 from .handle import LaunchHandle
 from .service import LaunchService, as_launch_error
 
@@ -38,7 +38,7 @@ def launch_arguments(world: World, path: Path) -> list[LaunchArgument]:
         with seeing(world.packages):
             return declared_in(source._get_launch_description(str(path)))
     except Exception as error:
-        raise _shortened(as_launch_error(error, None, {}), error) from error
+        raise as_launch_error(error, None, {}) from learners_cause(error)
 
 
 def _existing(path: Path) -> str:
@@ -58,16 +58,8 @@ def _begin(
     try:
         service.begin(include)
     except LaunchError as error:
-        raise _shortened(error, error.__cause__) from error.__cause__
+        raise error from learners_cause(error.__cause__)
     declared = [argument.name for argument in declared_in(source.get_launch_description(service.context))]
     for text in unknown_warnings(arguments, declared, service.context._configurations_read):
         service.screen.say("WARNING", "launch", text)
     return LaunchHandle(service, name)
-
-
-def _shortened(error: LaunchError, cause: BaseException | None) -> LaunchError:
-    """Leave only the learner's own lines in the traceback of what it came from."""
-    while cause is not None:
-        cause.__traceback__ = shorten(cause.__traceback__)
-        cause = cause.__cause__
-    return error

@@ -2,24 +2,17 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import exceptions
 from ._arguments import pattern_matches
-from ._parameter_rules import describe_type, integer_range_flaw, range_flaw
-from .parameter import PARAMETER_SEPARATOR_STRING, Parameter
+from ._mistakes import did_you_mean
+from ._parameter_rules import is_listed, read_declaration, why_refused
+from .parameter import PARAMETER_SEPARATOR_STRING, Parameter, parameter_value_to_python
 
 if TYPE_CHECKING:
     from .context import Context
-
-DYNAMIC_HINT = (
-    "when declaring parameter named '{}', declaring a parameter only providing its name is deprecated. You have to "
-    "either:\n\t- Pass a name and a default value different to \"PARAMETER NOT SET\" (and optionally a descriptor).\n"
-    "\t- Pass a name and a parameter type.\n\t- Pass a name and a descriptor with `dynamic_typing=True"
-)
-
 
 class NodeParameters:
     """Mixed into Node."""
@@ -50,7 +43,7 @@ class NodeParameters:
         Raises ParameterAlreadyDeclaredException, InvalidParameterException, InvalidParameterTypeException or
         InvalidParameterValueException.
         """
-        details = (name,) if value is None and descriptor is None else (name, value)
+        details: tuple[Any, ...] = (name,) if value is None and descriptor is None else (name, value)
         if descriptor is not None:
             details = (name, value, descriptor)
         return self.declare_parameters("", [details], ignore_override)[0]
@@ -72,59 +65,27 @@ class NodeParameters:
     def _declaration(
         self, index: int, namespace: str, details: tuple[Any, ...], ignore_override: bool
     ) -> tuple[Parameter, Any]:
-        from rcl_interfaces.msg import ParameterDescriptor
-
-        name = details[0]
-        if not isinstance(name, str):
-            raise TypeError(f"First element {name} at index {index} in parameters list is not a str.")
-        if not name:
-            raise exceptions.InvalidParameterException(name)
-        full_name = f"{namespace}{PARAMETER_SEPARATOR_STRING}{name}" if namespace else name
-        value = details[1] if len(details) > 1 else None
-        given = details[2] if len(details) > 2 else None
-        if value is None and (given is None or not given.dynamic_typing):
-            warnings.warn(DYNAMIC_HINT.format(full_name), UserWarning, stacklevel=4)
-        descriptor = ParameterDescriptor() if given is None else given
-        descriptor.name = full_name
-        if isinstance(value, Parameter.Type):
-            if value == Parameter.Type.NOT_SET:
-                raise ValueError(f"Cannot declare parameter {full_name} as statically typed of type NOT_SET")
-            descriptor.type, value = value.value, None
-        elif value is None and (given is None or not given.dynamic_typing):
-            descriptor.dynamic_typing = True
-        if not ignore_override and full_name in self._overrides:
-            return self._checked_override(full_name, value, descriptor), descriptor
-        return Parameter(full_name, value=value), descriptor
-
-    def _checked_override(self, name: str, default: Any, descriptor: Any) -> Parameter:
-        override = self._overrides[name]
-        expected = Parameter.Type(descriptor.type) if descriptor.type else Parameter.Type.from_parameter_value(default)
-        if descriptor.dynamic_typing or expected == Parameter.Type.NOT_SET or expected == override.type_:
-            return override
-        if not override.value and isinstance(override.value, list) and expected.check(override.value):
-            return Parameter(name, expected, override.value)
-        raise exceptions.InvalidParameterTypeException(override, expected.name)
+        name, value, descriptor = read_declaration(index, namespace, details)
+        if not ignore_override and name in self._overrides:
+            override = self._overrides[name]
+            empty = isinstance(override.value, list) and not override.value
+            if empty and Parameter.Type(descriptor.type).check([]):
+                return Parameter(name, Parameter.Type(descriptor.type), []), descriptor
+            return override, descriptor
+        return Parameter(name, value=value), descriptor
 
     def _declare(self, parameter: Parameter, descriptor: Any) -> None:
-        if not descriptor.dynamic_typing and not descriptor.type:
-            descriptor.type = parameter.type_.value
-        self._descriptors[parameter.name] = descriptor
-        if parameter.type_ == Parameter.Type.NOT_SET:
-            self._parameters[parameter.name] = parameter
-            return
-        reason = self._why_refused(parameter, declaring=True) or self._ask_callbacks([parameter])
+        reason = self._set([parameter], {parameter.name: descriptor})
+        if reason.startswith("Wrong parameter type"):
+            raise exceptions.InvalidParameterTypeException(parameter, Parameter.Type(descriptor.type).name)
         if reason:
-            del self._descriptors[parameter.name]
             raise exceptions.InvalidParameterValueException(parameter.name, parameter.value, reason)
-        self._parameters[parameter.name] = parameter
-        self._tell_parameter_event("new", [parameter])
 
     def undeclare_parameter(self, name: str) -> None:
         """Forget a parameter. Raises ParameterNotDeclaredException or ParameterImmutableException."""
         self._check_declared(name)
         if self._descriptors[name].read_only:
             raise exceptions.ParameterImmutableException(name)
-        self._tell_parameter_event("deleted", [self._parameters[name]])
         del self._parameters[name], self._descriptors[name]
 
     # -- reading ---------------------------------------------------------------------------------------------------
@@ -161,12 +122,23 @@ class NodeParameters:
         start = prefix + PARAMETER_SEPARATOR_STRING if prefix else ""
         return {name[len(start) :]: each for name, each in self._parameters.items() if name.startswith(start)}
 
-    def get_parameter_type(self, name: str) -> Parameter.Type:
-        """The type of a declared parameter."""
-        return self.get_parameter(name).type_
+    def get_parameter_type(self, name: str) -> Any:
+        """The number of a declared parameter's type (rcl_interfaces/msg/ParameterType)."""
+        if name not in self._parameters and self._allow_undeclared:
+            return Parameter.Type.NOT_SET
+        self._check_declared(name)
+        return self._parameters[name].type_.value
+
+    def get_parameter_types(self, names: list[str]) -> list[Any]:
+        """The numbers of several parameters' types."""
+        return [self.get_parameter_type(name) for name in names]
 
     def describe_parameter(self, name: str) -> Any:
         """The rcl_interfaces/msg/ParameterDescriptor of a declared parameter."""
+        if name not in self._descriptors and self._allow_undeclared:
+            from rcl_interfaces.msg import ParameterDescriptor
+
+            return ParameterDescriptor()
         self._check_declared(name)
         return self._descriptors[name]
 
@@ -174,60 +146,109 @@ class NodeParameters:
         """The descriptors of several declared parameters."""
         return [self.describe_parameter(name) for name in names]
 
+    def list_parameters(self, prefixes: list[str], depth: int) -> Any:
+        """An rcl_interfaces/msg/ListParametersResult of the names below some prefixes (none: of all).
+
+        `depth` is how many parts a name may have below its prefix; 0 is any number.
+        """
+        from rcl_interfaces.msg import ListParametersResult
+
+        names = [name for name in self._parameters if is_listed(name, prefixes, depth)]
+        parents = [name.rpartition(PARAMETER_SEPARATOR_STRING)[0] for name in names]
+        return ListParametersResult(names=names, prefixes=list(dict.fromkeys(filter(None, parents))))
+
     def _check_declared(self, name: str) -> None:
         if name not in self._parameters:
-            raise exceptions.ParameterNotDeclaredException(name)
+            raise self._not_declared(name, name)
+
+    def _not_declared(self, name: str, names: str | list[str]) -> exceptions.ParameterNotDeclaredException:
+        error = exceptions.ParameterNotDeclaredException(names)
+        known = sorted(self._parameters)
+        error.add_note(
+            f"Declare it first, with a default: declare_parameter({name!r}, …). Declared so far: "
+            f"{', '.join(known) or 'none'}{did_you_mean(str(name), known)}"
+        )
+        return error
 
     # -- setting ---------------------------------------------------------------------------------------------------
 
     def set_parameters(self, parameter_list: list[Parameter]) -> list[Any]:
-        """Set parameters one by one; a list of rcl_interfaces/msg/SetParametersResult says how each went."""
-        self._check_settable(parameter_list)
-        return [self._set([parameter]) for parameter in parameter_list]
+        """Set parameters one by one; a list of rcl_interfaces/msg/SetParametersResult says how each went.
+
+        Raises ParameterNotDeclaredException at the first undeclared one; those before it stay set.
+        """
+        return [self.set_parameters_atomically([parameter]) for parameter in parameter_list]
 
     def set_parameters_atomically(self, parameter_list: list[Parameter]) -> Any:
         """Set all parameters or none; an rcl_interfaces/msg/SetParametersResult says how it went."""
+        from rcl_interfaces.msg import SetParametersResult
+
+        if self._before_set:
+            parameter_list = [each for callback in self._before_set for each in callback(parameter_list)]
+            if not parameter_list:
+                reason = "parameter list cannot be empty, this might be due to pre_set_parameters_callback "
+                return SetParametersResult(reason=reason + "modifying the original parameters list.")
         self._check_settable(parameter_list)
-        return self._set(parameter_list)
+        reason = self._set(parameter_list)
+        return SetParametersResult(successful=not reason, reason=reason)
 
     def _check_settable(self, parameters: list[Parameter]) -> None:
+        for parameter in parameters:
+            if not isinstance(parameter, Parameter):
+                raise TypeError(
+                    f"a list of rclpy.parameter.Parameter is expected, got {parameter!r} in it: "
+                    "try Parameter('speed', value=0.5)"
+                )
         undeclared = [each.name for each in parameters if each.name not in self._parameters]
         if undeclared and not self._allow_undeclared:
-            raise exceptions.ParameterNotDeclaredException(undeclared)
+            raise self._not_declared(undeclared[0], undeclared)
 
-    def _set(self, parameters: list[Parameter]) -> Any:
-        from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
+    def _set(self, parameters: list[Parameter], descriptors: dict[str, Any] | None = None) -> str:
+        """Check and store; new descriptors mean that the parameters are being declared. Returns why not, or ''."""
+        reason = self._why_refused(parameters, descriptors) or self._ask_callbacks(parameters)
+        if not reason:
+            self._store(parameters, descriptors)
+            for callback in self._after_set:
+                callback(parameters)
+        return reason
 
-        for callback in self._before_set:
-            parameters = callback(parameters)
+    def _store(self, parameters: list[Parameter], descriptors: dict[str, Any] | None) -> None:
+        """Keep the values, forget those that are set to nothing, and tell /parameter_events about it."""
+        news: dict[str, list[Any]] = {"new": [], "changed": [], "deleted": []}
         for parameter in parameters:
-            self._descriptors.setdefault(parameter.name, ParameterDescriptor(name=parameter.name, dynamic_typing=True))
-        reasons = (self._why_refused(parameter) for parameter in parameters)
-        reason = next(filter(None, reasons), "") or self._ask_callbacks(parameters)
-        if reason:
-            return SetParametersResult(successful=False, reason=reason)
-        for parameter in parameters:
-            self._parameters[parameter.name] = parameter
-        for callback in self._after_set:
-            callback(parameters)
-        self._tell_parameter_event("changed", parameters)
-        return SetParametersResult(successful=True)
+            name = parameter.name
+            if parameter.type_ == Parameter.Type.NOT_SET and descriptors is None:
+                news["deleted"].append(parameter.to_parameter_msg())
+                self._parameters.pop(name, None)
+                self._descriptors.pop(name, None)
+                continue
+            is_new = self.get_parameter_or(name).type_ == Parameter.Type.NOT_SET
+            news["new" if is_new else "changed"].append(parameter.to_parameter_msg())
+            self._descriptors[name] = self._descriptor_for(parameter, descriptors)
+            self._parameters[name] = parameter
+        self._tell_parameter_events(news)
 
-    def _tell_parameter_event(self, kind: str, parameters: list[Parameter]) -> None:
+    def _descriptor_for(self, parameter: Parameter, descriptors: dict[str, Any] | None) -> Any:
+        from rcl_interfaces.msg import ParameterDescriptor
+
+        known = descriptors or self._descriptors
+        if parameter.name in known:
+            return known[parameter.name]
+        return ParameterDescriptor(name=parameter.name, type=parameter.type_.value, dynamic_typing=True)
+
+    def _tell_parameter_events(self, news: dict[str, list[Any]]) -> None:
         """Publish what was new, changed or deleted; Node does."""
 
-    def _why_refused(self, parameter: Parameter, declaring: bool = False) -> str:
-        """Why a value is not allowed, as the real one words it; '' if it is."""
-        descriptor = self._descriptors[parameter.name]
-        if descriptor.read_only and not declaring:
-            return f"Trying to set a read-only parameter: {parameter.name}."
-        expected = Parameter.Type(descriptor.type)
-        if not descriptor.dynamic_typing and expected not in (parameter.type_, Parameter.Type.NOT_SET):
-            return f"Wrong parameter type, expected '{expected}' got '{parameter.type_}'"
-        if parameter.type_ == Parameter.Type.DOUBLE and descriptor.floating_point_range:
-            return range_flaw(parameter, descriptor.floating_point_range[0])
-        if parameter.type_ == Parameter.Type.INTEGER and descriptor.integer_range:
-            return integer_range_flaw(parameter, descriptor.integer_range[0])
+    def _why_refused(self, parameters: list[Parameter], descriptors: dict[str, Any] | None) -> str:
+        """Why one of the values is not allowed, as the real one words it; '' if all are."""
+        for parameter in parameters:
+            descriptor = (descriptors or self._descriptors).get(parameter.name)
+            if descriptor is not None and descriptor.read_only and descriptors is None:
+                return f"Trying to set a read-only parameter: {parameter.name}."
+            is_known = parameter.name in self._parameters
+            reason = "" if descriptor is None else why_refused(parameter, descriptor, is_known)
+            if reason:
+                return reason
         return ""
 
     def _ask_callbacks(self, parameters: list[Parameter]) -> str:
@@ -240,17 +261,27 @@ class NodeParameters:
                     "`return SetParametersResult(successful=True)`"
                 )
             if not result.successful:
-                return result.reason or "refused by a callback of the node"
+                return result.reason or "refused by a callback of the node, which gave no reason"
         return ""
 
     def set_descriptor(self, name: str, descriptor: Any, alternative_value: Any = None) -> Any:
-        """Give a declared parameter another descriptor; returns the value in force."""
-        self._check_declared(name)
-        if self._descriptors[name].read_only:
+        """Give a declared parameter another descriptor; returns the value in force.
+
+        `alternative_value`, an rcl_interfaces/msg/ParameterValue, is taken if the present one does not suit it. Raises
+        InvalidParameterValueException if neither does.
+        """
+        if name not in self._parameters and self._allow_undeclared:
+            return Parameter(name).get_parameter_value()
+        if self.describe_parameter(name).read_only:
             raise exceptions.ParameterImmutableException(name)
+        choices = [self.get_parameter(name)]
+        if alternative_value is not None:
+            choices.append(Parameter(name, value=parameter_value_to_python(alternative_value)))
         descriptor.name = name
-        if not descriptor.type:
-            descriptor.type = describe_type(self._parameters[name])
+        reasons = [why_refused(choice, descriptor, True) for choice in choices]
+        if "" not in reasons:
+            raise exceptions.InvalidParameterValueException(name, choices[-1].value, reasons[-1])
+        self._parameters[name] = choices[reasons.index("")]
         self._descriptors[name] = descriptor
         return self._parameters[name].get_parameter_value()
 
@@ -271,3 +302,11 @@ class NodeParameters:
     def add_post_set_parameters_callback(self, callback: Callable[[list[Parameter]], Any]) -> None:
         """Have `callback(parameters)` called after a change (Jazzy and newer)."""
         self._after_set.insert(0, callback)
+
+    def remove_pre_set_parameters_callback(self, callback: Callable[[list[Parameter]], Any]) -> None:
+        """No longer ask a callback."""
+        self._before_set.remove(callback)
+
+    def remove_post_set_parameters_callback(self, callback: Callable[[list[Parameter]], Any]) -> None:
+        """No longer tell a callback."""
+        self._after_set.remove(callback)

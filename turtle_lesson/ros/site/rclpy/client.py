@@ -8,7 +8,9 @@ from turtle_lesson.ros.core import NANOSECONDS, NeverWakes, running_strand
 from turtle_lesson.ros.graph import ClientEnd
 
 from ._blocking import drives_the_simulation
+from ._deadlock import why_never_answered
 from ._entity import CLIENT, Entity
+from ._mistakes import shown
 from .callback_groups import CallbackGroup
 from .qos import QoSProfile
 from .task import Future
@@ -75,12 +77,16 @@ class Client(Entity):
     def call_async(self, request: Any) -> Future:
         """Send a request; the future will have the response. Raises TypeError for anything but a request."""
         self._check_alive()
-        if not isinstance(request, self.srv_type.Request):
-            raise TypeError(f"expected a {self.srv_type.Request.__name__}, got {request!r}")
+        self._check_request(request)
         future = Future(executor=self._executor)
         future._answered_by = self
         self._waiting[self._end.ask(self._servers(), request)] = future
         return future
+
+    def _check_request(self, request: Any) -> None:
+        if not isinstance(request, self.srv_type.Request):
+            name = f"{self.srv_type.__name__}.Request"
+            raise TypeError(f"a request of {self.srv_name} is a {name}, got {shown(request)}: try {name}(…)")
 
     @drives_the_simulation
     def call(self, request: Any, timeout_sec: float | None = None) -> Any:
@@ -89,12 +95,13 @@ class Client(Entity):
         Works where another thread takes the answer, and in a plain notebook cell. Where nobody ever could, it raises
         NeverWakes, which says why, instead of hanging as a real one does.
         """
-        future = self.call_async(request)
         strand = running_strand()
         assert strand is not None
         strand.activity = f"the call of {self._end.name}"
-        if timeout_sec is None:
-            self._check_it_can_be_answered(strand)
+        self._check_request(request)
+        if timeout_sec is None and (problem := why_never_answered(self, strand)):
+            raise NeverWakes(f"this call of {self._end.name} can never be answered: {problem}")
+        future = self.call_async(request)
         if strand.process.name == "notebook" and not self._taken_elsewhere(strand):
             from . import get_global_executor
 
@@ -116,31 +123,18 @@ class Client(Entity):
 
         wake._at_once = True  # type: ignore[attr-defined]
         future.add_done_callback(wake)
-        while not future.done() and (deadline is None or simulation.now < deadline):
-            strand.park()
+        executor = self._executor if deadline is None else None
+        if executor is not None:
+            executor._callers += 1
+        try:
+            while not future.done() and (deadline is None or simulation.now < deadline):
+                strand.park()
+        finally:
+            if executor is not None:
+                executor._callers -= 1
 
     def _taken_elsewhere(self, strand: Any) -> bool:
         return self._executor is not None and self._executor._spun_by_another(strand)
-
-    def _check_it_can_be_answered(self, strand: Any) -> None:
-        if not self._servers():
-            raise NeverWakes(
-                f"nobody offers the service {self._end.name} ({self._end.type_name}), so this call can never be answered. "
-                "Is its node running? wait_for_service(timeout_sec=…) waits for it."
-            )
-        if strand.process.name == "notebook" and (self._executor is None or not self._executor._spinning):
-            return
-        if not self._taken_elsewhere(strand):
-            raise NeverWakes(
-                f"this call of {self._end.name} can never be answered: the answer is taken by an executor thread, and the "
-                "only one there is waits in this very call. Use call_async and await it (in a callback group of its own), "
-                "or a MultiThreadedExecutor with the client in another callback group."
-            )
-        if not self.callback_group.can_execute(self):
-            raise NeverWakes(
-                f"this call of {self._end.name} can never be answered: its client is in the same mutually exclusive "
-                "callback group as the callback that waits here. Give the client a group of its own."
-            )
 
     def _has_work(self) -> bool:
         return bool(self._end.queue)

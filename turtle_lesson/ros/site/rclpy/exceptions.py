@@ -100,6 +100,8 @@ class InvalidParameterTypeException(ParameterException):
             f"Trying to set parameter '{desired_parameter.name}' to '{desired_parameter._value}' of type "
             f"'{desired_parameter.type_.name}', expecting type '{expected_type}'",
         )
+        if (desired_parameter.type_.name, expected_type) == ("INTEGER", "DOUBLE"):
+            self.add_note(f"ROS does not turn whole numbers into others by itself: write {desired_parameter._value}.0")
 
 
 class ParameterImmutableException(ParameterException):

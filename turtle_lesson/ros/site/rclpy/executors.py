@@ -12,10 +12,11 @@ import warnings
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from turtle_lesson.ros.core import NANOSECONDS, Strand, getcurrent, running_strand
+from turtle_lesson.ros.core import NANOSECONDS, NeverWakes, Strand, getcurrent, running_strand
 from turtle_lesson.ros.world import current_process, current_world
 
 from ._blocking import drive, drives_the_simulation, in_a_plain_cell, spin_live
+from ._deadlock import why_never_done
 from ._entity import SERVICE, Entity
 from ._mistakes import explain_call
 from .context import Context
@@ -62,6 +63,7 @@ class Executor:
         self._waiter: Strand | None = None
         self._make_ready = self._simulation.make_ready
         self._spinning: list[Strand] = []
+        self._callers = 0  # strands of this executor that wait, without a timeout, in Client.call
         self._is_shutdown = False
         self._context.on_shutdown(self.wake)
 
@@ -169,7 +171,7 @@ class Executor:
                         self._say_it_is_shut_down()
         finally:
             self._waiter = before
-            self._spinning.pop()
+            self._spinning.remove(strand)
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
         """Run one callback, waiting at most `timeout_sec` (s; None waits for ever) for one to become ready."""
@@ -187,6 +189,8 @@ class Executor:
             strand.activity = "spin_until_future_complete"
         future.add_done_callback(_at_once(lambda _: self.wake()))
         deadline = self._deadline(timeout_sec)
+        if deadline is None and (problem := why_never_done(future)):
+            raise NeverWakes(problem)
         while self._context.ok() and not future.done() and not future.cancelled() and not self._is_shutdown:
             if deadline is not None and self._simulation.now >= deadline:
                 return
@@ -208,7 +212,7 @@ class Executor:
             if job is not None:
                 self._execute(job)
         finally:
-            self._spinning.pop()
+            self._spinning.remove(strand)
 
     def wait_for_ready_callbacks(
         self,
@@ -393,6 +397,9 @@ class MultiThreadedExecutor(Executor):
         self._threads = 0
         self._idle: list[_Worker] = []
         self._failures: list[BaseException] = []
+
+    def _spun_by_another(self, strand: Strand) -> bool:
+        return super()._spun_by_another(strand) and self._callers < self._num_threads - 1
 
     def _next(self, strand: Strand, deadline: int | None, condition: Condition) -> Job | None:
         while not self._idle and self._threads >= self._num_threads and not self._failures:

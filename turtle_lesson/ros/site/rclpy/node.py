@@ -95,7 +95,7 @@ class Node(NodeGraph, NodeParameters):
         self._context.track_node(self)
         self._setup_parameters(self._entry.full_name, parameter_overrides or [], allow_undeclared_parameters)
         self._rosout = self._publish_rosout() if enable_rosout else None
-        self._event_publisher = self._publish_parameter_events() if start_parameter_services else None
+        self._event_publisher = self._publish_parameter_events()
         self.declare_parameter("use_sim_time", False)
         if automatically_declare_parameters_from_overrides:
             for override in self._overrides.values():
@@ -480,12 +480,11 @@ class Node(NodeGraph, NodeParameters):
 
         return self.create_publisher(ParameterEvent, "/parameter_events", qos_profile_parameter_events)
 
-    def _tell_parameter_event(self, kind: str, parameters: list[Parameter]) -> None:
-        if self._event_publisher is None:
-            return
+    def _tell_parameter_events(self, news: dict[str, list[Any]]) -> None:
         event = self._event_publisher.msg_type(node=self._entry.full_name)
         event.stamp.sec, event.stamp.nanosec = divmod(EPOCH + self._simulation.now, NANOSECONDS)
-        setattr(event, f"{kind}_parameters", [parameter.to_parameter_msg() for parameter in parameters])
+        for kind, parameters in news.items():
+            setattr(event, f"{kind}_parameters", parameters)
         self._event_publisher.publish(event)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from .exceptions import ParameterNotDeclaredException, ParameterUninitializedException
-from .parameter import PARAMETER_SEPARATOR_STRING, Parameter
+from .parameter import Parameter
 from .qos import qos_profile_parameters
 
 if TYPE_CHECKING:
@@ -32,41 +32,25 @@ class ParameterService:
             node.create_service(getattr(srv, name), service, callback, qos_profile=qos_profile_parameters)
 
     def _describe(self, request: Any, response: Any) -> Any:
-        from rcl_interfaces.msg import ParameterDescriptor
-
-        for name in request.names:
-            known = self._node.has_parameter(name)
-            descriptor = self._node.describe_parameter(name) if known else ParameterDescriptor(name=name)
-            response.descriptors.append(descriptor)
+        if all(map(self._node.has_parameter, request.names)):
+            response.descriptors = self._node.describe_parameters(request.names)
         return response
 
     def _get(self, request: Any, response: Any) -> Any:
-        for name in request.names:
-            try:
-                response.values.append(self._node.get_parameter(name).get_parameter_value())
-            except (ParameterNotDeclaredException, ParameterUninitializedException):
-                response.values.clear()
-                return response
+        try:
+            parameters = self._node.get_parameters(request.names)
+        except (ParameterNotDeclaredException, ParameterUninitializedException):
+            return response
+        response.values = [parameter.get_parameter_value() for parameter in parameters]
         return response
 
     def _get_types(self, request: Any, response: Any) -> Any:
-        types = []
-        for name in request.names:
-            if not self._node.has_parameter(name):
-                return response
-            types.append(self._node.get_parameter(name).type_.value)
-        response.types = types
+        if all(map(self._node.has_parameter, request.names)):
+            response.types = self._node.get_parameter_types(request.names)
         return response
 
     def _list(self, request: Any, response: Any) -> Any:
-        prefixes = set()
-        for name in self._node._parameters:
-            if not _wanted(name, list(request.prefixes), request.depth):
-                continue
-            response.result.names.append(name)
-            if PARAMETER_SEPARATOR_STRING in name:
-                prefixes.add(name.rpartition(PARAMETER_SEPARATOR_STRING)[0])
-        response.result.prefixes = sorted(prefixes)
+        response.result = self._node.list_parameters(list(request.prefixes), request.depth)
         return response
 
     def _set(self, request: Any, response: Any) -> Any:
@@ -86,15 +70,3 @@ class ParameterService:
             return self._node.set_parameters_atomically(parameters)
         except ParameterNotDeclaredException as error:
             return SetParametersResult(successful=False, reason=str(error))
-
-
-def _wanted(name: str, prefixes: list[str], depth: int) -> bool:
-    separator = PARAMETER_SEPARATOR_STRING
-    if not prefixes:
-        return depth == 0 or name.count(separator) < depth
-    for prefix in prefixes:
-        if name == prefix:
-            return True
-        if name.startswith(prefix + separator) and (depth == 0 or name[len(prefix) + 1 :].count(separator) < depth):
-            return True
-    return False

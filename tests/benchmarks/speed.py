@@ -1,0 +1,335 @@
+"""How fast the classroom is, beside SimPy and asyncio doing the same number of events, and beside a real rclpy.
+
+The real rclpy's figures were recorded on another machine (2 cores, ROS 2 Humble, one process): they are there for scale.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import io
+import statistics
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import simpy
+
+from turtle_lesson import start
+from turtle_lesson.ros.core.virtual_time import _originals
+from turtle_lesson.ros.world import World, open_world
+
+clock = _originals["perf_counter"]
+ROUNDS = 5
+SIMPLE_STAGE = Path(__file__).resolve().parents[1] / "data" / "simple_stage"
+
+
+def median_time(work: Callable[[], object], rounds: int = ROUNDS) -> float:
+    """The median time in seconds of some calls, after one that does not count."""
+    work()
+    times = []
+    for _ in range(rounds):
+        began = clock()
+        work()
+        times.append(clock() - began)
+    return statistics.median(times)
+
+
+# -- a timer that ticks ------------------------------------------------------------------------------------------
+
+
+def rclpy_timer(count: int) -> Callable[[], None]:
+    import rclpy
+
+    world = open_world()
+
+    def main() -> None:
+        rclpy.init()
+        node = rclpy.create_node("ticker")
+        node.create_timer(0.001, lambda: None)
+        rclpy.spin(node)
+
+    world.spawn(main, name="ticker")
+    return advance(world, count)
+
+
+def advance(world: World, milliseconds: int) -> Callable[[], None]:
+    return lambda: world.sim.run_until(world.now + milliseconds * 1_000_000)
+
+
+def simpy_timer(count: int) -> Callable[[], None]:
+    def work() -> None:
+        environment = simpy.Environment()
+
+        def tick() -> Any:
+            while True:
+                yield environment.timeout(1)
+
+        environment.process(tick())
+        environment.run(until=count)
+
+    return work
+
+
+def asyncio_timer(count: int) -> Callable[[], None]:
+    async def tick() -> None:
+        for _ in range(count):
+            await asyncio.sleep(0)
+
+    return lambda: asyncio.run(tick())
+
+
+# -- a message from one program to another --------------------------------------------------------------------------
+
+
+def rclpy_message(count: int) -> Callable[[], None]:
+    import rclpy
+    from geometry_msgs.msg import Twist
+
+    world = open_world()
+
+    def talker() -> None:
+        rclpy.init()
+        node = rclpy.create_node("talker")
+        publisher, message = node.create_publisher(Twist, "chatter", 10), Twist()
+        node.create_timer(0.001, lambda: publisher.publish(message))
+        rclpy.spin(node)
+
+    def listener() -> None:
+        rclpy.init()
+        node = rclpy.create_node("listener")
+        node.create_subscription(Twist, "chatter", lambda message: None, 10)
+        rclpy.spin(node)
+
+    world.spawn(talker, name="talker")
+    world.spawn(listener, name="listener")
+    return advance(world, count)
+
+
+def simpy_message(count: int) -> Callable[[], None]:
+    def work() -> None:
+        environment = simpy.Environment()
+        store = simpy.Store(environment)
+
+        def talker() -> Any:
+            while True:
+                yield environment.timeout(1)
+                yield store.put({"linear": (0.0, 0.0, 0.0), "angular": (0.0, 0.0, 0.0)})
+
+        def listener() -> Any:
+            while True:
+                yield store.get()
+
+        environment.process(talker())
+        environment.process(listener())
+        environment.run(until=count)
+
+    return work
+
+
+def asyncio_message(count: int) -> Callable[[], None]:
+    async def run() -> None:
+        queue: asyncio.Queue[Any] = asyncio.Queue(1)
+
+        async def listener() -> None:
+            for _ in range(count):
+                await queue.get()
+
+        task = asyncio.create_task(listener())
+        for _ in range(count):
+            await asyncio.sleep(0)
+            await queue.put({"linear": (0.0, 0.0, 0.0), "angular": (0.0, 0.0, 0.0)})
+        await task
+
+    return lambda: asyncio.run(run())
+
+
+# -- a question and its answer ------------------------------------------------------------------------------------
+
+
+def rclpy_service(count: int) -> Callable[[], None]:
+    import rclpy
+    from example_interfaces.srv import AddTwoInts
+
+    def work() -> None:
+        world = open_world()
+
+        def server() -> None:
+            rclpy.init()
+            node = rclpy.create_node("server")
+            node.create_service(AddTwoInts, "add", lambda request, response: response)
+            rclpy.spin(node)
+
+        def asker() -> None:
+            rclpy.init()
+            node = rclpy.create_node("asker")
+            client, request = node.create_client(AddTwoInts, "add"), AddTwoInts.Request()
+            for _ in range(count):
+                rclpy.spin_until_future_complete(node, client.call_async(request))
+
+        world.spawn(server, name="server")
+        world.spawn(asker, name="asker")
+        world.sim.run_until(count * 1_000_000)
+
+    return work
+
+
+def simpy_service(count: int) -> Callable[[], None]:
+    def work() -> None:
+        environment = simpy.Environment()
+        requests, answers = simpy.Store(environment), simpy.Store(environment)
+
+        def server() -> Any:
+            while True:
+                yield answers.put((yield requests.get()))
+
+        def asker() -> Any:
+            for number in range(count):
+                yield requests.put(number)
+                yield answers.get()
+
+        environment.process(server())
+        environment.run(until=environment.process(asker()))
+
+    return work
+
+
+def asyncio_service(count: int) -> Callable[[], None]:
+    async def run() -> None:
+        requests: asyncio.Queue[asyncio.Future[int]] = asyncio.Queue()
+
+        async def server() -> None:
+            while True:
+                (await requests.get()).set_result(0)
+
+        task = asyncio.create_task(server())
+        for _ in range(count):
+            future: asyncio.Future[int] = asyncio.get_running_loop().create_future()
+            await requests.put(future)
+            await future
+        task.cancel()
+
+    return lambda: asyncio.run(run())
+
+
+# -- the whole system ---------------------------------------------------------------------------------------------
+
+
+def system_speed(seconds: int, package: str | Path, **arguments: str) -> float:
+    """Virtual seconds for each second of real time: turtlesim, the three nodes and the lab's recorder."""
+    with contextlib.redirect_stdout(io.StringIO()):
+        lesson = start(package=package)
+        if arguments.get("source") == "world":
+            lesson.set_obstacles("three pillars")
+        lesson.launch("robot_controller", "start_system.launch.py", **arguments)
+        lesson.run(1)
+        return seconds / median_time(lambda: lesson.run(seconds))
+
+
+def many_turtles(count: int) -> float:
+    """Real µs for each virtual second and turtle, of one simulator with `count` turtles."""
+    import rclpy
+    from turtlesim.srv import Spawn
+
+    with contextlib.redirect_stdout(io.StringIO()):
+        lesson = start(package=None)
+        rclpy.init()
+        client = rclpy.create_node("spawner").create_client(Spawn, "/spawn")
+        for number in range(count - 1):
+            client.call(Spawn.Request(x=1.0 + number % 9, y=1.0 + number // 9 % 9))
+        rclpy.shutdown()
+        lesson.run(1)
+        seconds = max(1, 200 // count)
+        return median_time(lambda: lesson.run(seconds)) / seconds / count * 1e6
+
+
+def own_package(folder: Path) -> Path:
+    """The simple stage of the nodes, with what makes it a package."""
+    import shutil
+
+    from turtle_lesson.lesson import FINISHED
+
+    shutil.copytree(FINISHED, folder, dirs_exist_ok=True)
+    shutil.copytree(SIMPLE_STAGE, folder, dirs_exist_ok=True)
+    return folder
+
+
+# -- starting up --------------------------------------------------------------------------------------------------
+
+KERNEL = """
+import psutil, os
+def rss():
+    return psutil.Process(os.getpid()).memory_info().rss / 2**20
+before = rss()
+from turtle_lesson import start
+lesson = start()
+controller = lesson.launch("robot_controller", "start_system.launch.py")
+lesson.run(1)
+print("MB", before, rss())
+"""
+
+
+def kernel_memory() -> tuple[float, float]:
+    """MB of a Jupyter kernel: bare, and after start() and a launch."""
+    from jupyter_client.manager import start_new_kernel
+
+    manager, client = start_new_kernel()
+    said: list[str] = []
+    try:
+        client.execute_interactive(KERNEL, timeout=60, output_hook=lambda m: said.append(m["content"].get("text", "")))
+    finally:
+        client.stop_channels()
+        manager.shutdown_kernel(now=True)
+    line = next(line for text in said for line in text.splitlines() if line.startswith("MB"))
+    before, after = (float(word) for word in line.split()[1:])
+    return before, after
+
+
+def import_time(statement: str) -> float:
+    """Seconds that a fresh Python spends on a statement, the median of seven."""
+    program = f"import time; began = time.perf_counter(); {statement}; print(time.perf_counter() - began)"
+    runs = [subprocess.run([sys.executable, "-c", program], capture_output=True, text=True) for _ in range(7)]
+    return statistics.median(float(run.stdout.split()[-1]) for run in runs)
+
+
+def row(what: str, *figures: str) -> None:
+    print(f"{what:38}" + "".join(f"{figure:>15}" for figure in figures))
+
+
+def compare(what: str, count: int, works: list[Callable[[int], Callable[[], None]]], real: float) -> None:
+    """One row: µs for each event, here, in SimPy, in asyncio, and recorded."""
+    times = [median_time(work(count)) / count * 1e6 for work in works]
+    row(what, *(f"{each:.2f} µs" for each in times), f"{real:.0f} µs", f"×{real / times[0]:.0f}")
+
+
+def main() -> None:
+    import tempfile
+
+    print(f"Python {sys.version.split()[0]}, medians of {ROUNDS}\n")
+    row("µs an event", "turtle_lesson", "SimPy", "asyncio", "real rclpy *", "real / ours")
+    compare("timer callback", 50_000, [rclpy_timer, simpy_timer, asyncio_timer], 47)
+    compare("timer, publish and callback", 50_000, [rclpy_message, simpy_message, asyncio_message], 81)
+    compare("service there and back", 20_000, [rclpy_service, simpy_service, asyncio_service], 256)
+    print("* recorded on another machine\n")
+
+    row("virtual s in a real second", "turtle_lesson", "aim")
+    row("whole system, mock scans", f"{system_speed(100, 'finished'):.0f}", "2000")
+    row("whole system, ray casts", f"{system_speed(100, 'finished', source='world'):.0f}", "1000")
+    with tempfile.TemporaryDirectory() as folder:
+        row("whole system, the lesson's simple nodes", f"{system_speed(100, own_package(Path(folder))):.0f}", "2000")
+    print()
+    row("turtles in one simulator", "1", "10", "100", "1000")
+    row("µs a virtual second and turtle", *(f"{many_turtles(count):.0f}" for count in (1, 10, 100, 1000)))
+    print()
+    before, after = kernel_memory()
+    row("kernel, bare / with the whole system", f"{before:.0f} MB", f"{after:.0f} MB")
+    row("import turtle_lesson", f"{import_time('import turtle_lesson'):.2f} s", "aim 0.40 s")
+    begin = "from turtle_lesson import start; start()"
+    row("import and start()", f"{import_time(begin):.2f} s")
+
+
+if __name__ == "__main__":
+    main()

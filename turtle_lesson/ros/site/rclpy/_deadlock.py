@@ -1,0 +1,111 @@
+"""Calls that can never be answered are found before they hang, and explained.
+
+A real rclpy waits for ever in these cases. Which they are was tried on one: a synchronous call in the only thread that
+could take its answer, or in the mutually exclusive callback group in which the client (or the service, if it lives in
+the same process) would have to be called.
+"""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from turtle_lesson.ros.core import Strand
+    from turtle_lesson.ros.graph import ServerEnd
+
+    from .client import Client
+    from .task import Future
+
+IN_A_CALLBACK = (
+    "Make the callback `async def` and write `await client.call_async(request)`, with the client in a callback group of "
+    "its own; or spin with a MultiThreadedExecutor, the client in another callback group than this callback."
+)
+
+
+def callbacks_around() -> list[Any]:
+    """The entities whose callbacks the running code is inside, innermost first.
+
+    They are found in the running frames, so that calling a callback costs nothing for this.
+    """
+    from .executors import Executor
+    from .task import Task
+
+    places = {Executor._execute.__code__: "job", Task.__call__.__code__: "self"}
+    found, frame = [], sys._getframe(1)
+    while frame is not None:
+        if frame.f_code in places:
+            job = frame.f_locals[places[frame.f_code]]
+            found.append(getattr(job, "_entity", job))
+        frame = frame.f_back  # type: ignore[assignment]
+    return found
+
+
+def keeps_taken(group: Any) -> bool:
+    """Whether the callback that is running here is what keeps a callback group taken."""
+    holder = getattr(group, "_active_entity", None)
+    return holder is not None and any(entity is holder for entity in callbacks_around())
+
+
+def why_never_answered(client: Client, strand: Strand) -> str:
+    """Why a synchronous call of a service from this strand would wait for ever; '' if it need not."""
+    servers = client._servers()
+    if not servers:
+        return (
+            f"nobody offers this service ({client._end.type_name}). Is its node running? "
+            "wait_for_service(timeout_sec=…) waits for it."
+        )
+    drives = strand.process.name == "notebook" and not callbacks_around()
+    return _why_not_taken(client, strand, drives) or _why_not_served(client, servers, strand, drives)
+
+
+def _why_not_taken(client: Client, strand: Strand, drives: bool) -> str:
+    """Why nobody would take the answer."""
+    if keeps_taken(client.callback_group):
+        return (
+            "this callback waits for it and so keeps its callback group, and the client that would take the answer is in "
+            f"the same group. {IN_A_CALLBACK}"
+        )
+    if drives or client._taken_elsewhere(strand):
+        return ""
+    if callbacks_around():
+        return f"the thread that would take the answer is the one that waits here. {IN_A_CALLBACK}"
+    return (
+        f"nobody spins {client._of_node!r} meanwhile, so nobody takes the answer. Write instead: "
+        "future = client.call_async(request), then rclpy.spin_until_future_complete(node, future)."
+    )
+
+
+def _why_not_served(client: Client, servers: list[ServerEnd], strand: Strand, drives: bool) -> str:
+    """Why none of the services, if all live in this very process, would be called."""
+    for server in servers:
+        service = getattr(server.wake, "__self__", None)
+        if server.node.process is not strand.process or service is None:
+            return ""
+        by_this_call = drives and (service._node is client._of_node or service._executor is client._executor is not None)
+        spun = by_this_call or (service._executor is not None and service._executor._spun_by_another(strand))
+        if spun and not keeps_taken(service.callback_group):
+            return ""
+    place = "notebook" if strand.process.name == "notebook" else "process"
+    if drives or not callbacks_around():
+        return (
+            f"the service's node is in this {place}, too, and nobody spins it meanwhile. Add both nodes to one executor: "
+            "executor.add_node(…), future = client.call_async(request), executor.spin_until_future_complete(future)."
+        )
+    return (
+        "the service is offered by this very process, and cannot be called while this callback waits, because they share "
+        "a thread or a callback group. Give the service a callback group of its own, and use a MultiThreadedExecutor."
+    )
+
+
+def why_never_done(future: Future) -> str:
+    """Why spinning inside a callback until a future is done would take for ever; '' if it need not."""
+    client = future._answered_by
+    if client is None or future._done or not keeps_taken(client.callback_group):
+        return ""
+    return (
+        f"this callback spins until {client.service_name} has answered, which can never be: the callback keeps its "
+        "callback group meanwhile, and the client that would take the answer is in the same group. Make the callback "
+        "`async def` and await call_async, with the client in a callback group of its own; or go on in "
+        "future.add_done_callback(…)."
+    )
