@@ -53,6 +53,8 @@ class Simulation:
         self._count = 0
         self._limit = 0
         self._halted = False
+        self._context = contextvars.copy_context()
+        self._for_the_hub: deque[tuple[Callable[..., object], tuple[Any, ...]]] = deque()
         self._strands: weakref.WeakSet[Strand] = weakref.WeakSet()
         self._forgotten: list[Strand] = []
         self._face: Process | None = None
@@ -60,15 +62,18 @@ class Simulation:
     # -- asking for things to happen -------------------------------------------------------------------------
 
     def at(self, time: int, action: Callable[[Any], object], argument: Any) -> None:
-        """Have `action(argument)` called at virtual time `time` (ns), in the hub: it must be short and not block."""
+        """Have `action(argument)` called at virtual time `time` (ns), by whoever waits then.
+
+        It must be short and may only wake strands; what does more is given to `call_later`.
+        """
         self._count = count = self._count + 1
         heappush(self._heap, (time, count, action, argument))
 
     def call_later(self, delay: int, action: Callable[..., object], *arguments: Any) -> None:
-        """Have `action(*arguments)` called `delay` ns from now, in the hub."""
+        """Have `action(*arguments)` called `delay` ns from now, in the cell that runs the simulation then."""
         if delay < 0:
             raise SimulationError(f"cannot call {action!r} in the past: the delay is {delay} ns; give 0 or more")
-        self.at(self.now + delay, lambda _: action(*arguments), None)
+        self.at(self.now + delay, self._for_the_hub.append, (action, arguments))
 
     def wake(self, strand: Strand) -> None:
         """Let a parked strand go on at this instant. Waking one that is not parked does nothing."""
@@ -104,9 +109,9 @@ class Simulation:
         if strand is None:
             raise SimulationError("only a simulated process can sleep in virtual time; in a cell use lesson.run(seconds)")
         self.at(time, self.wake, strand)
-        strand.park()
+        self.park(strand)
         while self.now < time:
-            strand.park()
+            self.park(strand)
 
     def read_clock(self) -> int:
         """The virtual time in ns, for somebody who looks at a clock: looking costs `CLOCK_READ`."""
@@ -181,13 +186,14 @@ class Simulation:
         """Raise `error` where a strand waits, at once, and let it clean up until it waits again or ends."""
         if strand.dead:
             return
-        hub, face = self.hub, self._face
+        hub, face, halted, limit = self.hub, self._face, self._halted, self._limit
         self.hub = running_greenlet()
+        self.halt()
         self._enter(strand.process)
         try:
             strand.raise_inside(error)
         finally:
-            self.hub = hub
+            self.hub, self._halted, self._limit = hub, halted, limit
             if strand.dead and strand in self._ready:
                 self._ready.remove(strand)
             self._leave()
@@ -208,7 +214,7 @@ class Simulation:
         guard = Guard(self)
         try:
             with guard:
-                self._loop(limit)
+                self._loop()
         finally:
             self.running = False
             self._limit = 0
@@ -225,26 +231,54 @@ class Simulation:
                 if not strand.dead:
                     strand.parent = hub
 
-    def _loop(self, limit: int) -> None:
-        heap, ready = self._heap, self._ready
-        context = contextvars.copy_context()
+    def _loop(self) -> None:
+        """What the hub does: let strands go on until nothing is left to do, or the run is halted."""
+        self._context = contextvars.copy_context()
         while True:
-            while ready:
-                strand = ready.popleft()
-                if strand.process is not self._face:
-                    self._enter(strand.process)
-                strand.gr_context = context  # or what it prints would go to an earlier cell
-                strand.switch()
-                if self._halted:
-                    return
-            if self._halted or not heap or heap[0][0] >= limit:
+            strand = self._next_strand()
+            if strand is not None:
+                self._go_on_with(strand)
+            elif self._for_the_hub:
+                self._leave()
+                action, arguments = self._for_the_hub.popleft()
+                action(*arguments)
+            else:
                 return
+
+    def _next_strand(self) -> Strand | None:
+        """Let time pass until a strand is due, and return it; None if the hub has to decide what happens now."""
+        heap, ready = self._heap, self._ready
+        while not self._halted:
+            if ready:
+                return ready.popleft()
+            if self._for_the_hub or not heap or heap[0][0] >= self._limit:
+                return None
             now, _, action, argument = heappop(heap)
             self.now = now
             action(argument)
             while heap and heap[0][0] == now:
                 _, _, action, argument = heappop(heap)
                 action(argument)
+        return None
+
+    def _go_on_with(self, strand: Strand) -> None:
+        if strand.process is not self._face:
+            self._enter(strand.process)
+        strand.gr_context = self._context  # or what it prints would go to an earlier cell
+        strand.switch()
+
+    def park(self, strand: Strand) -> None:
+        """Stop the running strand until it is woken, or now and then for nothing: callers look in a loop.
+
+        The strand itself looks for who goes on, and hands over; the hub is only asked if nobody does. So a switch
+        goes straight from one process to the next, and a process that waits for its own timer does not switch at all.
+        """
+        strand.parked = True
+        following = self._next_strand()
+        if following is None:
+            self.hub.switch()
+        elif following is not strand:
+            self._go_on_with(following)
 
     def halt(self) -> None:
         """Stop the loop as soon as the running strand lets go, even if it only looks at the clock in a loop."""

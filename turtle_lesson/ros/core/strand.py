@@ -42,8 +42,7 @@ class Strand(greenlet):
 
     def park(self) -> None:
         """Stop here until woken. May also return early: callers check what they wait for, in a loop."""
-        self.parked = True
-        self.simulation.hub.switch()
+        self.simulation.park(self)
 
     def raise_inside(self, error: BaseException) -> None:
         """Go on, with `error` raised at the place where the strand stopped (called by the hub)."""

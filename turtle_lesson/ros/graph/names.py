@@ -80,6 +80,15 @@ def topic_name_flaw(name: str) -> Flaw | None:
     return _letters_flaw(name) or _tilde_flaw(name) or _slashes_flaw(name)
 
 
+def full_topic_name_flaw(name: str) -> Flaw | None:
+    """What is wrong with a topic's or service's full name, as it is in the graph."""
+    if not name.startswith("/"):
+        return Flaw("topic name must be absolute, it must lead with a '/'", 0)
+    if len(name) > MAX_TOPIC_NAME:
+        return Flaw(f"topic length should not exceed '{MAX_TOPIC_NAME}'", MAX_TOPIC_NAME - 1)
+    return topic_name_flaw(name)
+
+
 def _letters_flaw(name: str) -> Flaw | None:
     braces = 0
     for index, letter in enumerate(name):

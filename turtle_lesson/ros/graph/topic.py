@@ -90,6 +90,11 @@ class Writer:
                 simulation.at(simulation.now + self._latency, self._deliver, ((reader,), wire._wire_copy()))
 
 
+def _tell_mismatch(end: Writer | Reader, policy: str) -> None:
+    if end.on_mismatch is not None:
+        end.on_mismatch(policy)
+
+
 class Topic:
     """A name with a type, and the two ends that meet there."""
 
@@ -126,8 +131,7 @@ class Topic:
             writer.greet(reader)
             return
         for end in (writer, reader):
-            if end.on_mismatch is not None:
-                self.simulation.at(self.simulation.now + self.latency, end.on_mismatch, policy)
+            self.simulation.call_later(self.latency, _tell_mismatch, end, policy)
 
     def remove(self, end: Writer | Reader) -> None:
         """Take a publisher or subscription away; messages under way to it are lost."""

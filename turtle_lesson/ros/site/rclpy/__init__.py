@@ -41,6 +41,12 @@ class InitContextManager:
     def __init__(self, context: Context) -> None:
         self.context = context
 
+    def __repr__(self) -> str:
+        return f"<rclpy {'is' if self.context.ok() else 'was'} initialized>"
+
+    def _ipython_display_(self) -> None:
+        """In a notebook nothing is shown, as with Humble, whose `init` returns None."""
+
     def __enter__(self) -> InitContextManager:
         return self
 

@@ -2,21 +2,35 @@
 
 from __future__ import annotations
 
-import difflib
+import importlib
+import importlib.util
 import sys
 from collections.abc import Callable
 from typing import Any
 
+from ._mistakes import did_you_mean
+
 
 def explain_missing(module: str) -> Callable[[str], Any]:
-    """A module-level `__getattr__` that names what is not here, and what was perhaps meant."""
+    """A module-level `__getattr__`: imports a submodule that is used without having been imported, as in
+    `rclpy.logging.get_logger`, which works on a real ROS 2, too; or says that there is nothing of that name.
+    """
 
     def missing(name: str) -> Any:
         if name.startswith("__"):
             raise AttributeError(name)
+        if not name.startswith("_") and importlib.util.find_spec(f"{module}.{name}") is not None:
+            return importlib.import_module(f"{module}.{name}")
         known = [public for public in vars(sys.modules[module]) if not public.startswith("_")]
-        close = difflib.get_close_matches(name, known, n=1)
-        hint = f"did you mean {close[0]!r}?" if close else "on a real ROS 2 it may exist; here it is not built yet."
-        raise AttributeError(f"module {module!r} of this classroom has no {name!r}: {hint}")
+        hint = did_you_mean(name, known) or "; on a real ROS 2 it may exist, here it is not built yet"
+        # With an object that has nothing, Python adds no "Did you mean" of its own.
+        raise AttributeError(f"module {module!r} of this classroom has no {name!r}{hint}", name=name, obj=None)
 
     return missing
+
+
+def refuse_unbuilt(**arguments: Any) -> None:
+    """Raise NotImplementedError if one of these arguments was given, which rclpy has and this classroom has not."""
+    for name, value in arguments.items():
+        if value:
+            raise NotImplementedError(f"{name} is not built in this classroom yet, got {value!r}: leave it out")

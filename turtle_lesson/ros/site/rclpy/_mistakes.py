@@ -37,6 +37,17 @@ def set_by_init(kind: type, *names: str) -> None:
         setattr(kind, name, _SetByInit())
 
 
+def no_node(value: object) -> TypeError:
+    """The error for something else where a node is expected."""
+    if isinstance(value, type):
+        hint = f"make one of it first: node = {value.__name__}()"
+    elif hasattr(value, "create_publisher"):
+        hint = "begin its __init__ with super().__init__('the_name_of_the_node')"
+    else:
+        hint = "after rclpy.init(), make one: node = rclpy.create_node('its_name')"
+    return TypeError(f"a node is expected, got {shown(value)}; {hint}")
+
+
 def explain_call(entity: Any, arguments: tuple[Any, ...] | None, error: TypeError) -> None:
     """Add to an error that calling a callback raised (not one from inside it) how the callback is called."""
     trace = error.__traceback__
@@ -50,6 +61,15 @@ def explain_call(entity: Any, arguments: tuple[Any, ...] | None, error: TypeErro
     elif arguments is not None:
         what = ", ".join(_PARTS.get(type(entity).__name__, ())[: len(arguments)])
         error.add_note(f"The callback of {entity!r} is called with ({what}).")
+
+
+def explain_event_loop(error: Exception) -> None:
+    """Add to asyncio's complaint that it does not run what to do instead."""
+    if isinstance(error, RuntimeError) and str(error) == "no running event loop":
+        error.add_note(
+            "rclpy's executors are no asyncio loops: asyncio's functions do not work in their callbacks. To wait, await "
+            "a future of rclpy's, or have a timer call you later."
+        )
 
 
 _PARTS = {"Subscription": ("message", "info"), "Service": ("request", "response")}

@@ -10,6 +10,7 @@ from turtle_lesson.ros.graph.names import expand, remap
 
 from .exceptions import NodeNameNonExistentError, RCLError
 from .topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
+from .validate_full_topic_name import validate_full_topic_name
 from .validate_topic_name import validate_topic_name
 
 if TYPE_CHECKING:
@@ -33,6 +34,7 @@ class NodeGraph:
             raise (RCLError if name is None else TypeError)(complaint)
         validate_topic_name(name, is_service=is_service)
         full_name = expand(name, self._entry.name, self._entry.namespace)
+        validate_full_topic_name(full_name, is_service=is_service)
         if only_expand:
             return full_name
         return remap(full_name, self._entry.name, self._entry.namespace, self._remaps)

@@ -6,7 +6,6 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import exceptions
-from ._arguments import pattern_matches
 from ._mistakes import did_you_mean
 from ._parameter_rules import is_listed, read_declaration, why_refused
 from .parameter import PARAMETER_SEPARATOR_STRING, Parameter, parameter_value_to_python
@@ -20,18 +19,14 @@ class NodeParameters:
     context: Context
     _allow_undeclared: bool
 
-    def _setup_parameters(self, full_name: str, overrides: Sequence[Parameter], allow_undeclared: bool) -> None:
+    def _setup_parameters(self, overrides: Sequence[Parameter], allow_undeclared: bool) -> None:
         self._parameters: dict[str, Parameter] = {}
         self._descriptors: dict[str, Any] = {}
         self._allow_undeclared = allow_undeclared
         self._on_set: list[Callable[[list[Parameter]], Any]] = []
         self._before_set: list[Callable[[list[Parameter]], Any]] = []
         self._after_set: list[Callable[[list[Parameter]], Any]] = []
-        self._overrides: dict[str, Parameter] = {}
-        for pattern, name, value in self.context.arguments.parameters:
-            if pattern_matches(pattern, full_name):
-                self._overrides[name] = Parameter(name, value=value)
-        self._overrides.update({parameter.name: parameter for parameter in overrides})
+        self._overrides = {parameter.name: parameter for parameter in overrides}
 
     # -- declaring -------------------------------------------------------------------------------------------------
 

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 from turtle_lesson.ros.world import current_process
 
 from ._arguments import Arguments, parse_arguments
+from .impl.logging_severity import LoggingSeverity
+from .impl.rcutils_logger import RcutilsLogger
 
 if TYPE_CHECKING:
     from .node import Node
@@ -19,7 +21,8 @@ class Context:
     def __init__(self) -> None:
         self._process = current_process()
         self._initialized = False
-        self._ended = False
+        self.ended = False
+        """Whether it was shut down."""
         self._callbacks: list[Callable[[], Any]] = []
         self._nodes: list[Node] = []
         self.arguments = Arguments()
@@ -34,11 +37,13 @@ class Context:
         self.arguments = parse_arguments(self._process.argv if args is None else args)
         self.domain_id = domain_id or 0
         self._initialized = True
+        for name, level in self.arguments.log_levels.items():
+            RcutilsLogger(name).set_level(LoggingSeverity[level.upper()])
         self._process.at_exit.append(self._end)
 
     def ok(self) -> bool:
         """Whether the context is initialized and not shut down."""
-        return self._initialized and not self._ended
+        return self._initialized and not self.ended
 
     def get_domain_id(self) -> int:
         """The ROS domain, which is only a number here: all processes of a world see each other."""
@@ -54,7 +59,7 @@ class Context:
         """End it, if it has not ended yet."""
         if not self.ok():
             return
-        self._ended = True
+        self.ended = True
         for callback in self._callbacks:
             callback()
         for node in list(self._nodes):
@@ -69,7 +74,7 @@ class Context:
 
     def on_shutdown(self, callback: Callable[[], Any]) -> None:
         """Have `callback()` called at the shutdown (at once if it has been)."""
-        if self._ended:
+        if self.ended:
             callback()
         else:
             self._callbacks.append(callback)
@@ -85,7 +90,7 @@ class Context:
 
     def _end(self) -> None:
         """The process ends: what it leaves behind disappears."""
-        self._ended = True
+        self.ended = True
         for node in list(self._nodes):
             node.destroy_node()
 

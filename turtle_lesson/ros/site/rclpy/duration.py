@@ -33,6 +33,10 @@ class Duration:
     @classmethod
     def from_msg(cls, msg: Any) -> Duration:
         """From builtin_interfaces/msg/Duration."""
+        from builtin_interfaces.msg import Duration as Message
+
+        if not isinstance(msg, Message):
+            raise TypeError(f"Must pass a builtin_interfaces.msg.Duration object, got {msg!r}")
         return cls(seconds=msg.sec, nanoseconds=msg.nanosec)
 
     def __repr__(self) -> str:

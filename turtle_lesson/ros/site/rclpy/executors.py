@@ -18,7 +18,7 @@ from turtle_lesson.ros.world import current_process, current_world
 from ._blocking import drive, drives_the_simulation, in_a_plain_cell, spin_live
 from ._deadlock import why_never_done
 from ._entity import SERVICE, Entity
-from ._mistakes import explain_call
+from ._mistakes import explain_call, no_node
 from .context import Context
 from .task import Future, Task
 from .utilities import get_default_context
@@ -78,6 +78,8 @@ class Executor:
         """Run this node's callbacks from now on; False if it does so already. A node has one executor at a time."""
         if node in self._nodes:
             return False
+        if not hasattr(node, "_waiting_entities"):
+            raise no_node(node)
         if node.executor is not None:
             node.executor.remove_node(node)
         self._nodes.append(node)
@@ -152,22 +154,20 @@ class Executor:
         self._spinning.append(strand)
         self._waiter, before = strand, self._waiter
         try:
-            while context.ok() and not self._is_shutdown:
+            while not context.ended and not self._is_shutdown:
                 if len(signalled) == 1 and not self._batch and not self._resumed and not self._polled:
                     entity = signalled.pop()
                     entity._listed_in = None
-                    if entity._executor is not self or not entity._has_work():
-                        continue
-                    if not entity.callback_group.beginning_execution(entity):
-                        self._held_up.append(entity)
-                        continue
-                    self._execute(entity)
+                    if entity._executor is self and entity._has_work():
+                        if entity.callback_group.beginning_execution(entity):
+                            self._execute(entity)
+                        else:
+                            self._held_up.append(entity)
                 elif signalled or self._batch or self._resumed:
                     self._execute(self._next(strand, None, None))
                 else:
-                    strand.parked = True
-                    simulation.hub.switch()
-                    if self._is_shutdown or not context.ok():
+                    simulation.park(strand)
+                    if context.ended or self._is_shutdown:
                         self._say_it_is_shut_down()
         finally:
             self._waiter = before
@@ -287,9 +287,8 @@ class Executor:
         before, self._waiter = self._waiter, strand
         if deadline is not None:
             simulation.at(deadline, simulation.wake, strand)
-        strand.parked = True
         try:
-            simulation.hub.switch()
+            simulation.park(strand)
         finally:
             self._waiter = before
 

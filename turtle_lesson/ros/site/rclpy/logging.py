@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .impl.logging_severity import LoggingSeverity
-from .impl.rcutils_logger import RcutilsLogger, _levels
+from .impl.rcutils_logger import RcutilsLogger, _levels, as_severity
 
 __all__ = [
     "LoggingSeverity",
@@ -24,7 +24,7 @@ def get_logger(name: str) -> RcutilsLogger:
 
 def set_logger_level(name: str, level: int, detailed_error: bool = False) -> None:
     """Have the logger of this name print only what is at least this severe."""
-    _levels()[name] = LoggingSeverity(level)
+    _levels()[name] = as_severity(level)
 
 
 def get_logger_level(name: str) -> LoggingSeverity:

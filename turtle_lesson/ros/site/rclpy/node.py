@@ -8,15 +8,16 @@ from typing import TYPE_CHECKING, Any
 
 from turtle_lesson.ros.core import EPOCH, NANOSECONDS
 from turtle_lesson.ros.graph import NodeEntry
-from turtle_lesson.ros.graph.names import Remap
 from turtle_lesson.ros.world import current_process, current_world
 
 from . import type_support
-from ._arguments import parse_arguments
+from ._arguments import Arguments, parse_arguments
 from ._entity import Entity
+from ._missing import refuse_unbuilt
 from ._mistakes import set_by_init
 from ._node_graph import NodeGraph
 from ._node_parameters import NodeParameters
+from ._qos_events import QoSEvents, mismatch_text
 from .callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup
 from .client import Client
 from .clock import Clock, ROSClock
@@ -74,7 +75,9 @@ class Node(NodeGraph, NodeParameters):
         self._context = get_default_context() if context is None else context
         if not self._context.ok():
             raise NotInitializedException("cannot create node")
-        self._remaps = self._rules(cli_args, use_global_arguments)
+        refuse_unbuilt(enable_logger_service=enable_logger_service)
+        arguments = self._arguments_of(cli_args, use_global_arguments)
+        self._remaps = arguments.remaps
         name, full_namespace = self._names(node_name, namespace)
         world = current_world()
         self._graph = world.graph
@@ -85,15 +88,16 @@ class Node(NodeGraph, NodeParameters):
         self._made = 0
         self._publishers: list[Publisher] = []
         self._waiting_entities: list[Entity] = []
+        self._events: QoSEvents | None = None
         self._destroyed = False
         self._default_callback_group = MutuallyExclusiveCallbackGroup()
         self._rate_group: CallbackGroup | None = None
         self._clock = ROSClock()
         self._logger = RcutilsLogger(self._entry.full_name.strip("/").replace("/", "."))
-        self._apply_log_levels()
         self._graph.add_node(self._entry)
         self._context.track_node(self)
-        self._setup_parameters(self._entry.full_name, parameter_overrides or [], allow_undeclared_parameters)
+        overrides = [*arguments.parameters_of(self._entry.full_name), *(parameter_overrides or [])]
+        self._setup_parameters(overrides, allow_undeclared_parameters)
         self._rosout = self._publish_rosout() if enable_rosout else None
         self._event_publisher = self._publish_parameter_events()
         self.declare_parameter("use_sim_time", False)
@@ -115,9 +119,11 @@ class Node(NodeGraph, NodeParameters):
 
     # -- names -----------------------------------------------------------------------------------------------------
 
-    def _rules(self, cli_args: list[str] | None, use_global_arguments: bool) -> list[Remap]:
-        own = parse_arguments(cli_args).remaps if cli_args else []
-        return own + (self._context.arguments.remaps if use_global_arguments else [])
+    def _arguments_of(self, cli_args: list[str] | None, use_global_arguments: bool) -> Arguments:
+        """This node's own ROS arguments, which go before those of the process."""
+        own = parse_arguments(cli_args or [])
+        common = self._context.arguments if use_global_arguments else Arguments()
+        return Arguments(own.remaps + common.remaps, common.parameters + own.parameters)
 
     def _names(self, node_name: str, namespace: str | None) -> tuple[str, str]:
         if node_name is None:
@@ -139,12 +145,6 @@ class Node(NodeGraph, NodeParameters):
         validate_node_name(node_name)
         validate_namespace(namespace)
         return node_name, namespace
-
-    def _apply_log_levels(self) -> None:
-        for name, level in self._context.arguments.log_levels.items():
-            from .logging import get_logging_severity_from_string
-
-            RcutilsLogger(name).set_level(get_logging_severity_from_string(level))
 
     def get_name(self) -> str:
         """The node's name."""
@@ -268,14 +268,15 @@ class Node(NodeGraph, NodeParameters):
         Raises InvalidTopicNameException, AttributeError or RuntimeError (no message type), TypeError, ValueError.
         """
         self._check_alive()
+        refuse_unbuilt(event_callbacks=event_callbacks, qos_overriding_options=qos_overriding_options)
         profile = checked_profile(qos_profile)
         full_name = self._full_name_of(topic)
         type_support.check_is_valid_msg_type(msg_type)
-        self._check_one_type(full_name, msg_type)
+        self._check_one_type("publisher", full_name, msg_type)
         kind = msg_type if isinstance(msg_type, type) else type(msg_type)
         writer = self._graph.add_writer(self._entry, full_name, kind._TYPE_NAME, profile.quality())  # type: ignore[attr-defined]
         writer.profile = profile  # type: ignore[attr-defined]
-        writer.on_mismatch = lambda policy: self._warn_mismatch(topic, policy, "subscription", "requesting", "sent to")
+        writer.on_mismatch = lambda policy: self._warn(mismatch_text(topic, policy, publishes=True))
         publisher = publisher_class(writer, kind, topic, profile, self._logger.name)
         self._publishers.append(publisher)
         return publisher
@@ -297,37 +298,37 @@ class Node(NodeGraph, NodeParameters):
         Raises InvalidTopicNameException, AttributeError or RuntimeError (no message type), TypeError, ValueError.
         """
         self._check_alive()
+        refuse_unbuilt(event_callbacks=event_callbacks, qos_overriding_options=qos_overriding_options)
         profile = checked_profile(qos_profile)
         full_name = self._full_name_of(topic)
         type_support.check_is_valid_msg_type(msg_type)
-        self._check_one_type(full_name, msg_type)
+        self._check_one_type("subscription", full_name, msg_type)
         reader = self._graph.add_reader(self._entry, full_name, msg_type._TYPE_NAME, profile.quality())
         reader.profile = profile  # type: ignore[attr-defined]
-        reader.on_mismatch = lambda policy: self._warn_mismatch(
-            topic, policy, "publisher", "offering", "received from"
-        )
+        reader.on_mismatch = lambda policy: self._warn(mismatch_text(topic, policy, publishes=False))
         group = callback_group or self._default_callback_group
         return self._keep(
             Subscription(reader, msg_type, topic, callback, group, profile, raw, self._logger.name)
         )
 
-    def _check_one_type(self, full_name: str, msg_type: Any) -> None:
+    def _check_one_type(self, what: str, full_name: str, msg_type: Any) -> None:
         """Within one process ROS refuses a second type on a topic; between processes it only never connects."""
         topic = self._graph.topic(full_name)
-        for end, type_name in [*topic.writers, *topic.readers]:
+        ends: list[tuple[Any, str]] = [*topic.writers, *topic.readers]
+        for end, type_name in ends:
             if end.node.process is self._entry.process and type_name != msg_type._TYPE_NAME:
-                from .exceptions import RCLError
-
                 raise RCLError(
-                    f"failed to create topic [rt{full_name}] because it's already in use in this context with a different "
-                    f"message type: it is {type_name}, asked for was {msg_type._TYPE_NAME}"
+                    f"Failed to create {what}: failed to create topic [rt{full_name}] because it's already in use in this "
+                    f"context with a different message type: it is {type_name}, asked for was {msg_type._TYPE_NAME}"
                 )
 
-    def _warn_mismatch(self, topic: str, policy: str, who: str, verb: str, direction: str) -> None:
-        self._logger.warning(
-            f"New {who} discovered on topic '{topic}', {verb} incompatible QoS. "
-            f"No messages will be {direction} it. Last incompatible policy: {policy}"
-        )
+    def _warn(self, text: str) -> None:
+        """Log a warning when the node is spun."""
+        if self._destroyed:
+            return
+        if self._events is None:
+            self._events = self._keep(QoSEvents(self._logger, self._default_callback_group))
+        self._events.add(text)
 
     def create_timer(
         self,

@@ -8,6 +8,7 @@ from typing import Any
 
 from turtle_lesson.ros.graph import Quality
 
+from ._mistakes import did_you_mean
 from .duration import Duration
 
 
@@ -94,7 +95,8 @@ class QoSProfile:
 
     def __init__(self, **policies: Any) -> None:
         unknown = set(policies) - set(_FIELDS)
-        assert not unknown, f"Invalid arguments passed to constructor: {', '.join(sorted(unknown))}"
+        hint = "".join(did_you_mean(name, _FIELDS) for name in sorted(unknown))
+        assert not unknown, f"Invalid arguments passed to constructor: {', '.join(sorted(unknown))}{hint}"
         if "history" not in policies:
             if "depth" not in policies:
                 raise InvalidQoSProfileException("History and/or depth settings are required.")
@@ -108,10 +110,9 @@ class QoSProfile:
         if name not in _FIELDS:
             raise AttributeError(f"QoSProfile has no policy {name!r}; it has {', '.join(_FIELDS)}")
         kind = _FIELDS[name][0]
-        if issubclass(kind, _Policy):
-            assert isinstance(value, (kind, int)), f"{name} must be a {kind.__name__}, got {value!r}"
+        if issubclass(kind, _Policy) and isinstance(value, int):
             value = kind(value)
-        assert isinstance(value, kind), f"{name} must be a {kind.__name__}, got {value!r}"
+        assert isinstance(value, kind), _expectation(name, kind, value)
         if name == "depth":
             if value < 0:
                 raise ValueError("history depth must be greater than or equal to zero")
@@ -147,6 +148,16 @@ class QoSProfile:
         )
 
 
+def _expectation(name: str, kind: type, value: object) -> str:
+    """What a policy must be, for one who gave something else."""
+    example = {int: "10", bool: "True", Duration: "Duration(seconds=1)"}.get(kind, "")
+    if issubclass(kind, _Policy):
+        words = [f"{kind.__name__}.{key}" for key in kind.__members__ if key not in {"SYSTEM_DEFAULT", "UNKNOWN"}]
+        close = [word for word in words if str(value).upper().endswith(word.rpartition(".")[2])]
+        example = (close or words)[0]
+    return f"QoS policy {name!r} must be of type {kind.__name__}, got {value!r}: try {name}={example}"
+
+
 def checked_profile(profile: Any) -> QoSProfile:
     """A profile from what a program gives: a QoSProfile, or an int that means "keep the last n"."""
     if isinstance(profile, QoSProfile):
@@ -155,7 +166,10 @@ def checked_profile(profile: Any) -> QoSProfile:
         if profile < 0:
             raise ValueError("history depth must be greater than or equal to zero")
         return QoSProfile(depth=profile, history=HistoryPolicy.KEEP_LAST)
-    raise TypeError(f"Expected QoSProfile or int, but received {type(profile)}")
+    error = TypeError(f"Expected QoSProfile or int, but received {type(profile)}")
+    if callable(profile):
+        error.add_note("The order is create_subscription(type, topic, callback, qos) and create_publisher(type, topic, qos).")
+    raise error
 
 
 def _keep_last(depth: int, reliability: ReliabilityPolicy = ReliabilityPolicy.RELIABLE) -> QoSProfile:

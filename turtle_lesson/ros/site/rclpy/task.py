@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from turtle_lesson.ros.core import NeverWakes
 
+from ._mistakes import explain_event_loop
+
 if TYPE_CHECKING:
     from .executors import Executor
 
@@ -141,6 +143,7 @@ class Task(Future):
         except StopIteration as end:
             self._complete(end.value)
         except Exception as error:
+            explain_event_loop(error)
             self._end()
             self.set_exception(error)
         finally:

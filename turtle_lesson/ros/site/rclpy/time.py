@@ -48,6 +48,10 @@ class Time:
     @classmethod
     def from_msg(cls, msg: Any, clock_type: ClockType = ClockType.ROS_TIME) -> Time:
         """From builtin_interfaces/msg/Time, which does not say which clock it is from: ROS time unless told."""
+        from builtin_interfaces.msg import Time as Message
+
+        if not isinstance(msg, Message):
+            raise TypeError(f"Must pass a builtin_interfaces.msg.Time object, got {msg!r}")
         return cls(seconds=msg.sec, nanoseconds=msg.nanosec, clock_type=clock_type)
 
     def __repr__(self) -> str:
@@ -55,7 +59,10 @@ class Time:
 
     def __add__(self, other: object) -> Time:
         if isinstance(other, Duration):
-            return Time(nanoseconds=self._nanoseconds + other.nanoseconds, clock_type=self.clock_type)
+            try:
+                return Time(nanoseconds=self._nanoseconds + other.nanoseconds, clock_type=self.clock_type)
+            except OverflowError:
+                raise OverflowError("Addition leads to overflow in C storage.") from None
         return NotImplemented
 
     __radd__ = __add__
@@ -65,6 +72,8 @@ class Time:
             self._check(other, "Can't subtract times with different clock types")
             return Duration(nanoseconds=self._nanoseconds - other._nanoseconds)
         if isinstance(other, Duration):
+            if other.nanoseconds > self._nanoseconds:
+                raise ValueError("Subtraction leads to negative time.")
             return Time(nanoseconds=self._nanoseconds - other.nanoseconds, clock_type=self.clock_type)
         return NotImplemented
 
