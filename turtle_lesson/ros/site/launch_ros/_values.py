@@ -115,6 +115,10 @@ def as_argument(value: Any) -> str:
     """A value as it stands after `name:=` on a command line, such that YAML reads the same value again."""
     import yaml
 
-    readable = not any(line_end in str(value) for line_end in "\x85\u2028\u2029")  # which PyYAML would fold away
-    text = yaml.safe_dump(value, default_flow_style=True, allow_unicode=readable, width=float("inf"))
+    def dump(readable: bool) -> str:
+        return yaml.safe_dump(value, default_flow_style=True, allow_unicode=readable, width=float("inf"))
+
+    text = dump(True)
+    if any(line_end in text for line_end in "\x85\u2028\u2029"):  # which PyYAML would fold away
+        text = dump(False)
     return text.removesuffix("\n").removesuffix("\n...")
