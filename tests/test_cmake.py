@@ -57,9 +57,7 @@ def test_a_whole_package() -> None:
     assert cmake.project().args == ("robot_controller",)
     assert cmake.found_packages() == ["ament_cmake", "rosidl_default_generators", "ament_lint_auto"]
     assert cmake.interfaces() == [("msg/TurtleStatus.msg", 12), ("srv/NavigateTo.srv", 12)]
-    assert cmake.programs() == [
-        Program("robot_controller/navigator_node.py", "lib/robot_controller", "navigator", 18)
-    ]
+    assert cmake.programs() == [Program("robot_controller/navigator_node.py", "lib/robot_controller", "navigator", 18)]
     assert cmake.directories() == [
         Installed("launch", "share/robot_controller", 20),
         Installed("config/", "share/robot_controller", 20),
@@ -69,9 +67,7 @@ def test_a_whole_package() -> None:
 
 
 def test_several_programs_keep_their_own_names() -> None:
-    text = (
-        "project(p)\ninstall(PROGRAMS a.py sub/b.py DESTINATION lib/p PERMISSIONS OWNER_READ OWNER_EXECUTE)"
-    )
+    text = "project(p)\ninstall(PROGRAMS a.py sub/b.py DESTINATION lib/p PERMISSIONS OWNER_READ OWNER_EXECUTE)"
     assert [program.name for program in evaluate(text).programs()] == ["a.py", "b.py"]
 
 

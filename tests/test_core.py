@@ -172,7 +172,12 @@ def test_exit_codes_are_pythons(world: World, capsys: pytest.CaptureFixture[str]
     def waits() -> None:
         time.sleep(100)
 
-    programs = {"returns": lambda: None, "exits": lambda: sys.exit(3), "says": lambda: sys.exit("no"), "fails": fails}
+    programs = {
+        "returns": lambda: None,
+        "exits": lambda: sys.exit(3),
+        "says": lambda: sys.exit("no"),
+        "fails": fails,
+    }
     processes = {name: world.spawn(program, name=name) for name, program in programs.items()}
     processes["waits"] = world.spawn(waits, name="waits")
     world.sim.run_until(SECOND)

@@ -36,9 +36,7 @@ def test_a_message_is_read_as_ros_reads_it(case):
     error = refusal(lambda: parse_message("pkg", "Name", case["text"]))
     assert (error.ros_error, error.reason) == (case["error"], case["reason"])
     assert error.printed == case.get("printed")
-    assert error.line == min(
-        2, len(case["text"].splitlines())
-    )  # where two or three lines, the second is to blame
+    assert error.line == min(2, len(case["text"].splitlines()))  # where two or three lines, the second is to blame
 
 
 @pytest.mark.parametrize("case", CASES["services"], ids=by_text)
@@ -100,9 +98,7 @@ def test_a_type_says_what_it_is_made_of():
 
 
 def test_an_error_names_file_line_and_remedy():
-    error = refusal(
-        lambda: parse_message("pkg", "Status", "float32 x\n\nflot32 y # oh\n", "/far/msg/Status.msg")
-    )
+    error = refusal(lambda: parse_message("pkg", "Status", "float32 x\n\nflot32 y # oh\n", "/far/msg/Status.msg"))
     assert (error.file, error.line, error.line_text) == ("/far/msg/Status.msg", 3, "flot32 y")
     assert str(error) == (
         "pkg/msg/Status.msg, line 3, 'flot32 y': 'flot32' is an invalid message name."
@@ -206,9 +202,7 @@ def test_what_is_written_back_reads_the_same(text):
     assert again.fields == definition.fields
 
 
-@given(
-    st.text() | st.lists(st.sampled_from([*"[]<=/#'\"\\- \n,1aA_", "string", "int8 ", "---"])).map("".join)
-)
+@given(st.text() | st.lists(st.sampled_from([*"[]<=/#'\"\\- \n,1aA_", "string", "int8 ", "---"])).map("".join))
 def test_any_text_is_read_or_refused_with_a_reason(text):
     for parse in (parse_message, parse_service, parse_action):
         try:

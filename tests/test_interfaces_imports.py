@@ -115,9 +115,7 @@ def test_packages_and_folders_that_are_not_there(registry, tmp_path):
 
 
 def test_a_faulty_definition_is_told_with_file_and_line(registry, tmp_path):
-    write_package(
-        tmp_path, {"msg/Bad.msg": "float32 x\nfloat y\n", "msg/User.msg": "Bad bad\n", "msg/Good.msg": ""}
-    )
+    write_package(tmp_path, {"msg/Bad.msg": "float32 x\nfloat y\n", "msg/User.msg": "Bad bad\n", "msg/Good.msg": ""})
     registry.add("demo_msgs", tmp_path)
     with pytest.raises(InvalidDefinition) as caught:
         from demo_msgs.msg import User  # noqa: F401
@@ -130,9 +128,7 @@ def test_a_faulty_definition_is_told_with_file_and_line(registry, tmp_path):
 
 def test_a_message_cannot_contain_itself(registry, tmp_path):
     registry.add("demo_msgs", write_package(tmp_path, {"msg/A.msg": "B b", "msg/B.msg": "int8 x\nA[] a"}))
-    with pytest.raises(
-        InvalidDefinition, match=r"itself: demo_msgs/msg/A -> demo_msgs/msg/B -> demo_msgs/msg/A"
-    ):
+    with pytest.raises(InvalidDefinition, match=r"itself: demo_msgs/msg/A -> demo_msgs/msg/B -> demo_msgs/msg/A"):
         registry.get("demo_msgs/msg/A")
 
 
@@ -163,9 +159,7 @@ def test_a_real_package_comes_first_and_gets_its_messages_beside(demo, registry,
 
 
 def test_a_sourced_ros_is_never_hidden(registry, tmp_path, monkeypatch):
-    write_package(
-        tmp_path, {"std_msgs/__init__.py": "", "std_msgs/msg/__init__.py": "String = 'the real one'\n"}
-    )
+    write_package(tmp_path, {"std_msgs/__init__.py": "", "std_msgs/msg/__init__.py": "String = 'the real one'\n"})
     for name in [each for each in sys.modules if each.partition(".")[0] == "std_msgs"]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.syspath_prepend(tmp_path)
@@ -221,9 +215,7 @@ def test_adding_again_replaces(demo, registry):
 
 
 def test_users_of_a_changed_message_change_with_it(demo, registry, tmp_path):
-    registry.add(
-        "user_msgs", write_package(tmp_path / "user", {"msg/Fleet.msg": "demo_msgs/Status[] robots\n"})
-    )
+    registry.add("user_msgs", write_package(tmp_path / "user", {"msg/Fleet.msg": "demo_msgs/Status[] robots\n"}))
     import user_msgs.msg
 
     old = user_msgs.msg.Fleet
@@ -238,9 +230,7 @@ def test_users_of_a_changed_message_change_with_it(demo, registry, tmp_path):
 def test_only_files_that_are_named_count(demo, registry):
     registry.add("demo_msgs", demo, ["msg/Status.msg", "./srv/Charge.srv"])
     assert registry.interface_names("demo_msgs") == ["msg/Status", "srv/Charge"]
-    with pytest.raises(
-        ImportError, match=r"msg/StatusList\.msg is there, but CMakeLists\.txt does not name it"
-    ):
+    with pytest.raises(ImportError, match=r"msg/StatusList\.msg is there, but CMakeLists\.txt does not name it"):
         from demo_msgs.msg import StatusList  # noqa: F401
     registry.add("demo_msgs", demo, ["msg/Nope.msg"])
     with pytest.raises(InvalidDefinition, match=r"demo_msgs/msg/Nope\.msg: the file cannot be read"):

@@ -210,9 +210,7 @@ def test_pickle_and_deepcopy(robot):
 def test_defaults_of_the_definition():
     assert repr(Quaternion()) == "geometry_msgs.msg.Quaternion(x=0.0, y=0.0, z=0.0, w=1.0)"
     assert (Quaternion.W__DEFAULT, Quaternion().W__DEFAULT) == (1.0, 1.0)
-    kind = message_class(
-        "int32[3] a [1, 2, 3]\nint8[] b [4]\nstring[] c ['x']\nfloat32 d nan\nbool[2] e [true, 0]"
-    )
+    kind = message_class("int32[3] a [1, 2, 3]\nint8[] b [4]\nstring[] c ['x']\nfloat32 d nan\nbool[2] e [true, 0]")
     message = kind()
     assert (message.a.tolist(), message.b, message.c, message.e) == (
         [1, 2, 3],
@@ -285,8 +283,7 @@ SEQUENCE = "The 'v' field must be a set or sequence"
         (
             "string<=2[<=3]",
             ["abc"],
-            f"{SEQUENCE} with length <= 3 and each string value not longer than 2"
-            " and each value of type 'str'",
+            f"{SEQUENCE} with length <= 3 and each string value not longer than 2 and each value of type 'str'",
         ),
         ("geometry_msgs/Point[]", [Vector3()], f"{SEQUENCE} and each value of type 'Point'"),
         ("geometry_msgs/Point[]", Vector3(), f"{SEQUENCE} and each value of type 'Point'"),
@@ -378,9 +375,7 @@ def test_a_signature_tells_the_fields():
     assert "linear: geometry_msgs/Vector3" in Twist.__doc__
 
 
-@pytest.mark.parametrize(
-    "name", ["self", "value", "type", "data", "array", "new", "cls", "property", "len", "float"]
-)
+@pytest.mark.parametrize("name", ["self", "value", "type", "data", "array", "new", "cls", "property", "len", "float"])
 def test_fields_may_have_awkward_names(name):
     kind = message_class(f"float32 {name}\nfloat32[] other\ngeometry_msgs/Point[2] points")
     message = kind(**{name: 1.5})

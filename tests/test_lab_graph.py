@@ -97,9 +97,7 @@ plain = st.from_regex(r"[A-Za-z][A-Za-z0-9_]{0,9}", fullmatch=True)
 tricky = st.sampled_from(["end", "graph", "class", "o", "x__y", "A_", "n0", "t0", "default"])
 names = st.lists(plain | tricky, min_size=1, max_size=3).map(lambda parts: "/" + "/".join(parts))
 ends = st.dictionaries(names, st.just(POSE), max_size=3)
-nodes_of = st.dictionaries(
-    names, st.fixed_dictionaries(dict.fromkeys(("pub", "sub", "srv", "cli"), ends)), max_size=4
-)
+nodes_of = st.dictionaries(names, st.fixed_dictionaries(dict.fromkeys(("pub", "sub", "srv", "cli"), ends)), max_size=4)
 
 
 @settings(max_examples=50)

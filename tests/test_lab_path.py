@@ -70,9 +70,7 @@ def test_obstacles_are_named():
 
 def test_a_part_of_the_time():
     heard = drive(recording(), seconds=3.0)
-    assert plot_path(heard, since=1.0, until=2.0).text.startswith(
-        "Path of turtle1 from 1.01 s to 2.00 s of robot time"
-    )
+    assert plot_path(heard, since=1.0, until=2.0).text.startswith("Path of turtle1 from 1.01 s to 2.00 s of robot time")
     late = plot_path(heard, since=10)
     assert late.text == "No path in these seconds: poses were heard from 0.02 s to 3.01 s of robot time."
     assert late.figure is None

@@ -64,8 +64,7 @@ def test_words_for_points_counts_and_lists():
 def test_a_rate_names_mean_shortest_and_longest_interval():
     stamps = np.array([0, 100, 210, 300]) * 1_000_000
     assert rate(stamps) == (
-        "4 messages, one every 100.0 ms on average (10.0 Hz), "
-        "the shortest interval 90.0 ms and the longest 110.0 ms"
+        "4 messages, one every 100.0 ms on average (10.0 Hz), the shortest interval 90.0 ms and the longest 110.0 ms"
     )
     assert rate(stamps[:1]) == "1 message"
     assert rate(np.zeros(3, int)).startswith("3 messages, one every 0.0 ms on average, the shortest")

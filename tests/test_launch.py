@@ -60,9 +60,7 @@ def test_the_lessons_file_starts_three_nodes_as_on_a_terminal(
     assert handle.names == ["navigator-1", "status_monitor-2", "obstacle_detector-3"]
 
 
-def test_ctrl_c_ends_all_of_them_and_says_how_they_died(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_ctrl_c_ends_all_of_them_and_says_how_they_died(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     world = FakeWorld()
     handle = launch_file(world, write(tmp_path, LESSON))
     capsys.readouterr()
@@ -98,8 +96,7 @@ def test_a_node_that_ignores_sigint_is_terminated_after_five_seconds(
         "[ERROR] [navigator-1]: process[navigator-1] failed to terminate '5' seconds after receiving "
         "'SIGINT', escalating to 'SIGTERM'",
         "[INFO] [navigator-1]: sending signal 'SIGTERM' to process[navigator-1]",
-        "[ERROR] [navigator-1]: process has died [pid 1001, exit code -15, cmd "
-        f"'{LIBEXEC}/navigator --ros-args'].",
+        f"[ERROR] [navigator-1]: process has died [pid 1001, exit code -15, cmd '{LIBEXEC}/navigator --ros-args'].",
     ]
 
 
@@ -167,8 +164,7 @@ def test_names_namespaces_remappings_and_arguments_become_the_real_command_line(
         ),
     )
     assert " ".join(world.argv()) == (
-        "--fast ab --ros-args --log-level debug -r __node:=mon -r __ns:=/robot1 "
-        "-r /robot/status:=/robot1/status"
+        "--fast ab --ros-args --log-level debug -r __node:=mon -r __ns:=/robot1 -r /robot/status:=/robot1/status"
     )
 
 
@@ -235,9 +231,7 @@ def test_a_python_file_can_be_started_without_a_package(tmp_path: Path) -> None:
         ("PythonExpression(['2 * ', LaunchConfiguration('count')])", "20"),
     ],
 )
-def test_values_keep_their_type_and_substitutions_are_read_as_yaml(
-    tmp_path: Path, given: str, argument: str
-) -> None:
+def test_values_keep_their_type_and_substitutions_are_read_as_yaml(tmp_path: Path, given: str, argument: str) -> None:
     arguments = {"value": 5.0, "count": 10, "flag": True, "word": "fast", "list": "[1, 2]"}
     world, _ = launch(tmp_path, node(parameters=f"[{{'p': {given}}}]"), **arguments)
     assert world.argv() == ["--ros-args", "-p", f"p:={argument}"]
@@ -300,9 +294,7 @@ def test_arguments_are_shown_as_the_real_tool_shows_them(tmp_path: Path) -> None
     names = [(argument.name, argument.default) for argument in launch_arguments(world, file)]
     assert names == [("rate", "'10'"), ("robot", None)]
     plain = write(tmp_path, LESSON, "plain.launch.py")
-    assert show_arguments(world, plain) == (
-        "Arguments (pass arguments as '<name>:=<value>'):\n\n  No arguments."
-    )
+    assert show_arguments(world, plain) == ("Arguments (pass arguments as '<name>:=<value>'):\n\n  No arguments.")
 
 
 def test_given_arguments_replace_defaults(tmp_path: Path) -> None:
@@ -311,9 +303,7 @@ def test_given_arguments_replace_defaults(tmp_path: Path) -> None:
     assert " ".join(world.argv()) == "--ros-args -r __ns:=/bob -p publish_rate:=25"
 
 
-def test_an_argument_that_nothing_takes_gets_a_warning(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_argument_that_nothing_takes_gets_a_warning(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     world = FakeWorld()
     launch_file(world, write(tmp_path, ARGS), {"robot": "bob", "rat": 25})
     assert screen(capsys)[-1] == (
@@ -336,9 +326,7 @@ def test_conditions_choose_what_is_started(tmp_path: Path, sim: str, started: li
     assert [process.name for process in world.processes] == started
 
 
-def test_log_info_comes_before_the_processes_start(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_log_info_comes_before_the_processes_start(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     launch(
         tmp_path,
         "DeclareLaunchArgument('sim', default_value='true'),\n"
@@ -411,9 +399,7 @@ def test_a_description_can_be_launched_from_a_cell() -> None:
 # -- events -----------------------------------------------------------------------------------------------
 
 
-def test_a_timer_acts_after_its_time_in_robot_time(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_timer_acts_after_its_time_in_robot_time(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     world, handle = launch(tmp_path, "TimerAction(period=2.0, actions=[LogInfo(msg='two seconds later')]),")
     assert handle.running
     world.run(1.9)

@@ -11,9 +11,7 @@ from turtle_lesson.ros.core.tracebacks import learners_frames
 from turtle_lesson.ros.launching import LaunchError, find_launch_file, launch_file
 from turtle_lesson.ros.workspace.package import Package
 
-NO_FRONTEND = (
-    " - InvalidFrontendLaunchFileError: The launch file may have a syntax error, or its format is unknown"
-)
+NO_FRONTEND = " - InvalidFrontendLaunchFileError: The launch file may have a syntax error, or its format is unknown"
 
 
 def failure(path: Path, world: FakeWorld | None = None, **arguments: object) -> LaunchError:
@@ -27,20 +25,15 @@ def failure(path: Path, world: FakeWorld | None = None, **arguments: object) -> 
 
 def loading(*what: str) -> str:
     """The real text about a Python launch file that could not be loaded."""
-    return "\n".join(
-        ["Caught multiple exceptions when trying to load file of format [py]:", *what, NO_FRONTEND]
-    )
+    return "\n".join(["Caught multiple exceptions when trying to load file of format [py]:", *what, NO_FRONTEND])
 
 
 def test_an_unknown_executable(tmp_path: Path) -> None:
     error = failure(write_launch_file(tmp_path, node() + node("navigatr")))
     assert error.reason == (
-        "executable 'navigatr' not found on the libexec directory "
-        "'install/robot_controller/lib/robot_controller'"
+        "executable 'navigatr' not found on the libexec directory 'install/robot_controller/lib/robot_controller'"
     )
-    assert error.console == (
-        f"[ERROR] [launch]: Caught exception in launch (see debug for traceback): {error.reason}"
-    )
+    assert error.console == (f"[ERROR] [launch]: Caught exception in launch (see debug for traceback): {error.reason}")
     assert str(error).splitlines()[1:] == [
         f"  in {tmp_path}/test.launch.py, line 15: Node(package='robot_controller', executable='navigatr'),",
         "  Did you mean 'navigator'? robot_controller has: navigator, obstacle_detector, status_monitor.",
@@ -49,9 +42,7 @@ def test_an_unknown_executable(tmp_path: Path) -> None:
 
 def test_an_unknown_package(tmp_path: Path) -> None:
     error = failure(write_launch_file(tmp_path, "Node(package='robot_controler', executable='navigator'),"))
-    assert error.reason == (
-        "\"package 'robot_controler' not found, searching: ['install/robot_controller']\""
-    )
+    assert error.reason == ("\"package 'robot_controler' not found, searching: ['install/robot_controller']\"")
     assert error.hint == "Did you mean 'robot_controller'?"
     assert error.line == 14
 
@@ -91,8 +82,7 @@ def test_no_function(tmp_path: Path) -> None:
     [
         (
             "None",
-            "'NoneType' object has no attribute "
-            "'get_launch_arguments_with_include_launch_description_actions'",
+            "'NoneType' object has no attribute 'get_launch_arguments_with_include_launch_description_actions'",
             "generate_launch_description() must end with: return LaunchDescription([…])",
         ),
         (
@@ -108,9 +98,7 @@ def test_the_wrong_thing_returned(tmp_path: Path, returned: str, reason: str, hi
 
 
 def test_a_missing_required_argument(tmp_path: Path) -> None:
-    path = write_launch_file(
-        tmp_path, "DeclareLaunchArgument('robot', description='Name of the robot (required)'),"
-    )
+    path = write_launch_file(tmp_path, "DeclareLaunchArgument('robot', description='Name of the robot (required)'),")
     error = failure(path)
     assert error.reason == (
         "Included launch description missing required argument 'robot' "
@@ -178,9 +166,7 @@ def test_a_bad_node_name(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> 
         ),
     ],
 )
-def test_mistakes_that_show_when_the_file_is_loaded(
-    tmp_path: Path, action: str, said: str, hint: str
-) -> None:
+def test_mistakes_that_show_when_the_file_is_loaded(tmp_path: Path, action: str, said: str, hint: str) -> None:
     error = failure(write_launch_file(tmp_path, action))
     assert error.reason == loading(f" - {said}")
     assert (error.line, error.hint) == (14, hint)
@@ -261,9 +247,7 @@ def test_imports_of_what_is_not_here(tmp_path: Path, line: str, said: str) -> No
         ("LogInfo(msg=FindPackageShare('turtlesm')),", "\"package 'turtlesm' not found, searching: ["),
     ],
 )
-def test_mistakes_that_show_when_the_description_is_walked_through(
-    tmp_path: Path, action: str, reason: str
-) -> None:
+def test_mistakes_that_show_when_the_description_is_walked_through(tmp_path: Path, action: str, reason: str) -> None:
     error = failure(write_launch_file(tmp_path, node() + action), mode="c")
     assert error.reason.startswith(reason)
     assert action.startswith("None") or (error.file, error.line) == (str(tmp_path / "test.launch.py"), 15)
@@ -271,9 +255,7 @@ def test_mistakes_that_show_when_the_description_is_walked_through(
 
 def test_an_error_in_an_included_file_names_that_file(tmp_path: Path) -> None:
     inner = write(tmp_path, "def generate_launch_description():\n    return 1 / 0\n", "inner.launch.py")
-    outer = write_launch_file(
-        tmp_path, f"IncludeLaunchDescription(PythonLaunchDescriptionSource({str(inner)!r})),"
-    )
+    outer = write_launch_file(tmp_path, f"IncludeLaunchDescription(PythonLaunchDescriptionSource({str(inner)!r})),")
     error = failure(outer)
     assert (error.reason, error.file, error.line) == ("division by zero", str(inner), 2)
 

@@ -143,9 +143,7 @@ def test_a_node_gets_its_parameters_and_its_lines_get_its_name(
         "[talker-1]     rclpy.spin(Talker())",
         "[talker-1] KeyboardInterrupt",
         "[ERROR] [talker-1]: process has died [pid 1002, exit code -2, cmd 'lib/demo/talker --ros-args "
-        "-r __node:=bob -p period:=1.0 -p \"word:='it is: 5'\"'].".replace(
-            "\"word:='it is: 5'\"", "word:='it is: 5'"
-        ),
+        "-r __node:=bob -p period:=1.0 -p \"word:='it is: 5'\"'].".replace("\"word:='it is: 5'\"", "word:='it is: 5'"),
     ]
     assert [process.exit_code for process in handle.processes] == [-2]
     run(world, 10)
@@ -207,8 +205,7 @@ def test_a_program_that_swallows_the_interrupt_is_terminated(
     assert handle.running
     run(world, 6)
     assert console(capsys, tmp_path)[-1] == (
-        "[ERROR] [stubborn-1]: process has died [pid 1002, exit code -15, cmd "
-        "'lib/demo/stubborn --ros-args']."
+        "[ERROR] [stubborn-1]: process has died [pid 1002, exit code -15, cmd 'lib/demo/stubborn --ros-args']."
     )
     assert not handle.running
 
@@ -229,7 +226,6 @@ def test_a_required_node_that_dies_in_robot_time_ends_the_rest(
         "[INFO] [talker-1]: sending signal 'SIGINT' to process[talker-1]",
         "[talker-1] Traceback (most recent call last):",
         "[talker-1] KeyboardInterrupt",
-        "[ERROR] [talker-1]: process has died [pid 1002, exit code -2, cmd 'lib/demo/talker --ros-args "
-        "-r __node:=a'].",
+        "[ERROR] [talker-1]: process has died [pid 1002, exit code -2, cmd 'lib/demo/talker --ros-args -r __node:=a'].",
     ]
     assert not handle.running

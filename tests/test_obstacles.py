@@ -113,9 +113,7 @@ def test_every_example_world_leaves_the_start_free_and_the_rest_has_three_to_see
 
 
 def test_an_unknown_world_is_refused_with_the_names_there_are() -> None:
-    with pytest.raises(
-        KeyError, match=r"no world is called 'coridor'.*'three pillars'.*did you mean 'corridor'\?"
-    ):
+    with pytest.raises(KeyError, match=r"no world is called 'coridor'.*'three pillars'.*did you mean 'corridor'\?"):
         world_named("coridor")
 
 
@@ -123,9 +121,7 @@ def test_an_unknown_world_is_refused_with_the_names_there_are() -> None:
 
 
 def test_the_message_wipes_first_and_then_shows_each_obstacle_standing_on_the_floor() -> None:
-    wipe, pillar, wall = to_marker_array(
-        [Circle(3, 4, 0.5), Box(1, 2, 2, 0.25, math.pi / 2)], stamp()
-    ).markers
+    wipe, pillar, wall = to_marker_array([Circle(3, 4, 0.5), Box(1, 2, 2, 0.25, math.pi / 2)], stamp()).markers
     assert wipe.action == Marker.DELETEALL
     assert [each.header.frame_id for each in (wipe, pillar, wall)] == ["world"] * 3
     assert [each.header.stamp for each in (wipe, pillar, wall)] == [stamp()] * 3
@@ -171,9 +167,7 @@ def test_a_marker_can_be_deleted_or_replaced_within_a_message() -> None:
 def test_a_marker_that_is_no_obstacle_is_refused_with_what_was_expected() -> None:
     message = to_marker_array([Circle(1, 1, 1)], stamp())
     message.markers[1].type = Marker.SPHERE
-    with pytest.raises(
-        ValueError, match=r"marker 0 of namespace 'obstacles' is no obstacle: expected type CUBE"
-    ):
+    with pytest.raises(ValueError, match=r"marker 0 of namespace 'obstacles' is no obstacle: expected type CUBE"):
         from_marker_array(message)
     message.markers[1].type = Marker.CYLINDER
     message.markers[1].scale.y = 1.0

@@ -175,9 +175,7 @@ def test_ament_package_is_needed(demo: Path) -> None:
 
 def test_what_would_fail_on_a_robot_is_a_warning(demo: Path) -> None:
     (demo / "demo/talker_node.py").write_text("print('hi')\n")
-    change(
-        demo / "CMakeLists.txt", "ament_package()", "install(PROGRAMS demo/talker_node.py DESTINATION bin)"
-    )
+    change(demo / "CMakeLists.txt", "ament_package()", "install(PROGRAMS demo/talker_node.py DESTINATION bin)")
     (demo / "CMakeLists.txt").write_text((demo / "CMakeLists.txt").read_text() + "ament_package()\n")
     no_shebang, elsewhere = read_source_package(demo).warnings
     assert no_shebang.startswith("demo/talker_node.py does not begin with '#!/usr/bin/env python3'")

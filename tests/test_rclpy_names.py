@@ -19,6 +19,7 @@ from rclpy.exceptions import (
     InvalidServiceNameException,
     InvalidTopicNameException,
     RCLError,
+    UnknownROSArgsError,
 )
 from rclpy.node import Node
 from std_msgs.msg import Int32, String
@@ -114,9 +115,7 @@ def test_a_node_class_that_forgets_to_call_its_base_class_is_told_so(node: Node)
             self.publisher = self.create_publisher(String, "chatter", 10)
 
     text = message_of(AttributeError, Forgetful)
-    assert text == (
-        "this Forgetful is no node yet: begin its __init__ with super().__init__('the_name_of_the_node')"
-    )
+    assert text == ("this Forgetful is no node yet: begin its __init__ with super().__init__('the_name_of_the_node')")
 
 
 def test_a_misspelled_method_is_an_ordinary_attribute_error(node: Node) -> None:
@@ -283,9 +282,7 @@ def test_a_timers_period_is_a_number_of_seconds(node: Node) -> None:
         (float("inf"), OverflowError, "inf"),
     ):
         text = message_of(kind, lambda period=period: node.create_timer(period, callback))
-        assert text == (
-            f"a timer's period must be a number of seconds, got {shown}: try create_timer(0.1, self.tick)"
-        )
+        assert text == (f"a timer's period must be a number of seconds, got {shown}: try create_timer(0.1, self.tick)")
 
 
 def test_only_messages_of_the_topics_type_can_be_published(node: Node) -> None:
@@ -358,3 +355,47 @@ def test_a_second_node_of_the_same_name_is_possible_and_warned_of(node: Node, ca
         "existing publisher. As soon as any node with that name is destructed it will unregister the publisher, "
         "preventing any further logs for that name from being published on the rosout topic.\n"
     )
+
+
+# ---------------------------------------------------------------- remapping
+
+
+@pytest.mark.parametrize(
+    ("arguments", "names"),
+    [
+        ("", "/n1 /deep/n2 /chatter /deep/chatter /abs /n1/p"),
+        ("-r chatter:=talk", "/n1 /deep/n2 /talk /deep/talk /abs /n1/p"),
+        ("-r /chatter:=/talk", "/n1 /deep/n2 /talk /deep/chatter /abs /n1/p"),
+        ("-r __node:=other", "/other /deep/other /chatter /deep/chatter /abs /other/p"),
+        ("-r n1:__node:=other", "/other /deep/n2 /chatter /deep/chatter /abs /other/p"),
+        ("-r __ns:=/robot", "/robot/n1 /robot/n2 /robot/chatter /robot/chatter /abs /robot/n1/p"),
+        ("-r /deep/chatter:=/x", "/n1 /deep/n2 /chatter /x /abs /n1/p"),
+        ("-r ~/p:=q", "/n1 /deep/n2 /chatter /deep/chatter /abs /q"),
+        ("--remap chatter:=talk -- extra", "/n1 /deep/n2 /talk /deep/talk /abs /n1/p"),
+    ],
+)
+def test_names_are_remapped_from_the_command_line(world: World, arguments: str, names: str) -> None:
+    rclpy.init(args=["prog", "--ros-args", *arguments.split()])
+    one, two = Node("n1"), Node("n2", namespace="/deep")
+    topics = [(one, "chatter"), (two, "chatter"), (one, "/abs"), (one, "~/p")]
+    found = [one.get_fully_qualified_name(), two.get_fully_qualified_name()]
+    found += [node.create_publisher(String, topic, 10).topic_name for node, topic in topics]
+    assert found == names.split()
+
+
+@pytest.mark.parametrize("rule", ["bad name:=x", "chatter:=bad name", "chatter", "chatter:=", ":=x", "__ns:=robot"])
+def test_a_bad_remapping_rule_is_refused_at_the_start(world: World, rule: str) -> None:
+    text = message_of(RCLError, lambda: rclpy.init(args=["prog", "--ros-args", "-r", rule]))
+    assert text.startswith(f"failed to initialize rcl: Couldn't parse remap rule: '-r {rule}'. ")
+
+
+def test_unknown_ros_arguments_are_named(world: World) -> None:
+    text = message_of(UnknownROSArgsError, lambda: rclpy.init(args=["prog", "--ros-args", "--foo"]))
+    assert text == "Found unknown ROS arguments: [--foo]; known are -r, -p, --params-file, --log-level"
+    text = message_of(RCLError, lambda: rclpy.init(args=["prog", "--ros-args", "-r"]))
+    assert text == "failed to initialize rcl: Couldn't parse trailing -r flag. It must be followed by a value"
+
+
+def test_what_is_left_of_the_arguments_without_those_for_ros() -> None:
+    arguments = ["prog", "--ros-args", "-r", "chatter:=talk", "--", "extra"]
+    assert rclpy.utilities.remove_ros_args(arguments) == ["prog", "extra"]

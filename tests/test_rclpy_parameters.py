@@ -174,7 +174,10 @@ def test_a_type_alone_leaves_the_parameter_without_a_value_until_it_is_set(node:
 
 def test_several_are_declared_at_once_below_a_namespace(node: Node) -> None:
     node.declare_parameters("gains", [("p", 1.0), ("d", 0.1, within(0.0, 1.0))])
-    assert {name: each.value for name, each in node.get_parameters_by_prefix("gains").items()} == {"p": 1.0, "d": 0.1}
+    assert {name: each.value for name, each in node.get_parameters_by_prefix("gains").items()} == {
+        "p": 1.0,
+        "d": 0.1,
+    }
     assert node.get_parameters_by_prefix("ns") == {}
     text = message_of(TypeError, lambda: node.declare_parameters("", [()]))
     assert text.startswith("Invalid parameter tuple length at index 0 in parameters list: ()")
@@ -284,9 +287,7 @@ def test_setting_atomically_is_all_or_nothing(node: Node) -> None:
 
 def test_a_new_descriptor_can_bring_a_value_that_suits_it(node: Node) -> None:
     node.declare_parameter("speed", 5.0)
-    text = message_of(
-        InvalidParameterValueException, lambda: node.set_descriptor("speed", _typed(within(0.0, 2.0)))
-    )
+    text = message_of(InvalidParameterValueException, lambda: node.set_descriptor("speed", _typed(within(0.0, 2.0))))
     assert "Parameter speed out of range Min: 0.0, Max: 2.0, value: 5.0" in text
     alternative = Parameter("", value=1.5).get_parameter_value()
     assert node.set_descriptor("speed", _typed(within(0.0, 2.0)), alternative).double_value == 1.5
@@ -398,7 +399,10 @@ def declared(arguments: list[str]) -> dict[str, Any]:
             "speed:=fast",
             {"speed": "Trying to set parameter 'speed' to 'fast' of type 'STRING', expecting type 'DOUBLE'"},
         ),
-        ("name:=5", {"name": "Trying to set parameter 'name' to '5' of type 'INTEGER', expecting type 'STRING'"}),
+        (
+            "name:=5",
+            {"name": "Trying to set parameter 'name' to '5' of type 'INTEGER', expecting type 'STRING'"},
+        ),
         ('name:="5"', {"name": "5"}),
         ("name:='5'", {"name": "5"}),
         ("flags:=[3, 4]", {"flags": [3, 4]}),
@@ -491,9 +495,7 @@ def test_values_given_to_the_constructor_go_before_those_of_the_command_line(wor
 def test_an_override_out_of_range_ends_the_declaration(world: World) -> None:
     rclpy.init(args=["prog", "--ros-args", "-p", "speed:=5.0"])
     node = rclpy.create_node("n1")
-    text = message_of(
-        InvalidParameterValueException, lambda: node.declare_parameter("speed", 0.5, within(0.0, 2.0))
-    )
+    text = message_of(InvalidParameterValueException, lambda: node.declare_parameter("speed", 0.5, within(0.0, 2.0)))
     assert "Parameter speed out of range Min: 0.0, Max: 2.0, value: 5.0" in text
 
 
@@ -582,7 +584,10 @@ def test_values_are_set_over_the_wire(ask: Callable[..., Any]) -> None:
 
     assert attempt("speed", 1.5) == (True, "")
     assert attempt("speed", 1) == (False, "Wrong parameter type, expected 'Type.DOUBLE' got 'Type.INTEGER'")
-    assert attempt("speed", "fast") == (False, "Wrong parameter type, expected 'Type.DOUBLE' got 'Type.STRING'")
+    assert attempt("speed", "fast") == (
+        False,
+        "Wrong parameter type, expected 'Type.DOUBLE' got 'Type.STRING'",
+    )
     assert attempt("speed", 5.0) == (False, "Parameter speed out of range Min: 0.0, Max: 2.0, value: 5.0")
     assert attempt("fixed", 8) == (False, "Trying to set a read-only parameter: fixed.")
     assert attempt("name", True) == (False, "Wrong parameter type, expected 'Type.STRING' got 'Type.BOOL'")
@@ -607,7 +612,10 @@ def test_deleting_over_the_wire_is_setting_to_nothing(ask: Callable[..., Any]) -
 
 
 def test_several_are_set_at_once_over_the_wire(ask: Callable[..., Any]) -> None:
-    good, bad = Parameter("name", value="bob").to_parameter_msg(), Parameter("fixed", value=1).to_parameter_msg()
+    good, bad = (
+        Parameter("name", value="bob").to_parameter_msg(),
+        Parameter("fixed", value=1).to_parameter_msg(),
+    )
     result = ask(SetParametersAtomically, parameters=[good, bad]).result
     assert (result.successful, result.reason) == (False, "Trying to set a read-only parameter: fixed.")
     assert ask(GetParameters, names=["name"]).values[0].string_value == "turtle"

@@ -41,9 +41,7 @@ class System:
         target = current_world().packages.executable("robot_controller", name)
         given = [part for key, value in parameters.items() for part in ("-p", f"{key}:={value}")]
         self.logs[name] = io.StringIO()
-        process = current_world().spawn(
-            target, name=name, argv=[name, "--ros-args", *given], stderr=self.logs[name]
-        )
+        process = current_world().spawn(target, name=name, argv=[name, "--ros-args", *given], stderr=self.logs[name])
         self.lesson.run(0.001)
         return process
 
@@ -99,9 +97,7 @@ class System:
         kind = {bool: "bool", int: "integer", float: "double", str: "string"}[type(value)]
         number = getattr(ParameterType, f"PARAMETER_{kind.upper()}")
         parameter = Parameter(name=name, value=ParameterValue(type=number, **{f"{kind}_value": value}))
-        return self.answer(
-            self.call(SetParameters, f"/{node}/set_parameters", parameters=[parameter])
-        ).results[0]
+        return self.answer(self.call(SetParameters, f"/{node}/set_parameters", parameters=[parameter])).results[0]
 
     def teleport(self, x, y, theta=0.0):
         self.answer(self.call(TeleportAbsolute, "/turtle1/teleport_absolute", x=x, y=y, theta=theta))

@@ -6,6 +6,7 @@ to expect was recorded from a real ROS 2.
 
 from __future__ import annotations
 
+import itertools
 import shutil
 from collections.abc import Iterator
 from pathlib import Path
@@ -49,7 +50,9 @@ def as_printed(folder: Path) -> Path:
         (folder / "robot_controller" / name).write_text(lesson_listings.listing(header, end))
     launch = lesson_listings.listing("robot_controller/launch/start_system.launch.py:", "setup.py entry points")
     (folder / "launch" / "start_system.launch.py").write_text(launch)
-    (folder / "msg" / "TurtleStatus.msg").write_text(lesson_listings.interface("TurtleStatus.msg (", "NavigateTo.srv ("))
+    (folder / "msg" / "TurtleStatus.msg").write_text(
+        lesson_listings.interface("TurtleStatus.msg (", "NavigateTo.srv (")
+    )
     (folder / "srv" / "NavigateTo.srv").write_text(lesson_listings.interface("NavigateTo.srv (", "Update CMakeLists"))
     return folder
 
@@ -132,7 +135,7 @@ def test_the_monitor_reports_zero_for_ever(lesson: Lesson) -> None:
 
     statuses = listen(TurtleStatus, "/robot/status", 10.0)
     assert {(status.x, status.y, status.theta) for status in statuses} == {(0.0, 0.0, 0.0)}
-    drops = {round(before.battery - after.battery, 3) for before, after in zip(statuses, statuses[1:], strict=False)}
+    drops = {round(before.battery - after.battery, 3) for before, after in itertools.pairwise(statuses)}
     assert drops == {0.1}
 
 

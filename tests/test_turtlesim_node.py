@@ -136,9 +136,7 @@ def test_the_graph_is_the_recorded_one_but_for_the_action(bench: Bench) -> None:
         "/turtle1/color_sensor": ["turtlesim/msg/Color"],
         "/turtle1/pose": ["turtlesim/msg/Pose"],
     }
-    assert {
-        service: types for service, types in services.items() if not service.startswith("/turtlesim/")
-    } == {
+    assert {service: types for service, types in services.items() if not service.startswith("/turtlesim/")} == {
         "/clear": ["std_srvs/srv/Empty"],
         "/kill": ["turtlesim/srv/Kill"],
         "/reset": ["std_srvs/srv/Empty"],
@@ -220,9 +218,7 @@ def test_a_killed_turtle_is_silent_and_gone_and_its_name_is_free(bench: Bench) -
     before = len(poses)
     bench.run(0.5)
     assert before == len(poses)
-    assert (
-        bench.node.count_subscribers("/turtle1/cmd_vel") == bench.node.count_services("/turtle1/set_pen") == 0
-    )
+    assert bench.node.count_subscribers("/turtle1/cmd_vel") == bench.node.count_services("/turtle1/set_pen") == 0
     assert bench.call(Spawn, "/spawn", x=1.0, y=1.0, name="turtle1").name == "turtle1"
     bench.run(0.5)
     assert poses[-1].x == 1.0
@@ -268,9 +264,7 @@ def test_numbers_that_are_none_are_refused_and_reported_once_a_second(bench: Ben
     bench.call(TeleportAbsolute, "/turtle1/teleport_absolute", x=1.0, y=math.inf)
     bench.call(TeleportRelative, "/turtle1/teleport_relative", linear=NAN)
     bench.run(0.1)
-    assert {(pose.x, pose.y, pose.theta) for pose in poses} == {
-        (float32(5.544444561), float32(5.544444561), 0.0)
-    }
+    assert {(pose.x, pose.y, pose.theta) for pose in poses} == {(float32(5.544444561), float32(5.544444561), 0.0)}
     errors = [line for line in bench.log() if line.startswith("[ERROR]")]
     assert sum("ignores the velocity command linear.x=nan" in line for line in errors) == 2
     assert sum("finite" in line for line in errors) == len(errors)

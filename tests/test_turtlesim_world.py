@@ -253,9 +253,7 @@ def test_the_turtle_slides_along_a_wall_and_every_tick_of_pushing_is_a_hit() -> 
     assert turtle.y == pytest.approx(5.0 + 63 * 0.016 * math.sin(math.pi / 4))
 
 
-@given(
-    st.lists(st.tuples(*[st.floats(-1e38, 1e38)] * 3), max_size=8), st.tuples(*[st.floats(-1e38, 1e38)] * 3)
-)
+@given(st.lists(st.tuples(*[st.floats(-1e38, 1e38)] * 3), max_size=8), st.tuples(*[st.floats(-1e38, 1e38)] * 3))
 def test_whatever_is_commanded_the_turtle_stays_inside(
     commands: list[tuple[float, float, float]], teleport: tuple[float, float, float]
 ) -> None:
@@ -302,9 +300,7 @@ def test_a_taken_name_and_an_unknown_one_are_refused_in_the_real_ones_words() ->
 )
 def test_a_name_that_ends_the_real_program_is_refused_with_a_better_one(bad: str, good: str) -> None:
     world = TurtleWorld()
-    with pytest.raises(
-        TurtleError, match=re.escape(f"cannot be named [{bad}]") + ".*" + re.escape(f"try [{good}]")
-    ):
+    with pytest.raises(TurtleError, match=re.escape(f"cannot be named [{bad}]") + ".*" + re.escape(f"try [{good}]")):
         world.spawn(1.0, 1.0, 0.0, bad)
     assert world.spawn(1.0, 1.0, 0.0, good).name == good
 
@@ -405,10 +401,7 @@ def test_a_teleported_turtle_sees_the_line_it_drew_or_with_its_pen_up_the_place_
 def test_a_fast_line_has_no_gaps() -> None:
     canvas = Canvas()
     canvas.draw((1.0, 1.0), (9.0, 4.0), (1, 1, 1))
-    assert all(
-        canvas.colour_at(1.0 + 8 * part / 500, 1.0 + 3 * part / 500) != BARE
-        for part in (0, 100, 250, 499, 500)
-    )
+    assert all(canvas.colour_at(1.0 + 8 * part / 500, 1.0 + 3 * part / 500) != BARE for part in (0, 100, 250, 499, 500))
     assert canvas.colour_at(5.0, 3.5) == BARE
 
 

@@ -11,9 +11,8 @@ from .live import Player
 from .ros.console import CellOutput
 from .ros.core import EPOCH, NANOSECONDS
 from .ros.interfaces.registry import registry
-from .ros.workspace.index import find_launch_file
 from .ros.workspace.package import Package, read_source_package
-from .ros.world import World, open_world
+from .ros.world import World, open_world, wall_time
 
 if TYPE_CHECKING:
     from .lab.graph import GraphPicture
@@ -146,10 +145,10 @@ class Lesson:
 
         Returns a handle whose `stop()` is Ctrl-C. Raises LaunchError, which says what is wrong and where.
         """
-        from .ros.launching import launch_file as launch
+        from .ros import launching
 
-        path = find_launch_file(self._world.packages, package, launch_file)
-        handle = launch(self._world, path, {name: _as_text(value) for name, value in arguments.items()})
+        path = launching.find_launch_file(self._world, package, launch_file)
+        handle = launching.launch_file(self._world, path, arguments)
         self._world.sim.settle()
         return handle
 
@@ -180,6 +179,8 @@ class Lesson:
         return tuple(self._obstacles)
 
     def _publish_obstacles(self) -> None:
+        from rclpy.time import Time
+
         from .turtlesim.obstacles import to_marker_array
 
         if self._markers is None:
@@ -188,8 +189,7 @@ class Lesson:
 
             latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
             self._markers = self._recording.node.create_publisher(MarkerArray, "/world/obstacles", latched)
-        stamp = self._recording.node.get_clock().now().to_msg()
-        self._markers.publish(to_marker_array(self._obstacles, stamp))
+        self._markers.publish(to_marker_array(self._obstacles, Time(nanoseconds=wall_time(self._world)).to_msg()))
 
     # -- pictures --------------------------------------------------------------------------------------------------
 
@@ -233,7 +233,3 @@ class Lesson:
 
         return plot_graph(self._recording.node)
 
-
-def _as_text(value: Any) -> str:
-    """A launch argument as one would type it after `name:=`."""
-    return str(value).lower() if isinstance(value, bool) else str(value)

@@ -32,7 +32,9 @@ class Player:
     def play(self, rate: float) -> None:
         """Go on by itself at `rate` times real time; if it does so already, only change the rate."""
         if not isinstance(rate, (int, float)) or not 0 < rate < float("inf"):
-            raise ValueError(f"rate must be a number above 0, got {rate!r}: 1.0 is as fast as life, 10 ten times faster")
+            raise ValueError(
+                f"rate must be a number above 0, got {rate!r}: 1.0 is as fast as life, 10 ten times faster"
+            )
         self.rate = float(rate)
         if self.playing:
             return

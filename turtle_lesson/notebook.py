@@ -13,6 +13,8 @@ def prepare(shell: Any) -> None:
     shell.set_custom_exc((Exception,), _show)
 
 
-def _show(shell: Any, kind: type[BaseException], error: BaseException, trace: TracebackType, tb_offset: Any = None) -> None:
+def _show(
+    shell: Any, kind: type[BaseException], error: BaseException, trace: TracebackType, tb_offset: Any = None
+) -> None:
     error.__traceback__ = shorten(trace)
     shell.showtraceback((kind, error, error.__traceback__), tb_offset=0)

@@ -11,7 +11,6 @@ import io
 import statistics
 import subprocess
 import sys
-import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -319,7 +318,11 @@ def main() -> None:
     row("whole system, mock scans", f"{system_speed(100, 'finished'):.0f}", "2000")
     row("whole system, ray casts", f"{system_speed(100, 'finished', source='world'):.0f}", "1000")
     with tempfile.TemporaryDirectory() as folder:
-        row("whole system, the lesson's simple nodes", f"{system_speed(100, own_package(Path(folder))):.0f}", "2000")
+        row(
+            "whole system, the lesson's simple nodes",
+            f"{system_speed(100, own_package(Path(folder))):.0f}",
+            "2000",
+        )
     print()
     row("turtles in one simulator", "1", "10", "100", "1000")
     row("µs a virtual second and turtle", *(f"{many_turtles(count):.0f}" for count in (1, 10, 100, 1000)))

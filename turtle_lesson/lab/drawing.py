@@ -23,9 +23,7 @@ TAIL = ((-0.33, 0.055), (-0.49, 0.0), (-0.33, -0.055))
 EYES = (0.455, 0.058, 0.021)
 
 
-def draw_turtle(
-    axes: Axes, x: float, y: float, theta: float, length: float = 0.95, zorder: float = 5.0
-) -> None:
+def draw_turtle(axes: Axes, x: float, y: float, theta: float, length: float = 0.95, zorder: float = 5.0) -> None:
     """Draw the turtle with its middle at (x, y), looking along `theta` (radians); units of the axes."""
     from matplotlib.patches import Circle, Ellipse, Polygon
     from matplotlib.transforms import Affine2D
@@ -33,9 +31,7 @@ def draw_turtle(
     place = Affine2D().scale(length).rotate(theta).translate(x, y) + axes.transData
 
     def add(patch: Any, face: str, layer: int, edge: str = OUTLINE, line: float = 0.8) -> None:
-        patch.set(
-            facecolor=face, edgecolor=edge, linewidth=line, transform=place, zorder=zorder + layer / 100
-        )
+        patch.set(facecolor=face, edgecolor=edge, linewidth=line, transform=place, zorder=zorder + layer / 100)
         axes.add_artist(patch)
 
     add(Polygon(TAIL, closed=True), SKIN, 0)
@@ -65,9 +61,7 @@ def _draw_scutes(axes: Axes, place: Any, zorder: float) -> None:
     outer = [(middle + width * across, height * up) for across, up in around]
     lines = [[*inner, inner[0]], *zip(inner, outer, strict=True)]
     axes.add_collection(
-        LineCollection(
-            lines, colors="#d8f3e6", linewidths=0.8, transform=place, zorder=zorder, capstyle="round"
-        ),
+        LineCollection(lines, colors="#d8f3e6", linewidths=0.8, transform=place, zorder=zorder, capstyle="round"),
         autolim=False,
     )
 
@@ -81,10 +75,6 @@ def draw_obstacles(axes: Axes, obstacles: Iterable[Obstacle]) -> None:
         if each.shape == "box":
             corner = (each.x - each.width / 2, each.y - each.height / 2)
             turn = math.degrees(each.angle)
-            axes.add_artist(
-                Rectangle(corner, each.width, each.height, angle=turn, rotation_point="center", **look)
-            )
+            axes.add_artist(Rectangle(corner, each.width, each.height, angle=turn, rotation_point="center", **look))
         else:
-            axes.add_artist(
-                Ellipse((each.x, each.y), each.width, each.height, angle=math.degrees(each.angle), **look)
-            )
+            axes.add_artist(Ellipse((each.x, each.y), each.width, each.height, angle=math.degrees(each.angle), **look))

@@ -53,17 +53,13 @@ def draw_goal(axes: Axes, goal: Goal) -> None:
     from matplotlib.patches import Circle, Polygon
 
     x, y, colour = goal.x, goal.y, style.VERMILLION
-    axes.add_artist(
-        Circle((x, y), TOLERANCE, facecolor=colour + "22", edgecolor=colour, linewidth=1.2, zorder=4)
-    )
+    axes.add_artist(Circle((x, y), TOLERANCE, facecolor=colour + "22", edgecolor=colour, linewidth=1.2, zorder=4))
     axes.plot([x, x], [y, y + 0.85], color=style.INK, linewidth=1.3, zorder=7, solid_capstyle="round")
     flag = [(x, y + 0.87), (x + 0.44, y + 0.71), (x, y + 0.55)]
     axes.add_artist(Polygon(flag, closed=True, facecolor=colour, edgecolor="none", zorder=7))
     if goal.theta is not None:
         corners = ((TOLERANCE + 0.24, 0.0), (TOLERANCE + 0.04, 0.75), (TOLERANCE + 0.04, -0.75))
-        pointer = [
-            (x + r * math.cos(goal.theta + turn), y + r * math.sin(goal.theta + turn)) for r, turn in corners
-        ]
+        pointer = [(x + r * math.cos(goal.theta + turn), y + r * math.sin(goal.theta + turn)) for r, turn in corners]
         axes.add_artist(
             Polygon(pointer, closed=True, facecolor=colour, edgecolor=style.CARD, linewidth=0.6, zorder=4.1)
         )

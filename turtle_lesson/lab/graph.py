@@ -40,9 +40,7 @@ def plot_graph(node: Any) -> GraphPicture:
     """
     nodes = read_system(node)
     if not nodes:
-        return GraphPicture(
-            "No node is running. Start some: ros2 run turtlesim turtlesim_node, or lesson.launch(…)."
-        )
+        return GraphPicture("No node is running. Start some: ros2 run turtlesim turtlesim_node, or lesson.launch(…).")
     text = describe(nodes)
     return GraphPicture(text, flowchart(nodes, f"ROS graph: {_summary(nodes)}", text))
 

@@ -27,9 +27,7 @@ def flowchart(nodes: list[NodeView], title: str, description: str) -> str:
     lines = [SETTINGS, "flowchart TD", f"accTitle: {_plain(title)}", f"accDescr: {_plain(description)}"]
     lines += [f'n{number}(["{_label(_counted(node))}"]):::rosnode' for number, node in enumerate(nodes)]
     topics = topics_of(nodes)
-    lines += [
-        f'{_id("t", topics, topic)}["{_label(topic, *types)}"]:::rostopic' for topic, types in topics.items()
-    ]
+    lines += [f'{_id("t", topics, topic)}["{_label(topic, *types)}"]:::rostopic' for topic, types in topics.items()]
     for number, node in enumerate(nodes):
         lines += [f"n{number} --> {_id('t', topics, topic)}" for topic in node.publishes]
         lines += [f"{_id('t', topics, topic)} --> n{number}" for topic in node.hears]
@@ -46,9 +44,7 @@ def _services(nodes: list[NodeView]) -> list[str]:
         lines.append(f'{_id("s", services, service)}[["{_label(service, *services[service])}"]]:::rosservice')
     for number, node in enumerate(nodes):
         lines += [f"n{number} -.-> {_id('s', services, service)}" for service in node.calls]
-        lines += [
-            f"{_id('s', services, service)} -.-> n{number}" for service in node.offers if service in called
-        ]
+        lines += [f"{_id('s', services, service)} -.-> n{number}" for service in node.offers if service in called]
         if waiting := [service for service in node.offers if service not in called]:
             lines.append(f'w{number}[["{_waiting_label(node, waiting)}"]]:::rosservice')
             lines.append(f"w{number} -.-> n{number}")

@@ -57,9 +57,7 @@ def plot_path(
 
 def _nothing(recording: Recording, broken: int) -> str:
     if broken:
-        return (
-            f"No path to draw: {count(broken, 'pose')} heard in that time, all with nan, which is no number."
-        )
+        return f"No path to draw: {count(broken, 'pose')} heard in that time, all with nan, which is no number."
     if not len(recording.poses):
         return f"No path yet. {recording.why_silent(recording.pose_topic)}"
     return f"No path in these seconds: poses were heard from {recording.span(recording.poses)}."
@@ -73,9 +71,7 @@ def _journey(recording: Recording, poses: np.ndarray, driven: float) -> str:
     away = math.hypot(last["x"] - first["x"], last["y"] - first["y"])
     there = f"{point(first['x'], first['y'])} m facing {angle(first['theta'])}"
     if max(driven, away) >= 0.005:
-        return (
-            f"{title}: from {there} it drove {number(driven)} m to {here}, {number(away)} m from its start."
-        )
+        return f"{title}: from {there} it drove {number(driven)} m to {here}, {number(away)} m from its start."
     if angle(first["theta"]) != angle(last["theta"]):
         return f"{title}: from {there} it turned on the spot, and is now facing {angle(last['theta'])}."
     return f"{title}: it stayed at {here}."
@@ -111,9 +107,7 @@ def _standing(obstacles: list[Obstacle]) -> str:
 # -- as a picture --------------------------------------------------------------------------------------------
 
 
-def _draw(
-    recording: Recording, poses: np.ndarray, jumps: np.ndarray, driven: float, goals: list[Goal]
-) -> Figure:
+def _draw(recording: Recording, poses: np.ndarray, jumps: np.ndarray, driven: float, goals: list[Goal]) -> Figure:
     figure = style.card(5.3, 5.6)
     begin, end = (number(recording.seconds(pose["stamp"]), 1) for pose in (poses[0], poses[-1]))
     subtitle = f"{begin} s to {end} s of robot time  ·  {number(driven)} m driven"

@@ -24,9 +24,7 @@ class Recorder(Recording):
     `origin` (ns) is the moment that plots call 0 s; without it, that is now on the node's clock.
     """
 
-    def __init__(
-        self, node: Any, *, turtle: str = "turtle1", origin: int | None = None, limit: int = LIMIT
-    ) -> None:
+    def __init__(self, node: Any, *, turtle: str = "turtle1", origin: int | None = None, limit: int = LIMIT) -> None:
         if origin is None:
             origin = node.get_clock().now().nanoseconds
         super().__init__(turtle=turtle, origin=origin, limit=limit)

@@ -45,8 +45,7 @@ def _describe(seconds: np.ndarray, rows: np.ndarray) -> str:
     first, last = rows[0], rows[-1]
     speeds = np.hypot(rows["vel_x"], rows["vel_y"])
     clauses = {
-        f"Position from {point(first['x'], first['y'])} m to {point(last['x'], last['y'])} m": last["x"]
-        + last["y"],
+        f"Position from {point(first['x'], first['y'])} m to {point(last['x'], last['y'])} m": last["x"] + last["y"],
         f"heading from {angle(first['theta'])} to {angle(last['theta'])}": last["theta"],
         f"speed at most {number(speeds.max())} m/s, {number(speeds[-1])} m/s at the end "
         f"({number(last['vel_x'])} along x and {number(last['vel_y'])} along y)": speeds[-1],

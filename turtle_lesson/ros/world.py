@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, TextIO
+from typing import Any
 
-from .core import EPOCH, Process, Simulation, running_strand
-from .core import virtual_random, virtual_time
+from .core import EPOCH, Process, Simulation, running_strand, virtual_random, virtual_time
+from .core.process import Output
 from .graph import Graph
 from .workspace.index import PackageIndex
 
@@ -52,8 +52,8 @@ class World:
         *,
         name: str,
         argv: Sequence[str] = (),
-        stdout: TextIO | None = None,
-        stderr: TextIO | None = None,
+        stdout: Output | None = None,
+        stderr: Output | None = None,
         on_exit: Callable[[Process], None] | None = None,
     ) -> Process:
         """Start a process at this instant: a Python file, run as `__main__`, or a callable.

@@ -63,9 +63,7 @@ class TurtlesimNode(Node):
         self._pushing = {hit.turtle.name: before.get(hit.turtle.name, -1) + 1 for hit in hits}
         for hit in hits:
             if self._pushing[hit.turtle.name] % TICKS_BETWEEN_WALL_WARNINGS == 0:
-                self.get_logger().warning(
-                    f"Oh no! I hit the wall! (Clamping from [x={hit.x:f}, y={hit.flipped_y:f}])"
-                )
+                self.get_logger().warning(f"Oh no! I hit the wall! (Clamping from [x={hit.x:f}, y={hit.flipped_y:f}])")
 
     def _on_spawn(self, request: Spawn.Request, response: Spawn.Response) -> Spawn.Response:
         try:

@@ -118,9 +118,7 @@ def describe(obstacles: Sequence[Obstacle]) -> str:
     if not obstacles:
         return "no obstacles"
     count = "1 obstacle" if len(obstacles) == 1 else f"{len(obstacles)} obstacles"
-    return "\n".join(
-        [f"{count}:", *(f"  {number}. {each}" for number, each in enumerate(obstacles, start=1))]
-    )
+    return "\n".join([f"{count}:", *(f"  {number}. {each}" for number, each in enumerate(obstacles, start=1))])
 
 
 def to_marker_array(obstacles: Iterable[Obstacle], stamp: Any) -> "MarkerArray":

@@ -188,9 +188,7 @@ class Turtle:
 
     def _teleport(self, relative: bool, x: float, y: float, theta: float) -> None:
         if not (abs(x) <= LARGEST and abs(y) <= LARGEST and abs(theta) <= LARGEST):
-            raise TurtleError(
-                f"Turtle [{self.name}] stays where it is: each number of a teleport must be finite"
-            )
+            raise TurtleError(f"Turtle [{self.name}] stays where it is: each number of a teleport must be finite")
         self._teleports.append((relative, x, y, theta))
         self._wake()
 

@@ -208,9 +208,7 @@ class NavigatorNode(Node):
         super().__init__("navigator")
         for name, default, low, high, text in PARAMETERS:
             allowed = FloatingPointRange(from_value=low, to_value=high)
-            self.declare_parameter(
-                name, default, ParameterDescriptor(description=text, floating_point_range=[allowed])
-            )
+            self.declare_parameter(name, default, ParameterDescriptor(description=text, floating_point_range=[allowed]))
         self._pose: Pose | None = None
         self._ticks_without_pose = 0
         self._drive: Drive | None = None
@@ -219,9 +217,7 @@ class NavigatorNode(Node):
         self.create_subscription(Pose, "/turtle1/pose", self.on_pose, 1)  # only the newest pose is of use
         # Real laser scanners publish "best effort". This profile hears those, and reliable publishers, too.
         self.create_subscription(LaserScan, "/obstacles", self.on_scan, qos_profile_sensor_data)
-        self.create_service(
-            NavigateTo, "/navigate_to", self.on_navigate_to, callback_group=ReentrantCallbackGroup()
-        )
+        self.create_service(NavigateTo, "/navigate_to", self.on_navigate_to, callback_group=ReentrantCallbackGroup())
         # The timer also runs while there is nothing to do, because Python notices a Ctrl-C only when rclpy
         # returns from waiting, and it might wait for ever where nothing happens.
         self._timer = self.create_timer(STEERING_PERIOD, self.on_steering_timer)
@@ -239,9 +235,7 @@ class NavigatorNode(Node):
             self.get_logger().warning(f"Obstacle {distance:.2f} m away", throttle_duration_sec=2.0)
         self._obstacle_near = distance is not None
 
-    async def on_navigate_to(
-        self, request: NavigateTo.Request, response: NavigateTo.Response
-    ) -> NavigateTo.Response:
+    async def on_navigate_to(self, request: NavigateTo.Request, response: NavigateTo.Response) -> NavigateTo.Response:
         """Start a drive and answer when it has ended; refuse at once what cannot be done."""
         reason = self._busy() or refusal(request)
         if reason is not None:

@@ -233,9 +233,7 @@ class ObstacleDetectorNode(Node):
             # The obstacles were published long ago, and only once. "Transient local" asks for what was sent
             # before.
             latched = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-            self._ears.append(
-                self.create_subscription(MarkerArray, "/world/obstacles", self.on_obstacles, latched)
-            )
+            self._ears.append(self.create_subscription(MarkerArray, "/world/obstacles", self.on_obstacles, latched))
             self._ears.append(self.create_subscription(Pose, "/turtle1/pose", self.on_pose, 1))
 
     def _made_up(self) -> array[float]:

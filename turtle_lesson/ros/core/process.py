@@ -10,7 +10,7 @@ import sys
 from collections.abc import Callable, Sequence
 from io import StringIO
 from random import Random
-from typing import Any, TextIO
+from typing import Any, Protocol
 
 from .simulation import Simulation
 from .strand import Strand, running_strand
@@ -18,6 +18,16 @@ from .tracebacks import print_error
 
 INTERRUPTED = -2
 KILLED = -9
+
+
+class Output(Protocol):
+    """Where a process prints to: any text stream."""
+
+    def write(self, text: str, /) -> object:
+        """Take a text."""
+
+    def flush(self) -> None:
+        """Show what was written."""
 
 
 class Process:
@@ -31,8 +41,8 @@ class Process:
         pid: int,
         seed: str,
         argv: Sequence[str] = (),
-        stdout: TextIO | None = None,
-        stderr: TextIO | None = None,
+        stdout: Output | None = None,
+        stderr: Output | None = None,
         on_exit: Callable[[Process], None] | None = None,
     ) -> None:
         self.simulation = simulation
@@ -41,8 +51,8 @@ class Process:
         self.argv = list(argv)
         self.random = Random(seed)
         self.seed = seed
-        self.stdout = stdout
-        self.stderr = stderr
+        self.stdout: Any = stdout
+        self.stderr: Any = stderr
         self.exit_code: int | None = None
         self.locals: dict[str, Any] = {}
         self.at_exit: list[Callable[[], None]] = []

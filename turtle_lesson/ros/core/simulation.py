@@ -107,7 +107,9 @@ class Simulation:
             return
         strand = running_strand()
         if strand is None:
-            raise SimulationError("only a simulated process can sleep in virtual time; in a cell use lesson.run(seconds)")
+            raise SimulationError(
+                "only a simulated process can sleep in virtual time; in a cell use lesson.run(seconds)"
+            )
         self.at(time, self.wake, strand)
         self.park(strand)
         while self.now < time:

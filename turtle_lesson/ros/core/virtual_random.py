@@ -15,9 +15,20 @@ from typing import Any
 
 from .strand import Strand, getcurrent
 
-_NUMPY_FUNCTIONS = (
-    "choice normal permutation rand randint randn random random_sample seed shuffle standard_normal uniform"
-).split()
+_NUMPY_FUNCTIONS = [
+    "choice",
+    "normal",
+    "permutation",
+    "rand",
+    "randint",
+    "randn",
+    "random",
+    "random_sample",
+    "seed",
+    "shuffle",
+    "standard_normal",
+    "uniform",
+]
 
 
 def _dispatch(name: str, real: Callable[..., Any]) -> Callable[..., Any]:
@@ -87,9 +98,9 @@ def install() -> None:
         return
     _installed.add("random")
     for name, real in list(vars(random).items()):
-        if getattr(real, "__self__", None) is random._inst:  # type: ignore[attr-defined]
+        if getattr(real, "__self__", None) is random._inst:
             setattr(random, name, _dispatch(name, real))
-    random.random = _draw_one(random._inst.random)  # type: ignore[attr-defined,method-assign,assignment]
+    random.random = _draw_one(random._inst.random)
 
 
 def install_for_numpy() -> None:

@@ -85,7 +85,7 @@ def install() -> None:
         _originals[name] = getattr(time, name)
         setattr(time, name, function)
     atexit.register(_restore)  # nothing may ask which greenlet runs while Python takes itself apart
-    threading.Thread.start = _start_thread(threading.Thread.start)  # type: ignore[method-assign]
+    threading.Thread.start = _start_thread(threading.Thread.start)  # type: ignore[method-assign,assignment]
 
 
 def _restore() -> None:

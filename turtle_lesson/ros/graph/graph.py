@@ -68,8 +68,10 @@ class Graph:
 
     def remove_node(self, node: NodeEntry) -> None:
         """A node leaves, and with it all its ends."""
-        for end in [*node.writers, *node.readers]:
-            self.remove_topic_end(end)
+        for writer in list(node.writers):
+            self.remove_topic_end(writer)
+        for reader in list(node.readers):
+            self.remove_topic_end(reader)
         for server in list(node.servers):
             self.remove_server(server)
         for client in list(node.clients):

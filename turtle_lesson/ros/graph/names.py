@@ -22,7 +22,7 @@ class Flaw(NamedTuple):
     """Why a name is not allowed, and at which character it goes wrong."""
 
     reason: str
-    index: int
+    place: int
 
 
 class Remap(NamedTuple):
@@ -110,7 +110,10 @@ def _letters_flaw(name: str) -> Flaw | None:
 
 def _tilde_flaw(name: str) -> Flaw | None:
     if "~" in name[1:]:
-        return Flaw("topic name must not contain tilde '~' character except as the first character", name.index("~", 1))
+        return Flaw(
+            "topic name must not contain tilde '~' character except as the first character",
+            name.index("~", 1),
+        )
     if name.startswith("~") and len(name) > 1 and name[1] != "/":
         return Flaw("topic name must not have a tilde '~' that is not followed by a forward slash '/'", 1)
     return None
@@ -126,7 +129,7 @@ def _slashes_flaw(name: str) -> Flaw | None:
 
 def flaw_text(kind: str, name: str, flaw: Flaw) -> str:
     """The sentence with a caret under the bad character, as rclpy's exceptions print it."""
-    return f"Invalid {kind}: {flaw.reason}:\n  '{name}'\n   {' ' * flaw.index}^"
+    return f"Invalid {kind}: {flaw.reason}:\n  '{name}'\n   {' ' * flaw.place}^"
 
 
 def expand(name: str, node: str, namespace: str) -> str:

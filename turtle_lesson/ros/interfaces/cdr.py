@@ -158,11 +158,7 @@ def _maker(message_class: Any) -> Callable[..., Any]:
 
 def _reader(type_: FieldType) -> Callable[[Any], Any] | None:
     if type_.base == "byte":
-        return (
-            (lambda values: [bytes([each]) for each in values])
-            if type_.is_array
-            else lambda value: bytes([value])
-        )
+        return (lambda values: [bytes([each]) for each in values]) if type_.is_array else lambda value: bytes([value])
     if not type_.is_array:
         return _bounded_text(type_.string_bound) if type_.string_bound is not None else None
     if type_.base == "bool":

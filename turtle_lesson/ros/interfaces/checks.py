@@ -62,9 +62,7 @@ def float_check(name: str, base: str) -> Check:
             note = f"Got {shown(value)}; write a number with a point such as 1.0, or float(...)"
             raise refusal(f"The '{name}' field must be of type 'float'", note)
         if abs(value) > bound and not isinf(value):
-            raise refusal(
-                f"The '{name}' field must be a {FLOAT_WORDS[base]} in [{-bound}, {bound}]", f"Got {value!r}"
-            )
+            raise refusal(f"The '{name}' field must be a {FLOAT_WORDS[base]} in [{-bound}, {bound}]", f"Got {value!r}")
         return float(value)
 
     return check
@@ -91,9 +89,7 @@ def bool_check(name: str) -> Check:
 
     def check(value: Any) -> bool:
         if not isinstance(value, bool):
-            raise refusal(
-                f"The '{name}' field must be of type 'bool'", f"Got {shown(value)}; write True or False"
-            )
+            raise refusal(f"The '{name}' field must be of type 'bool'", f"Got {shown(value)}; write True or False")
         return value
 
     return check
@@ -117,9 +113,7 @@ def string_check(name: str, bound: int | None) -> Check:
 
     def check(value: Any) -> str:
         if not isinstance(value, str):
-            raise refusal(
-                f"The '{name}' field must be of type 'str'", f"Got {shown(value)}; str(...) makes a text"
-            )
+            raise refusal(f"The '{name}' field must be of type 'str'", f"Got {shown(value)}; str(...) makes a text")
         return value
 
     def check_bounded(value: Any) -> str:
@@ -236,9 +230,7 @@ def _check_array(name: str, type_: FieldType, code: str, value: array[Any]) -> a
         text = f"The '{name}' array.array() must have the type code of '{code}'"
         raise refusal(text, f"Got the type code '{value.typecode}'; write array.array('{code}', [...])")
     if type_.is_bounded and type_.size is not None and len(value) > type_.size:
-        raise refusal(
-            f"The '{name}' array.array() must have a size <= {type_.size}", f"Got a size of {len(value)}"
-        )
+        raise refusal(f"The '{name}' array.array() must have a size <= {type_.size}", f"Got a size of {len(value)}")
     return value
 
 
@@ -247,9 +239,7 @@ def _quick_array(code: str, value: Collection[Any]) -> array[Any] | None:
     try:
         if code != "f":
             return array(code, value)
-        packed = Struct(f"={len(value)}f").pack(
-            *value
-        )  # faster than array("f", value), and it finds overflow
+        packed = Struct(f"={len(value)}f").pack(*value)  # faster than array("f", value), and it finds overflow
     except OverflowError:
         return None
     return None if _LARGEST in packed else array(code, packed)

@@ -36,9 +36,7 @@ def install(registry: Registry = the_registry) -> None:
 def uninstall(registry: Registry = the_registry) -> None:
     """Undo `install`; what was imported stays imported."""
     sys.meta_path[:] = [
-        each
-        for each in sys.meta_path
-        if not (isinstance(each, InterfaceFinder) and each.registry is registry)
+        each for each in sys.meta_path if not (isinstance(each, InterfaceFinder) and each.registry is registry)
     ]
 
 
@@ -123,9 +121,7 @@ class _FolderLoader(Loader):
             setattr(module, name, found)
             return found
 
-        module.__dict__.update(
-            __getattr__=get, __dir__=lambda: sorted({*module.__dict__, *known}), __all__=known
-        )
+        module.__dict__.update(__getattr__=get, __dir__=lambda: sorted({*module.__dict__, *known}), __all__=known)
 
 
 class _InterfaceLoader(Loader):

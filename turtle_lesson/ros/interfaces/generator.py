@@ -112,9 +112,7 @@ class _Builder:
         """Add request, response and the class that holds both."""
         for part in definition.parts():
             self.add_message(part)
-        self._add_wrapper(
-            definition, {"Request": definition.request.name, "Response": definition.response.name}
-        )
+        self._add_wrapper(definition, {"Request": definition.request.name, "Response": definition.response.name})
 
     def add_action(self, definition: ActionDefinition) -> None:
         """Add goal, result, feedback, the class that holds them, and what carries them (`Impl`)."""
@@ -196,26 +194,18 @@ def _with_inner(kinds: tuple[Kind, ...]) -> Iterator[Kind]:
 
 
 def _signature_default(kind: Kind) -> str:
-    return (
-        f"{kind.message_class.__name__}()"
-        if kind.message_class
-        else kind.fresh.replace("_array('", "array('")
-    )
+    return f"{kind.message_class.__name__}()" if kind.message_class else kind.fresh.replace("_array('", "array('")
 
 
 def _check_for_python(member: Field) -> None:
     """Refuse what ROS's parser lets pass and its later steps do not."""
     if member.type.base in ("time", "duration"):
         better = f"builtin_interfaces/{member.type.base.capitalize()}"
-        raise InvalidType(
-            f"the type '{member.type.base}' is of ROS 1", hint=f"Write '{better} {member.name}'"
-        )
+        raise InvalidType(f"the type '{member.type.base}' is of ROS 1", hint=f"Write '{better} {member.name}'")
     if keyword.iskeyword(member.name):
         raise InvalidMemberName(
             f"Member name '{member.name}' is a reserved keyword in Python and is not supported at the moment."
             " Please use a different name"
         )
     if member.name in TAKEN:
-        raise InvalidMemberName(
-            f"the field name '{member.name}' is taken", hint="Please use a different name"
-        )
+        raise InvalidMemberName(f"the field name '{member.name}' is taken", hint="Please use a different name")

@@ -50,9 +50,7 @@ class Package:
     def names_in(self, folder: str) -> list[str]:
         """Names of the interfaces of one folder."""
         paths = self._paths()
-        return sorted(
-            path.stem for path in paths if path.parent.name == folder and path.suffix == f".{folder}"
-        )
+        return sorted(path.stem for path in paths if path.parent.name == folder and path.suffix == f".{folder}")
 
     def has(self, interface: str) -> bool:
         """Whether there is an interface `msg/Twist`."""
@@ -99,9 +97,7 @@ class Registry:
         """Forget a package that was added, its classes, and its modules in `sys.modules`."""
         with self._lock:
             if package not in self._added:
-                raise LookupError(
-                    f"the interface package '{package}' was not added. {self._hint(package)}".rstrip()
-                )
+                raise LookupError(f"the interface package '{package}' was not added. {self._hint(package)}".rstrip())
             self._forget(package)
             del self._added[package]
 
@@ -249,9 +245,7 @@ registry = Registry()
 def forget_modules(package: str) -> None:
     """Take a package's interface modules out of `sys.modules`; a real Python package of that name stays."""
     inner = tuple(f"{package}.{folder}" for folder in FOLDERS)
-    for name in [
-        each for each in sys.modules if each in inner or each.startswith(tuple(f"{i}." for i in inner))
-    ]:
+    for name in [each for each in sys.modules if each in inner or each.startswith(tuple(f"{i}." for i in inner))]:
         del sys.modules[name]
     outer = sys.modules.get(package)
     if outer is None:
@@ -274,9 +268,7 @@ def _read(owner: Package, interface: str) -> str:
         return path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         reason = f"the file cannot be read ({error})"
-        raise InvalidDefinition(reason).locate(
-            interface=f"{owner.name}/{interface}", file=str(path)
-        ) from None
+        raise InvalidDefinition(reason).locate(interface=f"{owner.name}/{interface}", file=str(path)) from None
 
 
 def advice(owner: Package, interface: str) -> str:

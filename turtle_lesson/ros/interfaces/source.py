@@ -72,9 +72,7 @@ def _metaclass(definition: MessageDefinition, kinds: tuple[Kind, ...]) -> Lines:
         f"    _TYPE_SUPPORT = _support_{definition.name}",
     ]
     for constant in definition.constants:
-        lines += _indent(
-            _read_only(constant.name, f"Message constant '{constant.name}'.", _constant(constant))
-        )
+        lines += _indent(_read_only(constant.name, f"Message constant '{constant.name}'.", _constant(constant)))
     for name, fresh in _defaults(definition, kinds):
         lines += _indent(_read_only(name, "Return default value of a message field.", fresh))
     return [*lines, "", ""]

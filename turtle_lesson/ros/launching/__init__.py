@@ -49,9 +49,7 @@ def find_launch_file(world: World, package: str, file_name: str) -> Path:
         raise LaunchError(error.text, None, error.hint) from None
 
 
-def launch_file(
-    world: World, path: Path | str, arguments: Mapping[str, object] | None = None
-) -> LaunchHandle:
+def launch_file(world: World, path: Path | str, arguments: Mapping[str, object] | None = None) -> LaunchHandle:
     """Carry out a launch file.
 
     Args:

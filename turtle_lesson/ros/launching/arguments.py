@@ -36,9 +36,7 @@ def declared_in(description: LaunchDescription) -> list[LaunchArgument]:
         LaunchArgument(
             argument.name,
             argument.description,
-            None
-            if argument.default_value is None
-            else " + ".join(part.describe() for part in argument.default_value),
+            None if argument.default_value is None else " + ".join(part.describe() for part in argument.default_value),
             None if argument.choices is None else tuple(argument.choices),
         )
         for argument in description.get_launch_arguments()
@@ -47,10 +45,7 @@ def declared_in(description: LaunchDescription) -> list[LaunchArgument]:
 
 def as_text(arguments: Mapping[str, object]) -> dict[str, str]:
     """Values as they would be written on a command line: True is `true`."""
-    return {
-        name: str(value).lower() if isinstance(value, bool) else str(value)
-        for name, value in arguments.items()
-    }
+    return {name: str(value).lower() if isinstance(value, bool) else str(value) for name, value in arguments.items()}
 
 
 def as_shown(arguments: Iterable[LaunchArgument]) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, TextIO, cast
+from typing import TYPE_CHECKING, Any
 
 from .output import LineWriter, Screen
 
@@ -59,8 +59,8 @@ class RunningProcess:
             program.target,
             name=self.name.rpartition("-")[0],
             argv=program.argv,
-            stdout=cast(TextIO, out),
-            stderr=cast(TextIO, err),
+            stdout=out,
+            stderr=err,
             on_exit=self._ended,
         )
         self.action.process_details["pid"] = self.process.pid
@@ -99,9 +99,7 @@ class RunningProcess:
     def signal(self, name: str) -> None:
         """Send SIGINT, which a program may handle, or SIGTERM or SIGKILL, which none survives."""
         if name not in {"SIGINT", "SIGTERM", "SIGKILL"}:
-            raise NotImplementedError(
-                f"{name} does not exist in this classroom; SIGINT, SIGTERM and SIGKILL do"
-            )
+            raise NotImplementedError(f"{name} does not exist in this classroom; SIGINT, SIGTERM and SIGKILL do")
         if self.process is None or not self.alive:
             return
         if name == "SIGINT":

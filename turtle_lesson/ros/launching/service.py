@@ -163,9 +163,7 @@ class LaunchService:
         self.processes.react(event)
 
 
-def as_launch_error(
-    error: BaseException, written_at: tuple[str, int] | None, given: dict[str, str]
-) -> LaunchError:
+def as_launch_error(error: BaseException, written_at: tuple[str, int] | None, given: dict[str, str]) -> LaunchError:
     """The error as a learner should read it."""
     if isinstance(error, LaunchError):
         return error

@@ -23,9 +23,7 @@ def launch_file(world: World, path: Path, arguments: Mapping[str, object]) -> La
     return _begin(world, AnyLaunchDescriptionSource(_existing(path)), as_text(arguments), path.name)
 
 
-def launch_description(
-    world: World, description: LaunchDescription, arguments: Mapping[str, object]
-) -> LaunchHandle:
+def launch_description(world: World, description: LaunchDescription, arguments: Mapping[str, object]) -> LaunchHandle:
     """As `turtle_lesson.ros.launching.launch_description`."""
     source = LaunchDescriptionSource(description, "notebook cell")
     return _begin(world, source, as_text(arguments), "a description")
@@ -49,9 +47,7 @@ def _existing(path: Path) -> str:
     raise LaunchError(f"there is no launch file {shown_path(str(path))}", None, hint)
 
 
-def _begin(
-    world: World, source: LaunchDescriptionSource, arguments: dict[str, str], name: str
-) -> LaunchHandle:
+def _begin(world: World, source: LaunchDescriptionSource, arguments: dict[str, str], name: str) -> LaunchHandle:
     service = LaunchService(world, arguments)
     include = IncludeLaunchDescription(source, launch_arguments=arguments.items())
     include._written_at = None  # it stands in no launch file

@@ -25,9 +25,7 @@ class PackageError(ValueError):
         hint: what to try, or an empty string.
     """
 
-    def __init__(
-        self, reason: str, file: Path | None = None, line: int | None = None, hint: str = ""
-    ) -> None:
+    def __init__(self, reason: str, file: Path | None = None, line: int | None = None, hint: str = "") -> None:
         super().__init__(reason, file, line, hint)
         self.reason = reason
         self.file = file

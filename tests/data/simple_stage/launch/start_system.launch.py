@@ -13,7 +13,13 @@ PARAMETERS = {
 def generate_launch_description():
     return LaunchDescription(
         [
-            Node(package="robot_controller", executable=name, name=name, output="screen", parameters=[parameters])
+            Node(
+                package="robot_controller",
+                executable=name,
+                name=name,
+                output="screen",
+                parameters=[parameters],
+            )
             for name, parameters in PARAMETERS.items()
         ]
     )

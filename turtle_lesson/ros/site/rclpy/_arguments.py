@@ -66,7 +66,9 @@ def _take(word: str, following: Iterator[str], found: Arguments) -> None:
     elif word in {"-e", "--enclave", "--log-config-file"}:
         _next(word, following)
     elif word not in _SWITCHES:
-        raise UnknownROSArgsError(f"Found unknown ROS arguments: [{word}]; known are -r, -p, --params-file, --log-level")
+        raise UnknownROSArgsError(
+            f"Found unknown ROS arguments: [{word}]; known are -r, -p, --params-file, --log-level"
+        )
 
 
 _SWITCHES = {
@@ -98,9 +100,7 @@ def _remap(rule: str) -> Remap:
 def _parameter(rule: str) -> tuple[str, str, Any]:
     name, separator, text = rule.partition(":=")
     if not separator or not name or not text:
-        raise RCLError(
-            f"{FAILED} Couldn't parse parameter override rule: '-p {rule}'. A rule looks like name:=value"
-        )
+        raise RCLError(f"{FAILED} Couldn't parse parameter override rule: '-p {rule}'. A rule looks like name:=value")
     node, colon, own = name.partition(":")
     try:
         value = load_yaml(text)
@@ -180,9 +180,7 @@ def load_yaml(text: str) -> Any:
     class Loader(yaml.SafeLoader):
         pass
 
-    Loader.add_implicit_resolver(
-        "tag:yaml.org,2002:float", re.compile(r"[-+]?\d+[eE][-+]?\d+$"), list("-+0123456789")
-    )
+    Loader.add_implicit_resolver("tag:yaml.org,2002:float", re.compile(r"[-+]?\d+[eE][-+]?\d+$"), list("-+0123456789"))
     return yaml.load(text, Loader)
 
 

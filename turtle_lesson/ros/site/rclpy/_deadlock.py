@@ -82,7 +82,9 @@ def _why_not_served(client: Client, servers: list[ServerEnd], strand: Strand, dr
         service = getattr(server.wake, "__self__", None)
         if server.node.process is not strand.process or service is None:
             return ""
-        by_this_call = drives and (service._node is client._of_node or service._executor is client._executor is not None)
+        by_this_call = drives and (
+            service._node is client._of_node or service._executor is client._executor is not None
+        )
         spun = by_this_call or (service._executor is not None and service._executor._spun_by_another(strand))
         if spun and not keeps_taken(service.callback_group):
             return ""

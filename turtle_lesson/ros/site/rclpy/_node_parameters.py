@@ -13,6 +13,7 @@ from .parameter import PARAMETER_SEPARATOR_STRING, Parameter, parameter_value_to
 if TYPE_CHECKING:
     from .context import Context
 
+
 class NodeParameters:
     """Mixed into Node."""
 

@@ -35,9 +35,7 @@ def read_declaration(index: int, namespace: str, details: tuple[Any, ...]) -> tu
     value = details[1] if len(details) > 1 else None
     descriptor = details[2] if len(details) > 2 else ParameterDescriptor()
     if not isinstance(descriptor, ParameterDescriptor):
-        raise TypeError(
-            f"Third element {descriptor} at index {index} in parameters list is not a ParameterDescriptor."
-        )
+        raise TypeError(f"Third element {descriptor} at index {index} in parameters list is not a ParameterDescriptor.")
     descriptor.name = name
     if len(details) == 1:
         warnings.warn(ONLY_A_NAME.format(name), UserWarning, stacklevel=5)

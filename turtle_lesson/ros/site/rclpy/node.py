@@ -109,7 +109,8 @@ class Node(NodeGraph, NodeParameters):
             self._parameter_service = ParameterService(self)
 
     def __repr__(self) -> str:
-        return f"<{type(self).__name__} {self._entry.full_name}>"
+        entry = vars(self).get("_entry")
+        return f"<{type(self).__name__} {entry.full_name if entry else 'without a name yet'}>"
 
     def __enter__(self) -> Node:
         return self
@@ -307,9 +308,7 @@ class Node(NodeGraph, NodeParameters):
         reader.profile = profile  # type: ignore[attr-defined]
         reader.on_mismatch = lambda policy: self._warn(mismatch_text(topic, policy, publishes=False))
         group = callback_group or self._default_callback_group
-        return self._keep(
-            Subscription(reader, msg_type, topic, callback, group, profile, raw, self._logger.name)
-        )
+        return self._keep(Subscription(reader, msg_type, topic, callback, group, profile, raw, self._logger.name))
 
     def _check_one_type(self, what: str, full_name: str, msg_type: Any) -> None:
         """Within one process ROS refuses a second type on a topic; between processes it only never connects."""

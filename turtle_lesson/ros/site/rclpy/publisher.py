@@ -85,5 +85,3 @@ class Publisher:
 
 def _refuse(message: Any) -> None:
     raise InvalidHandle("cannot use Destroyable because destruction was requested")
-
-

@@ -113,7 +113,7 @@ class QoSProfile:
         if issubclass(kind, _Policy) and isinstance(value, int):
             value = kind(value)
         assert isinstance(value, kind), _expectation(name, kind, value)
-        if name == "depth":
+        if name == "depth" and isinstance(value, int):
             if value < 0:
                 raise ValueError("history depth must be greater than or equal to zero")
             if value == 0 and getattr(self, "history", None) == HistoryPolicy.KEEP_LAST and "depth" in vars(self):
@@ -168,7 +168,9 @@ def checked_profile(profile: Any) -> QoSProfile:
         return QoSProfile(depth=profile, history=HistoryPolicy.KEEP_LAST)
     error = TypeError(f"Expected QoSProfile or int, but received {type(profile)}")
     if callable(profile):
-        error.add_note("The order is create_subscription(type, topic, callback, qos) and create_publisher(type, topic, qos).")
+        error.add_note(
+            "The order is create_subscription(type, topic, callback, qos) and create_publisher(type, topic, qos)."
+        )
     raise error
 
 

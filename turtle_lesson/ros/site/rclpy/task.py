@@ -113,7 +113,7 @@ class Task(Future):
         self._kwargs = dict(kwargs or {})
         if inspect.iscoroutinefunction(handler):
             handler = handler(*self._args, **self._kwargs)
-        self._handler = handler
+        self._handler: Any = handler
         self._executing = False
         self._finally: Callable[[], object] | None = None
         self._entity: Any = None

@@ -52,7 +52,9 @@ class Timer(Entity):
     ) -> None:
         super().__init__(callback, callback_group)
         if timer_period_ns < 0:
-            raise RCLError(f"failed to create timer: timer period must be non-negative, got {timer_period_ns / S_TO_NS:g} s")
+            raise RCLError(
+                f"failed to create timer: timer period must be non-negative, got {timer_period_ns / S_TO_NS:g} s"
+            )
         self._clock = clock
         self._simulation = clock._simulation
         self._period = int(timer_period_ns)

@@ -36,4 +36,6 @@ class TopicEndpointInfo:
         self.qos_profile = qos_profile
 
     def __repr__(self) -> str:
-        return f"<TopicEndpointInfo {self.endpoint_type.name} of {self.node_namespace}{self.node_name}, {self.topic_type}>"
+        return (
+            f"<TopicEndpointInfo {self.endpoint_type.name} of {self.node_namespace}{self.node_name}, {self.topic_type}>"
+        )

@@ -17,15 +17,11 @@ def check_is_valid_msg_type(msg_type: Any) -> None:
     """Raise RuntimeError for a service or action type."""
     check_for_type_support(msg_type)
     if "/msg/" not in msg_type._TYPE_NAME and not hasattr(msg_type, "get_fields_and_field_types"):
-        raise RuntimeError(
-            f"The message type provided is not valid ({msg_type}), this might be a service or action"
-        )
+        raise RuntimeError(f"The message type provided is not valid ({msg_type}), this might be a service or action")
 
 
 def check_is_valid_srv_type(srv_type: Any) -> None:
     """Raise RuntimeError for a message or action type."""
     check_for_type_support(srv_type)
     if not hasattr(srv_type, "Request") or not hasattr(srv_type, "Response"):
-        raise RuntimeError(
-            f"The service type provided is not valid ({srv_type}), this might be a message or action"
-        )
+        raise RuntimeError(f"The service type provided is not valid ({srv_type}), this might be a message or action")

@@ -26,9 +26,7 @@ class DeclareLaunchArgument(Action):
     ) -> None:
         super().__init__(**kwargs)
         self.__name = name
-        self.__default_value = (
-            None if default_value is None else normalize_to_list_of_substitutions(default_value)
-        )
+        self.__default_value = None if default_value is None else normalize_to_list_of_substitutions(default_value)
         if choices is not None:
             _check_choices(choices, default_value)
         self.__choices = choices
@@ -78,9 +76,7 @@ def _check_choices(choices: list[str], default_value: object) -> None:
     if not choices:
         raise RuntimeError("Provided choices arg is empty. Use None to ignore the choice list.")
     if isinstance(default_value, str) and default_value not in choices:
-        raise RuntimeError(
-            f'Provided default_value "{default_value}" is not in provided choices "{choices}".'
-        )
+        raise RuntimeError(f'Provided default_value "{default_value}" is not in provided choices "{choices}".')
 
 
 def _describe(description: str | None, choices: list[str] | None) -> str:

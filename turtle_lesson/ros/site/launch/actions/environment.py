@@ -65,9 +65,7 @@ class AppendEnvironmentVariable(Action):
         super().__init__(**kwargs)
         self.__name = normalize_to_list_of_substitutions(name)
         self.__value = normalize_to_list_of_substitutions(value)
-        self.__prepend = normalize_to_list_of_substitutions(
-            str(prepend) if isinstance(prepend, bool) else prepend
-        )
+        self.__prepend = normalize_to_list_of_substitutions(str(prepend) if isinstance(prepend, bool) else prepend)
         self.__separator = normalize_to_list_of_substitutions(separator)
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:

@@ -72,9 +72,7 @@ class ExecuteLocal(Action):
         self.__output = output if isinstance(output, Mapping) else normalize_to_list_of_substitutions(output)
         self.output_format = output_format
         self.__on_exit = on_exit
-        self.__respawn = normalize_to_list_of_substitutions(
-            str(respawn) if isinstance(respawn, bool) else respawn
-        )
+        self.__respawn = normalize_to_list_of_substitutions(str(respawn) if isinstance(respawn, bool) else respawn)
         self.respawn_delay = respawn_delay
         self.respawn_max_retries = respawn_max_retries
         self.process_details: dict[str, Any] | None = None

@@ -30,9 +30,7 @@ class TimerAction(Action):
     ) -> None:
         super().__init__(**kwargs)
         ensure_argument_type(actions, Iterable, "actions", "TimerAction")
-        self.__period = normalize_to_list_of_substitutions(
-            str(period) if isinstance(period, int | float) else period
-        )
+        self.__period = normalize_to_list_of_substitutions(str(period) if isinstance(period, int | float) else period)
         self.__actions = list(actions)
         self.__cancel_on_shutdown = str(cancel_on_shutdown).lower() not in {"false", "0"}
         self.__cancelled = False

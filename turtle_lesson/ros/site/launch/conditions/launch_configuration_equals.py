@@ -14,9 +14,7 @@ class LaunchConfigurationEquals(Condition):
     def __init__(self, launch_configuration_name: str, expected_value: SomeSubstitutionsType | None) -> None:
         super().__init__(predicate=self._holds)
         self.__name = launch_configuration_name
-        self.__expected = (
-            None if expected_value is None else normalize_to_list_of_substitutions(expected_value)
-        )
+        self.__expected = None if expected_value is None else normalize_to_list_of_substitutions(expected_value)
 
     def _holds(self, context: LaunchContext) -> bool:
         context._configurations_read.add(self.__name)

@@ -12,6 +12,4 @@ class OnProcessExit(OnActionEventBase):
     """Reacts to the end of a process."""
 
     def __init__(self, *, target_action: Target = None, on_exit: Reaction = None, **kwargs: Any) -> None:
-        super().__init__(
-            action_matcher=target_action, on_event=on_exit, target_event_cls=ProcessExited, **kwargs
-        )
+        super().__init__(action_matcher=target_action, on_event=on_exit, target_event_cls=ProcessExited, **kwargs)

@@ -12,6 +12,4 @@ class OnProcessStart(OnActionEventBase):
     """Reacts to the start of a process."""
 
     def __init__(self, *, target_action: Target = None, on_start: Reaction = None, **kwargs: Any) -> None:
-        super().__init__(
-            action_matcher=target_action, on_event=on_start, target_event_cls=ProcessStarted, **kwargs
-        )
+        super().__init__(action_matcher=target_action, on_event=on_start, target_event_cls=ProcessStarted, **kwargs)

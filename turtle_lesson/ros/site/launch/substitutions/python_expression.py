@@ -54,7 +54,5 @@ class PythonExpression(Substitution):
             return str(eval(compile(text, "<generated expression>", "eval"), {}, names))
         except Exception as error:
             reason = f"the Python expression {text!r} failed: {type(error).__name__}: {error}"
-            hint = (
-                "Text that is compared needs quotes: [\"'\", LaunchConfiguration('mode'), \"' == 'fast'\"]."
-            )
+            hint = "Text that is compared needs quotes: [\"'\", LaunchConfiguration('mode'), \"' == 'fast'\"]."
             raise SubstitutionFailure(reason, hint) from error

@@ -30,9 +30,7 @@ def ensure_argument_type(
     if isinstance(argument, tuple(allowed)):
         return
     who = f"'{caller}' expected" if caller else "Expected"
-    raise TypeError(
-        f"{who} '{argument_name}' to be one of {allowed}, but got '{argument}' of type '{type(argument)}'"
-    )
+    raise TypeError(f"{who} '{argument_name}' to be one of {allowed}, but got '{argument}' of type '{type(argument)}'")
 
 
 def is_a(obj: object, entity_type: type) -> bool:

@@ -142,9 +142,7 @@ class Node(ExecuteProcess):
     def _remapping_words(self, context: LaunchContext) -> list[str]:
         own = [(_text(context, source), _text(context, target)) for source, target in self.__remappings]
         self.expanded_remapping_rules = [*context.launch_configurations.get("ros_remaps", []), *own]
-        return [
-            word for source, target in self.expanded_remapping_rules for word in ("-r", f"{source}:={target}")
-        ]
+        return [word for source, target in self.expanded_remapping_rules for word in ("-r", f"{source}:={target}")]
 
     def _find_program(self, context: LaunchContext) -> Program:
         argv = [*self.process_description.final_cmd, *self._ros_words]

@@ -7,6 +7,4 @@ from .find_package import FindPackage, FindPackagePrefix, FindPackageShare
 
 __all__ = ["ExecutableInPackage", "FindPackage", "FindPackagePrefix", "FindPackageShare"]
 
-__getattr__ = explain_missing(
-    __name__, {"Parameter": "", "FindPackageShareDirectory": "use FindPackageShare"}
-)
+__getattr__ = explain_missing(__name__, {"Parameter": "", "FindPackageShareDirectory": "use FindPackageShare"})

@@ -48,6 +48,4 @@ class ExecutableInPackage(Substitution):
             raise SubstitutionFailure(error.text, error.hint) from error
 
     def _names(self, context: LaunchContext) -> tuple[str, str]:
-        return perform_substitutions(context, self.__package), perform_substitutions(
-            context, self.__executable
-        )
+        return perform_substitutions(context, self.__package), perform_substitutions(context, self.__executable)

@@ -117,9 +117,7 @@ class SignalProcess(ProcessTargetedEvent):
 
     name = "launch.events.process.SignalProcess"
 
-    def __init__(
-        self, *, signal_number: str | int | signal.Signals, process_matcher: Callable[[Any], bool]
-    ) -> None:
+    def __init__(self, *, signal_number: str | int | signal.Signals, process_matcher: Callable[[Any], bool]) -> None:
         super().__init__(process_matcher=process_matcher)
         if isinstance(signal_number, str):
             self.signal_name = signal_number if signal_number.startswith("SIG") else f"SIG{signal_number}"
