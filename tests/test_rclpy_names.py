@@ -6,12 +6,15 @@ the same type of exception with a sentence that helps, and the test says so.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
 import rclpy
 from example_interfaces.srv import AddTwoInts
+from hypothesis import given
+from hypothesis import strategies as st
 from rclpy.exceptions import (
     InvalidHandle,
     InvalidNamespaceException,
@@ -24,6 +27,7 @@ from rclpy.exceptions import (
 from rclpy.node import Node
 from std_msgs.msg import Int32, String
 
+from turtle_lesson.ros.graph.names import expand, full_topic_name_flaw, node_name_flaw, topic_name_flaw
 from turtle_lesson.ros.world import World
 
 LETTERS = "node name must not contain characters other than alphanumerics or '_'"
@@ -116,6 +120,30 @@ def test_a_node_class_that_forgets_to_call_its_base_class_is_told_so(node: Node)
 
     text = message_of(AttributeError, Forgetful)
     assert text == ("this Forgetful is no node yet: begin its __init__ with super().__init__('the_name_of_the_node')")
+
+
+def test_a_subclass_may_call_its_own_things_whatever_it_likes(node: Node) -> None:
+    class Free(Node):
+        def __init__(self) -> None:
+            super().__init__("free")
+            for name in ("clock", "context", "entry", "events", "executor", "graph", "logger", "parameters", "timers"):
+                setattr(self, f"_{name}", "mine")
+            self.declare_parameter("speed", 0.5)
+            self.create_timer(0.1, self._tick)
+            self.create_publisher(String, "topic", 10)
+
+        def _tick(self) -> None:
+            self.get_logger().info(f"{self.get_clock().now().seconds_nanoseconds()[0]}, {self._graph}")
+
+        def _warn(self, *arguments: Any) -> None:
+            raise AssertionError("called by somebody else")
+
+        _keep = _names = _set = _store = _declare = _destroy = _check_alive = _warn
+
+    free = Free()
+    rclpy.spin_once(free)
+    free.destroy_node()
+    assert "/free" not in node.get_fully_qualified_node_names()
 
 
 def test_a_misspelled_method_is_an_ordinary_attribute_error(node: Node) -> None:
@@ -239,6 +267,9 @@ def test_a_service_is_no_message_and_a_message_no_service(node: Node) -> None:
     )
     assert message_of(RuntimeError, lambda: node.create_service(String, "x", callback)) == expected
     assert message_of(RuntimeError, lambda: node.create_client(String, "x")) == expected
+    with pytest.raises(RuntimeError) as caught:
+        node.create_service(AddTwoInts.Request, "x", callback)
+    assert caught.value.__notes__ == ["The service's type is AddTwoInts; AddTwoInts.Request is only one half of it."]
 
 
 def test_a_message_instead_of_its_class_is_accepted_as_the_real_one_does(node: Node) -> None:
@@ -295,6 +326,13 @@ def test_only_messages_of_the_topics_type_can_be_published(node: Node) -> None:
     ):
         text = message_of(TypeError, lambda message=message: publisher.publish(message))
         assert text == expected.format(name)
+    for message, note in (
+        ("hi", "Put it into a message first: String(data=…)."),
+        (String, "This is the class itself; a message of it is String()."),
+    ):
+        with pytest.raises(TypeError) as caught:
+            publisher.publish(message)
+        assert caught.value.__notes__ == [note]
     text = message_of(TypeError, publisher.publish)
     assert text == "Publisher.publish() missing 1 required positional argument: 'msg'"
 
@@ -355,6 +393,36 @@ def test_a_second_node_of_the_same_name_is_possible_and_warned_of(node: Node, ca
         "existing publisher. As soon as any node with that name is destructed it will unregister the publisher, "
         "preventing any further logs for that name from being published on the rosout topic.\n"
     )
+
+
+# ---------------------------------------------------------------- any text at all
+
+NAMELIKE = st.text(alphabet="ab_19/~{} -é", max_size=8) | st.text(max_size=8)
+
+
+@given(NAMELIKE)
+def test_exactly_the_words_are_node_names_and_the_caret_points_into_every_other_text(name: str) -> None:
+    flaw = node_name_flaw(name)
+    assert (flaw is None) == bool(re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name))
+    assert flaw is None or 0 <= flaw.place < max(1, len(name))
+
+
+@given(NAMELIKE)
+def test_exactly_words_joined_by_slashes_are_full_topic_names(name: str) -> None:
+    flaw = full_topic_name_flaw(name)
+    assert (flaw is None) == bool(re.fullmatch(r"(/[A-Za-z_][A-Za-z0-9_]*)+", name))
+    assert flaw is None or 0 <= flaw.place < max(1, len(name))
+
+
+@given(NAMELIKE)
+def test_a_topic_name_that_is_accepted_has_a_good_full_name_or_is_refused_with_a_reason(name: str) -> None:
+    if topic_name_flaw(name) is None:
+        try:
+            full_name = expand(name, "node", "/ns")
+        except ValueError as error:
+            assert "unknown substitution" in str(error)
+        else:
+            assert full_name.startswith("/") or full_topic_name_flaw(full_name) is not None
 
 
 # ---------------------------------------------------------------- remapping

@@ -15,6 +15,7 @@ from rclpy.executors import Executor, MultiThreadedExecutor, SingleThreadedExecu
 from rclpy.node import Node
 from rclpy.task import Future
 from std_msgs.msg import String
+from std_srvs.srv import Empty
 
 from turtle_lesson.ros.core import NeverWakes
 from turtle_lesson.ros.world import World
@@ -112,7 +113,7 @@ def test_only_requests_can_be_sent(run: Run, request_: Any, shown: str) -> None:
                 send(request_)
             found.append(str(caught.value))
 
-    expected = f"a request of add is a AddTwoInts.Request, got {shown}: try AddTwoInts.Request(…)"
+    expected = f"a request of add is of type AddTwoInts.Request, got {shown}: try AddTwoInts.Request(…)"
     assert run(server, program) == [expected] * 2
 
 
@@ -185,7 +186,7 @@ def wrong_type(request: Any, response: Any) -> Any:
     return response
 
 
-ADVICE = ", but a AddTwoInts_Response is expected: end it with `return response`"
+ADVICE = ", where AddTwoInts.Response is expected: end it with `return response`"
 
 
 @pytest.mark.parametrize(
@@ -418,10 +419,15 @@ def test_a_cell_may_call_a_service_of_its_own_node_but_not_of_one_that_nobody_sp
     assert elsewhere.call(Request(a=2, b=2)).sum == 4
 
 
-def test_a_cell_that_calls_nobody_is_told_so(world: World) -> None:
-    _, client = start()
+def test_a_cell_that_calls_nobody_is_told_so_and_who_was_perhaps_meant(world: World) -> None:
+    node, client = start()
     with pytest.raises(NeverWakes, match="nobody offers this service"):
         client.call(Request())
+    node.create_service(AddTwoInts, "add_two", add)
+    with pytest.raises(NeverWakes, match=r"nobody offers this service \(.*\); did you mean '/add_two'\? Is its node"):
+        node.create_client(AddTwoInts, "ad_two").call(Request())
+    with pytest.raises(NeverWakes, match="of type example_interfaces/srv/AddTwoInts, not std_srvs/srv/Empty"):
+        node.create_client(Empty, "add_two").call(Empty.Request())
 
 
 # ---------------------------------------------------------------- await
@@ -526,6 +532,26 @@ def test_asyncio_does_not_run_inside_an_executor(run: Run) -> None:
         "rclpy's executors are no asyncio loops: asyncio's functions do not work in their callbacks. To wait, await a "
         "future of rclpy's, or have a timer call you later.",
     ]
+
+
+def test_the_traceback_of_that_ends_at_the_learners_own_line(
+    world: World, run: Run, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def program(found: list[Any]) -> None:
+        rclpy.init()
+        node = rclpy.create_node("n")
+
+        async def tick() -> None:
+            await asyncio.sleep(0.1)
+
+        node.create_timer(0.1, tick)
+        rclpy.spin(node)
+
+    with pytest.raises(RuntimeError):
+        run(program)
+    lines = capsys.readouterr().err.splitlines()
+    assert [line.rpartition(", in ")[2] for line in lines if line.startswith("  File")][-2:] == ["program", "tick"]
+    assert "await asyncio.sleep(0.1)" in lines[-3]
 
 
 # ---------------------------------------------------------------- being busy

@@ -68,7 +68,7 @@ def _package_folder(package: str | Path | None) -> Path | None:
         return None
     if package == "finished":
         return FINISHED
-    if Path(package).is_dir():
+    if isinstance(package, (str, Path)) and Path(package).is_dir():
         return Path(package).resolve()
     raise ValueError(
         f'package must be "finished", None or the folder of a package, got {package!r}, which is no folder here'
@@ -126,7 +126,7 @@ class Lesson:
 
         An interrupt (the stop button) pauses the world; the next run goes on from there.
         """
-        if not isinstance(seconds, (int, float)) or not 0 <= seconds < float("inf"):
+        if isinstance(seconds, bool) or not isinstance(seconds, (int, float)) or not 0 <= seconds < float("inf"):
             raise ValueError(f"seconds must be a number of seconds, 0 or more, got {seconds!r}: try lesson.run(5)")
         self._world.sim.run_until(self._world.now + round(seconds * NANOSECONDS))
 

@@ -16,12 +16,15 @@ from typing import TextIO
 
 ROS_FOLDER = str(Path(__file__).resolve().parents[1]) + os.sep
 PACKAGE_FOLDER = str(Path(__file__).resolve().parents[3]) + os.sep
+LIBRARY_FOLDER = os.path.dirname(os.__file__) + os.sep
 _CELL = re.compile(r"ipykernel_\d+[/\\]|^<ipython-input-")
 
 
 def is_ours(filename: str) -> bool:
-    """Whether a file is part of the simulated ROS 2 and so no concern of a learner's."""
-    return filename.startswith(ROS_FOLDER) or filename.startswith("<generated ") or filename.startswith("<frozen ")
+    """Whether a file is part of the simulated ROS 2, or of Python itself, and so no concern of a learner's."""
+    if filename.startswith(LIBRARY_FOLDER):
+        return "site-packages" not in filename
+    return filename.startswith((ROS_FOLDER, "<generated ", "<frozen "))
 
 
 def learners_frames(trace: TracebackType | None) -> list[TracebackType]:

@@ -86,6 +86,9 @@ def full_topic_name_flaw(name: str) -> Flaw | None:
         return Flaw("topic name must be absolute, it must lead with a '/'", 0)
     if len(name) > MAX_TOPIC_NAME:
         return Flaw(f"topic length should not exceed '{MAX_TOPIC_NAME}'", MAX_TOPIC_NAME - 1)
+    for index, letter in enumerate(name):
+        if letter not in WORD and letter != "/":
+            return Flaw("topic name must not contain characters other than alphanumerics, '_', or '/'", index)
     return topic_name_flaw(name)
 
 

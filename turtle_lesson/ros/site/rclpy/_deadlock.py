@@ -10,6 +10,8 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING, Any
 
+from ._mistakes import did_you_mean
+
 if TYPE_CHECKING:
     from turtle_lesson.ros.core import Strand
     from turtle_lesson.ros.graph import ServerEnd
@@ -51,12 +53,21 @@ def why_never_answered(client: Client, strand: Strand) -> str:
     """Why a synchronous call of a service from this strand would wait for ever; '' if it need not."""
     servers = client._servers()
     if not servers:
-        return (
-            f"nobody offers this service ({client._end.type_name}). Is its node running? "
-            "wait_for_service(timeout_sec=…) waits for it."
-        )
+        return _why_nobody_serves(client)
     drives = strand.process.name == "notebook" and not callbacks_around()
     return _why_not_taken(client, strand, drives) or _why_not_served(client, servers, strand, drives)
+
+
+def _why_nobody_serves(client: Client) -> str:
+    """What is known about a service that nobody offers by this name and type."""
+    end, graph = client._end, client._of_node._ros_graph
+    if others := graph.servers(end.name):
+        return f"the service of this name is of type {others[0].type_name}, not {end.type_name}."
+    hint = did_you_mean(end.name, graph.services())
+    return (
+        f"nobody offers this service ({end.type_name}){hint or '.'} Is its node running? "
+        "wait_for_service(timeout_sec=…) waits for it."
+    )
 
 
 def _why_not_taken(client: Client, strand: Strand, drives: bool) -> str:

@@ -48,6 +48,18 @@ def no_node(value: object) -> TypeError:
     return TypeError(f"a node is expected, got {shown(value)}; {hint}")
 
 
+def no_message(value: object, kind: Any) -> TypeError:
+    """The error for something else where a message of a type is to be published."""
+    error, name = TypeError(f"Expected {kind}, got {type(value)}"), kind.__name__
+    if value is kind:
+        error.add_note(f"This is the class itself; a message of it is {name}().")
+    elif not hasattr(value, "get_fields_and_field_types"):
+        fields = list(kind.get_fields_and_field_types())
+        example = f"{name}({fields[0]}=…)" if fields else f"{name}()"
+        error.add_note(f"Put it into a message first: {example}.")
+    return error
+
+
 def explain_call(entity: Any, arguments: tuple[Any, ...] | None, error: TypeError) -> None:
     """Add to an error that calling a callback raised (not one from inside it) how the callback is called."""
     trace = error.__traceback__

@@ -22,57 +22,57 @@ NamesAndTypes = list[tuple[str, list[str]]]
 class NodeGraph:
     """Mixed into Node."""
 
-    _graph: Graph
-    _entry: NodeEntry
-    _remaps: list[Remap]
+    _ros_graph: Graph
+    _ros_entry: NodeEntry
+    _ros_remaps: list[Remap]
 
-    def _full_name_of(self, name: Any, *, only_expand: bool = False, is_service: bool = False) -> str:
+    def _ros_full_name_of(self, name: Any, *, only_expand: bool = False, is_service: bool = False) -> str:
         """From what a program calls a topic or service to its full name, remapped unless told otherwise."""
         if not isinstance(name, str):
             what = "service" if is_service else "topic"
             complaint = f"a {what} name must be a str, got {name!r}: is the order of the arguments (type, name, …)?"
             raise (RCLError if name is None else TypeError)(complaint)
         validate_topic_name(name, is_service=is_service)
-        full_name = expand(name, self._entry.name, self._entry.namespace)
+        full_name = expand(name, self._ros_entry.name, self._ros_entry.namespace)
         validate_full_topic_name(full_name, is_service=is_service)
         if only_expand:
             return full_name
-        return remap(full_name, self._entry.name, self._entry.namespace, self._remaps)
+        return remap(full_name, self._ros_entry.name, self._ros_entry.namespace, self._ros_remaps)
 
     def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
         """The full name of a topic, after remapping."""
-        return self._full_name_of(topic, only_expand=only_expand)
+        return self._ros_full_name_of(topic, only_expand=only_expand)
 
     def resolve_service_name(self, service: str, *, only_expand: bool = False) -> str:
         """The full name of a service, after remapping."""
-        return self._full_name_of(service, only_expand=only_expand, is_service=True)
+        return self._ros_full_name_of(service, only_expand=only_expand, is_service=True)
 
     def get_topic_names_and_types(self, no_demangle: bool = False) -> NamesAndTypes:
         """All topics, with their types."""
-        return [(name, topic.types) for name, topic in self._graph.topics().items()]
+        return [(name, topic.types) for name, topic in self._ros_graph.topics().items()]
 
     def get_service_names_and_types(self) -> NamesAndTypes:
         """All services, with their types."""
-        return list(self._graph.services().items())
+        return list(self._ros_graph.services().items())
 
     def get_node_names(self) -> list[str]:
         """The names of all nodes, without their namespaces."""
-        return [entry.name for entry in self._graph.nodes]
+        return [entry.name for entry in self._ros_graph.nodes]
 
     def get_fully_qualified_node_names(self) -> list[str]:
         """The full names of all nodes."""
-        return [entry.full_name for entry in self._graph.nodes]
+        return [entry.full_name for entry in self._ros_graph.nodes]
 
     def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
         """Name and namespace of all nodes."""
-        return [(entry.name, entry.namespace) for entry in self._graph.nodes]
+        return [(entry.name, entry.namespace) for entry in self._ros_graph.nodes]
 
     def get_node_names_and_namespaces_with_enclaves(self) -> list[tuple[str, str, str]]:
         """Name, namespace and security enclave of all nodes."""
-        return [(entry.name, entry.namespace, "/") for entry in self._graph.nodes]
+        return [(entry.name, entry.namespace, "/") for entry in self._ros_graph.nodes]
 
-    def _entry_of(self, node_name: str, node_namespace: str) -> NodeEntry:
-        for entry in self._graph.nodes:
+    def _ros_entry_of(self, node_name: str, node_namespace: str) -> NodeEntry:
+        for entry in self._ros_graph.nodes:
             if (entry.name, entry.namespace) == (node_name, node_namespace):
                 return entry
         raise NodeNameNonExistentError(
@@ -83,47 +83,47 @@ class NodeGraph:
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
         """The topics that a node publishes. Raises NodeNameNonExistentError."""
-        return _types_by_topic(self._entry_of(node_name, node_namespace).writers)
+        return _types_by_topic(self._ros_entry_of(node_name, node_namespace).writers)
 
     def get_subscriber_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
         """The topics that a node subscribes to. Raises NodeNameNonExistentError."""
-        return _types_by_topic(self._entry_of(node_name, node_namespace).readers)
+        return _types_by_topic(self._ros_entry_of(node_name, node_namespace).readers)
 
     def get_service_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
         """The services that a node offers. Raises NodeNameNonExistentError."""
-        return _types_by_service(self._entry_of(node_name, node_namespace).servers)
+        return _types_by_service(self._ros_entry_of(node_name, node_namespace).servers)
 
     def get_client_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
         """The services that a node is a client of. Raises NodeNameNonExistentError."""
-        return _types_by_service(self._entry_of(node_name, node_namespace).clients)
+        return _types_by_service(self._ros_entry_of(node_name, node_namespace).clients)
 
     def count_publishers(self, topic_name: str) -> int:
         """How many publishers a topic has."""
-        return len(self._graph.topic(self._full_name_of(topic_name)).writers)
+        return len(self._ros_graph.topic(self._ros_full_name_of(topic_name)).writers)
 
     def count_subscribers(self, topic_name: str) -> int:
         """How many subscriptions a topic has."""
-        return len(self._graph.topic(self._full_name_of(topic_name)).readers)
+        return len(self._ros_graph.topic(self._ros_full_name_of(topic_name)).readers)
 
     def count_services(self, service_name: str) -> int:
         """How many servers a service has."""
-        return len(self._graph.servers(self._full_name_of(service_name, is_service=True)))
+        return len(self._ros_graph.servers(self._ros_full_name_of(service_name, is_service=True)))
 
     def count_clients(self, service_name: str) -> int:
         """How many clients a service has."""
-        return len(self._graph.clients(self._full_name_of(service_name, is_service=True)))
+        return len(self._ros_graph.clients(self._ros_full_name_of(service_name, is_service=True)))
 
     def get_publishers_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[TopicEndpointInfo]:
         """The publishers of a topic, one by one."""
         kind = TopicEndpointTypeEnum.PUBLISHER
-        return [_info(*end, kind) for end in self._graph.topic(self._full_name_of(topic_name)).writers]
+        return [_info(*end, kind) for end in self._ros_graph.topic(self._ros_full_name_of(topic_name)).writers]
 
     def get_subscriptions_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[TopicEndpointInfo]:
         """The subscriptions of a topic, one by one."""
         kind = TopicEndpointTypeEnum.SUBSCRIPTION
-        return [_info(*end, kind) for end in self._graph.topic(self._full_name_of(topic_name)).readers]
+        return [_info(*end, kind) for end in self._ros_graph.topic(self._ros_full_name_of(topic_name)).readers]
 
 
 def _types_by_topic(ends: list[Any]) -> NamesAndTypes:

@@ -18,16 +18,16 @@ class NodeParameters:
     """Mixed into Node."""
 
     context: Context
-    _allow_undeclared: bool
+    _ros_allow_undeclared: bool
 
-    def _setup_parameters(self, overrides: Sequence[Parameter], allow_undeclared: bool) -> None:
-        self._parameters: dict[str, Parameter] = {}
-        self._descriptors: dict[str, Any] = {}
-        self._allow_undeclared = allow_undeclared
-        self._on_set: list[Callable[[list[Parameter]], Any]] = []
-        self._before_set: list[Callable[[list[Parameter]], Any]] = []
-        self._after_set: list[Callable[[list[Parameter]], Any]] = []
-        self._overrides = {parameter.name: parameter for parameter in overrides}
+    def _ros_setup_parameters(self, overrides: Sequence[Parameter], allow_undeclared: bool) -> None:
+        self._ros_parameters: dict[str, Parameter] = {}
+        self._ros_descriptors: dict[str, Any] = {}
+        self._ros_allow_undeclared = allow_undeclared
+        self._ros_on_set: list[Callable[[list[Parameter]], Any]] = []
+        self._ros_before_set: list[Callable[[list[Parameter]], Any]] = []
+        self._ros_after_set: list[Callable[[list[Parameter]], Any]] = []
+        self._ros_overrides = {parameter.name: parameter for parameter in overrides}
 
     # -- declaring -------------------------------------------------------------------------------------------------
 
@@ -50,28 +50,28 @@ class NodeParameters:
         """Declare several: tuples of name, and optionally value and descriptor."""
         declared: list[tuple[Parameter, Any]] = []
         for index, details in enumerate(parameters):
-            declared.append(self._declaration(index, namespace, details, ignore_override))
-        taken = [parameter.name for parameter, _ in declared if parameter.name in self._parameters]
+            declared.append(self._ros_declaration(index, namespace, details, ignore_override))
+        taken = [parameter.name for parameter, _ in declared if parameter.name in self._ros_parameters]
         if taken:
             raise exceptions.ParameterAlreadyDeclaredException(taken)
         for parameter, descriptor in declared:
-            self._declare(parameter, descriptor)
-        return [self._parameters[parameter.name] for parameter, _ in declared]
+            self._ros_declare(parameter, descriptor)
+        return [self._ros_parameters[parameter.name] for parameter, _ in declared]
 
-    def _declaration(
+    def _ros_declaration(
         self, index: int, namespace: str, details: tuple[Any, ...], ignore_override: bool
     ) -> tuple[Parameter, Any]:
         name, value, descriptor = read_declaration(index, namespace, details)
-        if not ignore_override and name in self._overrides:
-            override = self._overrides[name]
+        if not ignore_override and name in self._ros_overrides:
+            override = self._ros_overrides[name]
             empty = isinstance(override.value, list) and not override.value
             if empty and Parameter.Type(descriptor.type).check([]):
                 return Parameter(name, Parameter.Type(descriptor.type), []), descriptor
             return override, descriptor
         return Parameter(name, value=value), descriptor
 
-    def _declare(self, parameter: Parameter, descriptor: Any) -> None:
-        reason = self._set([parameter], {parameter.name: descriptor})
+    def _ros_declare(self, parameter: Parameter, descriptor: Any) -> None:
+        reason = self._ros_set([parameter], {parameter.name: descriptor})
         if reason.startswith("Wrong parameter type"):
             raise exceptions.InvalidParameterTypeException(parameter, Parameter.Type(descriptor.type).name)
         if reason:
@@ -79,24 +79,24 @@ class NodeParameters:
 
     def undeclare_parameter(self, name: str) -> None:
         """Forget a parameter. Raises ParameterNotDeclaredException or ParameterImmutableException."""
-        self._check_declared(name)
-        if self._descriptors[name].read_only:
+        self._ros_check_declared(name)
+        if self._ros_descriptors[name].read_only:
             raise exceptions.ParameterImmutableException(name)
-        del self._parameters[name], self._descriptors[name]
+        del self._ros_parameters[name], self._ros_descriptors[name]
 
     # -- reading ---------------------------------------------------------------------------------------------------
 
     def has_parameter(self, name: str) -> bool:
         """Whether a parameter is declared."""
-        return name in self._parameters
+        return name in self._ros_parameters
 
     def get_parameter(self, name: str) -> Parameter:
         """A declared parameter. Raises ParameterNotDeclaredException or ParameterUninitializedException."""
-        if name not in self._parameters and self._allow_undeclared:
+        if name not in self._ros_parameters and self._ros_allow_undeclared:
             return Parameter(name)
-        self._check_declared(name)
-        parameter = self._parameters[name]
-        if parameter.type_ == Parameter.Type.NOT_SET and not self._descriptors[name].dynamic_typing:
+        self._ros_check_declared(name)
+        parameter = self._ros_parameters[name]
+        if parameter.type_ == Parameter.Type.NOT_SET and not self._ros_descriptors[name].dynamic_typing:
             raise exceptions.ParameterUninitializedException(name)
         return parameter
 
@@ -108,7 +108,7 @@ class NodeParameters:
 
     def get_parameter_or(self, name: str, alternative_value: Parameter | None = None) -> Parameter:
         """A declared parameter, or the alternative if it is not declared or has no value."""
-        parameter = self._parameters.get(name)
+        parameter = self._ros_parameters.get(name)
         if parameter is None or parameter.type_ == Parameter.Type.NOT_SET:
             return Parameter(name) if alternative_value is None else alternative_value
         return parameter
@@ -116,14 +116,14 @@ class NodeParameters:
     def get_parameters_by_prefix(self, prefix: str) -> dict[str, Parameter]:
         """The parameters below a prefix, by the rest of their names."""
         start = prefix + PARAMETER_SEPARATOR_STRING if prefix else ""
-        return {name[len(start) :]: each for name, each in self._parameters.items() if name.startswith(start)}
+        return {name[len(start) :]: each for name, each in self._ros_parameters.items() if name.startswith(start)}
 
     def get_parameter_type(self, name: str) -> Any:
         """The number of a declared parameter's type (rcl_interfaces/msg/ParameterType)."""
-        if name not in self._parameters and self._allow_undeclared:
+        if name not in self._ros_parameters and self._ros_allow_undeclared:
             return Parameter.Type.NOT_SET
-        self._check_declared(name)
-        return self._parameters[name].type_.value
+        self._ros_check_declared(name)
+        return self._ros_parameters[name].type_.value
 
     def get_parameter_types(self, names: list[str]) -> list[Any]:
         """The numbers of several parameters' types."""
@@ -131,12 +131,12 @@ class NodeParameters:
 
     def describe_parameter(self, name: str) -> Any:
         """The rcl_interfaces/msg/ParameterDescriptor of a declared parameter."""
-        if name not in self._descriptors and self._allow_undeclared:
+        if name not in self._ros_descriptors and self._ros_allow_undeclared:
             from rcl_interfaces.msg import ParameterDescriptor
 
             return ParameterDescriptor()
-        self._check_declared(name)
-        return self._descriptors[name]
+        self._ros_check_declared(name)
+        return self._ros_descriptors[name]
 
     def describe_parameters(self, names: list[str]) -> list[Any]:
         """The descriptors of several declared parameters."""
@@ -149,17 +149,17 @@ class NodeParameters:
         """
         from rcl_interfaces.msg import ListParametersResult
 
-        names = [name for name in self._parameters if is_listed(name, prefixes, depth)]
+        names = [name for name in self._ros_parameters if is_listed(name, prefixes, depth)]
         parents = [name.rpartition(PARAMETER_SEPARATOR_STRING)[0] for name in names]
         return ListParametersResult(names=names, prefixes=list(dict.fromkeys(filter(None, parents))))
 
-    def _check_declared(self, name: str) -> None:
-        if name not in self._parameters:
-            raise self._not_declared(name, name)
+    def _ros_check_declared(self, name: str) -> None:
+        if name not in self._ros_parameters:
+            raise self._ros_not_declared(name, name)
 
-    def _not_declared(self, name: str, names: str | list[str]) -> exceptions.ParameterNotDeclaredException:
+    def _ros_not_declared(self, name: str, names: str | list[str]) -> exceptions.ParameterNotDeclaredException:
         error = exceptions.ParameterNotDeclaredException(names)
-        known = sorted(self._parameters)
+        known = sorted(self._ros_parameters)
         error.add_note(
             f"Declare it first, with a default: declare_parameter({name!r}, …). Declared so far: "
             f"{', '.join(known) or 'none'}{did_you_mean(str(name), known)}"
@@ -179,77 +179,77 @@ class NodeParameters:
         """Set all parameters or none; an rcl_interfaces/msg/SetParametersResult says how it went."""
         from rcl_interfaces.msg import SetParametersResult
 
-        if self._before_set:
-            parameter_list = [each for callback in self._before_set for each in callback(parameter_list)]
+        if self._ros_before_set:
+            parameter_list = [each for callback in self._ros_before_set for each in callback(parameter_list)]
             if not parameter_list:
                 reason = "parameter list cannot be empty, this might be due to pre_set_parameters_callback "
                 return SetParametersResult(reason=reason + "modifying the original parameters list.")
-        self._check_settable(parameter_list)
-        reason = self._set(parameter_list)
+        self._ros_check_settable(parameter_list)
+        reason = self._ros_set(parameter_list)
         return SetParametersResult(successful=not reason, reason=reason)
 
-    def _check_settable(self, parameters: list[Parameter]) -> None:
+    def _ros_check_settable(self, parameters: list[Parameter]) -> None:
         for parameter in parameters:
             if not isinstance(parameter, Parameter):
                 raise TypeError(
                     f"a list of rclpy.parameter.Parameter is expected, got {parameter!r} in it: "
                     "try Parameter('speed', value=0.5)"
                 )
-        undeclared = [each.name for each in parameters if each.name not in self._parameters]
-        if undeclared and not self._allow_undeclared:
-            raise self._not_declared(undeclared[0], undeclared)
+        undeclared = [each.name for each in parameters if each.name not in self._ros_parameters]
+        if undeclared and not self._ros_allow_undeclared:
+            raise self._ros_not_declared(undeclared[0], undeclared)
 
-    def _set(self, parameters: list[Parameter], descriptors: dict[str, Any] | None = None) -> str:
+    def _ros_set(self, parameters: list[Parameter], descriptors: dict[str, Any] | None = None) -> str:
         """Check and store; new descriptors mean that the parameters are being declared. Returns why not, or ''."""
-        reason = self._why_refused(parameters, descriptors) or self._ask_callbacks(parameters)
+        reason = self._ros_why_refused(parameters, descriptors) or self._ros_ask_callbacks(parameters)
         if not reason:
-            self._store(parameters, descriptors)
-            for callback in self._after_set:
+            self._ros_store(parameters, descriptors)
+            for callback in self._ros_after_set:
                 callback(parameters)
         return reason
 
-    def _store(self, parameters: list[Parameter], descriptors: dict[str, Any] | None) -> None:
+    def _ros_store(self, parameters: list[Parameter], descriptors: dict[str, Any] | None) -> None:
         """Keep the values, forget those that are set to nothing, and tell /parameter_events about it."""
         news: dict[str, list[Any]] = {"new": [], "changed": [], "deleted": []}
         for parameter in parameters:
             name = parameter.name
             if parameter.type_ == Parameter.Type.NOT_SET and descriptors is None:
                 news["deleted"].append(parameter.to_parameter_msg())
-                self._parameters.pop(name, None)
-                self._descriptors.pop(name, None)
+                self._ros_parameters.pop(name, None)
+                self._ros_descriptors.pop(name, None)
                 continue
             is_new = self.get_parameter_or(name).type_ == Parameter.Type.NOT_SET
             news["new" if is_new else "changed"].append(parameter.to_parameter_msg())
-            self._descriptors[name] = self._descriptor_for(parameter, descriptors)
-            self._parameters[name] = parameter
-        self._tell_parameter_events(news)
+            self._ros_descriptors[name] = self._ros_descriptor_for(parameter, descriptors)
+            self._ros_parameters[name] = parameter
+        self._ros_tell_parameter_events(news)
 
-    def _descriptor_for(self, parameter: Parameter, descriptors: dict[str, Any] | None) -> Any:
+    def _ros_descriptor_for(self, parameter: Parameter, descriptors: dict[str, Any] | None) -> Any:
         from rcl_interfaces.msg import ParameterDescriptor
 
-        known = descriptors or self._descriptors
+        known = descriptors or self._ros_descriptors
         if parameter.name in known:
             return known[parameter.name]
         return ParameterDescriptor(name=parameter.name, type=parameter.type_.value, dynamic_typing=True)
 
-    def _tell_parameter_events(self, news: dict[str, list[Any]]) -> None:
+    def _ros_tell_parameter_events(self, news: dict[str, list[Any]]) -> None:
         """Publish what was new, changed or deleted; Node does."""
 
-    def _why_refused(self, parameters: list[Parameter], descriptors: dict[str, Any] | None) -> str:
+    def _ros_why_refused(self, parameters: list[Parameter], descriptors: dict[str, Any] | None) -> str:
         """Why one of the values is not allowed, as the real one words it; '' if all are."""
         for parameter in parameters:
-            descriptor = (descriptors or self._descriptors).get(parameter.name)
+            descriptor = (descriptors or self._ros_descriptors).get(parameter.name)
             if descriptor is not None and descriptor.read_only and descriptors is None:
                 return f"Trying to set a read-only parameter: {parameter.name}."
-            is_known = parameter.name in self._parameters
+            is_known = parameter.name in self._ros_parameters
             reason = "" if descriptor is None else why_refused(parameter, descriptor, is_known)
             if reason:
                 return reason
         return ""
 
-    def _ask_callbacks(self, parameters: list[Parameter]) -> str:
+    def _ros_ask_callbacks(self, parameters: list[Parameter]) -> str:
         """The reason why one of the node's own callbacks refuses, or ''."""
-        for callback in self._on_set:
+        for callback in self._ros_on_set:
             result = callback(parameters)
             if not hasattr(result, "successful"):
                 raise AttributeError(
@@ -266,7 +266,7 @@ class NodeParameters:
         `alternative_value`, an rcl_interfaces/msg/ParameterValue, is taken if the present one does not suit it. Raises
         InvalidParameterValueException if neither does.
         """
-        if name not in self._parameters and self._allow_undeclared:
+        if name not in self._ros_parameters and self._ros_allow_undeclared:
             return Parameter(name).get_parameter_value()
         if self.describe_parameter(name).read_only:
             raise exceptions.ParameterImmutableException(name)
@@ -277,32 +277,32 @@ class NodeParameters:
         reasons = [why_refused(choice, descriptor, True) for choice in choices]
         if "" not in reasons:
             raise exceptions.InvalidParameterValueException(name, choices[-1].value, reasons[-1])
-        self._parameters[name] = choices[reasons.index("")]
-        self._descriptors[name] = descriptor
-        return self._parameters[name].get_parameter_value()
+        self._ros_parameters[name] = choices[reasons.index("")]
+        self._ros_descriptors[name] = descriptor
+        return self._ros_parameters[name].get_parameter_value()
 
     # -- callbacks -------------------------------------------------------------------------------------------------
 
     def add_on_set_parameters_callback(self, callback: Callable[[list[Parameter]], Any]) -> None:
         """Have `callback(parameters)` decide about changes: it returns an rcl_interfaces/msg/SetParametersResult."""
-        self._on_set.insert(0, callback)
+        self._ros_on_set.insert(0, callback)
 
     def remove_on_set_parameters_callback(self, callback: Callable[[list[Parameter]], Any]) -> None:
         """No longer ask a callback."""
-        self._on_set.remove(callback)
+        self._ros_on_set.remove(callback)
 
     def add_pre_set_parameters_callback(self, callback: Callable[[list[Parameter]], Any]) -> None:
         """Have `callback(parameters)` return the list of parameters that is really set (Jazzy and newer)."""
-        self._before_set.insert(0, callback)
+        self._ros_before_set.insert(0, callback)
 
     def add_post_set_parameters_callback(self, callback: Callable[[list[Parameter]], Any]) -> None:
         """Have `callback(parameters)` called after a change (Jazzy and newer)."""
-        self._after_set.insert(0, callback)
+        self._ros_after_set.insert(0, callback)
 
     def remove_pre_set_parameters_callback(self, callback: Callable[[list[Parameter]], Any]) -> None:
         """No longer ask a callback."""
-        self._before_set.remove(callback)
+        self._ros_before_set.remove(callback)
 
     def remove_post_set_parameters_callback(self, callback: Callable[[list[Parameter]], Any]) -> None:
         """No longer tell a callback."""
-        self._after_set.remove(callback)
+        self._ros_after_set.remove(callback)

@@ -58,7 +58,7 @@ class Client(Entity):
         return bool(self._servers())
 
     def _servers(self) -> list[Any]:
-        return self._of_node._graph.servers(self._end.name, self._end.type_name)
+        return self._of_node._ros_graph.servers(self._end.name, self._end.type_name)
 
     @drives_the_simulation
     def wait_for_service(self, timeout_sec: float | None = None) -> bool:
@@ -86,7 +86,7 @@ class Client(Entity):
     def _check_request(self, request: Any) -> None:
         if not isinstance(request, self.srv_type.Request):
             name = f"{self.srv_type.__name__}.Request"
-            raise TypeError(f"a request of {self.srv_name} is a {name}, got {shown(request)}: try {name}(…)")
+            raise TypeError(f"a request of {self.srv_name} is of type {name}, got {shown(request)}: try {name}(…)")
 
     @drives_the_simulation
     def call(self, request: Any, timeout_sec: float | None = None) -> Any:
@@ -165,4 +165,4 @@ class Client(Entity):
         """Leave the service; answers under way are dropped."""
         if not self._destroyed:
             super().destroy()
-            self._of_node._graph.remove_client(self._end)
+            self._of_node._ros_graph.remove_client(self._end)

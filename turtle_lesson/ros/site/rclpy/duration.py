@@ -65,7 +65,9 @@ class Duration:
     def __ge__(self, other: object) -> bool:
         return self._nanoseconds >= _ns(other)
 
-    def __add__(self, other: Duration) -> Duration:
+    def __add__(self, other: object) -> Duration:
+        if not isinstance(other, (Duration, int, float)):
+            return NotImplemented  # a Time knows how to add a duration
         return Duration(nanoseconds=self._nanoseconds + _ns(other))
 
     def __sub__(self, other: Duration) -> Duration:
@@ -78,7 +80,8 @@ class Duration:
 def _ns(other: object) -> int:
     if isinstance(other, Duration):
         return other.nanoseconds
-    raise TypeError(f"expected a Duration, got {other!r}: write Duration(seconds={other!r}) if you mean seconds")
+    hint = f": write Duration(seconds={other!r}) if you mean seconds" if isinstance(other, (int, float)) else ""
+    raise TypeError(f"expected a Duration, got {other!r}{hint}")
 
 
 Infinite = Duration(nanoseconds=2**63 - 1)

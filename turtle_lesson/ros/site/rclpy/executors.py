@@ -78,20 +78,20 @@ class Executor:
         """Run this node's callbacks from now on; False if it does so already. A node has one executor at a time."""
         if node in self._nodes:
             return False
-        if not hasattr(node, "_waiting_entities"):
+        if not hasattr(node, "_ros_waiting_entities"):
             raise no_node(node)
         if node.executor is not None:
             node.executor.remove_node(node)
         self._nodes.append(node)
         self._nodes_seen += 1
-        node._executor, node._place = self, self._nodes_seen
-        for entity in node._entities():
+        node._ros_executor, node._ros_place = self, self._nodes_seen
+        for entity in node._ros_entities():
             self._adopt(entity, node)
         return True
 
     def _adopt(self, entity: Entity, node: Node) -> None:
         entity._executor = self
-        entity._turn = (node._place, entity._kind, entity._number)
+        entity._turn = (node._ros_place, entity._kind, entity._number)
         if entity._has_work():
             entity._signal()
 
@@ -99,8 +99,8 @@ class Executor:
         """No longer run this node's callbacks."""
         if node in self._nodes:
             self._nodes.remove(node)
-            node._executor = None
-            for entity in node._entities():
+            node._ros_executor = None
+            for entity in node._ros_entities():
                 entity._executor = None
 
     def get_nodes(self) -> list[Node]:

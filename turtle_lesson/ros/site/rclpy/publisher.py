@@ -6,6 +6,7 @@ from typing import Any
 
 from turtle_lesson.ros.graph import Writer
 
+from ._mistakes import no_message
 from .callback_groups import CallbackGroup
 from .exceptions import InvalidHandle
 from .qos import QoSProfile
@@ -58,7 +59,7 @@ class Publisher:
 
     def _from_bytes(self, msg: Any) -> Any:
         if not isinstance(msg, bytes):
-            raise TypeError(f"Expected {self.msg_type}, got {type(msg)}")
+            raise no_message(msg, self.msg_type)
         from .serialization import deserialize_message
 
         return deserialize_message(msg, self.msg_type)

@@ -56,7 +56,7 @@ class Service(Entity):
         request = self._asking.pop(id(arguments[0]))
         if not isinstance(result, self.srv_type.Response):
             raise TypeError(
-                f"the callback of {self.service_name} returned {result!r}, but a {self.srv_type.Response.__name__} is "
+                f"the callback of {self.service_name} returned {result!r}, where {self.srv_type.__name__}.Response is "
                 "expected: end it with `return response`"
             )
         request.client.reply(request.number, result)
@@ -64,7 +64,7 @@ class Service(Entity):
     def send_response(self, response: Any, header: Any) -> None:
         """Answer a request by hand."""
         if not isinstance(response, self.srv_type.Response):
-            raise TypeError(f"expected a {self.srv_type.Response.__name__}, got {response!r}")
+            raise TypeError(f"{self.srv_type.__name__}.Response is expected, got {response!r}")
         header.client.reply(header.number, response)
 
     def destroy(self) -> None:

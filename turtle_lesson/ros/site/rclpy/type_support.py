@@ -24,4 +24,8 @@ def check_is_valid_srv_type(srv_type: Any) -> None:
     """Raise RuntimeError for a message or action type."""
     check_for_type_support(srv_type)
     if not hasattr(srv_type, "Request") or not hasattr(srv_type, "Response"):
-        raise RuntimeError(f"The service type provided is not valid ({srv_type}), this might be a message or action")
+        error = RuntimeError(f"The service type provided is not valid ({srv_type}), this might be a message or action")
+        name, _, part = getattr(srv_type, "__name__", "").rpartition("_")
+        if part in {"Request", "Response"}:
+            error.add_note(f"The service's type is {name}; {name}.{part} is only one half of it.")
+        raise error

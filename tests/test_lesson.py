@@ -1,0 +1,193 @@
+"""The front door: start(), and what a Lesson does with time, obstacles and mistakes."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import signal
+import sys
+import threading
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from turtle_lesson import Lesson, start
+from turtle_lesson.ros.core import EPOCH, WorldClosed
+from turtle_lesson.ros.launching import LaunchError
+from turtle_lesson.turtlesim.obstacles import Box, Circle
+
+
+@pytest.fixture
+def lesson() -> Lesson:
+    return start()
+
+
+def test_a_world_begins_with_the_simulator_and_nothing_else(lesson: Lesson) -> None:
+    import rclpy
+
+    rclpy.init()
+    names = rclpy.create_node("me").get_fully_qualified_node_names()
+    assert sorted(name for name in names if not name.startswith("/_")) == ["/me", "/turtlesim"]
+    assert lesson.now == 0.0
+
+
+def test_a_world_can_be_empty() -> None:
+    lesson = start(package=None, simulator=False)
+    lesson.run(1)
+    with pytest.raises(ModuleNotFoundError, match="robot_controller"):
+        __import__("robot_controller.msg")
+    with pytest.raises(LaunchError, match="robot_controller"):
+        lesson.launch("robot_controller", "start_system.launch.py")
+
+
+def test_time_passes_only_when_it_is_run(lesson: Lesson) -> None:
+    time.sleep(0.05)
+    assert lesson.now == 0.0
+    lesson.run(2.5)
+    assert lesson.now == 2.5
+    assert repr(lesson) == "<Lesson at 2.500 s of robot time>"
+
+
+@pytest.mark.parametrize("seconds", [-1, float("nan"), float("inf"), "5", None, True])
+def test_time_must_be_a_number_of_seconds(lesson: Lesson, seconds: Any) -> None:
+    with pytest.raises(ValueError, match=r"try lesson\.run\(5\)"):
+        lesson.run(seconds)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [({"seed": "x"}, "seed must be a whole number"), ({"package": "nope"}, "no folder here"), ({"package": 3}, "package must be")],
+)
+def test_start_explains_its_arguments(arguments: dict[str, Any], said: str) -> None:
+    with pytest.raises(ValueError, match=said):
+        start(**arguments)
+
+
+def test_a_real_ros_is_never_hidden(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "rclpy").mkdir()
+    (tmp_path / "rclpy" / "__init__.py").touch()
+    monkeypatch.syspath_prepend(str(tmp_path))
+    kept = {name: sys.modules.pop(name) for name in list(sys.modules) if name.split(".")[0] == "rclpy"}
+    try:
+        with pytest.raises(RuntimeError, match="a real ROS 2 is sourced here"):
+            start()
+    finally:
+        sys.modules.update(kept)
+
+
+def test_the_world_before_is_closed(lesson: Lesson) -> None:
+    start()
+    with pytest.raises(WorldClosed, match="use the lesson that start"):
+        lesson.run(1)
+
+
+def test_twenty_worlds_leave_nothing_behind() -> None:
+    import gc
+
+    from turtle_lesson.ros.core import Strand
+
+    def strands() -> int:
+        gc.collect()
+        return sum(isinstance(each, Strand) for each in gc.get_objects())
+
+    def a_world() -> None:
+        lesson = start()
+        lesson.launch("robot_controller", "start_system.launch.py")
+        lesson.run(1)
+
+    a_world()
+    before = strands()
+    for _ in range(20):
+        a_world()
+    assert strands() <= before + 2
+
+
+def test_obstacles_go_out_latched(lesson: Lesson) -> None:
+    import rclpy
+    from rclpy.qos import DurabilityPolicy, QoSProfile
+    from visualization_msgs.msg import MarkerArray
+
+    lesson.place(Circle(x=8.0, y=5.5, radius=0.5), Box(x=2.0, y=2.0, width=1.0, height=2.0))
+    lesson.run(5)
+    rclpy.init()
+    node = rclpy.create_node("late")
+    heard: list[Any] = []
+    latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    node.create_subscription(MarkerArray, "/world/obstacles", heard.append, latched)
+    rclpy.spin_once(node, timeout_sec=1.0)
+    kinds = [marker.type for marker in heard[0].markers if marker.action == marker.ADD]
+    assert kinds == [heard[0].markers[0].CYLINDER, heard[0].markers[0].CUBE]
+    assert len(lesson.obstacles) == 2
+
+
+def test_what_is_no_obstacle_is_refused(lesson: Lesson) -> None:
+    with pytest.raises(TypeError, match="try Circle"):
+        lesson.place(3)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="three pillars"):
+        lesson.set_obstacles("nowhere")
+    assert lesson.obstacles == ()
+
+
+def test_live_mode_paces_the_world_to_the_wall(lesson: Lesson) -> None:
+    async def live() -> tuple[float, float]:
+        lesson.play(rate=10.0)
+        await asyncio.sleep(0.3)
+        played = lesson.now
+        lesson.pause()
+        await asyncio.sleep(0.1)
+        return played, lesson.now
+
+    played, after = asyncio.run(live())
+    assert 0.5 < played < 12.0
+    assert after == played
+
+
+def test_live_mode_needs_a_notebook_and_a_sensible_rate(lesson: Lesson) -> None:
+    with pytest.raises(RuntimeError, match=r"in a script use lesson\.run"):
+        lesson.play()
+    with pytest.raises(ValueError, match="above 0"):
+        lesson.play(0)
+
+
+def test_spinning_in_a_cell_is_live_until_it_is_interrupted(lesson: Lesson) -> None:
+    import rclpy
+
+    rclpy.init()
+    node = rclpy.create_node("me")
+    ticks: list[float] = []
+    node.create_timer(0.02, lambda: ticks.append(lesson.now))
+    threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        rclpy.spin(node)
+    assert 3 < len(ticks) < 100
+    lesson.run(1)
+
+
+def test_an_interrupted_run_goes_on(lesson: Lesson) -> None:
+    threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        lesson.run(1_000_000)
+    paused = lesson.now
+    assert 0 < paused < 1_000_000
+    lesson.run(1)
+    assert lesson.now == pytest.approx(paused + 1)
+
+
+def test_a_node_of_an_earlier_world_says_so(lesson: Lesson) -> None:
+    import rclpy
+
+    rclpy.init()
+    node = rclpy.create_node("me")
+    start()
+    with pytest.raises(WorldClosed):
+        rclpy.spin_once(node, timeout_sec=1.0)
+
+
+def test_the_clock_of_nodes_begins_at_the_epoch(lesson: Lesson) -> None:
+    import rclpy
+
+    rclpy.init()
+    now = rclpy.create_node("me").get_clock().now().nanoseconds
+    assert EPOCH <= now < EPOCH + 1_000_000
