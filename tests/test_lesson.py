@@ -58,7 +58,11 @@ def test_time_must_be_a_number_of_seconds(lesson: Lesson, seconds: Any) -> None:
 
 @pytest.mark.parametrize(
     ("arguments", "said"),
-    [({"seed": "x"}, "seed must be a whole number"), ({"package": "nope"}, "no folder here"), ({"package": 3}, "package must be")],
+    [
+        ({"seed": "x"}, "seed must be a whole number"),
+        ({"package": "nope"}, "no folder here"),
+        ({"package": 3}, "package must be"),
+    ],
 )
 def test_start_explains_its_arguments(arguments: dict[str, Any], said: str) -> None:
     with pytest.raises(ValueError, match=said):
@@ -181,7 +185,7 @@ def test_a_node_of_an_earlier_world_says_so(lesson: Lesson) -> None:
     rclpy.init()
     node = rclpy.create_node("me")
     start()
-    with pytest.raises(WorldClosed):
+    with pytest.raises(WorldClosed, match="make the node"):
         rclpy.spin_once(node, timeout_sec=1.0)
 
 

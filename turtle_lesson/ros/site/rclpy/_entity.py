@@ -11,7 +11,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from .callback_groups import CallbackGroup
-from .exceptions import InvalidHandle
+from .exceptions import refuse_destroyed
 
 if TYPE_CHECKING:
     from .executors import Executor
@@ -61,8 +61,8 @@ class Entity:
         """The callback has returned `result`."""
 
     def _check_alive(self) -> None:
-        if self._destroyed:
-            raise InvalidHandle("cannot use Destroyable because destruction was requested")
+        if self._destroyed and self._node is not None:
+            refuse_destroyed(self._node._ros_simulation)
 
     def destroy(self) -> None:
         """Never be called again."""

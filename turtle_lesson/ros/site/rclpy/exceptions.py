@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
+from turtle_lesson.ros.core import WorldClosed
 from turtle_lesson.ros.graph import names
+
+if TYPE_CHECKING:
+    from turtle_lesson.ros.core import Simulation
 
 
 class NotInitializedException(Exception):
@@ -120,6 +124,15 @@ class ParameterUninitializedException(ParameterException):
 
 class InvalidHandle(RuntimeError):
     """Something is used after it was destroyed."""
+
+
+def refuse_destroyed(simulation: Simulation) -> NoReturn:
+    """Raise what the use of something destroyed deserves; what went with its world says that instead."""
+    if simulation.closed:
+        raise WorldClosed(
+            "this belongs to a world that a later start() has closed: make the node, and what belongs to it, again"
+        )
+    raise InvalidHandle("cannot use Destroyable because destruction was requested")
 
 
 class RCLError(RuntimeError):

@@ -22,7 +22,7 @@ from .callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup
 from .client import Client
 from .clock import Clock, ROSClock
 from .context import Context
-from .exceptions import InvalidHandle, NodeNameNonExistentError, NotInitializedException, RCLError
+from .exceptions import NodeNameNonExistentError, NotInitializedException, RCLError, refuse_destroyed
 from .guard_condition import GuardCondition
 from .impl.logging_severity import LoggingSeverity
 from .impl.rcutils_logger import RcutilsLogger, publish_rosout
@@ -245,7 +245,7 @@ class Node(NodeGraph, NodeParameters):
 
     def _ros_check_alive(self) -> None:
         if self._ros_destroyed:
-            raise InvalidHandle("cannot use Destroyable because destruction was requested")
+            refuse_destroyed(self._ros_simulation)
 
     def _ros_keep(self, entity: Any) -> Any:
         self._ros_made += 1

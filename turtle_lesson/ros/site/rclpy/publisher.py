@@ -8,7 +8,7 @@ from turtle_lesson.ros.graph import Writer
 
 from ._mistakes import no_message
 from .callback_groups import CallbackGroup
-from .exceptions import InvalidHandle
+from .exceptions import refuse_destroyed
 from .qos import QoSProfile
 
 
@@ -18,6 +18,7 @@ class Publisher:
     def __init__(self, writer: Writer, msg_type: type, topic: str, qos_profile: QoSProfile, logger_name: str) -> None:
         self._writer: Writer | None = writer
         self._write = writer.write
+        self._simulation = writer.topic.simulation
         self.msg_type = msg_type
         self.topic = topic
         self.qos_profile = qos_profile
@@ -45,7 +46,7 @@ class Publisher:
 
     def _end(self) -> Writer:
         if self._writer is None:
-            raise InvalidHandle("cannot use Destroyable because destruction was requested")
+            refuse_destroyed(self._simulation)
         return self._writer
 
     def publish(self, msg: Any) -> None:
@@ -81,8 +82,7 @@ class Publisher:
         if self._writer is not None:
             self._writer.node.process.locals["world"].graph.remove_topic_end(self._writer)
             self._writer = None
-            self._write = _refuse
+            self._write = self._refuse
 
-
-def _refuse(message: Any) -> None:
-    raise InvalidHandle("cannot use Destroyable because destruction was requested")
+    def _refuse(self, message: Any) -> None:
+        refuse_destroyed(self._simulation)

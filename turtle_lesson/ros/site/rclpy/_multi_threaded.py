@@ -1,0 +1,90 @@
+"""The executor with several threads, each of which is a strand."""
+
+from __future__ import annotations
+
+import warnings
+
+from turtle_lesson.ros.core import Strand
+
+from ._executor import Condition, Executor, Job
+from .context import Context
+
+
+class MultiThreadedExecutor(Executor):
+    """Runs callbacks side by side in up to `num_threads` threads (4 unless told), as their groups allow.
+
+    The threads are strands: while one waits or sleeps, another runs; none runs at the same instant of real time.
+    """
+
+    __module__ = "rclpy.executors"
+
+    def __init__(self, num_threads: int | None = None, *, context: Context | None = None) -> None:
+        super().__init__(context=context)
+        self._num_threads = 4 if num_threads is None else num_threads
+        if self._num_threads < 1:
+            raise ValueError(f"num_threads must be at least 1, got {num_threads}")
+        if self._num_threads == 1:
+            warnings.warn(
+                "MultiThreadedExecutor is used with a single thread.\nUse the SingleThreadedExecutor instead.",
+                stacklevel=2,
+            )
+        self._threads = 0
+        self._idle: list[_Worker] = []
+        self._failures: list[BaseException] = []
+
+    def _spun_by_another(self, strand: Strand) -> bool:
+        return super()._spun_by_another(strand) and self._callers < self._num_threads - 1
+
+    def _next(self, strand: Strand, deadline: int | None, condition: Condition) -> Job | None:
+        while not self._idle and self._threads >= self._num_threads and not self._failures:
+            if deadline is not None and self._simulation.now >= deadline:
+                return None
+            if self._is_shutdown or not self._context.ok():
+                self._say_it_is_shut_down()
+            self._wait(strand, deadline)
+
+        def interesting() -> bool:
+            return bool(self._failures) or (condition is not None and condition())
+
+        job = None if self._failures else super()._next(strand, deadline, interesting)
+        if job is None and self._failures:
+            raise self._failures.pop(0)
+        return job
+
+    def _execute(self, job: Job) -> None:
+        if self._idle:
+            worker = self._idle.pop()
+        else:
+            self._threads += 1
+            worker = _Worker(self)
+        worker.give(job)
+
+    def _execute_here(self, job: Job) -> None:
+        super()._execute(job)
+
+
+class _Worker:
+    """One thread of a multi-threaded executor: a strand that runs the jobs it is given."""
+
+    def __init__(self, executor: MultiThreadedExecutor) -> None:
+        self._executor = executor
+        self._strand = executor._process.add_strand(self._loop)
+        self._strand.parked = True
+        self._job: Job | None = None
+
+    def give(self, job: Job) -> None:
+        self._job = job
+        self._strand.simulation.wake(self._strand)
+
+    def _loop(self) -> None:
+        executor = self._executor
+        while True:
+            while self._job is None:
+                self._strand.park()
+            job, self._job = self._job, None
+            try:
+                executor._execute_here(job)
+            except Exception as error:
+                executor._failures.append(error)
+            executor._idle.append(self)
+            executor.wake()
