@@ -148,6 +148,23 @@ def test_live_mode_paces_the_world_to_the_wall(lesson: Lesson) -> None:
     assert after == played
 
 
+def test_an_interrupt_ends_live_mode_but_not_the_event_loop(lesson: Lesson, capsys: pytest.CaptureFixture[str]) -> None:
+    def busy() -> None:
+        while True:
+            os.kill(os.getpid(), signal.SIGINT)
+            time.sleep(1.0)
+
+    async def live() -> float:
+        lesson._world.spawn(busy, name="busy")
+        lesson.play(rate=10.0)
+        await asyncio.sleep(0.3)
+        return lesson.now
+
+    assert asyncio.run(live()) < 2.0
+    assert "lesson.play() goes on" in capsys.readouterr().out
+    lesson.run(1)
+
+
 def test_live_mode_needs_a_notebook_and_a_sensible_rate(lesson: Lesson) -> None:
     with pytest.raises(RuntimeError, match=r"in a script use lesson\.run"):
         lesson.play()

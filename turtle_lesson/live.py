@@ -60,5 +60,11 @@ class Player:
             now = real_monotonic()
             step = min(now - last, LONGEST_STEP) * self.rate
             last = now
-            if not simulation.closed:
+            if simulation.closed:
+                return
+            try:
                 simulation.run_until(simulation.now + round(step * NANOSECONDS))
+            except KeyboardInterrupt:  # which would end Jupyter's event loop, and with it the kernel
+                self._task = None
+                print("Live mode was interrupted; lesson.play() goes on.")
+                return
