@@ -32,7 +32,7 @@ def _make_importable() -> None:
 
 
 def load_ipython_extension(shell: Any) -> None:
-    """What `%load_ext turtle_lesson` does: errors are shown from the learner's point of view."""
+    """What `%load_ext turtle_lesson` does: errors are shown from the learner's point of view, commands are understood."""
     from .notebook import prepare
 
     prepare(shell)

@@ -8,6 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .live import Player
+from .ros.command.driving import set_player
+from .ros.command.shell import open_terminal
 from .ros.console import CellOutput
 from .ros.core import EPOCH, NANOSECONDS
 from .ros.interfaces.registry import registry
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
     from .lab.graph import GraphPicture
     from .lab.picture import Picture
     from .lab.recorder import Recorder
+    from .ros.bags.recording import Recording
     from .ros.launching import LaunchHandle
     from .turtlesim.obstacles import Obstacle
 
@@ -40,6 +43,7 @@ def start(seed: int = 0, package: str | Path | None = "finished", simulator: boo
     _check_seed(seed)
     source = _package_folder(package)
     world = open_world(seed)
+    open_terminal()
     if "robot_controller" in registry.packages():
         registry.remove("robot_controller")
     world.packages.add(_turtlesim())
@@ -102,6 +106,7 @@ class Lesson:
     def __init__(self, world: World, *, simulator: bool = True) -> None:
         self._world = world
         self._player = Player(world.sim)
+        set_player(world, self._player)
         self._obstacles: list[Obstacle] = []
         self._markers: Any = None
         self._recorder: Recorder | None = None
@@ -151,6 +156,22 @@ class Lesson:
         handle = launching.launch_file(self._world, path, arguments)
         self._world.sim.settle()
         return handle
+
+    # -- bags ------------------------------------------------------------------------------------------------------
+
+    def record(self, path: str | Path, topics: Iterable[str] | None = None, storage: str = "mcap") -> Recording:
+        """Record topics into a bag, a new folder at `path`, until `stop()` or the end of a `with` block.
+
+        Args:
+            path: the folder to make; nothing is ever overwritten.
+            topics: the names of the topics; None records all but the hidden ones.
+            storage: "mcap" or "sqlite3".
+
+        Raises BagError, a ValueError, if the folder is there already, or for an unknown storage.
+        """
+        from .ros.bags.recording import Recording
+
+        return Recording(self._world, path, topics, storage)
 
     # -- obstacles -------------------------------------------------------------------------------------------------
 

@@ -1,4 +1,4 @@
-"""What is special in Jupyter: tracebacks that end at the learner's own line."""
+"""What is special in Jupyter: tracebacks that end at the learner's own line, and commands as in a terminal."""
 
 from __future__ import annotations
 
@@ -9,8 +9,11 @@ from .ros.core.tracebacks import shorten
 
 
 def prepare(shell: Any) -> None:
-    """Have errors in cells shown without the frames of the simulated ROS 2."""
+    """Have errors in cells shown without the frames of the simulated ROS 2, and `ros2 …` understood in cells."""
+    from .ros.command import magics
+
     shell.set_custom_exc((Exception,), _show)
+    magics.install(shell)
 
 
 def _show(

@@ -100,9 +100,9 @@ def _wait_until_it_answers(address: str, server: subprocess.Popen[bytes], log: P
     pytest.fail(f"JupyterLab did not start:\n{log.read_text()[-3000:]}")
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser(chromium: str) -> Iterator[Browser]:
-    """A headless browser."""
+    """A headless browser. It is closed with the module: while Playwright runs, so does an event loop of its own."""
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=chromium, args=FLAGS)
         yield browser

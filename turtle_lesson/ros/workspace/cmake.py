@@ -25,7 +25,7 @@ _INSTALL_WORDS = {
     "COMPONENT", "OPTIONAL", "TYPE", "EXCLUDE_FROM_ALL", "USE_SOURCE_PERMISSIONS", "PATTERN", "REGEX",
     "EXCLUDE", "FILES_MATCHING", "MESSAGE_NEVER",
 }  # fmt: skip
-_INTERFACE_WORDS = {
+INTERFACE_WORDS = {
     "DEPENDENCIES", "LIBRARY_NAME", "SKIP_INSTALL", "SKIP_GROUP_MEMBERSHIP_CHECK", "ADD_LINTER_TESTS",
 }  # fmt: skip
 
@@ -89,7 +89,7 @@ class CMakeFile:
         """The files in `rosidl_generate_interfaces`, such as `msg/TurtleStatus.msg`, each with its line."""
         files = []
         for command in self.named("rosidl_generate_interfaces"):
-            names, _ = _until(command.args[1:], _INTERFACE_WORDS)
+            names, _ = _until(command.args[1:], INTERFACE_WORDS)
             files += [(name, command.line) for name in names]
         return files
 
