@@ -11,6 +11,7 @@ import rclpy
 from example_interfaces.srv import AddTwoInts
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
 from rclpy.executors import (
+    Executor,
     ExternalShutdownException,
     MultiThreadedExecutor,
     ShutdownException,
@@ -247,6 +248,17 @@ def test_done_callbacks_and_tasks_run_in_the_order_in_which_they_were_made(run: 
         found.append(task.result())
 
     assert run(program) == ["first", "second", "third", "late", "task", "result"]
+
+
+def test_a_done_callback_that_fails_is_told_of_and_the_others_are_called(world: World) -> None:
+    called: list[str] = []
+    future = Future()
+    future.add_done_callback(lambda _: 1 / 0)
+    future.add_done_callback(lambda _: called.append("second"))
+    with pytest.warns(UserWarning, match=r"Unhandled exception in done callback: ZeroDivisionError.*<lambda>") as told:
+        future.set_result(1)
+    assert told[0].filename == __file__
+    assert called == ["second"]
 
 
 # ---------------------------------------------------------------- who is held up
@@ -612,17 +624,46 @@ def test_a_waiting_spin_hears_of_a_shutdown_from_elsewhere(run: Run, world: Worl
     assert run(program) == ["external shutdown"]
 
 
-def test_an_executor_that_is_shut_down_says_so(run: Run) -> None:
+def test_an_executor_that_is_shut_down_spins_no_more_and_says_so_only_to_those_who_wait_themselves(run: Run) -> None:
     def program(found: list[Any]) -> None:
         node = start()
         executor = SingleThreadedExecutor()
         executor.add_node(node)
         executor.shutdown()
         found.append(executor.get_nodes())
+        executor.spin_once()
+        executor.spin()
+        executor.spin_until_future_complete(Future())
         with pytest.raises(ShutdownException):
-            executor.spin_once()
+            executor.wait_for_ready_callbacks()
 
     assert run(program) == [[]]
+
+
+@pytest.mark.parametrize("kind", [SingleThreadedExecutor, MultiThreadedExecutor])
+def test_a_callback_that_shuts_its_executor_down_ends_the_spinning_in_silence(run: Run, kind: type[Executor]) -> None:
+    def program(found: list[Any]) -> None:
+        node, executor = start(), kind()
+        executor.add_node(node)
+        node.create_timer(0.1, executor.shutdown)
+        executor.spin()
+        found.append(rclpy.ok())
+
+    assert run(program) == [True]
+
+
+def test_a_spin_that_waits_ends_in_silence_when_its_executor_is_shut_down(run: Run, world: World) -> None:
+    executors: list[Executor] = []
+
+    def program(found: list[Any]) -> None:
+        node, executor = start(), SingleThreadedExecutor()
+        executors.append(executor)
+        executor.add_node(node)
+        executor.spin()
+        found.append("ended")
+
+    world.sim.call_later(500_000_000, lambda: executors[0].shutdown())
+    assert run(program) == ["ended"]
 
 
 def test_an_executor_of_ones_own_is_built_from_its_parts(run: Run) -> None:

@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 import rclpy
+from rclpy.duration import Duration, Infinite
 from rclpy.exceptions import RCLError
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import (
@@ -124,6 +125,29 @@ def test_a_late_joiner_gets_what_a_latched_topic_has_kept(run: Run) -> None:
 
     assert run(program, listener(String, "latched", LATCHED, delay=1.0)) == ["2", "3", "4"]
     assert run(program, listener(String, "latched", 10, delay=1.0)) == []
+
+
+def test_a_late_joiner_learns_when_a_message_that_was_kept_was_sent(run: Run) -> None:
+    def publish(found: list[Any]) -> None:
+        rclpy.init()
+        node = rclpy.create_node("talker")
+        publisher = node.create_publisher(Int32, "x", LATCHED)
+        node.create_timer(0.5, lambda: publisher.publish(Int32()))
+        rclpy.spin(node)
+
+    def hear(found: list[Any]) -> None:
+        time.sleep(1.2)
+        rclpy.init()
+        node = rclpy.create_node("listener")
+
+        def times(message: Any, info: dict[str, int]) -> None:
+            ages = [info[each] / 1e9 - 1_800_000_000 for each in ("source_timestamp", "received_timestamp")]
+            found.append(tuple(round(age, 2) for age in ages))
+
+        node.create_subscription(Int32, "x", times, LATCHED)
+        rclpy.spin(node)
+
+    assert run(publish, hear, seconds=1.7) == [(0.5, 1.2), (1.0, 1.2), (1.5, 1.5)]
 
 
 def test_what_is_published_before_the_first_spin_is_not_lost(run: Run) -> None:
@@ -323,3 +347,34 @@ def test_a_misspelled_policy_is_no_new_attribute() -> None:
         profile.reliabilty = ReliabilityPolicy.BEST_EFFORT
     profile.reliability = ReliabilityPolicy.BEST_EFFORT
     assert profile == BEST_EFFORT
+
+
+# ---------------------------------------------------------------- not enforced here
+
+
+def test_policies_that_do_nothing_here_are_named_once(run: Run, capsys: Capture) -> None:
+    def program(found: list[Any]) -> None:
+        rclpy.init()
+        node = rclpy.create_node("n")
+        short = QoSProfile(depth=5, lifespan=Duration(seconds=1), deadline=Duration(nanoseconds=100_000_000))
+        publisher = node.create_publisher(Int32, "x", short)
+        node.create_subscription(Int32, "y", print, QoSProfile(depth=5, deadline=Duration(seconds=2)))
+        node.create_subscription(Int32, "z", print, QoSProfile(depth=5, deadline=Infinite, lifespan=Duration()))
+        for _ in range(3):
+            publisher.publish(Int32())
+
+    run(program)
+    first, second = capsys.readouterr().err.splitlines()
+    assert "[n]: The publisher of 'x' asks for a lifespan of 1 s and a deadline of 0.1 s. This classroom" in first
+    assert "[n]: The subscription of 'y' asks for a deadline of 2 s. This classroom does not enforce that yet" in second
+
+
+def test_simulated_time_is_said_to_be_there_already(run: Run, capsys: Capture) -> None:
+    def program(found: list[Any]) -> None:
+        rclpy.init(args=["--ros-args", "-p", "use_sim_time:=true"])
+        rclpy.create_node("n")
+
+    run(program)
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "[WARN]" in line
+    assert "use_sim_time is true, but this classroom has only one clock, which is simulated already" in line

@@ -492,6 +492,50 @@ def test_an_async_service_callback_may_await_another_service(run: Run) -> None:
     assert run(server, middle, program) == [14]
 
 
+def test_a_coroutine_that_awaits_what_it_cannot_may_catch_that_and_go_on(run: Run) -> None:
+    class Odd:
+        def __await__(self) -> Any:
+            yield 5
+
+    def program(found: list[Any]) -> None:
+        node, _ = start()
+        later = Future()
+        node.create_timer(0.5, lambda: later.set_result(7), callback_group=ReentrantCallbackGroup())
+
+        async def tick() -> None:
+            timer.cancel()
+            for awaited in (Odd(), Odd(), later):
+                try:
+                    found.append(await awaited)
+                except TypeError as error:
+                    found.append(str(error)[:49])
+
+        timer = node.create_timer(0.1, tick)
+        rclpy.spin(node)
+
+    only = "a callback can only await rclpy's own futures and"
+    assert run(program, seconds=0.8) == [only, only, 7]
+
+
+def test_a_coroutine_that_does_not_give_up_a_hopeless_answer_holds_nobody_up(run: Run) -> None:
+    def program(found: list[Any]) -> None:
+        node, client = start()
+
+        async def tick() -> None:
+            timer.cancel()
+            future = client.call_async(Request())
+            while not future.done():
+                try:
+                    await future
+                except NeverWakes:
+                    found.append("told")
+
+        timer = node.create_timer(0.1, tick)
+        rclpy.spin(node)
+
+    assert run(server, program) == ["told"]
+
+
 def test_a_future_of_ones_own_can_be_awaited_and_its_group_stays_taken_meanwhile(run: Run) -> None:
     def program(found: list[Any]) -> None:
         rclpy.init()

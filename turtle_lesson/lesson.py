@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from .lab.recorder import Recorder
     from .ros.bags.recording import Recording
     from .ros.launching import LaunchHandle
+    from .ros.workspace.export import Exported
     from .turtlesim.obstacles import Obstacle
 
 HERE = Path(__file__).resolve().parent
@@ -30,6 +31,8 @@ FINISHED = HERE / "robot_controller"
 
 def start(seed: int = 0, package: str | Path | None = "finished", simulator: bool = True) -> Lesson:
     """Make a fresh world, in which nothing of an earlier one goes on, and return the `Lesson` that runs it.
+
+    Its terminal is fresh, too: commands work in the notebook's own folder again, whatever `cd` did before.
 
     Args:
         seed: decides about all random numbers in the world; the same seed gives the same run.
@@ -173,6 +176,16 @@ class Lesson:
 
         return Recording(self._world, path, topics, storage)
 
+    def export(self, package: str | Path, to: str | Path, *, overwrite: bool = False) -> Exported:
+        """Write a package to take to a robot: into `to`/src, with a README of the commands that build it there.
+
+        `package` is a name ("robot_controller": the learner's, or else the finished one) or a folder. It is checked with
+        every rule of the build first. Raises PackageError, which says what a real build would refuse and where.
+        """
+        from .ros.workspace.export import export_package
+
+        return export_package(self._world, package, to, overwrite=overwrite)
+
     # -- obstacles -------------------------------------------------------------------------------------------------
 
     def place(self, *obstacles: Obstacle) -> None:
@@ -253,4 +266,3 @@ class Lesson:
         from .lab.graph import plot_graph
 
         return plot_graph(self._recording.node)
-

@@ -6,6 +6,7 @@ import asyncio
 from typing import TYPE_CHECKING
 
 from .ros.core import NANOSECONDS
+from .ros.core.tracebacks import print_error
 from .ros.core.virtual_time import real_monotonic
 
 if TYPE_CHECKING:
@@ -67,4 +68,9 @@ class Player:
             except KeyboardInterrupt:  # which would end Jupyter's event loop, and with it the kernel
                 self._task = None
                 print("Live mode was interrupted; lesson.play() goes on.")
+                return
+            except Exception as error:
+                self._task = None
+                print("Live mode has stopped, because of this; lesson.play() goes on.")
+                print_error(error)
                 return

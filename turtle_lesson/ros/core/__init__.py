@@ -1,5 +1,6 @@
 """The discrete-event core: a virtual clock, timed events and simulated processes. It knows nothing of ROS."""
 
+from .driving import drive
 from .errors import DriveTimeout, NeverReturns, NeverWakes, SimulationError, WorldClosed
 from .process import Process
 from .simulation import EPOCH, NANOSECONDS, Simulation
@@ -16,6 +17,7 @@ __all__ = [
     "SimulationError",
     "Strand",
     "WorldClosed",
+    "drive",
     "getcurrent",
     "running_strand",
 ]

@@ -36,7 +36,7 @@ class Guard:
     def __init__(self, simulation: Simulation) -> None:
         self.simulation = simulation
         self.interrupted = False
-        self.stuck = False
+        self.tripped_at: int | None = None
         self._previous: Any = None
         self._active = threading.current_thread() is threading.main_thread()
 
@@ -60,31 +60,35 @@ class Guard:
             raise KeyboardInterrupt
 
     def _on_signal(self, number: int, frame: FrameType | None) -> None:
-        strand = running_strand()
-        if not self.stuck:
+        tripped, self.tripped_at = self.tripped_at, None
+        if tripped is None:
             self.interrupted = True
             self.simulation.halt()
-        elif strand is not None:
-            self.stuck = False
+        elif tripped == self.simulation.now:  # else time has passed since the watchdog looked
+            strand = running_strand()
             if self.interrupted:
                 self._freeze(strand)
             else:
                 self._give_up_on(strand)
 
-    def _freeze(self, strand: Strand) -> None:
+    def _freeze(self, strand: Strand | None) -> None:
         """Leave the strand in the middle of what it computes; the next run goes on there."""
+        if strand is None:
+            raise KeyboardInterrupt  # it is no process that computes, but what the cell itself does
         self.simulation.put_back(strand)
         self.simulation.hub.switch()
 
-    def _give_up_on(self, strand: Strand) -> None:
-        if strand.warned:
+    def _give_up_on(self, strand: Strand | None) -> None:
+        name = "what the cell does" if strand is None else strand.process.name
+        if strand is not None and strand.warned:
             strand.process.abandon("it computes without end and ignores being told to stop")
             self.simulation.hub.switch()
-        strand.warned = True
+        if strand is not None:
+            strand.warned = True
         raise NeverReturns(
-            f"{strand.process.name} has computed for {patience:g} s without letting any time pass, so nothing else in "
+            f"{name} has computed or blocked for {patience:g} s without letting any time pass, so nothing else in "
             "this world could happen. A callback should do a little and return; let a timer call it again. "
-            "To wait inside a loop, call time.sleep(seconds)."
+            "To wait inside a loop, call time.sleep(seconds); to wait for another callback, await a future."
         )
 
 
@@ -119,9 +123,18 @@ class _Watchdog:
                     seen, since = state, _monotonic()
                 elif _monotonic() - since > limit and not _being_debugged():
                     since = _monotonic()
-                    guard.stuck = True
-                    _thread.interrupt_main()
+                    guard.tripped_at = guard.simulation.now
+                    _interrupt_main_thread()
             _sleep(min(0.25, patience / 4, interrupt_patience / 4))
+
+
+def _interrupt_main_thread() -> None:
+    """Have the main thread run its signal handler, also if it waits for a lock (where the system can do that)."""
+    main = threading.main_thread().ident
+    if main is not None and hasattr(signal, "pthread_kill"):
+        signal.pthread_kill(main, signal.SIGINT)
+    else:
+        _thread.interrupt_main()
 
 
 _sleep = time.sleep

@@ -154,7 +154,10 @@ class Process:
             return
         self.exit_code = code
         for clean_up in reversed(self.at_exit):
-            clean_up()
+            try:
+                clean_up()
+            except Exception as error:  # the rest is to be cleaned up all the same
+                print_error(error, self.stderr or sys.stderr)
         self.at_exit.clear()
         self._drop_other_strands()
         if self._on_exit is not None:

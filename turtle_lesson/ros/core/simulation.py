@@ -10,15 +10,16 @@ from __future__ import annotations
 import asyncio
 import contextvars
 import sys
+import threading
 import weakref
 from collections import deque
 from collections.abc import Callable
 from heapq import heappop, heappush
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
-from .errors import DriveTimeout, NeverWakes, SimulationError, WorldClosed
+from .errors import SimulationError, WorldClosed
 from .interrupts import Guard
-from .strand import Strand, running_greenlet, running_strand
+from .strand import GreenletExit, Strand, running_greenlet, running_strand
 
 if TYPE_CHECKING:
     from .process import Process
@@ -30,12 +31,8 @@ EPOCH = 1_800_000_000 * NANOSECONDS
 CLOCK_READ = 1_000
 """What reading the clock costs in virtual time, in ns, so that a loop that only looks at the clock comes to an end."""
 
-DRIVE_LIMIT = 3_600 * NANOSECONDS
-"""How much robot time, in ns, a blocking call from a notebook cell may take before it is given up."""
-
-FOREVER = 1 << 62
-
-T = TypeVar("T")
+PATIENCE = 3
+"""How often a strand that does not want to end is told to, when its world closes."""
 
 
 class Simulation:
@@ -53,6 +50,9 @@ class Simulation:
         self._count = 0
         self._limit = 0
         self._halted = False
+        self._raising = False
+        self._thread = threading.get_ident()
+        self.driven: Strand | None = None
         self._context = contextvars.copy_context()
         self._for_the_hub: deque[tuple[Callable[..., object], tuple[Any, ...]]] = deque()
         self._strands: weakref.WeakSet[Strand] = weakref.WeakSet()
@@ -101,7 +101,7 @@ class Simulation:
     def sleep_until(self, time: int) -> None:
         """Hold up the running strand until virtual time `time` (ns)."""
         heap = self._heap
-        if not self._ready and time < self._limit and (not heap or heap[0][0] > time):
+        if not self._ready and time < self._limit and not self._for_the_hub and (not heap or heap[0][0] > time):
             if time > self.now:
                 self.now = time  # nobody else has anything to do until then: no need to switch
             return
@@ -117,6 +117,8 @@ class Simulation:
 
     def read_clock(self) -> int:
         """The virtual time in ns, for somebody who looks at a clock: looking costs `CLOCK_READ`."""
+        if self._raising:
+            return self.now  # somebody who was interrupted cleans up, all in this instant
         if running_strand() is not None:
             self.sleep_until(self.now + CLOCK_READ)
         elif not self.running and not self.closed:
@@ -132,97 +134,73 @@ class Simulation:
         """
         if time < self.now:
             raise SimulationError(f"cannot run back in time: it is {self.now} ns, asked for {time} ns")
-        self._run(time)
-        if not self._halted:
-            self.now = time
+        with Guard(self) as guard:
+            self.check_it_can_run()
+            self.run_guarded(time)
+            if not self._halted:
+                self.now = time
+        guard.raise_if_interrupted()
 
     def settle(self) -> None:
         """Let everything happen that is due at this instant, without letting time pass."""
-        self._run(self.now + 1)
-
-    def drive(self, process: Any, function: Callable[..., T], *arguments: Any, **keywords: Any) -> T:
-        """Run the simulation until `function(*arguments, **keywords)`, called as part of `process`, has returned.
-
-        This is how a blocking call works from a plain notebook cell. Raises what the function raises.
-        """
-        outcome: list[T] = []
-        failure: list[BaseException] = []
-
-        def call() -> None:
-            try:
-                outcome.append(function(*arguments, **keywords))
-            except BaseException as error:
-                failure.append(error)
-            finally:
-                self._halted = True
-
-        strand = process.add_strand(call)
-        self._ready.append(strand)
-        deadline = self.now + DRIVE_LIMIT
-        try:
-            self._run(deadline)
-        except KeyboardInterrupt as interrupt:
-            self.raise_in(strand, interrupt)
-            if not failure and not outcome:
-                raise
-        if not strand.dead:
-            self.raise_in(strand, self._why_not_done(strand, deadline))
-        if failure:
-            raise failure[0]
-        return outcome[0]
-
-    def _why_not_done(self, strand: Strand, deadline: int) -> SimulationError:
-        what = strand.activity or "this call"
-        if not self._heap:
-            return NeverWakes(
-                f"{what} waits for something that can never happen: nothing in this world is running any more. "
-                "Start what should answer (ros2 run, lesson.launch), or give a timeout."
-            )
-        return DriveTimeout(
-            f"{what} was still not done after {DRIVE_LIMIT // NANOSECONDS} s of robot time, so it was given up. "
-            "Is the node that should answer running, and is the name spelled as in `ros2 service list`? "
-            "A timeout_sec lets you decide how long to wait."
-        )
+        with Guard(self) as guard:
+            self.check_it_can_run()
+            self.run_guarded(self.now + 1)
+        guard.raise_if_interrupted()
 
     def raise_in(self, strand: Strand, error: BaseException) -> None:
         """Raise `error` where a strand waits, at once, and let it clean up until it waits again or ends."""
         if strand.dead:
             return
-        hub, face, halted, limit = self.hub, self._face, self._halted, self._limit
+        hub, face, halted, limit, raising = self.hub, self._face, self._halted, self._limit, self._raising
         self.hub = running_greenlet()
         self.halt()
+        self._raising = True
         self._enter(strand.process)
         try:
+            if strand:  # it has begun, and so has a context of its own
+                strand.gr_context = contextvars.copy_context()
             strand.raise_inside(error)
         finally:
-            self.hub, self._halted, self._limit = hub, halted, limit
+            self.hub, self._halted, self._limit, self._raising = hub, halted, limit, raising
             if strand.dead and strand in self._ready:
                 self._ready.remove(strand)
             self._leave()
             if face is not None:
                 self._enter(face)
 
-    def _run(self, limit: int) -> None:
+    def check_it_can_run(self) -> None:
+        """Raise WorldClosed or SimulationError where a run is not possible."""
         if self.closed:
             raise WorldClosed("this world was closed by a later start(): use the lesson that start() returned last")
         if self.running:
             raise SimulationError("the simulation runs already: a callback cannot run it once more")
+        if threading.get_ident() != self._thread:
+            raise SimulationError(
+                "a world runs in the thread that made it, and in no other: hand the work over to that one, for example "
+                "with loop.call_soon_threadsafe"
+            )
+
+    def run_guarded(self, limit: int) -> None:
+        """Run everything before `limit` (ns). The caller holds a Guard, so that no interrupt can come in between."""
         self._take_hub()
         self._limit = limit
         self._halted = False
         self.running = True
         loop = asyncio._get_running_loop()
         asyncio._set_running_loop(None)  # a simulated process is no part of Jupyter's event loop
-        guard = Guard(self)
         try:
-            with guard:
-                self._loop()
+            self._loop()
         finally:
             self.running = False
             self._limit = 0
             self._leave()
             asyncio._set_running_loop(loop)
-        guard.raise_if_interrupted()
+
+    @property
+    def busy(self) -> bool:
+        """Whether anything is going to happen at all."""
+        return bool(self._heap)
 
     def _take_hub(self) -> None:
         """The greenlet that runs now becomes the hub. Strands end where their parent goes on: there, too."""
@@ -302,13 +280,24 @@ class Simulation:
             sys.argv, sys.stdout, sys.stderr = self._cell_face
             self._face = None
 
+    def _unwind(self, strand: Strand) -> None:
+        try:
+            self.raise_in(strand, GreenletExit())
+        except BaseException as error:  # whatever it says now, nobody is there to hear it
+            del error
+
     @property
     def cell_stdout(self) -> Any:
         """Where the running cell prints to."""
         return sys.stdout if self._face is None else self._cell_face[1]
 
     def close(self) -> None:
-        """End the simulation for good: nothing of it runs again."""
+        """End the simulation for good: nothing of it runs again, and what stands somewhere in a call is unwound."""
         self.closed = True
+        with Guard(self):
+            for strand in list(self._strands):
+                for _ in range(PATIENCE):
+                    if strand and not strand.dead and not strand.warned:
+                        self._unwind(strand)
         self._heap.clear()
         self._ready.clear()

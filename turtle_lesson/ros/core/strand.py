@@ -12,9 +12,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from greenlet import getcurrent, greenlet
+from greenlet import GreenletExit, getcurrent, greenlet
 
-__all__ = ["Strand", "getcurrent", "running_greenlet", "running_strand"]
+__all__ = ["GreenletExit", "Strand", "getcurrent", "running_greenlet", "running_strand"]
 
 if TYPE_CHECKING:
     from .process import Process

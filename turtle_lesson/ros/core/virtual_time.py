@@ -12,7 +12,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from .simulation import EPOCH, NANOSECONDS
+from .simulation import CLOCK_READ, EPOCH, NANOSECONDS
 from .strand import Strand, getcurrent
 
 real_time = time.time
@@ -48,7 +48,7 @@ def _sleep(seconds: float) -> None:
         return
     if seconds < 0:
         raise ValueError("sleep length must be non-negative")
-    strand.simulation.sleep_until(strand.simulation.now + round(seconds * NANOSECONDS))
+    strand.simulation.sleep_until(strand.simulation.now + max(CLOCK_READ, round(seconds * NANOSECONDS)))
 
 
 def _start_thread(real: Callable[[threading.Thread], None]) -> Callable[[threading.Thread], None]:

@@ -86,8 +86,16 @@ class Writer:
         """Send a reader that joins late what this writer has kept, if both want that."""
         if self._kept and reader.quality.latched:
             simulation = self._simulation
-            for _, wire in self._kept:
-                simulation.at(simulation.now + self._latency, self._deliver, ((reader,), wire._wire_copy()))
+            for sent, wire in self._kept:
+                parcel = (reader, wire._wire_copy(), sent)
+                simulation.at(simulation.now + self._latency, self._deliver_kept, parcel)
+
+    def _deliver_kept(self, parcel: tuple[Reader, Any, int]) -> None:
+        reader, wire, sent = parcel
+        reader.queue.append(wire)
+        if reader.times is not None:
+            reader.times.append((sent, self._simulation.now))
+        reader.wake()
 
 
 def _tell_mismatch(end: Writer | Reader, policy: str) -> None:

@@ -49,6 +49,13 @@ class PackageIndex:
         if not self._layers[name]:
             del self._layers[name]
 
+    def remove_package(self, package: Package) -> None:
+        """Take this very package out, wherever it lies among those of its name; nothing happens if it is not there."""
+        layers = self._layers.get(package.name, [])
+        layers[:] = [each for each in layers if each is not package]
+        if not layers:
+            self._layers.pop(package.name, None)
+
     def names(self) -> list[str]:
         """The names of all packages, sorted."""
         return sorted(self._layers)

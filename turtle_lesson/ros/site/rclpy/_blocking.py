@@ -6,7 +6,9 @@ import functools
 from collections.abc import Callable
 from typing import Any, TypeVar
 
+from turtle_lesson.ros import core
 from turtle_lesson.ros.core import NANOSECONDS, running_strand
+from turtle_lesson.ros.core.driving import Call
 from turtle_lesson.ros.core.virtual_time import real_monotonic, real_sleep
 from turtle_lesson.ros.world import current_world
 
@@ -34,30 +36,25 @@ def drives_the_simulation(function: Callable[..., T]) -> Callable[..., T]:
 def drive(function: Callable[..., T], *arguments: Any, **keywords: Any) -> T:
     """Run the simulation until `function(*arguments, **keywords)`, as part of the notebook's process, is done."""
     world = current_world()
-    return world.sim.drive(world.notebook, function, *arguments, **keywords)
+    return core.drive(world.sim, world.notebook, function, *arguments, **keywords)
 
 
 def spin_live(function: Callable[[], None]) -> None:
     """Run `function` in the notebook's process, with the simulation paced to the wall clock, until it returns."""
     world = current_world()
     simulation = world.sim
-    failure: list[BaseException] = []
-
-    def run() -> None:
-        try:
-            function()
-        except BaseException as error:
-            failure.append(error)
-
-    strand = world.notebook.add_strand(run)
-    simulation.put_back(strand)
-    began, origin = real_monotonic(), simulation.now
+    simulation.check_it_can_run()
+    call = Call(simulation, world.notebook, function)
     try:
-        while not strand.dead:
+        began, origin = real_monotonic(), simulation.now
+        while not call.done:
             elapsed = round((real_monotonic() - began) * NANOSECONDS)
             simulation.run_until(max(simulation.now, origin + elapsed))
             real_sleep(LIVE_STEP)
     except KeyboardInterrupt as interrupt:
-        simulation.raise_in(strand, interrupt)
-    if failure:
-        raise failure[0]
+        call.give_up(interrupt)
+        raise call.error or interrupt from None
+    finally:
+        simulation.driven = None
+    if call.error is not None:
+        raise call.error

@@ -8,16 +8,20 @@ the same process) would have to be called.
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from ._entity import CLIENT
 from ._mistakes import did_you_mean
+from ._notebook import is_notebook
 
 if TYPE_CHECKING:
     from turtle_lesson.ros.core import Strand
     from turtle_lesson.ros.graph import ServerEnd
 
+    from ._executor import Executor
     from .client import Client
-    from .task import Future
+    from .task import Future, Task
 
 IN_A_CALLBACK = (
     "Make the callback `async def` and write `await client.call_async(request)`, with the client in a callback group of "
@@ -49,12 +53,31 @@ def keeps_taken(group: Any) -> bool:
     return holder is not None and any(entity is holder for entity in callbacks_around())
 
 
+def know_worker(strand: Strand, executor: Executor) -> None:
+    """Remember that a strand only runs the callbacks that an executor gives it."""
+    strand.process.locals.setdefault("rclpy.workers", {})[strand] = executor
+
+
+def executor_of_worker(strand: Strand) -> Executor | None:
+    """The executor that gives this strand its work; None for the main program."""
+    return strand.process.locals.get("rclpy.workers", {}).get(strand)
+
+
+def main_may_go_on(strand: Strand) -> bool:
+    """Whether the main program may still do anything, such as spin once more, while this strand waits.
+
+    It may if this is a worker, and its executor is not in `spin`, but spun now and then.
+    """
+    executor = executor_of_worker(strand)
+    return executor is not None and not executor._spins_to_the_end
+
+
 def why_never_answered(client: Client, strand: Strand) -> str:
     """Why a synchronous call of a service from this strand would wait for ever; '' if it need not."""
     servers = client._servers()
     if not servers:
         return _why_nobody_serves(client)
-    drives = strand.process.name == "notebook" and not callbacks_around()
+    drives = is_notebook(strand.process) and not callbacks_around()
     return _why_not_taken(client, strand, drives) or _why_not_served(client, servers, strand, drives)
 
 
@@ -77,7 +100,7 @@ def _why_not_taken(client: Client, strand: Strand, drives: bool) -> str:
             "this callback waits for it and so keeps its callback group, and the client that would take the answer is in "
             f"the same group. {IN_A_CALLBACK}"
         )
-    if drives or client._taken_elsewhere(strand):
+    if drives or client._taken_elsewhere(strand) or (client._executor is None and main_may_go_on(strand)):
         return ""
     if callbacks_around():
         return f"the thread that would take the answer is the one that waits here. {IN_A_CALLBACK}"
@@ -96,10 +119,11 @@ def _why_not_served(client: Client, servers: list[ServerEnd], strand: Strand, dr
         by_this_call = drives and (
             service._node is client._of_node or service._executor is client._executor is not None
         )
-        spun = by_this_call or (service._executor is not None and service._executor._spun_by_another(strand))
+        executor = service._executor
+        spun = by_this_call or (main_may_go_on(strand) if executor is None else executor._spun_by_another(strand))
         if spun and not keeps_taken(service.callback_group):
             return ""
-    place = "notebook" if strand.process.name == "notebook" else "process"
+    place = "notebook" if is_notebook(strand.process) else "process"
     if drives or not callbacks_around():
         return (
             f"the service's node is in this {place}, too, and nobody spins it meanwhile. Add both nodes to one executor: "
@@ -111,10 +135,12 @@ def _why_not_served(client: Client, servers: list[ServerEnd], strand: Strand, dr
     )
 
 
-def why_never_done(future: Future) -> str:
-    """Why spinning inside a callback until a future is done would take for ever; '' if it need not."""
+def why_never_done(future: Future, executor: Executor, strand: Strand) -> str:
+    """Why spinning inside a callback until a future is done would take for ever; '' if it need not, or in doubt."""
     client = future._answered_by
     if client is None or future._done or not keeps_taken(client.callback_group):
+        return ""
+    if main_may_go_on(strand) or _somebody_may_complete(future, executor, keeps_taken):
         return ""
     return (
         f"this callback spins until {client.service_name} has answered, which can never be: the callback keeps its "
@@ -122,3 +148,36 @@ def why_never_done(future: Future) -> str:
         "`async def` and await call_async, with the client in a callback group of its own; or go on in "
         "future.add_done_callback(…)."
     )
+
+
+def why_never_awaited(future: Future, task: Task, strand: Strand | None) -> str:
+    """Why a coroutine would await a future for ever; '' if it need not, or in doubt."""
+    client, entity, executor = future._answered_by, task._entity, task._executor
+    if client is None or entity is None or executor is None or client.callback_group is not entity.callback_group:
+        return ""
+    if client.callback_group.can_execute(client) or not executor._spins_to_the_end:
+        return ""
+    if _somebody_may_complete(future, executor, lambda group: group is entity.callback_group):
+        return ""
+    return (
+        f"this coroutine waits for an answer of {client.srv_name}, but can never get it: it keeps its callback "
+        "group taken while it waits, and the client is in the same group. Give the client a group of its own: "
+        "create_client(…, callback_group=MutuallyExclusiveCallbackGroup())"
+    )
+
+
+def _somebody_may_complete(future: Future, executor: Executor, taken: Callable[[Any], bool]) -> bool:
+    """Whether some callback or task can run while these groups are taken: who knows whether it sets the result."""
+    if executor._resumed or executor._polled:
+        return True
+    nodes = future._answered_by._of_node.context._nodes
+    return any(_may_act(entity, taken) for node in nodes for entity in node._ros_entities())
+
+
+def _may_act(entity: Any, taken: Callable[[Any], bool]) -> bool:
+    """Whether a callback of the program's own may be called by an entity, although these groups are taken."""
+    if entity._executor is None or taken(entity.callback_group):
+        return False
+    if entity._kind == CLIENT:
+        return bool(entity._waiting)
+    return not (getattr(entity.callback, "__module__", None) or "").startswith("rclpy.")

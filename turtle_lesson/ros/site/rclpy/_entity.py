@@ -68,6 +68,8 @@ class Entity:
         """Never be called again."""
         self._destroyed = True
         self._executor = None
+        if self.callback_group is not None:
+            self.callback_group.entities.discard(self)
 
     @property
     def handle(self) -> Any:

@@ -15,7 +15,7 @@ from turtle_lesson.ros.core import NANOSECONDS, NeverWakes, Strand, getcurrent, 
 from turtle_lesson.ros.world import current_process, current_world
 
 from ._blocking import drive, drives_the_simulation, in_a_plain_cell, spin_live
-from ._deadlock import why_never_done
+from ._deadlock import main_may_go_on, why_never_done
 from ._entity import SERVICE, Entity
 from ._executor_errors import (
     ConditionReachedException,
@@ -26,7 +26,7 @@ from ._executor_errors import (
 from ._mistakes import explain_call, no_node
 from .context import Context
 from .exceptions import refuse_destroyed
-from .task import Future, Task
+from .task import Future, Task, at_once
 from .utilities import get_default_context
 
 if TYPE_CHECKING:
@@ -55,7 +55,8 @@ class Executor:
         self._waiter: Strand | None = None
         self._make_ready = self._simulation.make_ready
         self._spinning: list[Strand] = []
-        self._callers = 0  # strands of this executor that wait, without a timeout, in Client.call
+        self._spins_to_the_end = 0  # how many strands are in `spin`: those do nothing else before the shutdown
+        self._calls: list[Future] = []  # for what strands wait, without a timeout, in Client.call
         self._is_shutdown = False
         self._context.on_shutdown(self.wake)
 
@@ -133,11 +134,15 @@ class Executor:
     def _spin(self) -> None:
         strand = running_strand()
         assert strand is not None
-        if type(self).spin_once is Executor.spin_once and type(self)._execute is Executor._execute:
-            self._spin_fast(strand)
-        else:
-            while self._context.ok() and not self._is_shutdown:
-                self.spin_once()
+        self._spins_to_the_end += 1
+        try:
+            if type(self).spin_once is Executor.spin_once and type(self)._execute is Executor._execute:
+                self._spin_fast(strand)
+            else:
+                while self._context.ok() and not self._is_shutdown:
+                    self.spin_once()
+        finally:
+            self._spins_to_the_end -= 1
 
     def _spin_fast(self, strand: Strand) -> None:
         """What a loop over `spin_once` does, written out: half of what the simulation costs is spent here.
@@ -158,17 +163,24 @@ class Executor:
                         else:
                             self._held_up.append(entity)
                 elif signalled or self._batch or self._resumed:
-                    self._execute(self._next(strand, None, None))
+                    try:
+                        job = self._next(strand, None, None)
+                    except ShutdownException:
+                        return
+                    self._execute(job)
                 else:
                     simulation.park(strand)
-                    if context.ended or self._is_shutdown:
-                        self._say_it_is_shut_down()
+                    if context.ended and not self._is_shutdown:
+                        raise ExternalShutdownException
         finally:
             self._waiter = before
             self._spinning.remove(strand)
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
-        """Run one callback, waiting at most `timeout_sec` (s; None waits for ever) for one to become ready."""
+        """Run one callback, waiting at most `timeout_sec` (s; None waits for ever) for one to become ready.
+
+        An executor that is shut down runs none, and says nothing.
+        """
         strand = getcurrent()
         if type(strand) is Strand:
             self._spin_once(strand, None if timeout_sec is None else self._deadline(timeout_sec), None)
@@ -179,11 +191,11 @@ class Executor:
     def spin_until_future_complete(self, future: Future, timeout_sec: float | None = None) -> None:
         """Run callbacks until the future is done, or the timeout (s) is over."""
         strand = running_strand()
-        if strand is not None:
-            strand.activity = "spin_until_future_complete"
-        future.add_done_callback(_at_once(lambda _: self.wake()))
+        assert strand is not None
+        strand.activity = "spin_until_future_complete"
+        self._watch(future)
         deadline = self._deadline(timeout_sec)
-        if deadline is None and (problem := why_never_done(future)):
+        if deadline is None and (problem := why_never_done(future, self, strand)):
             raise NeverWakes(problem)
         while self._context.ok() and not future.done() and not future.cancelled() and not self._is_shutdown:
             if deadline is not None and self._simulation.now >= deadline:
@@ -194,15 +206,27 @@ class Executor:
     @drives_the_simulation
     def spin_once_until_future_complete(self, future: Future, timeout_sec: float | None = None) -> None:
         """Run one callback, unless the future is done before one becomes ready."""
-        future.add_done_callback(_at_once(lambda _: self.wake()))
+        self._watch(future)
         strand = running_strand()
         assert strand is not None
         self._spin_once(strand, self._deadline(timeout_sec), future.done)
 
+    def _watch(self, future: Future) -> None:
+        """Look again when the future is done. It is asked for once, however often it is spun for."""
+        if self._on_done not in future._callbacks:
+            future.add_done_callback(self._on_done)
+
+    @at_once
+    def _on_done(self, _: Future) -> None:
+        self.wake()
+
     def _spin_once(self, strand: Strand, deadline: int | None, condition: Condition) -> None:
         self._spinning.append(strand)
         try:
-            job = self._next(strand, deadline, condition)
+            try:
+                job = self._next(strand, deadline, condition)
+            except ShutdownException:
+                return
             if job is not None:
                 self._execute(job)
         finally:
@@ -233,8 +257,12 @@ class Executor:
         return self._simulation.now + int(timeout_sec * NANOSECONDS)
 
     def _spun_by_another(self, strand: Strand) -> bool:
-        """Whether some other strand than this one is there to take what arrives."""
-        return any(spinner is not strand for spinner in self._spinning)
+        """Whether some other strand than this one is there, or may come, to take what arrives."""
+        return any(spinner is not strand for spinner in self._spinning) or main_may_go_on(strand)
+
+    def _is_worker(self, strand: Strand) -> bool:
+        """Whether this strand is a thread of this executor, which takes nothing while it waits."""
+        return False
 
     # -- choosing ------------------------------------------------------------------------------------------------
 
@@ -360,8 +388,3 @@ async def _call_and_await(entity: Any, arguments: tuple[Any, ...] | None) -> Non
 
 def _turn(entity: Entity) -> tuple[int, int, int]:
     return entity._turn
-
-
-def _at_once(callback: Any) -> Any:
-    callback._at_once = True
-    return callback

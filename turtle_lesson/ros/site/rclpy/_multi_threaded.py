@@ -5,8 +5,11 @@ from __future__ import annotations
 import warnings
 
 from turtle_lesson.ros.core import Strand
+from turtle_lesson.ros.core.strand import GreenletExit
 
+from ._deadlock import executor_of_worker, know_worker
 from ._executor import Condition, Executor, Job
+from ._notebook import is_notebook
 from .context import Context
 
 
@@ -33,10 +36,17 @@ class MultiThreadedExecutor(Executor):
         self._failures: list[BaseException] = []
 
     def _spun_by_another(self, strand: Strand) -> bool:
-        return super()._spun_by_another(strand) and self._callers < self._num_threads - 1
+        free = self._num_threads - sum(not answer.done() for answer in self._calls) - self._is_worker(strand)
+        return super()._spun_by_another(strand) and free > 0
+
+    def _is_worker(self, strand: Strand) -> bool:
+        """Whether this strand is one of this executor's threads."""
+        return executor_of_worker(strand) is self
 
     def _next(self, strand: Strand, deadline: int | None, condition: Condition) -> Job | None:
         while not self._idle and self._threads >= self._num_threads and not self._failures:
+            if condition is not None and condition():
+                return None
             if deadline is not None and self._simulation.now >= deadline:
                 return None
             if self._is_shutdown or not self._context.ok():
@@ -51,12 +61,26 @@ class MultiThreadedExecutor(Executor):
             raise self._failures.pop(0)
         return job
 
+    def _spin_once(self, strand: Strand, deadline: int | None, condition: Condition) -> None:
+        super()._spin_once(strand, deadline, condition)
+        if is_notebook(strand.process):
+            self._let_workers_go_on(strand)
+
+    def _let_workers_go_on(self, strand: Strand) -> None:
+        """When a cell's call returns, time stands still: what is ready must run before, or it would not be seen."""
+        simulation = self._simulation
+        simulation.at(simulation.now, simulation.wake, strand)
+        simulation.park(strand)
+        if self._failures:
+            raise self._failures.pop(0)
+
     def _execute(self, job: Job) -> None:
         if self._idle:
             worker = self._idle.pop()
         else:
             self._threads += 1
             worker = _Worker(self)
+            know_worker(worker._strand, self)
         worker.give(job)
 
     def _execute_here(self, job: Job) -> None:
@@ -84,7 +108,9 @@ class _Worker:
             job, self._job = self._job, None
             try:
                 executor._execute_here(job)
-            except Exception as error:
+            except GreenletExit:
+                raise
+            except BaseException as error:  # also sys.exit(): it ends the program where the executor is spun
                 executor._failures.append(error)
             executor._idle.append(self)
             executor.wake()

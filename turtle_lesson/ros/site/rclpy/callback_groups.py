@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from typing import Any
+from weakref import WeakSet
 
 
 class CallbackGroup:
     """Base class. An executor asks `can_execute`, then `beginning_execution`, then calls `ending_execution`."""
 
     def __init__(self) -> None:
-        self.entities: set[Any] = set()
+        self.entities: WeakSet[Any] = WeakSet()
 
     def add_entity(self, entity: Any) -> None:
         """Let something with a callback belong to this group."""

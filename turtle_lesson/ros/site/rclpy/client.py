@@ -11,9 +11,10 @@ from ._blocking import drives_the_simulation
 from ._deadlock import why_never_answered
 from ._entity import CLIENT, Entity
 from ._mistakes import shown
+from ._notebook import is_notebook
 from .callback_groups import CallbackGroup
 from .qos import QoSProfile
-from .task import Future
+from .task import Future, at_once
 
 if TYPE_CHECKING:
     from .node import Node
@@ -80,7 +81,8 @@ class Client(Entity):
         self._check_request(request)
         future = Future(executor=self._executor)
         future._answered_by = self
-        self._waiting[self._end.ask(self._servers(), request)] = future
+        future._request_number = number = self._end.ask(self._servers(), request)
+        self._waiting[number] = future
         return future
 
     def _check_request(self, request: Any) -> None:
@@ -102,15 +104,26 @@ class Client(Entity):
         if timeout_sec is None and (problem := why_never_answered(self, strand)):
             raise NeverWakes(f"this call of {self._end.name} can never be answered: {problem}")
         future = self.call_async(request)
-        if strand.process.name == "notebook" and not self._taken_elsewhere(strand):
-            from . import get_global_executor
-
-            executor = self._executor or get_global_executor()
-            executor.add_node(self._of_node)
-            executor.spin_until_future_complete(future, timeout_sec)
-        else:
-            self._wait(future, strand, timeout_sec)
+        try:
+            if is_notebook(strand.process) and not self._taken_elsewhere(strand):
+                self._spin_for(future, timeout_sec)
+            else:
+                self._wait(future, strand, timeout_sec)
+        finally:
+            self._waiting.pop(future._request_number, None)
         return future.result()
+
+    def _spin_for(self, future: Future, timeout_sec: float | None) -> None:
+        """Take the answer oneself. A node that nobody spins is only spun for this long."""
+        from . import get_global_executor
+
+        executor = self._executor or get_global_executor()
+        added = executor.add_node(self._of_node)
+        try:
+            executor.spin_until_future_complete(future, timeout_sec)
+        finally:
+            if added:
+                executor.remove_node(self._of_node)
 
     def _wait(self, future: Future, strand: Any, timeout_sec: float | None) -> None:
         simulation = self._end.simulation
@@ -118,20 +131,15 @@ class Client(Entity):
         if deadline is not None:
             simulation.at(deadline, simulation.wake, strand)
 
-        def wake(_: Future) -> None:
-            simulation.wake(strand)
-
-        wake._at_once = True  # type: ignore[attr-defined]
-        future.add_done_callback(wake)
-        executor = self._executor if deadline is None else None
-        if executor is not None:
-            executor._callers += 1
+        future.add_done_callback(at_once(lambda _: simulation.wake(strand)))
+        executor = self._executor
+        calls = executor._calls if deadline is None and executor is not None and executor._is_worker(strand) else []
+        calls.append(future)
         try:
             while not future.done() and (deadline is None or simulation.now < deadline):
                 strand.park()
         finally:
-            if executor is not None:
-                executor._callers -= 1
+            calls.remove(future)
 
     def _taken_elsewhere(self, strand: Any) -> bool:
         return self._executor is not None and self._executor._spun_by_another(strand)

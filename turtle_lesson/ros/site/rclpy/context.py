@@ -63,7 +63,7 @@ class Context:
         for callback in self._callbacks:
             callback()
         for node in list(self._nodes):
-            node.destroy_node()  # a node without a context could do nothing, so it does not stay in the graph
+            node._ros_leave()  # a node without a context could do nothing, so it does not stay in the graph
         if self.shared_default:
             del self._process.locals["rclpy.context"]
 
@@ -92,7 +92,7 @@ class Context:
         """The process ends: what it leaves behind disappears."""
         self.ended = True
         for node in list(self._nodes):
-            node.destroy_node()
+            node._ros_leave()
 
     def __enter__(self) -> Context:
         return self

@@ -17,7 +17,7 @@ from ._missing import refuse_unbuilt
 from ._mistakes import set_by_init
 from ._node_graph import NodeGraph
 from ._node_parameters import NodeParameters
-from ._qos_events import QoSEvents, mismatch_text
+from ._qos_events import SIM_TIME, QoSEvents, mismatch_text, unenforced_text
 from .callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup
 from .client import Client
 from .clock import Clock, ROSClock
@@ -282,6 +282,7 @@ class Node(NodeGraph, NodeParameters):
         writer.on_mismatch = lambda policy: self._ros_warn(mismatch_text(topic, policy, publishes=True))
         publisher = publisher_class(writer, kind, topic, profile, self._ros_logger.name)
         self._ros_publishers.append(publisher)
+        self._ros_say_unenforced("publisher", topic, profile)
         return publisher
 
     def create_subscription(
@@ -310,6 +311,7 @@ class Node(NodeGraph, NodeParameters):
         reader.profile = profile  # type: ignore[attr-defined]
         reader.on_mismatch = lambda policy: self._ros_warn(mismatch_text(topic, policy, publishes=False))
         group = callback_group or self._ros_default_callback_group
+        self._ros_say_unenforced("subscription", topic, profile)
         return self._ros_keep(
             Subscription(reader, msg_type, topic, callback, group, profile, raw, self._ros_logger.name)
         )
@@ -324,6 +326,10 @@ class Node(NodeGraph, NodeParameters):
                     f"Failed to create {what}: failed to create topic [rt{full_name}] because it's already in use in this "
                     f"context with a different message type: it is {type_name}, asked for was {msg_type._TYPE_NAME}"
                 )
+
+    def _ros_say_unenforced(self, what: str, topic: str, profile: QoSProfile) -> None:
+        if text := unenforced_text(what, topic, profile):
+            self._ros_logger.warning(text)
 
     def _ros_warn(self, text: str) -> None:
         """Log a warning when the node is spun."""
@@ -445,6 +451,10 @@ class Node(NodeGraph, NodeParameters):
 
     def destroy_node(self) -> None:
         """Leave the graph, with everything that the node has made."""
+        self._ros_leave()
+
+    def _ros_leave(self) -> None:
+        """What `destroy_node` does, also where a subclass has a `destroy_node` of its own."""
         if self._ros_destroyed:
             return
         if self._ros_executor is not None:
@@ -485,6 +495,8 @@ class Node(NodeGraph, NodeParameters):
         return self.create_publisher(ParameterEvent, "/parameter_events", qos_profile_parameter_events)
 
     def _ros_tell_parameter_events(self, news: dict[str, list[Any]]) -> None:
+        if any(each.name == "use_sim_time" and each.value.bool_value for kind in news.values() for each in kind):
+            self._ros_logger.warning(SIM_TIME)
         event = self._ros_event_publisher.msg_type(node=self._ros_entry.full_name)
         event.stamp.sec, event.stamp.nanosec = divmod(EPOCH + self._ros_simulation.now, NANOSECONDS)
         for kind, parameters in news.items():

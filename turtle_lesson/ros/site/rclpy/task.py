@@ -3,15 +3,25 @@
 from __future__ import annotations
 
 import inspect
+import warnings
 from collections.abc import Callable, Generator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from turtle_lesson.ros.core import NeverWakes
+from turtle_lesson.ros.core import NeverWakes, running_strand
 
+from ._deadlock import why_never_awaited
 from ._mistakes import explain_event_loop
 
 if TYPE_CHECKING:
     from .executors import Executor
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+def at_once(callback: Function) -> Function:
+    """Decorator for a done callback of rclpy's own: it is called right when the future is done, by no executor."""
+    callback._at_once = True  # type: ignore[attr-defined]
+    return callback
 
 
 class Future:
@@ -26,6 +36,7 @@ class Future:
         self._callbacks: list[Callable[[Future], Any]] = []
         self._executor = executor
         self._answered_by: Any = None  # the client whose response this waits for, if any
+        self._request_number = 0
 
     def __repr__(self) -> str:
         state = "cancelled" if self._cancelled else "done" if self._done else "waiting"
@@ -85,8 +96,20 @@ class Future:
 
     def _call_callbacks(self) -> None:
         callbacks, self._callbacks = self._callbacks, []
+        if self._answered_by is not None:
+            self._answered_by._waiting.pop(self._request_number, None)
         for callback in callbacks:
-            self._call(callback)
+            if self._executor is None:
+                self._call_or_warn(callback)
+            else:
+                self._call(callback)
+
+    def _call_or_warn(self, callback: Callable[[Future], Any]) -> None:
+        """Whoever sets the result is not to blame for what is done with it, so an error is only told."""
+        try:
+            callback(self)
+        except Exception as error:
+            warnings.warn(f"Unhandled exception in done callback: {error!r} in {callback!r}", stacklevel=4)
 
     def _call(self, callback: Callable[[Future], Any]) -> None:
         if self._executor is None or getattr(callback, "_at_once", False):
@@ -118,6 +141,7 @@ class Task(Future):
         self._finally: Callable[[], object] | None = None
         self._entity: Any = None
         self._node: Any = None
+        self._refused: Future | None = None
 
     def executing(self) -> bool:
         """Whether a step of it runs right now."""
@@ -151,40 +175,34 @@ class Task(Future):
 
     def _step(self) -> None:
         awaited = self._handler.send(None)
-        if isinstance(awaited, Future):
-            problem = self._why_never(awaited)
-            if problem:
-                awaited = self._handler.throw(NeverWakes(problem))
-        if isinstance(awaited, Future):
-            awaited._callbacks.append(self._go_on)
-        elif awaited is None:
+        while (problem := self._why_not_awaited(awaited)) is not None:
+            awaited = self._handler.throw(problem)  # it may catch that, and await something else
+        if awaited is None:
             self._poll()
         else:
-            self._handler.throw(
-                TypeError(
-                    f"a callback can only await rclpy's own futures and coroutines, not {awaited!r}: "
-                    "asyncio's need an asyncio loop, which an executor is not"
-                )
+            awaited._callbacks.append(self._go_on)
+
+    def _why_not_awaited(self, awaited: Any) -> Exception | None:
+        """What is wrong with what the coroutine waits for, if anything is."""
+        if awaited is None:
+            return None
+        if not isinstance(awaited, Future):
+            return TypeError(
+                f"a callback can only await rclpy's own futures and coroutines, not {awaited!r}: "
+                "asyncio's need an asyncio loop, which an executor is not"
             )
+        if awaited._answered_by is None or awaited is self._refused:
+            return None
+        problem = why_never_awaited(awaited, self, running_strand())
+        if not problem:
+            return None
+        self._refused = awaited  # said once: a coroutine that tries it again and again only waits
+        return NeverWakes(problem)
 
-    def _why_never(self, awaited: Future) -> str:
-        """Whether this task keeps busy the very callback group in which the answer would have to be taken."""
-        client, entity = awaited._answered_by, self._entity
-        if client is None or entity is None or client.callback_group is not entity.callback_group:
-            return ""
-        if client.callback_group.can_execute(client):
-            return ""
-        return (
-            f"this coroutine waits for an answer of {client.srv_name}, but can never get it: it keeps its callback "
-            "group taken while it waits, and the client is in the same group. Give the client a group of its own: "
-            "create_client(…, callback_group=MutuallyExclusiveCallbackGroup())"
-        )
-
+    @at_once
     def _go_on(self, awaited: Future) -> None:
         if self._executor is not None:
             self._executor._resume_task(self)
-
-    _go_on._at_once = True  # type: ignore[attr-defined]
 
     def _poll(self) -> None:
         if self._executor is not None:

@@ -14,6 +14,7 @@ from turtle_lesson.ros.core import NeverWakes, running_strand
 from ._blocking import drives_the_simulation
 from ._entity import TIMER, Entity
 from ._mistakes import shown
+from ._notebook import is_notebook
 from .callback_groups import CallbackGroup
 from .constants import S_TO_NS
 from .exceptions import RCLError
@@ -61,6 +62,7 @@ class Timer(Entity):
         self._canceled = not autostart
         self._last = self._simulation.now
         self._next = self._last + self._period
+        self._armed: int | None = None  # when the simulation calls next, which may be too early (ns)
         if autostart:
             self._arm()
 
@@ -108,11 +110,24 @@ class Timer(Entity):
         return None if self._canceled else self._next - self._simulation.now
 
     def _arm(self) -> None:
-        self._simulation.at(self._next, self._on_due, self._next)
+        """Be called when the next tick is due. A call that comes earlier is used: then there is only ever one.
+
+        So a watchdog that is reset a thousand times a second does not fill the simulation with calls for nothing.
+        """
+        if self._armed is None or self._armed > self._next:
+            self._armed = self._next
+            self._simulation.at(self._next, self._on_due, self._next)
 
     def _on_due(self, due: int) -> None:
-        if due == self._next and not self._canceled:
+        if due != self._armed:
+            return
+        self._armed = None
+        if self._canceled:
+            return
+        if due >= self._next:
             self._signal()
+        else:
+            self._arm()
 
     def _has_work(self) -> bool:
         return not self._canceled and self._simulation.now >= self._next
@@ -127,7 +142,9 @@ class Timer(Entity):
         if period < SHORTEST:
             due = max(due, now + SHORTEST)
         self._next = due
-        self._simulation.at(due, self._on_due, due)
+        if self._armed is None:
+            self._armed = due
+            self._simulation.at(due, self._on_due, due)
         return ()
 
     def destroy(self) -> None:
@@ -156,7 +173,7 @@ class Rate:
 
     def _check_somebody_spins(self) -> None:
         strand = running_strand()
-        if strand is None or strand.process.name == "notebook":
+        if strand is None or is_notebook(strand.process):
             return
         executor = self._timer._executor
         if executor is None or not executor._spun_by_another(strand):

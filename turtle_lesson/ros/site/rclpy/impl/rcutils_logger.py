@@ -15,6 +15,7 @@ from turtle_lesson.ros.core import EPOCH, NANOSECONDS
 from turtle_lesson.ros.world import current_process, current_world
 
 from .._mistakes import did_you_mean
+from .._notebook import is_notebook
 from .logging_severity import LoggingSeverity
 
 TWO_OF_A_NAME = (
@@ -157,7 +158,7 @@ class RcutilsLogger:
 
 def _print(message: str, severity: LoggingSeverity, name: str, time: int) -> None:
     seconds, nanoseconds = divmod(time, NANOSECONDS)
-    stream = sys.stdout if current_process().name == "notebook" else sys.stderr
+    stream = sys.stdout if is_notebook(current_process()) else sys.stderr
     print(f"[{severity.name}] [{seconds}.{nanoseconds:09d}] [{name}]: {message}", file=stream)
 
 

@@ -1,0 +1,245 @@
+"""Damaged bags: what can be read is read, what is lost is told, and nothing that was not recorded ever appears."""
+
+from __future__ import annotations
+
+import shutil
+import sqlite3
+from pathlib import Path
+from typing import Any
+
+import pytest
+from bag_help import write_bag
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from turtle_lesson.ros.bags import BagError
+from turtle_lesson.ros.bags.bag import Bag, open_bag
+
+COUNT = 100
+Written = list[tuple[str, int, bytes]]
+
+
+class Sound(tuple[Path, Written]):
+    """A folder and what was written; hypothesis would warn of a long repr."""
+
+    def __repr__(self) -> str:
+        return f"<{data_file(self[0]).name}>"
+
+
+@pytest.fixture(scope="module", params=["mcap", "sqlite3"])
+def sound(request: Any, tmp_path_factory: Any) -> Sound:
+    """A sound bag of 200 messages, with what is in it."""
+    folder = tmp_path_factory.mktemp("sound") / "run"
+    return Sound((folder, write_bag(folder, COUNT, request.param, size=2000)))
+
+
+def read(bag: Bag) -> Written:
+    return [(message.topic, message.time, message.data) for message in bag.messages()]
+
+
+def data_file(folder: Path) -> Path:
+    return next(path for path in folder.iterdir() if path.suffix in {".mcap", ".db3"})
+
+
+def spoil(sound: Sound, tmp_path: Path, change: Any) -> Path:
+    """A copy of the sound bag, whose data file's bytes are what `change` makes of them."""
+    folder = tmp_path / "spoiled"
+    shutil.rmtree(folder, ignore_errors=True)
+    shutil.copytree(sound[0], folder)
+    file = data_file(folder)
+    file.write_bytes(change(bytearray(file.read_bytes())))
+    return folder
+
+
+def test_a_sound_bag_is_read_as_written(sound: Sound) -> None:
+    bag = open_bag(sound[0])
+    assert (bag.damage, bag.lost, bag.message_count) == ("", 0, 2 * COUNT)
+    assert sorted(read(bag)) == sorted(sound[1])
+    file = open_bag(data_file(sound[0]))
+    assert (file.damage, file.message_count) == ("", 2 * COUNT)
+    assert sorted(read(file)) == sorted(sound[1])
+
+
+def test_half_a_bag_is_half_read_and_the_rest_is_counted(sound: Sound, tmp_path: Path) -> None:
+    bag = open_bag(spoil(sound, tmp_path, lambda data: data[: len(data) // 2]))
+    messages = read(bag)
+    assert 0.35 * len(sound[1]) < len(messages) < 0.6 * len(sound[1])
+    assert set(messages) < set(sound[1])
+    assert (len(messages), bag.lost) == (bag.message_count, len(sound[1]) - len(messages))
+    assert bag.damage.startswith("the bag is damaged: run_0")
+    assert bag.damage.endswith(f". {len(messages)} of 200 messages can be read, {bag.lost} are lost")
+
+
+def test_one_spoiled_byte_costs_one_chunk(sound: Sound, tmp_path: Path) -> None:
+    """MCAP only: SQLite has no checksums, so a spoiled byte within a message is not noticed there."""
+    if data_file(sound[0]).suffix != ".mcap":
+        pytest.skip("no checksums")
+
+    def change(data: bytearray) -> bytearray:
+        data[len(data) // 2] ^= 0x10
+        return data
+
+    bag = open_bag(spoil(sound, tmp_path, change))
+    assert set(read(bag)) < set(sound[1])
+    assert bag.lost is not None
+    assert 0 < bag.lost < 80
+    assert "is spoiled (its checksum is wrong), so its messages are left out" in bag.damage
+
+
+@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(part=st.floats(0, 1))
+def test_cut_short_anywhere(sound: Sound, tmp_path: Path, part: float) -> None:
+    folder = spoil(sound, tmp_path, lambda data: data[: int(part * (len(data) - 1))])
+    try:
+        bag = open_bag(folder)
+    except BagError as error:
+        assert "can be read: run_0" in str(error)
+        return
+    assert bag.damage
+    assert set(read(bag)) <= set(sound[1])
+    assert bag.message_count + (bag.lost or 0) == 2 * COUNT
+
+
+@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(places=st.lists(st.tuples(st.floats(0, 1), st.integers(1, 255)), min_size=1, max_size=20))
+def test_spoiled_bytes_anywhere(sound: Sound, tmp_path: Path, places: list[tuple[float, int]]) -> None:
+    def change(data: bytearray) -> bytearray:
+        for place, bits in places:
+            data[int(place * (len(data) - 1))] ^= bits
+        return data
+
+    try:
+        bag = open_bag(spoil(sound, tmp_path, change))
+        messages = read(bag)
+    except BagError:
+        return
+    if bag.storage == "mcap" and bag.damage:
+        assert {message[1:] for message in messages} <= {message[1:] for message in sound[1]}
+    assert len(messages) <= 2 * COUNT + 10
+
+
+@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(data=st.binary(max_size=300), begin=st.sampled_from([b"", b"\x89MCAP0\r\n", b"SQLite format 3\0"]))
+def test_rubbish_is_no_bag(tmp_path: Path, data: bytes, begin: bytes) -> None:
+    for name in ("x.mcap", "x.db3"):
+        (tmp_path / name).write_bytes(begin + data)
+        with pytest.raises(BagError, match=r"nothing of the bag .* can be read: x\."):
+            open_bag(tmp_path / name)
+
+
+# ---------------------------------------------------------------- the rest of the folder
+
+
+def test_without_metadata_the_data_is_read(sound: Sound, tmp_path: Path) -> None:
+    folder = spoil(sound, tmp_path, lambda data: data)
+    (folder / "metadata.yaml").unlink()
+    bag = open_bag(folder)
+    assert "there is no metadata.yaml (was the recording not stopped?)" in bag.damage
+    assert bag.message_count == len(read(bag)) == 2 * COUNT
+
+
+@pytest.mark.parametrize("text", ["", "- 1", "\0", "rosbag2_bagfile_information: 3", "a: &a [*a, *a]", "x" * 10_000])
+def test_spoiled_metadata_is_told(sound: Sound, tmp_path: Path, text: str) -> None:
+    folder = spoil(sound, tmp_path, lambda data: data)
+    (folder / "metadata.yaml").write_text(text)
+    bag = open_bag(folder)
+    assert "metadata.yaml cannot be read" in bag.damage
+    assert len(read(bag)) == 2 * COUNT
+
+
+def test_a_file_outside_of_the_bag_is_never_read(sound: Sound, tmp_path: Path) -> None:
+    folder = spoil(sound, tmp_path, lambda data: data)
+    secret = tmp_path / data_file(folder).name
+    data_file(folder).rename(secret)
+    text = (folder / "metadata.yaml").read_text()
+    (folder / "metadata.yaml").write_text(text.replace(secret.name, f"../{secret.name}"))
+    with pytest.raises(BagError, match=r"is no bag: there is no .mcap or .db3 file in it"):
+        open_bag(folder)
+
+
+def test_a_missing_file_of_several(tmp_path: Path) -> None:
+    write_bag(tmp_path / "run", 10)
+    text = (tmp_path / "run" / "metadata.yaml").read_text()
+    text = text.replace("  - run_0.mcap\n", "  - run_0.mcap\n  - run_1.mcap\n").replace(
+        "message_count: 20", "message_count: 40"
+    )
+    (tmp_path / "run" / "metadata.yaml").write_text(text)
+    bag = open_bag(tmp_path / "run")
+    assert bag.damage == (
+        "the bag is damaged: the file run_1.mcap is missing. 20 of 40 messages can be read, 20 are lost"
+    )
+    assert len(read(bag)) == 20
+
+
+def test_no_bag_at_all(tmp_path: Path) -> None:
+    with pytest.raises(BagError, match="does not exist"):
+        open_bag(tmp_path / "nothing")
+    with pytest.raises(BagError, match=r"is no bag: there is no .mcap or .db3"):
+        open_bag(tmp_path)
+    (tmp_path / "notes.txt").write_text("hello")
+    with pytest.raises(BagError, match="is no bag: a bag is a folder"):
+        open_bag(tmp_path / "notes.txt")
+
+
+# ---------------------------------------------------------------- what others write
+
+
+def test_compressed_chunks_are_read_whole_and_cut_short(tmp_path: Path) -> None:
+    """As `ros2 bag record --storage-preset-profile zstd_fast` writes them."""
+    from mcap_ros2.writer import Writer
+
+    path = tmp_path / "other.mcap"
+    with Writer(str(path), chunk_size=20_000) as writer:  # zstd is its default
+        schema = writer.register_msgdef("std_msgs/msg/Int32", "int32 data")
+        for number in range(5000):
+            writer.write_message("/count", schema, {"data": number}, log_time=number)
+    bag = open_bag(path)
+    assert (bag.damage, bag.message_count, bag.topics[0].type_name) == ("", 5000, "std_msgs/msg/Int32")
+    path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
+    bag = open_bag(path)
+    messages = read(bag)
+    assert bag.damage
+    assert 1000 < len(messages) < 4000
+    assert [int.from_bytes(data[4:], "little") for _, _, data in messages] == list(range(len(messages)))
+
+
+@pytest.mark.parametrize("mode", ["FILE", "MESSAGE"])
+@pytest.mark.parametrize("damaged", [False, True])
+def test_compressed_bags_of_rosbags(tmp_path: Path, mode: str, damaged: bool) -> None:
+    from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
+
+    writer = Writer(tmp_path / "run", version=9, storage_plugin=StoragePlugin.SQLITE3)
+    writer.set_compression(CompressionMode[mode], CompressionFormat.ZSTD)
+    with writer:
+        connection = writer.add_connection("/count", "std_msgs/msg/Int32", msgdef="int32 data\n", rihs01="RIHS01_0")
+        for number in range(100):
+            writer.write(connection, number, b"\0\1\0\0" + number.to_bytes(4, "little"))
+    if damaged:
+        (tmp_path / "run" / "metadata.yaml").write_text(
+            (tmp_path / "run" / "metadata.yaml").read_text().replace("message_count: 100", "message_count: 101")
+        )
+    bag = open_bag(tmp_path / "run")
+    assert bag.lost == (1 if damaged else 0)
+    assert [int.from_bytes(data[4:8], "little") for _, _, data in read(bag)] == list(range(100))
+
+
+def test_a_database_of_humble_is_read(tmp_path: Path) -> None:
+    """Humble's has no definitions, no hashes and no schema table."""
+    folder = tmp_path / "old"
+    folder.mkdir()
+    database = sqlite3.connect(folder / "old_0.db3")
+    database.executescript(
+        """
+        CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL,
+            serialization_format TEXT NOT NULL, offered_qos_profiles TEXT NOT NULL);
+        CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, timestamp INTEGER NOT NULL,
+            data BLOB NOT NULL);
+        INSERT INTO topics VALUES(1, '/count', 'std_msgs/msg/Int32', 'cdr', '');
+        INSERT INTO messages VALUES(1, 1, 5, x'0001000007000000');
+        """
+    )
+    database.commit()
+    database.close()
+    bag = open_bag(folder / "old_0.db3")
+    assert (bag.damage, bag.message_count, bag.topics[0].definition, bag.topics[0].profiles) == ("", 1, "", [])
+    assert read(bag) == [("/count", 5, bytes.fromhex("0001000007000000"))]

@@ -1,0 +1,341 @@
+"""The terminal: how a line becomes commands, what its own words do, and that nonsense is answered in a line or two."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+from command_cases import FOLDER, check, type_in
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as some
+
+from turtle_lesson.ros.command import run
+from turtle_lesson.ros.command.groups import GROUPS, NOT_HERE
+from turtle_lesson.ros.command.parser import verb_parser
+from turtle_lesson.ros.command.shell import run_line
+from turtle_lesson.ros.command.usage import WIDTH, group_help, top_help
+from turtle_lesson.ros.command.words import Operator, UnfinishedError, Word, is_unfinished, tokens
+from turtle_lesson.ros.world import World
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def type_line(world: World, capsys: pytest.CaptureFixture[str]):  # type: ignore[no-untyped-def]
+    """Types a line; returns the exit code, stdout and stderr."""
+
+    def type_line(line: str) -> tuple[int, str, str]:
+        code = run_line(world, line)
+        return code, *capsys.readouterr()
+
+    return type_line
+
+
+# -- words -----------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("a b  c", ["a", "b", "c"]),
+        ("a 'b c' \"d e\"", ["a", "b c", "d e"]),
+        (r"a\ b c", ["a b", "c"]),
+        ("a 'b'\"c\"d", ["a", "bcd"]),
+        ('"{x: 5.0}" \'{"a": 1}\'', ["{x: 5.0}", '{"a": 1}']),
+        (r'"a \"b\" \n"', [r'a "b" \n']),
+        (r"'a \'", ["a \\"]),
+        ("a # b", ["a"]),
+        ("a#b", ["a#b"]),
+        ("a \\\n b", ["a", "b"]),
+        ("'' a", ["", "a"]),
+        ("$x ${y} {a,b} ~x", ["$x", "${y}", "{a,b}", "~x"]),
+        ("é 😀", ["é", "😀"]),
+    ],
+)
+def test_words(line: str, words: list[str]) -> None:
+    assert [token.text for token in tokens(line)] == words
+
+
+def test_signs_between_commands() -> None:
+    found = [token.text for token in tokens("a&&b||c;d&e|f>g>>h\ni 2>j 2>&1") if isinstance(token, Operator)]
+    assert found == ["&&", "||", ";", "&", "|", ">", ">>", "\n", "2>", "2>&1"]
+
+
+@pytest.mark.parametrize("line", ["'a", '"a', "a \\", "a 'b\n", "a &&", "a |"])
+def test_what_goes_on_in_the_next_line(line: str) -> None:
+    assert is_unfinished(line)
+
+
+@given(some.text(max_size=60))
+def test_any_text_is_taken_apart_or_refused(text: str) -> None:
+    try:
+        assert all(isinstance(token, Word | Operator) for token in tokens(text))
+    except UnfinishedError as error:
+        assert "\n" not in str(error).replace("\\n", "")
+
+
+# -- lines -----------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("line", "out"),
+    [
+        ("echo a && echo b", "a\nb\n"),
+        ("cat nope && echo b", ""),
+        ("cat nope || echo b", "b\n"),
+        ("cat nope; echo $?", "1\n"),
+        ("echo a; echo b # c; d", "a\nb\n"),
+        ("echo a\n\n# comment\necho b", "a\nb\n"),
+        ("echo a &&\n echo b", "a\nb\n"),
+        ("echo 'a\nb' | grep b", "b\n"),
+        ("echo 'a\nb\nc' | grep -v b | wc -l", "2\n"),
+        ("echo 'a\nb\nc' | head -n 2", "a\nb\n"),
+        ("echo 'a\nb\nc' | tail -1", "c\n"),
+        ("echo 'b\na\nb' | sort -u", "a\nb\n"),
+        ("echo a > x.txt; echo b >> x.txt; cat x.txt", "a\nb\n"),
+        ("cat nope 2> x.txt; cat x.txt", "cat: nope: No such file or directory\n"),
+        ("cat nope > x.txt 2>&1; cat x.txt", "cat: nope: No such file or directory\n"),
+        ("touch b.msg a.msg c.srv; ls *.msg", "a.msg\nb.msg\n"),
+        ("touch a.msg; echo *.nope 'a*' a*", "*.nope a* a.msg\n"),
+        ("mkdir -p a/b; ls -R a", "a:\nb\n\na/b:\n"),
+        ("ros2 pkg list | grep -c ^", "0\n"),
+        ("ros2 pkg list | grep turtlesim", "turtlesim\n"),
+        ("", ""),
+        ("# only a comment", ""),
+    ],
+)
+def test_lines(type_line, line: str, out: str) -> None:  # type: ignore[no-untyped-def]
+    assert type_line(line)[1] == out
+
+
+@pytest.mark.parametrize(
+    ("line", "text"),
+    [
+        ("ros2 'topic list", "syntax error: the quote ' before \"'topic list\" is never closed"),
+        ("&& ros2", "syntax error: there is no command before '&&'"),
+        ("ros2 pkg list |", "syntax error: there is no command after '|'"),
+        ("ros2 pkg list &&", "syntax error: there is no command after '&&'"),
+        ("ros2 pkg list >", "syntax error: '>' wants the name of a file"),
+        ("cat < x", "syntax error: '<' is not in this classroom's terminal"),
+        ("ros topic list", "ros: command not found. Did you mean 'ros2'?"),
+        ("rm -rf /", "rm: command not found. In this classroom's terminal there are ros2, colcon, source"),
+        ("cd nope", "cd: nope: No such file or directory"),
+        ("cd a b", "cd: too many arguments"),
+        ("mkdir", "mkdir: missing operand"),
+        ("mkdir a/b", "mkdir: cannot create directory 'a/b': No such file or directory. mkdir -p makes"),
+        ("mkdir -q x", "mkdir: it knows -p"),
+        ("mkdir .", "mkdir: cannot create directory '.': File exists"),
+        ("ls nope", "ls: cannot access 'nope': No such file or directory"),
+        ("cat .", "cat: .: Is a directory"),
+        ("cat 'a\0b'", "cat: "),
+        ("echo a > no/where", "echo: no/where: No such file or directory"),
+        ("kill", "kill: which one?"),
+        ("kill 99999", "kill: 99999: No such process"),
+        ("kill %4", "kill: %4: no such job"),
+        ("kill it", "kill: it: arguments must be process or job IDs"),
+        ("kill -HUP 1", "kill: HUP: invalid signal specification"),
+        ("grep", "grep: name the pattern"),
+        ("chmod 000 x", "chmod: here it makes files executable"),
+        ("source", "bash: source: filename argument required"),
+        ("source nope.bash", "bash: nope.bash: No such file or directory"),
+    ],
+)
+def test_mistakes_get_a_line(type_line, line: str, text: str) -> None:  # type: ignore[no-untyped-def]
+    code, out, error = type_line(line)
+    assert code != 0
+    assert out == ""
+    assert error.startswith(text)
+    assert error.count("\n") <= 2
+
+
+def test_cd_goes_and_comes_back(type_line, folder: Path) -> None:  # type: ignore[no-untyped-def]
+    assert type_line("mkdir -p a/b && cd a/b && pwd")[1] == f"{folder}/a/b\n"
+    assert type_line("cd ..; pwd; cd - ; pwd")[1].splitlines()[::2] == [f"{folder}/a", f"{folder}/a/b"]
+
+
+def test_a_folder_of_nearly_the_right_name_is_named(type_line) -> None:  # type: ignore[no-untyped-def]
+    assert "Did you mean 'turtle_ws'?" in type_line("mkdir turtle_ws; cd turtel_ws")[2]
+
+
+# -- ros2 ------------------------------------------------------------------------------------------------------------------
+
+
+def test_wrong_usage_is_answered_as_recorded(world: World) -> None:
+    check(world, "usage.txt")
+
+
+def test_usage_lines_are_the_real_ones(world: World) -> None:
+    for usage in (FOLDER / "usage_lines.txt").read_text(encoding="utf-8").split("\n\n")[1:]:
+        command = " ".join(usage.partition("[-h]")[0].split()[1:])
+        shown = type_in(world, f"{command} -h").stdout.split("\n\n")[0]
+        assert shown == usage.rstrip(), command
+
+
+def test_help_lists_the_commands_and_the_verbs(world: World) -> None:
+    for command in ("ros2", "ros2 -h", "ros2 --help"):
+        answer = type_in(world, command)
+        assert (answer.stdout, answer.stderr, answer.code) == (f"{top_help()}\n", "", 0)
+    for group in GROUPS.values():
+        answer = type_in(world, f"ros2 {group.name} --help")
+        assert (answer.stderr, answer.code) == ("", 0)
+        if group.alone is None:
+            assert answer.stdout == f"{group_help(group)}\n" == type_in(world, f"ros2 {group.name}").stdout
+            for name in group.verbs:
+                assert f"\n  {name} " in answer.stdout
+
+
+def test_every_verb_has_help_of_its_own(world: World) -> None:
+    for group in GROUPS.values():
+        verbs = {"": group.alone} if group.alone else group.verbs
+        for name, verb in verbs.items():
+            assert verb is not None
+            answer = type_in(world, f"ros2 {group.name} {name} -h".replace("  ", " "))
+            assert (answer.stderr, answer.code) == ("", 0)
+            assert answer.stdout.startswith(f"usage: ros2 {group.name}")
+            assert verb.help in " ".join(answer.stdout.split())
+            parser = verb_parser(verb, "ros2")
+            assert all(action.help for action in parser.actions), f"{group.name} {name}: an argument without help"
+            assert "--for" not in answer.stdout.split("\n\n")[0], "the usage line is the real tool's"
+            assert all(len(line) <= WIDTH or "{" in line or line[:3] == "  -" for line in answer.stdout.splitlines())
+
+
+def test_a_verb_that_is_missing_here_is_told_from_one_that_is_wrong(world: World) -> None:
+    for name in NOT_HERE:
+        answer = type_in(world, f"ros2 {name} list")
+        assert answer.code == 2
+        assert "On a robot it exists." in answer.stderr
+        assert answer.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("command", "hint"),
+    [
+        ("ros2 tpic list", "Did you mean 'topic'?"),
+        ("ros2 node lst", "Did you mean 'list'?"),
+        ("ros2 topic echo /x --feild y", "Did you mean '--field'?"),
+        ("ros2 topic --include-hidden list", "Did you mean '--include-hidden-topics'?"),
+        ("ros2 pkg create x --build-type ament_pythn", "Did you mean 'ament_python'?"),
+        ("ros2 --hlp", "Did you mean '--help'?"),
+    ],
+)
+def test_did_you_mean(world: World, command: str, hint: str) -> None:
+    answer = type_in(world, command)
+    assert answer.code == 2
+    assert answer.stderr.splitlines()[-1] == hint
+
+
+def test_a_flag_of_the_command_reaches_its_verbs(world: World) -> None:
+    assert type_in(world, "ros2 topic --include-hidden-topics list").code == 0
+    assert type_in(world, "ros2 topic list --include-hidden-topics").code == 0
+
+
+def test_doctor_says_what_this_is_and_what_is_up(world: World) -> None:
+    answer = type_in(world, "ros2 doctor --report")
+    assert answer.code == 0
+    assert answer.stdout.startswith("This is the classroom of Turtle Lesson")
+    assert "   NODES\nnone\n" in answer.stdout
+    assert answer.stdout.endswith("All 2 checks passed\n")
+
+
+def test_doctor_finds_twins_and_lonely_topics(world: World) -> None:
+    def talk() -> None:
+        import rclpy
+        from std_msgs.msg import String
+
+        rclpy.init()
+        node = rclpy.create_node("twin")
+        node.create_publisher(String, "word", 1)
+        rclpy.spin(node)
+
+    for _ in range(2):
+        world.spawn(talk, name="twin")
+    world.sim.settle()
+    answer = type_in(world, "ros2 doctor -iw")
+    assert answer.code == 1
+    assert answer.stderr.splitlines() == [
+        "WARNING: 2 nodes share the name /twin",
+        "WARNING: Publisher without subscriber detected on /word.",
+    ]
+
+
+def test_a_command_works_in_the_folder_that_it_is_given(world: World, folder: Path) -> None:
+    (folder / "src").mkdir()
+    assert run(world, ["ros2", "pkg", "create", "x"], cwd=folder / "src") == 0
+    assert (folder / "src" / "x" / "package.xml").is_file()
+    assert Path.cwd() == folder
+
+
+def test_what_can_never_end_is_ended_and_explained(world: World, monkeypatch: pytest.MonkeyPatch) -> None:
+    import turtle_lesson.ros.command.group_doctor as group
+
+    def wait(args: object) -> int:
+        import rclpy
+
+        rclpy.init(args=[])
+        rclpy.spin(rclpy.create_node("_waits"))
+        return 0
+
+    monkeypatch.setitem(group.COMMANDS, "doctor", group.Command("wait", lambda parser: None, wait))
+    answer = type_in(world, "ros2 doctor")
+    assert "ros2 doctor waits for something that can never happen" in answer.stderr
+    assert answer.code == 2
+    assert world.graph.nodes == []
+
+
+def test_a_verb_that_breaks_is_one_line(world: World, monkeypatch: pytest.MonkeyPatch) -> None:
+    import turtle_lesson.ros.command.group_doctor as group
+
+    def break_down(args: object) -> int:
+        raise ZeroDivisionError("this is a bug")
+
+    monkeypatch.setitem(group.COMMANDS, "doctor", group.Command("break", lambda parser: None, break_down))
+    answer = type_in(world, "ros2 doctor")
+    assert (answer.stderr, answer.code) == ("ros2 doctor: ZeroDivisionError: this is a bug\n", 1)
+
+
+# -- nonsense --------------------------------------------------------------------------------------------------------------
+
+LONG = "x" * 10_000
+JUNK = "\x00\x01\x1b[31m\x7f\ufffe\ud800"
+
+
+def all_commands() -> list[list[str]]:
+    found = []
+    for group in GROUPS.values():
+        found += [[group.name]] if group.alone else [[group.name], *([group.name, verb] for verb in group.verbs)]
+    return found
+
+
+@pytest.mark.parametrize("words", all_commands(), ids=" ".join)
+@pytest.mark.parametrize("nonsense", [LONG, JUNK, "../../etc", "", "-", "--", "[" * 500, "%s{0}$(x)`y`", "a/b/c/d"])
+def test_nonsense_is_answered_in_a_few_lines(world: World, words: list[str], nonsense: str) -> None:
+    for count in (1, 3):
+        before = world.now
+        answer = _typed(world, ["ros2", *words, *[nonsense] * count])
+        said = answer[1].splitlines()
+        usage = next((place for place, line in enumerate(said) if ": error: " in line), 0)
+        assert len(said) - usage <= 8, said
+        assert all(len(line) < 2000 for line in said)
+        assert "Traceback" not in answer[1] + answer[0]
+        assert not re.search(r"[\x00\x01\x1b\x7f]", answer[1])
+        assert world.now - before < 30e9
+
+
+def _typed(world: World, words: list[str]) -> tuple[str, str, int]:
+    from io import StringIO
+
+    out, error = StringIO(), StringIO()
+    code = run(world, words, stdout=out, stderr=error)
+    return out.getvalue(), error.getvalue(), code
+
+
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(some.text(max_size=200))
+def test_any_line_is_answered(world: World, text: str) -> None:
+    """Whatever stands behind ros2 on a line; signs that write files or start other commands are left out."""
+    run_line(world, "ros2 " + re.sub(r"[>;&|\n]", "", text))

@@ -1,0 +1,525 @@
+"""`colcon build`: what it prints, compared with recordings of the real one, and what it refuses."""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from command_cases import cases
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from workspace_cases import change, colcon, make_package, timeless
+
+from turtle_lesson.ros.workspace.colcon import run
+from turtle_lesson.ros.world import World
+
+
+@pytest.fixture
+def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A good package in a workspace, which is the current folder."""
+    monkeypatch.chdir(tmp_path)
+    return make_package(tmp_path)
+
+
+Break = Callable[[Path], object]
+CMAKE, STATUS = "CMakeLists.txt", "msg/TurtleStatus.msg"
+BROKEN: dict[str, Break] = {
+    "as it is": lambda p: None,
+    "find_package of a package that is not there": lambda p: change(
+        p / CMAKE, "# line 10", "find_package(turtle_msgs REQUIRED)"
+    ),
+    "a default value that is none": lambda p: change(p / STATUS, "battery", "battery level"),
+    "a type that is none": lambda p: change(p / STATUS, "float32 battery", "flot32 battery"),
+    "a field with a capital": lambda p: change(p / STATUS, "battery", "Battery"),
+    "a field twice": lambda p: change(p / STATUS, "float32 y", "float32 x"),
+    "a service without ---": lambda p: change(p / "srv/NavigateTo.srv", "---\n", ""),
+    "a file that is not there": lambda p: change(p / CMAKE, "TurtleStatus.msg", "TurtleStat.msg"),
+    "without find_package": lambda p: change(p / CMAKE, "find_package(rosidl_default_generators REQUIRED)", "#"),
+    "without member_of_group": lambda p: change(
+        p / "package.xml", "  <member_of_group>rosidl_interface_packages</member_of_group>\n", ""
+    ),
+    "package.xml is cut off": lambda p: change(p / "package.xml", "</package>\n", ""),
+    "a program that is not there": lambda p: change(p / CMAKE, "navigator_node.py", "navigator.py"),
+    "another name in project()": lambda p: change(p / CMAKE, "project(robot_controller)", "project(robot)"),
+    "a command that is none": lambda p: change(p / CMAKE, "ament_package", "ament_pakage"),
+    "an unknown build_type": lambda p: change(p / "package.xml", "type>ament_cmake<", "type>ament_cmak<"),
+    "ament_package() too early": lambda p: change(p / CMAKE, "# line 10", "ament_package()"),
+    "no maintainer": lambda p: change(
+        p / "package.xml", '  <maintainer email="user@example.org">user</maintainer>\n', ""
+    ),
+}
+
+
+@pytest.mark.parametrize("name", BROKEN)
+def test_the_words_of_the_real_build(package: Path, world: World, name: str) -> None:
+    (case,) = [case for case in cases("colcon_build.txt") if case.command == f"colcon build  # {name}"]
+    BROKEN[name](package)
+    answer = colcon(world)
+    assert answer.shape == (case.code, timeless(case.stdout), timeless(case.stderr))
+
+
+def test_every_recorded_case_is_tried() -> None:
+    assert [case.command.partition("# ")[2] for case in cases("colcon_build.txt")] == list(BROKEN)
+
+
+def test_usage(package: Path, world: World) -> None:
+    for case in cases("colcon_usage.txt"):
+        answer = colcon(world, case.command.partition(" ")[2])
+        assert answer.shape == (case.code, timeless(case.stdout), timeless(case.stderr)), case.command
+
+
+def test_the_second_build_is_quick_and_fails_in_make(package: Path, world: World) -> None:
+    assert "Finished <<< robot_controller [5.20s]" in colcon(world).out
+    assert "Finished <<< robot_controller [0.70s]" in colcon(world).out
+    change(package / "package.xml", "<member_of_group>rosidl_interface_packages</member_of_group>", "")
+    answer = colcon(world)
+    assert answer.code == 2
+    assert "gmake: *** [Makefile:786: cmake_check_build_system] Error 1" in answer.err
+
+
+def test_a_build_takes_robot_time(package: Path, world: World) -> None:
+    colcon(world)
+    assert world.now == pytest.approx(5.4e9)
+
+
+def test_the_tree(package: Path, world: World, tmp_path: Path) -> None:
+    colcon(world)
+    tree = {path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*")}
+    install = "install/robot_controller"
+    for path in (
+        "build/COLCON_IGNORE", "build/.built_by", "build/robot_controller/CMakeCache.txt",
+        "build/robot_controller/colcon_build.rc", "install/COLCON_IGNORE", "install/.colcon_install_layout",
+        "install/setup.bash", "install/local_setup.bash", "log/COLCON_IGNORE", "log/latest_build/logger_all.log",
+        f"{install}/lib/robot_controller/navigator",
+        f"{install}/local/lib/python3.10/dist-packages/robot_controller/msg/_turtle_status.py",
+        f"{install}/local/lib/python3.10/dist-packages/robot_controller/srv/__init__.py",
+        f"{install}/share/ament_index/resource_index/packages/robot_controller",
+        f"{install}/share/ament_index/resource_index/package_run_dependencies/robot_controller",
+        f"{install}/share/ament_index/resource_index/parent_prefix_path/robot_controller",
+        f"{install}/share/ament_index/resource_index/rosidl_interfaces/robot_controller",
+        f"{install}/share/colcon-core/packages/robot_controller",
+        f"{install}/share/robot_controller/cmake/robot_controllerConfig.cmake",
+        f"{install}/share/robot_controller/environment/ament_prefix_path.dsv",
+        f"{install}/share/robot_controller/environment/pythonpath.dsv",
+        f"{install}/share/robot_controller/launch/start_system.launch.py",
+        f"{install}/share/robot_controller/msg/TurtleStatus.msg",
+        f"{install}/share/robot_controller/srv/NavigateTo_Request.msg",
+        f"{install}/share/robot_controller/package.xml",
+    ):  # fmt: skip
+        assert path in tree or (tmp_path / path).exists(), path
+
+
+def test_what_is_gone_from_the_source_is_gone_after_the_build(package: Path, world: World, tmp_path: Path) -> None:
+    colcon(world)
+    text = (package / CMAKE).read_text()
+    (package / CMAKE).write_text(re.sub(r"install\(PROGRAMS[^)]*\)", "", text))
+    colcon(world)
+    assert not (tmp_path / "install/robot_controller/lib/robot_controller").exists()
+
+
+def test_a_failed_build_leaves_the_last_good_one(package: Path, world: World, tmp_path: Path) -> None:
+    colcon(world)
+    change(package / STATUS, "battery", "Battery")
+    assert colcon(world).code
+    assert (tmp_path / "install/robot_controller/lib/robot_controller/navigator").is_file()
+
+
+def test_symlink_install(package: Path, world: World, tmp_path: Path) -> None:
+    colcon(world, "build --symlink-install")
+    program = tmp_path / "install/robot_controller/lib/robot_controller/navigator"
+    assert program.resolve() == package / "robot_controller/navigator_node.py"
+    colcon(world)
+    assert program.resolve() == program
+
+
+# -- advice, where the real build says nothing or little -----------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "code", "said"),
+    [
+        (CMAKE, "ament_package()", "", 0, "There is no ament_package() in CMakeLists.txt"),
+        (
+            CMAKE,
+            "DESTINATION lib/${PROJECT_NAME} RENAME",
+            "DESTINATION bin RENAME",
+            0,
+            "goes to bin; ros2 run looks only in",
+        ),
+        (CMAKE, "launch DESTINATION share/${PROJECT_NAME}", "launch", 1, "install DIRECTORY given no DESTINATION!"),
+        (
+            CMAKE,
+            "DESTINATION share/${PROJECT_NAME}",
+            "DESTINATION /etc",
+            1,
+            "lies outside of the package's install folder",
+        ),
+        (
+            CMAKE,
+            "DESTINATION share/${PROJECT_NAME}",
+            "DESTINATION ../..",
+            1,
+            "lies outside of the package's install folder",
+        ),
+        (CMAKE, "# line 10", "find_package(launch REQUIRED)", 1, "launch is a Python package, which CMake cannot find"),
+        (CMAKE, "# line 10", "find_package(sensor_mgs REQUIRED)", 1, "Did you mean 'sensor_msgs'?"),
+        (CMAKE, "# line 10", "add_executable(x x.cpp)", 1, "builds and runs Python only"),
+        (CMAKE, "# line 10", "find_package(nope_msgs)", 0, "CMake Warning at CMakeLists.txt:10 (find_package)"),
+        (
+            CMAKE,
+            "find_package(ament_cmake REQUIRED)",
+            "ament_environment_hooks(x)",
+            1,
+            "Write find_package(ament_cmake REQ",
+        ),
+        (CMAKE, "ament_package()", "ament_package(", 1, 'Parse error. Function missing ending ")".'),
+        (CMAKE, "project(robot_controller)", "", 1, 'CMake is pretending there is a "project(Project)" command'),
+        (
+            STATUS,
+            "float32 battery",
+            "geometry_msgs/Point at",
+            2,
+            "line 6, uses messages of geometry_msgs: in CMakeLists",
+        ),
+        (
+            STATUS,
+            "float32 battery",
+            "Batery b",
+            2,
+            "TurtleStatus.msg:6: fatal error: the type 'robot_controller/Batery' is unk",
+        ),
+        (
+            "robot_controller/navigator_node.py",
+            "#!/usr/bin/env python3\n",
+            "",
+            0,
+            "does not begin with '#!/usr/bin/env python3'",
+        ),
+        ("package.xml", "<build_type>ament_cmake</build_type>", "", 0, "colcon takes it for a package of ROS 1"),
+        ("package.xml", "exec_depend>", "exec_dependd>", 1, "Did you mean 'exec_depend'?"),
+        ("package.xml", "<version>0.0.0", "<version>1", 1, 'Package version "1" does not follow version conventions'),
+    ],
+)
+def test_advice(package: Path, world: World, file: str, old: str, new: str, code: int, said: str) -> None:
+    change(package / file, old, new)
+    answer = colcon(world)
+    assert (answer.code, said in " ".join(answer.err.split())) == (code, True), answer.err
+
+
+def test_entry_points_do_nothing_in_an_ament_cmake_package(package: Path, world: World) -> None:
+    (package / "setup.py").write_text("from setuptools import setup\n\nsetup(\n    entry_points={},\n)\n")
+    answer = colcon(world)
+    assert answer.code == 0
+    assert "Hint: setup.py, line 4, lists entry_points, but package.xml says ament_cmake" in answer.err
+    assert "nothing will be installed from them." in answer.err
+
+
+def test_a_python_package_of_the_interfaces_name_is_refused(package: Path, world: World) -> None:
+    (package / "robot_controller/__init__.py").touch()
+    change(package / CMAKE, "ament_package()", "ament_python_install_package(${PROJECT_NAME})\nament_package()")
+    answer = colcon(world)
+    assert 'cannot create target "ament_cmake_python_copy_robot_controller"' in " ".join(answer.err.split())
+    assert "install the nodes as programs instead" in answer.err
+
+
+def test_dependencies_that_are_named_are_found(package: Path, world: World) -> None:
+    change(package / STATUS, "float32 battery", "geometry_msgs/Point at")
+    change(package / CMAKE, "# line 10", "find_package(geometry_msgs REQUIRED)")
+    change(package / CMAKE, '"srv/NavigateTo.srv"', '"srv/NavigateTo.srv"\n  DEPENDENCIES geometry_msgs')
+    answer = colcon(world)
+    assert (answer.code, answer.err) == (0, "")
+
+
+# -- several packages ----------------------------------------------------------------------------------------------------
+
+OTHER = """\
+cmake_minimum_required(VERSION 3.8)
+project({name})
+find_package(ament_cmake REQUIRED)
+{find}
+ament_package()
+"""
+
+
+def add(package: Path, name: str, needs: str = "", text: str = "") -> Path:
+    """Another, empty package beside it."""
+    folder = package.parent / name
+    folder.mkdir()
+    xml = (package / "package.xml").read_text().replace("<name>robot_controller<", f"<name>{name}<")
+    xml = xml.replace("<depend>rclpy</depend>", f"<depend>{needs}</depend>" if needs else "")
+    (folder / "package.xml").write_text(xml)
+    find = f"find_package({needs} REQUIRED)" if needs else ""
+    (folder / CMAKE).write_text(text or OTHER.format(name=name, find=find))
+    return folder
+
+
+def test_each_after_those_it_needs(package: Path, world: World) -> None:
+    add(package, "bringup", "robot_controller")
+    add(package, "apart")
+    answer = colcon(world)
+    assert [line.split(" [")[0] for line in answer.out.splitlines() if "<<<" in line or ">>>" in line] == [
+        "Starting >>> apart", "Starting >>> robot_controller", "Finished <<< apart", "Finished <<< robot_controller",
+        "Starting >>> bringup", "Finished <<< bringup",
+    ]  # fmt: skip
+    assert answer.err == ""
+    assert "Summary: 3 packages finished" in answer.out
+
+
+def test_a_failure_stops_the_others(package: Path, world: World) -> None:
+    add(package, "bringup", "robot_controller")
+    add(package, "apart")
+    change(package / STATUS, "battery", "Battery")
+    answer = colcon(world)
+    assert answer.shape[1] == [
+        "Starting >>> apart", "Starting >>> robot_controller", "Aborted  <<< apart [0.00s]", "",
+        "Summary: 0 packages finished [0.00s]", "  1 package failed: robot_controller", "  1 package aborted: apart",
+        "  1 package had stderr output: robot_controller", "  1 package not processed",
+    ]  # fmt: skip
+    answer = colcon(world, "build --continue-on-error")
+    assert "Finished <<< apart" in answer.out
+    assert "  1 package not processed" in answer.out
+
+
+def test_a_package_is_found_only_if_package_xml_names_it(package: Path, world: World) -> None:
+    folder = add(package, "bringup", "robot_controller")
+    change(folder / "package.xml", "<depend>robot_controller</depend>", "")
+    colcon(world, "build --packages-select robot_controller")
+    answer = colcon(world, "build --packages-select bringup")
+    assert 'provided by "robot_controller", but CMake did not find one' in " ".join(answer.err.split())
+    assert "write <depend>robot_controller</depend> in package.xml" in answer.err
+
+
+def test_which_packages(package: Path, world: World) -> None:
+    add(package, "bringup", "robot_controller")
+    add(package, "apart")
+    built = {
+        "--packages-select apart": {"apart"},
+        "--packages-up-to bringup": {"robot_controller", "bringup"},
+        "--packages-skip apart bringup": {"robot_controller"},
+        "--base-paths src/apart": {"apart"},
+    }
+    for option, names in built.items():
+        out = colcon(world, f"build {option}").out
+        assert set(re.findall(r"Finished <<< (\w+)", out)) == names, option
+
+
+def test_circles_and_twins_are_refused(package: Path, world: World) -> None:
+    add(package, "one", "two")
+    add(package, "two", "one")
+    answer = colcon(world)
+    assert answer.err.endswith("Unable to order packages topologically:\none: ['two']\ntwo: ['one']\n")
+    change(package.parent / "two/package.xml", "<name>two<", "<name>one<")
+    answer = colcon(world)
+    assert answer.err.endswith("Duplicate package names not supported:\n- one:\n  - src/one\n  - src/two\n")
+    assert answer.code == 1
+
+
+def test_event_handlers(package: Path, world: World) -> None:
+    answer = colcon(world, "build --event-handlers console_direct+ console_start_end- summary-")
+    assert "-- Installing: robot_controller/lib/robot_controller/navigator" in answer.out
+    assert ">>>" not in answer.out and "Summary" not in answer.out
+    answer = colcon(world, "build --event-handlers console_cohesion+")
+    assert "--- output: robot_controller\n" in answer.out
+    answer = colcon(world, "build --event-handlers console_drect+")
+    assert "Did you mean 'console_direct'?" in answer.err
+
+
+def test_list_and_graph(package: Path, world: World) -> None:
+    add(package, "bringup", "robot_controller")
+    lines = "bringup\tsrc/bringup\t(ros.ament_cmake)\nrobot_controller\tsrc/robot_controller\t(ros.ament_cmake)\n"
+    assert colcon(world, "list").out == lines
+    assert colcon(world, "list -t -n").out == "robot_controller\nbringup\n"
+    assert colcon(world, "graph").out == "robot_controller +*\nbringup           +\n"
+
+
+def test_a_place_without_packages(tmp_path: Path, world: World, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    answer = colcon(world)
+    assert (answer.code, answer.out) == (0, "\nSummary: 0 packages finished [0.20s]\n")
+    assert "no folder in it has a package.xml" in answer.err
+
+
+def test_names_that_would_lead_elsewhere(package: Path, world: World, tmp_path: Path) -> None:
+    change(package / "package.xml", "<name>robot_controller", "<name>../../../elsewhere")
+    assert colcon(world).code
+    assert not (tmp_path.parent / "elsewhere").exists()
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("RENAME navigator", "RENAME ../../../../navigator"),
+        ("DIRECTORY launch", "DIRECTORY ../.."),
+        ("DIRECTORY launch", "DIRECTORY /"),
+        ("DIRECTORY launch", "DIRECTORY ../robot_controller/.."),
+    ],
+)
+def test_nothing_is_installed_from_or_to_elsewhere(package: Path, world: World, old: str, new: str) -> None:
+    change(package / CMAKE, old, new)
+    answer = colcon(world)
+    assert (answer.code, "lies outside of the package's" in answer.err) == (1, True)
+
+
+def test_no_build_removes_the_source(package: Path, world: World) -> None:
+    answer = colcon(world, "build --install-base src")
+    assert "src is where the source lies; choose another folder" in answer.err
+    assert (package / CMAKE).is_file()
+
+
+def test_options_that_do_not_exist(package: Path, world: World) -> None:
+    answer = colcon(world, "build --package-select robot_controller")
+    assert answer.code == 2
+    assert "unrecognized arguments: --package-select" in answer.err
+    assert answer.err.endswith("Did you mean '--packages-select'?\n")
+    assert len(colcon(world, "build --" + "x" * 10_000).err) < 3000
+
+
+def test_words_for_cmake_are_taken(package: Path, world: World) -> None:
+    answer = colcon(world, "--log-level info build --cmake-args -DCMAKE_BUILD_TYPE=Release --symlink-install")
+    assert (answer.code, answer.err) == (0, "")
+    assert (package.parents[1] / "install/robot_controller/share/robot_controller/package.xml").is_symlink()
+
+
+def test_help(package: Path, world: World) -> None:
+    answer = colcon(world, "build -h")
+    assert (answer.code, answer.err) == (0, "")
+    assert answer.out.startswith("usage: colcon build [-h]") and "--packages-select" in answer.out
+    assert "verbs:" in colcon(world, "-h").out
+    assert colcon(world, "test").code == 1
+
+
+def test_an_interface_that_changed_takes_its_time(package: Path, world: World) -> None:
+    colcon(world)
+    change(package / STATUS, "battery", "charge")
+    assert "Finished <<< robot_controller [2.70s]" in colcon(world).out
+
+
+# -- ament_python ----------------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def python_package(tmp_path: Path, world: World, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A package that `ros2 pkg create` made."""
+    from turtle_lesson.ros.workspace.create import create_package, parse
+
+    (tmp_path / "src").mkdir()
+    monkeypatch.chdir(tmp_path)
+    words = "py_demo --build-type ament_python --node-name my_node --destination-directory src"
+    create_package(parse(words.split()))
+    return tmp_path / "src/py_demo"
+
+
+def test_a_python_package(python_package: Path, world: World, tmp_path: Path) -> None:
+    answer = colcon(world)
+    assert answer.shape == (
+        0,
+        ["Starting >>> py_demo", "Finished <<< py_demo [0.00s]", "", "Summary: 1 package finished [0.00s]"],
+        [""],
+    )
+    prefix = tmp_path / "install/py_demo"
+    for path in (
+        "lib/py_demo/my_node", "lib/python3.10/site-packages/py_demo/my_node.py",
+        "lib/python3.10/site-packages/py_demo-0.0.0-py3.10.egg-info/entry_points.txt",
+        "share/ament_index/resource_index/packages/py_demo", "share/colcon-core/packages/py_demo",
+        "share/py_demo/hook/pythonpath.dsv", "share/py_demo/package.xml",
+    ):  # fmt: skip
+        assert (prefix / path).is_file(), path
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "code", "said"),
+    [
+        (
+            "setup.py",
+            "'my_node = py_demo.my_node:main'",
+            "'my_node = py_demo.my_node'",
+            1,
+            "('Invalid entry point: ', ",
+        ),
+        ("setup.py", "py_demo.my_node:main", "py_demo.my_nod:main", 0, "Did you mean 'py_demo.my_node'?"),
+        ("setup.py", "my_node:main", "my_node:run", 0, "py_demo.my_node has no run()"),
+        (
+            "setup.py",
+            "zip_safe=True,",
+            "zip_safe=True",
+            1,
+            "setup.py: look at this line and at the end of the one before",
+        ),
+        ("setup.py", "['package.xml']", "['pakage.xml']", 1, "can't copy 'pakage.xml'"),
+        (
+            "setup.py",
+            "('share/' + package_name, ['package.xml']),",
+            "",
+            0,
+            "doesn't explicitly install the 'package.xml' file",
+        ),
+        ("setup.py", "'share/' + package_name", "'/etc'", 1, "lies outside of the package's install folder"),
+        ("setup.py", "find_packages(exclude=['test'])", "['nope']", 1, "package directory 'nope' does not exist"),
+        ("setup.cfg", "install_scripts", "install_script", 0, "setup.cfg puts programs into bin/"),
+        ("setup.py", "import find_packages, setup", "import find_package, setup", 1, "ImportError: cannot import name"),
+        ("package.xml", "</package>", "", 1, "The manifest contains invalid XML"),
+    ],
+)
+def test_a_wrong_python_package(
+    python_package: Path, world: World, file: str, old: str, new: str, code: int, said: str
+) -> None:
+    change(python_package / file, old, new)
+    answer = colcon(world)
+    assert (answer.code, said in answer.err) == (code, True), answer.err
+
+
+def test_without_setup_py(python_package: Path, world: World) -> None:
+    (python_package / "setup.py").unlink()
+    assert "there is no setup.py in src/py_demo" in colcon(world).err
+
+
+# -- nonsense --------------------------------------------------------------------------------------------------------------
+
+
+@settings(max_examples=60, suppress_health_check=list(HealthCheck), deadline=None)
+@given(st.sampled_from(["CMakeLists.txt", "package.xml", STATUS, "srv/NavigateTo.srv"]), st.data())
+def test_damaged_files_never_end_in_a_traceback(package: Path, world: World, file: str, data: st.DataObject) -> None:
+    good = (package / file).read_bytes()
+    place = data.draw(st.integers(0, len(good)))
+    junk = data.draw(st.binary(max_size=12) | st.sampled_from([b"(", b"${", b'"', b"<", b"\0", b"[[", b"#[["]))
+    try:
+        (package / file).write_bytes(good[:place] + junk + good[place + data.draw(st.integers(0, 40)) :])
+        answer = colcon(world)
+    finally:
+        (package / file).write_bytes(good)
+    assert answer.code in {0, 1, 2}
+    assert "Traceback" not in answer.err
+
+
+ODD_WORDS = st.lists(
+    st.text(max_size=8)
+    | st.sampled_from(
+        ["build", "list", "graph", "--base-paths", "--packages-select", "--event-handlers", "-h", "x" * 10_000]
+    )
+    | st.sampled_from(["--parallel-workers", "-1", "\0", "--packages-up-to", "--executor"]),
+    max_size=5,
+)
+
+
+@settings(max_examples=80, suppress_health_check=list(HealthCheck), deadline=None)
+@given(ODD_WORDS)
+def test_odd_words_are_answered(tmp_path: Path, world: World, words: list[str]) -> None:
+    folder = tmp_path / "empty"
+    folder.mkdir(exist_ok=True)
+    out, err = io.StringIO(), io.StringIO()
+    code = run(world, words, stdout=out, stderr=err, cwd=folder)
+    assert code in {0, 1, 2}
+    assert code == 0 or out.getvalue() or err.getvalue()
+    assert len(err.getvalue()) < 6000
+
+
+@pytest.mark.parametrize(
+    "line", ["build --base-paths a\0b", "build --install-base a\0b", "list --base-paths " + "x" * 5000]
+)
+def test_folders_that_cannot_be(tmp_path: Path, world: World, line: str) -> None:
+    out, err = io.StringIO(), io.StringIO()
+    assert run(world, line.split(" "), stdout=out, stderr=err, cwd=tmp_path) == 1
+    assert err.getvalue().splitlines()[-1].startswith("[0.200s] ERROR:colcon:colcon ")

@@ -1,0 +1,178 @@
+"""Playing a bag: a node that publishes again what was recorded, at the recorded distances on the virtual clock."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from ..core import NANOSECONDS, running_strand
+from ..graph.topic import LATENCY, LATENCY_SPREAD
+from ..interfaces.names import did_you_mean
+from ..interfaces.registry import registry
+from .contents import Message
+from .errors import BagError
+from .qos import offer_of
+from .schema import schema_text, type_hash
+
+if TYPE_CHECKING:
+    from .bag import Bag, BagTopic
+
+NODE = "_rosbag2_player"
+
+Say = Callable[[str, str], None]
+
+
+@dataclass(frozen=True)
+class Playback:
+    """How to play: speed, where to begin (s), which topics, under which names, again and again, until when (s of the bag)."""
+
+    rate: float = 1.0
+    start_offset: float = 0.0
+    topics: tuple[str, ...] = ()
+    remaps: Mapping[str, str] = field(default_factory=dict)
+    loop: bool = False
+    delay: float = 0.0
+    duration: float | None = None
+
+
+class Player:
+    """Publishes what is in a bag. `say(severity, text)` is told what happens."""
+
+    def __init__(self, node: Any, bag: Bag, how: Playback, say: Say) -> None:
+        self._bag = bag
+        self._how = how
+        self._say = say
+        self._unreadable: dict[str, int] = {}
+        self.published = 0
+        self._publishers: dict[tuple[str, str], Any] = {}
+        for topic in bag.topics:
+            if not how.topics or topic.name in how.topics:
+                self._offer(node, topic)
+
+    def _offer(self, node: Any, topic: BagTopic) -> None:
+        try:
+            message_class = _class_of(topic)
+            name = self._how.remaps.get(topic.name, topic.name)
+            profile = offer_of(topic.profiles)
+            self._publishers[topic.name, topic.type_name] = node.create_publisher(message_class, name, profile)
+        except Exception as error:
+            self._say("WARN", f"Ignoring a topic '{topic.name}', reason: {error}")
+
+    def play(self, until: int | None = None) -> bool:
+        """Play the bag; False if the virtual time `until` (ns) came first."""
+        strand = running_strand()
+        assert strand is not None
+        simulation = strand.simulation
+        simulation.sleep_until(simulation.now + round(self._how.delay * NANOSECONDS))
+        while True:
+            began, first = simulation.now, (self._bag.start or 0) + round(self._how.start_offset * NANOSECONDS)
+            for message in self._wanted(first):
+                due = began + round((message.time - first) / self._how.rate)
+                if until is not None and due >= until:
+                    simulation.sleep_until(until)
+                    return False
+                simulation.sleep_until(due)
+                self._publish(message)
+            simulation.sleep_until(simulation.now + LATENCY + LATENCY_SPREAD)  # what was sent last shall arrive, too
+            if not self._how.loop or not self.published:
+                return True
+
+    def _wanted(self, first: int) -> Iterator[Message]:
+        end = None if self._how.duration is None else first + round(self._how.duration * NANOSECONDS)
+        for message in self._bag.messages():
+            if message.time >= first and (message.topic, message.type_name) in self._publishers:
+                if end is not None and message.time > end:
+                    return
+                yield message
+
+    def _publish(self, message: Message) -> None:
+        try:
+            self._publishers[message.topic, message.type_name].publish(message.data)
+            self.published += 1
+        except ValueError:
+            self._unreadable[message.topic] = self._unreadable.get(message.topic, 0) + 1
+
+    def complaints(self) -> list[str]:
+        """A sentence for each topic with messages that are spoiled, and one if there was nothing to play."""
+        if not self.published and not self._unreadable:
+            length = f"{self._bag.message_count} messages in {self._bag.duration / NANOSECONDS:g} s"
+            return [f"nothing was played: the bag holds {length}, and none that was asked for"]
+        return [
+            f"{count} messages of '{topic}' are spoiled and were left out" for topic, count in self._unreadable.items()
+        ]
+
+
+def _class_of(topic: BagTopic) -> Any:
+    """The class of a recorded topic's messages. Raises BagError if there is none, or if it is another one today."""
+    if topic.serialization != "cdr":
+        raise BagError(f"its messages are not written as CDR but as {topic.serialization!r}")
+    try:
+        message_class = registry.get(topic.type_name)
+    except LookupError as error:
+        raise BagError(str(error.args[0])) from None
+    if topic.definition and not _same_definition(message_class, topic.definition):
+        raise BagError(
+            f"the {topic.type_name} in the bag has other fields than today's. Play it with the package that it was "
+            "recorded with, or record it again"
+        )
+    return message_class
+
+
+def _same_definition(message_class: Any, recorded: str) -> bool:
+    today = schema_text(message_class)
+    if today == recorded:
+        return True
+    try:
+        return type_hash(message_class, today) == type_hash(message_class, recorded)
+    except BagError:
+        return True  # in a form that is not understood here: reading the messages will tell
+
+
+def check_topics(bag: Bag, names: tuple[str, ...]) -> None:
+    """Raise BagError if a topic of this name is not in the bag."""
+    known = [topic.name for topic in bag.topics]
+    for name in names:
+        if name not in known:
+            raise BagError(f"the bag has no topic '{name}'. {did_you_mean(name, known)}".rstrip())
+
+
+def parse_remaps(rules: list[str]) -> dict[str, str]:
+    """From `/old:=/new` to a mapping. Raises BagError, or InvalidTopicNameException for a name that ROS does not allow."""
+    from rclpy.validate_topic_name import validate_topic_name
+
+    remaps = {}
+    for rule in rules:
+        old, sign, new = rule.partition(":=")
+        if not (sign and old and new):
+            raise BagError(f"'{rule}' is no remapping: write it as /old_topic:=/new_topic")
+        validate_topic_name(old)
+        validate_topic_name(new)
+        remaps[_absolute(old)] = new
+    return remaps
+
+
+def _absolute(name: str) -> str:
+    return name if name.startswith("/") else f"/{name}"
+
+
+def play(bag: Bag, how: Playback, say: Say, seconds: float | None = None) -> bool:
+    """Play a bag, for `seconds` of robot time at most. Called in a simulated process. Returns whether it came to its end."""
+    import rclpy
+
+    check_topics(bag, how.topics)
+    rclpy.init(args=[])
+    try:
+        node = rclpy.create_node(NODE, start_parameter_services=False, enable_rosout=False)
+        player = Player(node, bag, how, say)
+        for name in how.remaps:
+            if name not in [topic.name for topic in bag.topics]:
+                say("WARN", f"the bag has no topic '{name}' to be remapped")
+        simulation = node._ros_simulation
+        until = None if seconds is None else simulation.now + round(seconds * NANOSECONDS)
+        ended = player.play(until)
+        for sentence in player.complaints():
+            say("WARN", sentence)
+        return ended
+    finally:
+        rclpy.try_shutdown()

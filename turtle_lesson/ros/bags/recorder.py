@@ -1,0 +1,261 @@
+"""Recording: a node that subscribes to topics as they appear, and puts every message into a bag.
+
+Its subscriptions are made in the very moment in which a publisher appears (on a robot that takes some milliseconds), so
+that a bag of a whole run misses nothing. Its name is hidden, so that `ros2 node list` shows the system alone.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from ..core import NANOSECONDS
+from ..graph.graph import is_hidden
+from ..interfaces.cdr import serialize
+from ..interfaces.names import did_you_mean
+from ..interfaces.registry import registry
+from .errors import BagError, UnrecordableType
+from .qos import request_for
+
+if TYPE_CHECKING:
+    from rclpy.qos import QoSProfile
+
+    from ..graph import Topic, Writer
+    from .writer import BagWriter
+
+NODE = "_rosbag2_recorder"
+
+Say = Callable[[str, str], None]
+
+
+@dataclass(frozen=True)
+class Selection:
+    """Which topics to record: those named, or those that match, or (with neither) all but the hidden ones."""
+
+    topics: tuple[str, ...] = ()
+    regex: str = ""
+    exclude: str = ""
+    hidden: bool = False
+    unpublished: bool = False
+
+    def __post_init__(self) -> None:
+        for pattern in (self.regex, self.exclude):
+            try:
+                re.compile(pattern)
+            except re.error as error:
+                raise BagError(f"{pattern!r} is no regular expression: {error}") from None
+
+    def takes(self, name: str) -> bool:
+        """Whether a topic of this full name is to be recorded."""
+        if self.topics:
+            return name in self.topics
+        if is_hidden(name) and not self.hidden:
+            return False
+        if self.exclude and re.search(self.exclude, name):
+            return False
+        return re.search(self.regex, name) is not None
+
+
+class _Heard:
+    """A topic that is recorded: its type, its subscription, and the publishers that it had."""
+
+    def __init__(self, name: str, message_class: Any) -> None:
+        self.name = name
+        self.message_class = message_class
+        self.subscription: Any = None
+        self.writers: list[Writer] = []
+        self.registered = False
+
+    def profiles(self) -> list[QoSProfile]:
+        """What the publishers offered."""
+        return [writer.profile for writer in self.writers if hasattr(writer, "profile")]
+
+
+class Recorder:
+    """Fills `bag` with what `node` hears; `say(severity, text)` is told what happens."""
+
+    def __init__(self, node: Any, bag: BagWriter, selection: Selection, say: Say) -> None:
+        self._node = node
+        self._bag = bag
+        self._selection = selection
+        self._say = say
+        self._heard: dict[str, _Heard] = {}
+        self._refused: set[str] = set()
+        self._news: list[tuple[str, str]] = []
+        self._looking = False
+        self._graph = node._ros_graph
+        self._guard = node.create_guard_condition(self._tell)
+        self._graph.on_change.append(self._look)
+        self._look()
+
+    # -- finding topics --------------------------------------------------------------------------------------------
+
+    def _look(self) -> None:
+        """Subscribe to what has appeared. Called in the middle of somebody else's `create_publisher`."""
+        if self._looking:
+            return  # it is our own subscription that changes the graph
+        self._looking = True
+        try:
+            for name, topic in self._graph.topics().items():
+                if self._selection.takes(name) and (topic.writers or self._selection.unpublished):
+                    self._follow(name, topic)
+        finally:
+            self._looking = False
+
+    def _follow(self, name: str, topic: Topic) -> None:
+        heard = self._heard.get(name)
+        if heard is None:
+            if name not in self._refused:
+                self._subscribe(name, topic)
+            return
+        for writer, type_name in topic.writers:
+            if writer not in heard.writers and type_name == heard.message_class._TYPE_NAME:
+                heard.writers.append(writer)
+                policy = writer.quality.refusal(heard.subscription._reader.quality)
+                if policy is not None:
+                    self._note("WARN", _too_weak(name, policy))
+
+    def _subscribe(self, name: str, topic: Topic) -> None:
+        try:
+            heard = _Heard(name, _class_of(name, topic.types))
+        except BagError as error:
+            self._refused.add(name)
+            self._note("WARN", str(error))
+            return
+        heard.writers = [writer for writer, _ in topic.writers]
+        profile = request_for([writer.quality for writer in heard.writers])
+
+        def write(message: Any, info: Any) -> None:
+            self._write(heard, message, info["source_timestamp"])
+
+        heard.subscription = self._node.create_subscription(heard.message_class, name, write, profile)
+        self._heard[name] = heard
+        self._note("INFO", f"Subscribed to topic '{name}'")
+
+    def _write(self, heard: _Heard, message: Any, time: int) -> None:
+        if not self._register(heard):
+            return
+        try:
+            data = serialize(message)
+        except ValueError as error:
+            self._note("WARN", f"A message of topic '{heard.name}' cannot be recorded: {error}")
+        else:
+            self._bag.write(heard.name, heard.message_class._TYPE_NAME, time, data)
+
+    def _register(self, heard: _Heard) -> bool:
+        """Make a topic known in the bag, before its first message; False if the bag cannot hold it."""
+        if not heard.registered and heard.name not in self._refused:
+            try:
+                self._bag.add_topic(heard.name, heard.message_class, heard.profiles())
+                heard.registered = True
+            except UnrecordableType as error:
+                self._refused.add(heard.name)
+                self._note("WARN", str(error))
+        return heard.registered
+
+    # -- telling ---------------------------------------------------------------------------------------------------
+
+    def _note(self, severity: str, text: str) -> None:
+        """Say this soon, in our own process."""
+        self._news.append((severity, text))
+        self._guard.trigger()
+
+    def _tell(self) -> None:
+        for heard in list(self._heard.values()):
+            self._register(heard)
+        while self._news:
+            self._say(*self._news.pop(0))
+
+    def silent(self) -> list[str]:
+        """A sentence for each topic that was asked for by name and never appeared."""
+        known = self._graph.topics()
+        missing = [name for name in self._selection.topics if name not in self._heard and name not in self._refused]
+        return [
+            f"nobody published on {name} while the bag was recorded, so it holds nothing of it. "
+            f"{did_you_mean(name, known)}".rstrip()
+            for name in missing
+        ]
+
+    # -- ending ----------------------------------------------------------------------------------------------------
+
+    def close(self) -> None:
+        """Take what has arrived, and complete the bag."""
+        if self._look in self._graph.on_change:
+            self._graph.on_change.remove(self._look)
+        for heard in self._heard.values():
+            while heard.subscription._has_work():
+                heard.subscription.callback(*heard.subscription._take())
+            self._register(heard)
+        self._tell()
+        self._bag.close()
+
+
+def _class_of(name: str, types: list[str]) -> Any:
+    if len(types) > 1:
+        raise BagError(f"Topic '{name}' has more than one type associated. Only topics with one type are supported")
+    try:
+        return registry.get(types[0])
+    except Exception as error:
+        raise BagError(
+            f"Topic '{name}' has unknown type '{types[0]}' associated. Only topics with known type are supported. "
+            f"Reason: {error.args[0] if error.args else error}"
+        ) from None
+
+
+def _too_weak(name: str, policy: str) -> str:
+    return (
+        f"A new publisher for subscribed topic '{name}' was found offering incompatible QoS ({policy}), but rosbag "
+        "already subscribed. Messages from this new publisher will not be recorded."
+    )
+
+
+class _TimeIsOver(Exception):
+    """The stretch of time that was asked for has passed."""
+
+
+def record(bag: BagWriter, selection: Selection, say: Say, seconds: float | None = None) -> Recorder:
+    """Record until interrupted, or for some seconds of robot time. Called in a simulated process.
+
+    However this ends, the bag is completed.
+    """
+    import rclpy
+
+    recorder = None
+    try:
+        rclpy.init(args=[])
+        node = rclpy.create_node(NODE, start_parameter_services=False, enable_rosout=False)
+        names = tuple(node.resolve_topic_name(name) for name in selection.topics)
+        selection = Selection(names, selection.regex, selection.exclude, selection.hidden, selection.unpublished)
+        recorder = Recorder(node, bag, selection, say)
+        if seconds is not None:
+            node.create_timer(max(seconds, 1 / NANOSECONDS), _time_is_over)
+        rclpy.spin(node)
+    except (KeyboardInterrupt, _TimeIsOver):
+        pass
+    finally:
+        if recorder is not None:
+            recorder.close()
+        bag.close()
+        rclpy.try_shutdown()
+    assert recorder is not None
+    return recorder
+
+
+def _time_is_over() -> None:
+    raise _TimeIsOver
+
+
+def checked_names(names: Iterable[str]) -> tuple[str, ...]:
+    """Names of topics, as a program may give them. Raises InvalidTopicNameException or TypeError."""
+    from rclpy.validate_topic_name import validate_topic_name
+
+    if isinstance(names, str):
+        raise TypeError(f'topics is a list of names, got the text {names!r}: try topics=["{names}"]')
+    checked = tuple(names)
+    for name in checked:
+        if not isinstance(name, str):
+            raise TypeError(f"the name of a topic is a text such as '/turtle1/pose', got {name!r}")
+        validate_topic_name(name)
+    return checked

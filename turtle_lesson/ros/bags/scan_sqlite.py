@@ -1,0 +1,115 @@
+"""Reading a bag's SQLite file row by row, also one that is cut short or has spoiled pages.
+
+Facts: rosbag2_storage_sqlite3's sqlite_storage.cpp (tables `topics` and `messages`, and newer ones for definitions).
+"""
+
+from __future__ import annotations
+
+import sqlite3
+from collections.abc import Iterator
+from contextlib import closing, suppress
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from .contents import Contents, Message, TopicContents, TopicKey
+
+FURTHEST = 1 << 40
+"""How far, in row numbers, a readable row is looked for behind a spoiled one."""
+
+
+def scan_sqlite(path: Path, *, keep: bool = False) -> Contents:
+    """What the file holds; with `keep` the messages themselves, too."""
+    size, missing = _pages(path)
+    if not missing:
+        return _open_and_scan(path, Contents(), keep)
+    found = Contents(flaws=[f"{path.name}: it is cut short"])
+    with TemporaryDirectory() as folder:
+        whole = (
+            Path(folder) / path.name
+        )  # without its last page if that is no whole one: it would be filled up with zeros
+        whole.write_bytes(path.read_bytes()[:size])
+        return _open_and_scan(whole, found, keep)
+
+
+def _open_and_scan(path: Path, found: Contents, keep: bool) -> Contents:
+    try:
+        database = sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro&immutable=1", uri=True)
+    except sqlite3.Error as error:
+        found.flaws.append(f"{path.name}: it cannot be opened ({error})")
+        return found
+    with closing(database):
+        database.text_factory = lambda raw: raw.decode(errors="replace")
+        _scan(database, path.name, found, keep)
+    return found
+
+
+def _pages(path: Path) -> tuple[int, bool]:
+    """How many bytes are whole pages, and whether some are missing (https://sqlite.org/fileformat.html, 1.3)."""
+    size = path.stat().st_size
+    with path.open("rb") as file:
+        head = file.read(100)
+    page = int.from_bytes(head[16:18], "big")
+    page = 65536 if page == 1 else page
+    if len(head) < 100 or page < 512:
+        return size, False  # no database at all: SQLite will say so
+    pages = int.from_bytes(head[28:32], "big") if head[24:28] == head[92:96] else 0
+    return size // page * page, size < page * pages
+
+
+def _scan(database: sqlite3.Connection, name: str, found: Contents, keep: bool) -> None:
+    try:
+        verdict = database.execute("PRAGMA quick_check(1)").fetchone()[0]
+        if verdict != "ok":
+            found.flaws.append(f"{name}: the database is spoiled ({verdict.splitlines()[-1]})")
+    except sqlite3.Error as error:
+        found.flaws.append(f"{name}: the database is spoiled ({error})")
+    if found.flaws:
+        with suppress(sqlite3.Error):
+            database.execute("PRAGMA writable_schema=ON")  # or a file that is too short is not read at all
+    topics = _topics(database, name, found)
+    data = "data" if keep else "NULL"
+    for _, number, time, content in _rows(database, f"SELECT id, topic_id, timestamp, {data} FROM messages", found):
+        key = topics.get(number)
+        if key is None or not isinstance(time, int):
+            continue
+        found.topics[key].count += 1
+        found.see(time, time)
+        if keep:
+            found.messages.append(Message(key.name, time, key.type_name, content))
+    found.messages.sort(key=lambda message: message.time)
+    if not found.flaws:
+        found.expected = found.count
+
+
+def _topics(database: sqlite3.Connection, name: str, found: Contents) -> dict[int, TopicKey]:
+    definitions: dict[str, str] = {}
+    with suppress(sqlite3.Error):
+        query = "SELECT topic_type, encoded_message_definition FROM message_definitions"
+        definitions = dict(database.execute(query).fetchall())
+    topics: dict[int, TopicKey] = {}
+    try:
+        query = "SELECT id, name, type, serialization_format, offered_qos_profiles FROM topics"
+        for number, topic, type_name, serialization, offered in database.execute(query):
+            topics[number] = key = TopicKey(topic, type_name)
+            found.topics[key] = TopicContents(0, serialization, offered, definitions.get(type_name, ""))
+    except sqlite3.Error as error:
+        found.flaws.append(f"{name}: its topics cannot be read ({error})")
+    return topics
+
+
+def _rows(database: sqlite3.Connection, query: str, found: Contents) -> Iterator[Any]:
+    """All rows that can be read, in the order of their numbers; spoiled ones are jumped over."""
+    last, jump = 0, 0
+    while jump < FURTHEST:
+        try:
+            for row in database.execute(f"{query} WHERE id > ? ORDER BY id", (last + jump,)):
+                if row[0] <= last:
+                    raise sqlite3.DatabaseError("the rows go round in a circle")
+                last, jump = row[0], 0
+                yield row
+            return
+        except sqlite3.Error:
+            if not found.flaws:
+                found.flaws.append("the database is spoiled in its middle")
+            jump = jump * 2 or 1

@@ -1,0 +1,148 @@
+"""Writing a bag: a new folder with metadata.yaml and one data file, as `ros2 bag record` makes it.
+
+`rosbags` writes the bytes (format version 8, which Humble and all later releases read). Added to it here: the real
+name of the file (`run_0.mcap`), and checksums, without which damage cannot be noticed.
+"""
+
+from __future__ import annotations
+
+import weakref
+import zlib
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+from .errors import BagError
+from .qos import as_recorded
+from .schema import schema_text, type_hash
+
+if TYPE_CHECKING:
+    from rclpy.qos import QoSProfile
+    from rosbags.interfaces import Connection
+
+STORAGES = {"mcap": ".mcap", "sqlite3": ".db3"}
+FORMAT_VERSION: Literal[8] = 8
+
+CHUNK_SIZE = 1 << 16
+"""After how many bytes a chunk is closed and written out: so much at most is lost by a crash or by a spoiled byte."""
+
+CHUNK_CHECKSUM = 1 + 8 + 3 * 8
+"""Where, in a chunk's record, its checksum stands: after opcode, length, two times and the size."""
+
+
+class BagWriter:
+    """A bag that is being written. Times are in ns since 1970.
+
+    Raises BagError where there is something of that name already (nothing is ever overwritten), or for an unknown storage.
+    """
+
+    def __init__(self, folder: Path, storage: str = "mcap") -> None:
+        if storage not in STORAGES:
+            raise BagError(f"a bag is stored as {' or '.join(STORAGES)}, got {storage!r}")
+        if _is_there(folder):
+            raise BagError(f"Output folder '{folder}' already exists.")
+        self.folder = folder
+        self.storage = storage
+        self.file = folder / f"{folder.name}_0{STORAGES[storage]}"
+        self.count = 0
+        self._connections: dict[tuple[str, str], Any] = {}
+        self._writer = _open(folder, storage)
+        self._end = weakref.finalize(self, _close, self._writer)  # also when Python ends before anybody said stop
+
+    def __repr__(self) -> str:
+        return f"<BagWriter of {self.folder.name}, {self.count} messages>"
+
+    @property
+    def closed(self) -> bool:
+        """Whether the bag is complete."""
+        return not self._end.alive
+
+    def add_topic(self, topic: str, message_class: Any, offered: Sequence[QoSProfile]) -> None:
+        """Make a topic known, with the profiles of its publishers.
+
+        Raises UnrecordableType for a type that no bag can hold.
+        """
+        text = schema_text(message_class)
+        self._connections[topic, message_class._TYPE_NAME] = self._writer.add_connection(
+            topic,
+            message_class._TYPE_NAME,
+            msgdef=text,
+            rihs01=type_hash(message_class, text),
+            offered_qos_profiles=[as_recorded(profile) for profile in offered],
+        )
+
+    def write(self, topic: str, type_name: str, time: int, data: bytes) -> None:
+        """Put in a message of a known topic, as CDR bytes."""
+        self._writer.write(self._connections[topic, type_name], time, data)
+        self.count += 1
+
+    def close(self) -> None:
+        """Complete the bag. A second call does nothing."""
+        self._end()
+
+
+def _is_there(folder: Path) -> bool:
+    try:
+        return folder.exists()
+    except (OSError, ValueError) as error:
+        raise BagError(f"a bag cannot be called {str(folder)[:80]!r}: {error}") from None
+
+
+def _open(folder: Path, storage: str) -> Any:
+    """A writer of rosbags, opened: the folder is there now."""
+    from rosbags.rosbag2 import StoragePlugin, Writer, WriterError
+    from rosbags.rosbag2.storage_mcap import McapWriter
+    from rosbags.rosbag2.storage_sqlite3 import Sqlite3Writer
+
+    class CheckedMcapWriter(McapWriter):
+        """Writes smaller chunks, each with its checksum, which McapWriter leaves out."""
+
+        def close_chunk(self) -> None:
+            start, checksum = self.bio.tell(), zlib.crc32(self.chunk.bio.getvalue())
+            super().close_chunk()
+            end = self.bio.tell()
+            self.bio.seek(start + CHUNK_CHECKSUM)
+            self.bio.write(checksum.to_bytes(4, "little"))
+            self.bio.seek(end)
+            self.bio.flush()
+
+        def write(self, connection: Connection, timestamp: int, data: bytes | memoryview) -> None:
+            super().write(connection, timestamp, data)
+            if self.chunk.bio.tell() > CHUNK_SIZE:
+                self.close_chunk()
+
+    class NumberedWriter(Writer):
+        """Calls the data file `run_0.mcap`."""
+
+        STORAGE_PLUGINS: Any = {  # noqa: RUF012
+            StoragePlugin.MCAP: lambda path, mode: CheckedMcapWriter(numbered(path), mode),
+            StoragePlugin.SQLITE3: lambda path, mode: Sqlite3Writer(numbered(path), mode),
+        }
+
+    numbered: Any = _Numbered
+    plugin = {"mcap": StoragePlugin.MCAP, "sqlite3": StoragePlugin.SQLITE3}[storage]
+    try:
+        writer = NumberedWriter(folder, version=FORMAT_VERSION, storage_plugin=plugin)
+        writer.open()
+    except (WriterError, OSError, ValueError) as error:
+        raise BagError(f"the bag {folder} cannot be written: {error}") from None
+    return writer
+
+
+class _Numbered:
+    """A folder whose first file is `name_0`: rosbags calls a data file like its folder."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self.name = f"{folder.name}_0"
+
+    def __truediv__(self, name: str) -> Path:
+        return self._folder / name
+
+
+def _close(writer: Any) -> None:
+    try:
+        writer.close()
+    except Exception:
+        writer.abort()
+        raise

@@ -1,0 +1,125 @@
+"""The `ros2` command line: each command runs as a simulated process, and answers as the real tool does.
+
+code = run(world, ["ros2", "topic", "list"])        # prints into the cell; returns the exit code
+"""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .driving import Waiter, live_rate
+from .parser import Call, Stop, cut, parse
+from .streams import Errors, cell_streams
+
+if TYPE_CHECKING:
+    from ..core import Process
+    from ..core.process import Output
+    from ..world import World
+
+__all__ = ["live_rate", "run"]
+
+BACKGROUND = "background"
+"""The mark of a process that goes on in the background: its verb never ends by itself."""
+
+INTERRUPTED = 2
+"""The exit code of a `ros2` command that was ended by Ctrl-C."""
+
+
+def run(
+    world: World,
+    words: Sequence[str],
+    *,
+    stdout: Output | None = None,
+    stderr: Output | None = None,
+    cwd: Path | None = None,
+    background: bool = False,
+) -> int:
+    """Run one command, such as `["ros2", "topic", "list"]`, and return its exit code.
+
+    Args:
+        world: where it runs.
+        words: the program's name and its arguments.
+        stdout, stderr: where it prints to; the running cell if not given.
+        cwd: the folder that it works in; the current one if not given.
+        background: whether to return at once and let it go on while the world runs (`&`).
+
+    Raises:
+        KeyboardInterrupt: if the user stops it.
+    """
+    out, error = cell_streams()
+    out_to: Any = out if stdout is None else stdout
+    error_to: Any = Errors(error if stderr is None else stderr)
+    folder = contextlib.chdir(cwd) if cwd is not None else contextlib.nullcontext()
+    with folder:
+        try:
+            call = parse(words[1:])
+        except Stop as stop:
+            print(stop.text, file=error_to if stop.code else out_to)
+            return stop.code
+        if getattr(call.verb, "in_cell", False):
+            return _run_in_cell(call, out_to, error_to)
+        if background:
+            return _start_in_background(world, call, words)
+        return _run_as_process(world, call, words, out_to, error_to)
+
+
+def _run_in_cell(call: Call, stdout: Any, stderr: Any) -> int:
+    with contextlib.redirect_stdout(stdout), contextlib.redirect_stderr(stderr):
+        return _guarded(call)
+
+
+def _guarded(call: Call) -> int:
+    """Run a verb; whatever goes wrong in it becomes one line and an exit code."""
+    try:
+        return call.verb.main(call.arguments) or 0
+    except Exception as error:
+        print(f"{call.prog}: {type(error).__name__}: {cut(str(error))}", file=sys.stderr)
+        return 1
+
+
+def _program(call: Call) -> Callable[[], None]:
+    """The verb as the main program of a process."""
+
+    def main() -> None:
+        try:
+            code = _guarded(call)
+        except KeyboardInterrupt:
+            code = INTERRUPTED
+        sys.exit(code)
+
+    return main
+
+
+def _run_as_process(world: World, call: Call, words: Sequence[str], stdout: Any, stderr: Any) -> int:
+    waiter = Waiter(world, call.prog)
+    live = live_rate(world) is not None
+    process = world.spawn(
+        _program(call), name="ros2", argv=words, stdout=stdout, stderr=stderr, on_exit=waiter.ended
+    )  # fmt: skip
+    process.locals["cwd"] = Path.cwd()
+    try:
+        reason = waiter.wait(process)
+    except KeyboardInterrupt:
+        if not live:
+            raise
+        return INTERRUPTED
+    if reason:
+        print(f"{call.prog}: {reason}", file=stderr)
+    return process.exit_code or 0
+
+
+def _start_in_background(world: World, call: Call, words: Sequence[str]) -> int:
+    from ..console import CellOutput
+    from .jobs import Job, jobs
+
+    output = CellOutput(world.sim)
+    process: Process = world.spawn(_program(call), name="ros2", argv=words, stdout=output, stderr=output)
+    process.locals.update({"cwd": Path.cwd(), BACKGROUND: True})
+    job = jobs(world).add(Job(" ".join(words), process))
+    print(f"[{job.number}] {process.pid}")
+    world.sim.settle()
+    return 0

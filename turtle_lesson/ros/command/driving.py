@@ -1,0 +1,110 @@
+"""Letting the world run while a command does its work: as fast as possible, or in live mode at the pace of the clock."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+from ..core import NANOSECONDS, Process, drive, running_strand
+from ..core.errors import SimulationError
+from ..core.virtual_time import real_monotonic, real_sleep
+
+if TYPE_CHECKING:
+    from ..core.strand import Strand
+    from ..world import World
+
+LIVE_STEP = 0.02
+"""How long, in s, a live world waits between two looks at the clock."""
+
+
+class Pace(Protocol):
+    """What plays a world in live mode (`turtle_lesson.live.Player`)."""
+
+    rate: float
+
+    @property
+    def playing(self) -> bool:
+        """Whether robot time goes on by itself."""
+
+
+def set_player(world: World, player: Pace) -> None:
+    """Say who plays this world in live mode."""
+    world.notebook.locals["player"] = player
+
+
+def live_rate(world: World) -> float | None:
+    """How many times as fast as real time the world goes in live mode, or None if it is not live."""
+    player: Pace | None = world.notebook.locals.get("player")
+    return player.rate if player is not None and player.playing else None
+
+
+class Waiter:
+    """Waits until a process has ended. Its `ended` is the process's `on_exit`."""
+
+    def __init__(self, world: World, what: str) -> None:
+        self._world = world
+        self._what = what
+        self._strand: Strand | None = None
+        self._live = False
+
+    def ended(self, process: Process) -> None:
+        """The process is dead: whoever waits for it goes on."""
+        if self._strand is not None:
+            self._world.sim.wake(self._strand)
+        elif self._live:
+            self._world.sim.halt()
+
+    def wait(self, process: Process) -> str:
+        """Let the world run until the process has ended; it is interrupted if it can never end. Returns why, or nothing.
+
+        Raises:
+            KeyboardInterrupt: if the user stops it; the process has been interrupted then, too.
+        """
+        rate = live_rate(self._world)
+        try:
+            if rate is None:
+                drive(self._world.sim, self._world.notebook, self._park, process)
+            else:
+                self._live = True
+                self._play(process, rate)
+        except SimulationError as error:
+            process.interrupt()
+            return str(error)
+        except KeyboardInterrupt:
+            process.interrupt()
+            raise
+        finally:
+            self._strand, self._live = None, False
+            if process.alive:
+                process.kill()
+        return ""
+
+    def _park(self, process: Process) -> None:
+        self._strand = strand = running_strand()
+        assert strand is not None
+        strand.activity = self._what
+        while process.alive:
+            strand.park()
+
+    def _play(self, process: Process, rate: float) -> None:
+        simulation = self._world.sim
+        began, origin = real_monotonic(), simulation.now
+        while process.alive:
+            elapsed = round((real_monotonic() - began) * rate * NANOSECONDS)
+            simulation.run_until(max(simulation.now, origin + elapsed))
+            if process.alive:
+                real_sleep(LIVE_STEP)
+
+
+def run_for(world: World, seconds: float) -> None:
+    """Let robot time pass (s); in live mode at its pace."""
+    end = world.now + round(seconds * NANOSECONDS)
+    rate = live_rate(world)
+    if rate is None:
+        world.sim.run_until(end)
+        return
+    began, origin = real_monotonic(), world.now
+    while world.now < end:
+        elapsed = round((real_monotonic() - began) * rate * NANOSECONDS)
+        world.sim.run_until(min(end, max(world.now, origin + elapsed)))
+        if world.now < end:
+            real_sleep(LIVE_STEP)

@@ -1,0 +1,214 @@
+"""`ros2 run` and `ros2 launch`: they start what they are asked for and return; it goes on while the world runs.
+
+In a terminal both go on until Ctrl-C. Here a last line says how to end them, and `--for SECONDS` lets robot time pass first.
+"""
+
+from __future__ import annotations
+
+import sys
+from argparse import REMAINDER, ArgumentParser, Namespace
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .. import launching
+from ..console import CellOutput
+from ..core import Process
+from ..launching import LaunchError
+from ..workspace.errors import ExecutableNotFoundError
+from ..world import current_world
+from .common import positive_float
+from .driving import run_for
+from .group_pkg import not_found, path_of
+from .in_cell import CellCommand, CommandError
+from .jobs import Job, jobs
+from .parser import cut
+
+if TYPE_CHECKING:
+    from ..launching.handle import LaunchHandle
+
+SIGNAL_TEXTS = {-2: "Interrupt", -9: "Killed", -15: "Terminated"}
+
+
+def _add_for(parser: ArgumentParser, what: str) -> None:
+    parser.add_argument(
+        "--for",
+        dest="seconds",
+        type=positive_float,
+        metavar="SECONDS",
+        help=f"let this much robot time pass before {what} returns (only here)",
+    )
+
+
+# -- run -----------------------------------------------------------------------------------------------------------------
+
+
+def _run_arguments(parser: ArgumentParser) -> None:
+    parser.add_argument("--prefix", help="a program to put before it: accepted, and without effect here")
+    _add_for(parser, "ros2 run")
+    parser.add_argument("package_name", help="package that the program belongs to")
+    parser.add_argument("executable_name", help="name of the program")
+    words = parser.add_argument(
+        "argv", nargs=REMAINDER, help="what the program itself is told, such as --ros-args -p a:=1"
+    )
+    words.required = True  # as in Python 3.11, whatever the Python
+
+
+def _run(args: Namespace) -> int:
+    world = current_world()
+    name = args.executable_name
+    if args.package_name not in world.packages:
+        raise not_found(args.package_name)
+    package = world.packages.get(args.package_name)
+    try:
+        target = world.packages.executable(args.package_name, name)
+    except ExecutableNotFoundError as error:
+        raise CommandError("No executable found", error.hint if len(name) < 100 else "") from None
+    if isinstance(target, Path) and not target.is_file():
+        raise CommandError("No executable found", f"{target} is not there any more: build again.")
+    output = CellOutput(world.sim)
+    process = world.spawn(
+        target,
+        name=name,
+        argv=[str(path_of(package, name)), *args.argv],
+        stdout=output,
+        stderr=output,
+        on_exit=_say_how_it_ended,
+    )
+    return _leave(process, " ".join(["ros2 run", args.package_name, name, *args.argv]), args.seconds)
+
+
+def _say_how_it_ended(process: Process) -> None:
+    code = _status(process)
+    if code < 0:
+        print(f"[ros2run]: {SIGNAL_TEXTS.get(code, f'Signal {-code}')}", file=process.stdout)
+    elif code > 0:
+        print(f"[ros2run]: Process exited with failure {code}", file=process.stdout)
+
+
+def _status(process: Process) -> int:
+    """The exit code of a process that has ended, as its parent sees it."""
+    code = process.exit_code or 0
+    return -15 if code == -9 and process.locals.get("signal") == "TERM" else code
+
+
+# -- launch --------------------------------------------------------------------------------------------------------------
+
+
+def _launch_arguments(parser: ArgumentParser) -> None:
+    nothing = "accepted, and without effect here"
+    parser.add_argument("-n", "--noninteractive", action="store_true", help=nothing)
+    parser.add_argument("-d", "--debug", action="store_true", help=nothing)
+    shown = parser.add_mutually_exclusive_group()
+    shown.add_argument(
+        "-p", "--print", "--print-description", dest="print", action="store_true", help="say what is in the launch file"
+    )
+    shown.add_argument(
+        "-s", "--show-args", "--show-arguments", dest="show", action="store_true", help="list the arguments it takes"
+    )
+    parser.add_argument("-a", "--show-all-subprocesses-output", action="store_true", help=nothing)
+    parser.add_argument("--launch-prefix", help=nothing)
+    parser.add_argument("--launch-prefix-filter", help=nothing)
+    _add_for(parser, "ros2 launch")
+    parser.add_argument("package_name", help="package that the launch file belongs to, or the path of a launch file")
+    parser.add_argument("launch_file_name", nargs="?", help="name of the launch file")
+    words = parser.add_argument("launch_arguments", nargs="*", help="values for its arguments, as name:=value")
+    words.required = True  # as in Python 3.11, whatever the Python
+
+
+def _launch(args: Namespace) -> int:
+    world = current_world()
+    try:
+        path, words = _find(args)
+        given = _pairs(words)
+    except LaunchError as error:
+        raise CommandError(error.reason, error.hint) from None
+    try:
+        if args.show:
+            print(launching.show_arguments(world, path))
+            return 0
+        if args.print:
+            print(_described(path))
+            return 0
+        handle = launching.launch_file(world, path, given)
+    except LaunchError as error:
+        print("\n".join(filter(None, (error.console, error.advice))))
+        return 1
+    return _leave(
+        handle, " ".join(["ros2 launch", args.package_name, args.launch_file_name or "", *words]), args.seconds
+    )
+
+
+def _find(args: Namespace) -> tuple[Path, list[str]]:
+    """The launch file that is meant, and the words after it."""
+    name, file_name, words = args.package_name, args.launch_file_name, list(args.launch_arguments or [])
+    if len(name) < 1000 and Path(name).is_file():
+        return Path(name), [*([file_name] if file_name is not None else []), *words]
+    if "/" in name or name.endswith(".py"):
+        hint = "Name the package before the launch file, or give the path of a file that is there."
+        raise CommandError(f"'{cut(name, 100)}' is not a valid package name", hint)
+    return launching.find_launch_file(current_world(), cut(name, 100), cut(str(file_name), 100)), words
+
+
+def _pairs(words: Sequence[str]) -> dict[str, str]:
+    """`name:=value` taken apart; of several for one name the last one counts."""
+    given = {}
+    for word in words:
+        name, sign, value = word.partition(":=")
+        if not sign or not name:
+            hint = f"Did you mean '{word.replace('=', ':=', 1)}'?" if "=" in word and len(word) < 100 else ""
+            raise CommandError(f"malformed launch argument '{cut(word, 100)}', expected format '<name>:=<value>'", hint)
+        given[name] = value
+    return given
+
+
+def _described(path: Path) -> str:
+    """The tree that `--print` shows."""
+    from launch.launch_description_sources import AnyLaunchDescriptionSource
+
+    source = AnyLaunchDescriptionSource(str(path.resolve()))
+    entities = source._get_launch_description(str(path)).entities
+    signs = ["├──"] * (len(entities) - 1) + ["└──"]
+    lines = [f"{sign} {_entity(each)}" for sign, each in zip(signs, entities, strict=False)]
+    return "\n".join(["<launch.launch_description.LaunchDescription object>", *lines])
+
+
+def _entity(entity: Any) -> str:
+    """One action as `--print` shows it: a node is the command that it runs."""
+    package, executable = getattr(entity, "node_package", None), getattr(entity, "node_executable", None)
+    if isinstance(package, str) and isinstance(executable, str):
+        program = f"ExecInPkg(pkg={package!r}, exec={executable!r})"
+        return f"ExecuteProcess(cmd=[{program}, '--ros-args', '-r', LocalVar('node name')], cwd=None, env=None, shell=False)"
+    name = getattr(entity, "name", None)
+    return f"{type(entity).__name__}({name!r})" if isinstance(name, str) else f"{type(entity).__name__}()"
+
+
+# -- both ----------------------------------------------------------------------------------------------------------------
+
+
+def _leave(what: Process | LaunchHandle, words: str, seconds: float | None) -> int:
+    """Let it begin, say how to end it if it goes on, and leave it running."""
+    world = current_world()
+    job = jobs(world).add(Job(words.strip(), what))
+    world.sim.settle()
+    if seconds is not None:
+        run_for(world, seconds)
+    sys.stdout.flush()
+    if job.running:
+        print(f"[{job.number}] {cut(job.words, 200)} goes on. Its Ctrl-C is: kill -INT %{job.number}")
+        return 0
+    return _code_of(what)
+
+
+def _code_of(what: Process | LaunchHandle) -> int:
+    """The exit code of `ros2 run` is its program's; that of `ros2 launch` is 0, however its programs ended."""
+    if isinstance(what, Process):
+        code = _status(what)
+        return code if code >= 0 else 256 + code
+    return 0
+
+
+COMMANDS = {
+    "launch": CellCommand("Start what a launch file says", _launch_arguments, _launch),
+    "run": CellCommand("Start a program of a package", _run_arguments, _run),
+}

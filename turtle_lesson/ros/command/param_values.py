@@ -1,0 +1,95 @@
+"""Parameters' values: from text as typed, to text, and to what YAML has.
+
+Which text becomes which type follows a recording of the real `ros2 param set`.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .common import CommandError
+from .values import Unparsable, read_yaml
+
+TYPES: tuple[tuple[str, str, str], ...] = (
+    ("not set", "", "Parameter not set."),
+    ("boolean", "bool_value", "Boolean value is:"),
+    ("integer", "integer_value", "Integer value is:"),
+    ("double", "double_value", "Double value is:"),
+    ("string", "string_value", "String value is:"),
+    ("byte array", "byte_array_value", "Byte values are:"),
+    ("boolean array", "bool_array_value", "Boolean values are:"),
+    ("integer array", "integer_array_value", "Integer values are:"),
+    ("double array", "double_array_value", "Double values are:"),
+    ("string array", "string_array_value", "String values are:"),
+)
+"""By number of rcl_interfaces/msg/ParameterType: the type's name, its field of a ParameterValue, and how it is shown."""
+
+_SCALARS: tuple[tuple[type, int], ...] = ((bool, 1), (int, 2), (float, 3))
+_ELEMENTS: tuple[tuple[type, int], ...] = ((bool, 6), (int, 7), (float, 8), (str, 9))
+
+
+def from_text(text: str) -> Any:
+    """The ParameterValue that a text means, read as YAML. Raises CommandError for what no parameter can be."""
+    try:
+        value = read_yaml(text, "The value")
+    except Unparsable:
+        value = text
+    return from_python(value, text)
+
+
+def from_python(value: Any, text: str) -> Any:
+    """The ParameterValue of what YAML gave for a text."""
+    from rcl_interfaces.msg import ParameterValue
+
+    kind = _kind_of(value)
+    message = ParameterValue(type=kind)
+    if kind == 4 and isinstance(value, list):
+        value = text
+    try:
+        setattr(message, TYPES[kind][1], value)
+    except (AssertionError, OverflowError) as error:
+        raise CommandError(f"{text[:200]!r} is no value of a parameter: {error}") from None
+    return message
+
+
+def _kind_of(value: Any) -> int:
+    for type_, kind in _SCALARS:
+        if isinstance(value, type_):
+            return kind
+    if isinstance(value, list):
+        for type_, kind in _ELEMENTS:
+            if all(isinstance(each, type_) for each in value):
+                return kind
+    return 4
+
+
+def to_python(value: Any) -> Any:
+    """What YAML has for a ParameterValue; None if it is not set."""
+    if not 0 < value.type < len(TYPES):
+        return None
+    found = getattr(value, TYPES[value.type][1])
+    return list(found) if TYPES[value.type][0].endswith("array") else found
+
+
+def nested(names_and_values: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Parameters as nested dictionaries: `a.b` is `b` in `a`."""
+    tree: dict[str, Any] = {}
+    for name, value in names_and_values:
+        place = tree
+        *folders, last = name.split(".")
+        for folder in folders:
+            inner = place.setdefault(folder, {})
+            if not isinstance(inner, dict):
+                break
+            place = inner
+        place[last] = value
+    return tree
+
+
+def flat(tree: dict[Any, Any], prefix: str = "") -> list[tuple[str, Any]]:
+    """Nested dictionaries as parameters' full names and values."""
+    found: list[tuple[str, Any]] = []
+    for name, value in tree.items():
+        full_name = f"{prefix}{name}"
+        found += flat(value, f"{full_name}.") if isinstance(value, dict) else [(full_name, value)]
+    return found

@@ -1,0 +1,99 @@
+"""A script taken apart into pipelines of commands, and what their words stand for."""
+
+from __future__ import annotations
+
+import contextlib
+import glob
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from .words import Operator, Token, Word
+
+
+class ShellSyntaxError(ValueError):
+    """A line that cannot be taken apart into commands."""
+
+
+@dataclass
+class Command:
+    """One simple command: its words, and where its input and output go."""
+
+    words: list[Word] = field(default_factory=list)
+    stdout: tuple[str, str] | None = None
+    stderr: str | None = None
+    background: bool = False
+
+
+def pipelines(found: Sequence[Token]) -> Iterator[tuple[str, list[Command]]]:
+    """The pipelines of a script, each with the sign before it that decides whether it runs."""
+    condition, pipeline = "", [Command()]
+    for token in [*found, Operator("\n")]:
+        command = pipeline[-1]
+        if isinstance(token, Word):
+            _take(command, token)
+        elif token.text == "|":
+            _check(command, "|")
+            pipeline.append(Command())
+        elif token.text in {">", ">>", "2>", "&>", "<"}:
+            _expect_file(command, token.text)
+        elif token.text == "2>&1":
+            command.stderr = "&1"
+        elif command.words or len(pipeline) > 1:
+            _check(command, token.text)
+            command.background = token.text == "&"
+            yield condition, pipeline
+            condition, pipeline = token.text if token.text in {"&&", "||"} else "", [Command()]
+        elif token.text != "\n":
+            raise ShellSyntaxError(f"there is no command before {token.text!r}")
+    if condition or len(pipeline) > 1:
+        raise ShellSyntaxError(f"there is no command after {condition or '|'!r}")
+
+
+_WANTED = "\0wanted"
+
+
+def _expect_file(command: Command, sign: str) -> None:
+    if sign == "<":
+        raise ShellSyntaxError("'<' is not in this classroom's terminal: name the file as an argument instead")
+    if sign == "2>":
+        command.stderr = _WANTED
+    else:
+        command.stdout = (sign, _WANTED)
+        command.stderr = "&1" if sign == "&>" else command.stderr
+
+
+def _take(command: Command, word: Word) -> None:
+    """A word is the file that a `>` waits for, or one more word of the command."""
+    if command.stdout is not None and command.stdout[1] == _WANTED:
+        command.stdout = (command.stdout[0], word.text)
+    elif command.stderr == _WANTED:
+        command.stderr = word.text
+    else:
+        command.words.append(word)
+
+
+def _check(command: Command, sign: str) -> None:
+    if not command.words:
+        raise ShellSyntaxError(
+            f"there is no command before {sign!r}" if sign != "\n" else "there is no command after '|'"
+        )
+    if _WANTED in (command.stderr, (command.stdout or ("", ""))[1]):
+        raise ShellSyntaxError("'>' wants the name of a file")
+
+
+# -- what a word stands for --------------------------------------------------------------------------------------------
+
+
+def expand(word: Word, *, home: Path, exit_code: int) -> list[str]:
+    """The words that a word stands for: `~`, `$?` and patterns are replaced, everything else stays as it is typed."""
+    if word.text == word.pattern == "$?":
+        return [str(exit_code)]
+    if word.plain and (word.text == "~" or word.text.startswith("~/")):
+        return [str(home) + word.text[1:]]
+    if len(word.pattern) < 1000 and re.search(r"(?<!\\)[*?]", word.pattern):
+        pattern = re.sub(r"\\(.)", lambda match: glob.escape(match[1]), word.pattern.replace("[", "[[]"))
+        with contextlib.suppress(OSError, ValueError, re.error):
+            return sorted(glob.glob(pattern)) or [word.text]
+    return [word.text]

@@ -1,0 +1,186 @@
+"""A small terminal: a line or a script becomes commands, which run one after the other.
+
+Quotes, `\\` at a line's end, comments, `&&`, `||`, `;`, a trailing `&`, `| grep`, `> file` and patterns such as `*.msg` work
+as in bash. The current folder is the notebook's; `~` is the folder in which the notebook began.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import os
+import re
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..workspace.errors import did_you_mean
+from . import run as run_ros2
+from . import terminal_files
+from .parser import cut
+from .script import Command, ShellSyntaxError, expand, pipelines
+from .streams import cell_streams
+from .terminal import BUILTINS
+from .terminal_io import Terminal
+from .words import UnfinishedError, tokens
+
+if TYPE_CHECKING:
+    from ..world import World
+
+NOT_FOUND = 127
+SYNTAX = 2
+PROGRAMS = ("ros2", "colcon", "source", ".")
+
+
+class Shell:
+    """Runs scripts in a world."""
+
+    def __init__(self, world: World) -> None:
+        self.world = world
+
+    @property
+    def exit_code(self) -> int:
+        """The exit code of the last command of this world's terminal."""
+        return int(self.world.notebook.locals.get("exit code", 0))
+
+    @exit_code.setter
+    def exit_code(self, code: int) -> None:
+        self.world.notebook.locals["exit code"] = code
+
+    def run(self, script: str) -> int:
+        """Run a script of one line or several; a failing command prints and does not raise.
+
+        Raises:
+            KeyboardInterrupt: if the user stops a command that is not live.
+        """
+        out, error = cell_streams()
+        try:
+            plan = list(pipelines(list(tokens(script))))
+        except (UnfinishedError, ShellSyntaxError) as mistake:
+            print(f"syntax error: {cut(str(mistake), 300)}", file=error)
+            self.exit_code = SYNTAX
+            return SYNTAX
+        for condition, pipeline in plan:
+            failed = self.exit_code != 0
+            if (condition == "&&" and failed) or (condition == "||" and not failed):
+                continue
+            self.exit_code = self._pipeline(pipeline, out, error)
+        return self.exit_code
+
+    def _pipeline(self, commands: list[Command], out: Any, error: Any) -> int:
+        handed_on: str | None = None
+        code = 0
+        for number, command in enumerate(commands):
+            last = number == len(commands) - 1
+            target = out if last else io.StringIO()
+            code = self._one(command, handed_on, target, error)
+            handed_on = None if last else target.getvalue()
+        return code
+
+    def _one(self, command: Command, given: str | None, out: Any, error: Any) -> int:
+        words = [text for word in command.words for text in expand(word, home=_home, exit_code=self.exit_code)]
+        try:
+            with _redirected(command, out, error) as (to, error_to):
+                return self._guarded(words, given, to, error_to, command.background)
+        except (OSError, ValueError) as mistake:
+            return _said(words[0], mistake, error)
+
+    def _guarded(self, words: Sequence[str], given: str | None, out: Any, error: Any, background: bool) -> int:
+        try:
+            return self._call(words, given, out, error, background)
+        except (OSError, ValueError, re.error) as mistake:
+            return _said(words[0], mistake, error)
+
+    def _call(self, words: Sequence[str], given: str | None, out: Any, error: Any, background: bool) -> int:
+        name = words[0]
+        if name == "ros2":
+            return run_ros2(self.world, words, stdout=out, stderr=error, background=background)
+        if name in {"colcon", "source", "."}:
+            return _workspace(self.world, words, out, error)
+        if name in BUILTINS:
+            return BUILTINS[name](Terminal(self.world, out, error, given), list(words[1:]))
+        print(_not_found(name), file=error)
+        return NOT_FOUND
+
+
+def _workspace(world: World, words: Sequence[str], out: Any, error: Any) -> int:
+    """`colcon …` and `source …`: the workspace does them."""
+    from ..workspace import colcon, source
+
+    program = colcon.run if words[0] == "colcon" else source.source
+    return program(world, list(words[1:]), stdout=out, stderr=error, cwd=Path.cwd())
+
+
+def _not_found(name: str) -> str:
+    hint = did_you_mean(name[:100], [*PROGRAMS, *BUILTINS])
+    computer = (
+        "In this classroom's terminal there are ros2, colcon, source and a few more; !command asks your computer."
+    )
+    return f"{cut(name, 60)}: command not found. {hint or computer}"
+
+
+def _said(name: str, error: Exception, stream: Any) -> int:
+    """Say in a line what went wrong, without Python's numbers; returns the exit code."""
+    print(f"{cut(name, 40)}: {cut(_explain(error), 300)}", file=stream)
+    return 1
+
+
+def _explain(error: Exception) -> str:
+    if isinstance(error, OSError) and error.strerror:
+        named = f"{error.filename}: " if error.filename else ""
+        return f"{named}{error.strerror}"
+    return str(error)
+
+
+@contextlib.contextmanager
+def _redirected(command: Command, out: Any, error: Any) -> Iterator[tuple[Any, Any]]:
+    """The streams of a command, some of which may be files."""
+    with contextlib.ExitStack() as stack:
+        to: Any = out
+        error_to: Any = error
+        if command.stdout is not None:
+            sign, name = command.stdout
+            mode = "a" if sign == ">>" else "w"
+            to = stack.enter_context(Path(name).open(mode, encoding="utf-8"))
+        if command.stderr == "&1":
+            error_to = to
+        elif command.stderr is not None:
+            error_to = stack.enter_context(Path(command.stderr).open("w", encoding="utf-8"))
+        yield to, error_to
+
+
+def _here() -> Path:
+    """The current folder; the computer's home where somebody has deleted the current one."""
+    try:
+        return Path.cwd()
+    except FileNotFoundError:
+        return Path.home()
+
+
+_home = _here()
+
+
+def home() -> Path:
+    """What `~` is: the folder in which the notebook began."""
+    return _home
+
+
+def open_terminal() -> None:
+    """A new terminal begins where the notebook began: undo what `cd` did."""
+    if terminal_files.last_cd is not None and _here() == terminal_files.last_cd and _home.is_dir():
+        os.chdir(_home)
+    terminal_files.last_cd = None
+
+
+def begin_here() -> None:
+    """The notebook begins: its folder is what `~` is from now on."""
+    global _home
+    if terminal_files.last_cd is None:
+        _home = _here()
+
+
+def run_line(world: World, script: str) -> int:
+    """Run a script in a world and return the exit code of its last command."""
+    sys.stdout.flush()
+    return Shell(world).run(script)

@@ -1,0 +1,26 @@
+"""The terminal's own words, beside ros2, colcon and source."""
+
+from __future__ import annotations
+
+from .terminal_files import cd, chmod, ls, mkdir, pwd, touch
+from .terminal_io import Builtin
+from .terminal_jobs import kill, list_jobs
+from .terminal_text import cat, echo, grep, head, sort, tail, wc
+
+BUILTINS: dict[str, Builtin] = {
+    "cat": cat,
+    "cd": cd,
+    "chmod": chmod,
+    "echo": echo,
+    "grep": grep,
+    "head": head,
+    "jobs": list_jobs,
+    "kill": kill,
+    "ls": ls,
+    "mkdir": mkdir,
+    "pwd": pwd,
+    "sort": sort,
+    "tail": tail,
+    "touch": touch,
+    "wc": wc,
+}

@@ -1,0 +1,121 @@
+"""The terminal's words for folders and files: cd, pwd, mkdir, ls, touch, chmod."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from ..core.tracebacks import shown_path
+from ..workspace.errors import did_you_mean
+from .terminal_io import Terminal, options
+
+last_cd: Path | None = None
+"""Where the last `cd` went, or None."""
+
+
+# -- folders -----------------------------------------------------------------------------------------------------------
+
+
+def cd(terminal: Terminal, words: list[str]) -> int:
+    """`cd folder`, `cd ..`, `cd -`, `cd`: change the current folder."""
+    global last_cd
+    from .shell import home
+
+    if len(words) > 1:
+        return terminal.fail("cd: too many arguments: a folder's name with a blank in it needs quotes")
+    target = Path(words[0]) if words else home()
+    if words == ["-"]:
+        target = Path(os.environ.get("OLDPWD", "."))
+        terminal.say(shown_path(str(target)))
+    before = Path.cwd()
+    if not target.is_dir():
+        what = "Not a directory" if target.exists() else "No such file or directory"
+        return terminal.fail(f"cd: {words[0]}: {what}. {_beside(target)}".rstrip(" ."))
+    os.chdir(target)
+    os.environ["OLDPWD"] = str(before)
+    last_cd = Path.cwd()
+    return 0
+
+
+def _beside(target: Path) -> str:
+    """A folder of a similar name in the same place."""
+    place = target.parent
+    if len(str(target)) > 200 or not place.is_dir():
+        return ""
+    return did_you_mean(target.name, [path.name for path in place.iterdir() if path.is_dir()])
+
+
+def pwd(terminal: Terminal, words: list[str]) -> int:
+    """`pwd`: print the current folder."""
+    return terminal.say(str(Path.cwd()))
+
+
+def mkdir(terminal: Terminal, words: list[str]) -> int:
+    """`mkdir [-p] folder…`: make folders."""
+    letters, names = options(words)
+    if letters - {"p", "v"} or any(name.startswith("--") and name != "--parents" for name in names):
+        return terminal.fail("mkdir: it knows -p, which also makes the folders above and says nothing of what is there")
+    parents = "p" in letters or "--parents" in names
+    names = [name for name in names if name != "--parents"]
+    if not names:
+        return terminal.fail("mkdir: missing operand: name the folders to make, as in mkdir -p turtle_ws/src")
+    code = 0
+    for name in names:
+        try:
+            Path(name).mkdir(parents=parents, exist_ok=parents)
+        except FileExistsError:
+            code = terminal.fail(f"mkdir: cannot create directory '{name}': File exists")
+        except FileNotFoundError:
+            code = terminal.fail(
+                f"mkdir: cannot create directory '{name}': No such file or directory. mkdir -p makes the folders above, too"
+            )
+    return code
+
+
+# -- files -------------------------------------------------------------------------------------------------------------
+
+
+def ls(terminal: Terminal, words: list[str]) -> int:
+    """`ls [-a] [-1] [-R] [name…]`: list folders, one name a line."""
+    letters, names = options(words)
+    code = 0
+    places = [Path(name) for name in names or ["."]]
+    for place in places:
+        if not place.exists():
+            code = terminal.fail(f"ls: cannot access '{place}': No such file or directory", 2)
+        elif place.is_file():
+            terminal.say(str(place))
+        else:
+            _list_folder(terminal, place, letters, headed=len(places) > 1 or "R" in letters)
+    return code
+
+
+def _list_folder(terminal: Terminal, place: Path, letters: set[str], *, headed: bool) -> None:
+    inside = sorted(path for path in place.iterdir() if "a" in letters or not path.name.startswith("."))
+    if headed:
+        terminal.say(f"{place}:")
+    for path in inside:
+        terminal.say(path.name)
+    if "R" in letters:
+        for path in inside:
+            if path.is_dir():
+                terminal.say("")
+                _list_folder(terminal, path, letters, headed=True)
+
+
+def touch(terminal: Terminal, words: list[str]) -> int:
+    """`touch file…`: make empty files."""
+    for name in words:
+        Path(name).touch()
+    return 0 if words else terminal.fail("touch: name the files to make")
+
+
+def chmod(terminal: Terminal, words: list[str]) -> int:
+    """`chmod +x file…`: make files executable."""
+    modes, names = words[:1], words[1:]
+    if not names or modes[0] not in {"+x", "a+x", "u+x", "755", "0755"}:
+        return terminal.fail("chmod: here it makes files executable: chmod +x file")
+    for name in names:
+        path = Path(name)
+        path.chmod(path.stat().st_mode | 0o111)
+    return 0

@@ -1,0 +1,84 @@
+"""The terminal's words for texts: cat, echo, and what a pipe leads to: grep, head, tail, sort, wc."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from pathlib import Path
+
+from .terminal_io import Terminal, options
+
+
+def cat(terminal: Terminal, words: list[str]) -> int:
+    """`cat file…`: print files."""
+    if not words and terminal.given is None:
+        return terminal.fail("cat: name the files to print")
+    terminal.stdout.write("".join(_texts(terminal, words)))
+    return 0
+
+
+def _texts(terminal: Terminal, names: Iterable[str]) -> list[str]:
+    """The files of these names, or else what a pipe gives."""
+    found = [Path(name).read_text(encoding="utf-8", errors="replace") for name in names]
+    return found or [terminal.given or ""]
+
+
+def echo(terminal: Terminal, words: list[str]) -> int:
+    """`echo words`: print words."""
+    return terminal.say(" ".join(words))
+
+
+def grep(terminal: Terminal, words: list[str]) -> int:
+    """`… | grep [-i] [-v] [-c] pattern`: the lines with a pattern in them."""
+    letters, rest = options(words)
+    if not rest:
+        return terminal.fail("grep: name the pattern to look for", 2)
+    pattern = re.compile(rest[0] if "E" in letters else re.escape(rest[0]), re.IGNORECASE if "i" in letters else 0)
+    lines = [line for text in _texts(terminal, rest[1:]) for line in text.splitlines()]
+    found = [line for line in lines if bool(pattern.search(line)) != ("v" in letters)]
+    if "c" in letters:
+        terminal.say(str(len(found)))
+    elif "q" not in letters and found:
+        terminal.say("\n".join(found))
+    return 0 if found else 1
+
+
+def head(terminal: Terminal, words: list[str]) -> int:
+    """`… | head [-n number]`: the first lines."""
+    count, rest = _count(words)
+    lines = [line for text in _texts(terminal, rest) for line in text.splitlines()][:count]
+    return terminal.say("\n".join(lines)) if lines else 0
+
+
+def tail(terminal: Terminal, words: list[str]) -> int:
+    """`… | tail [-n number]`: the last lines."""
+    count, rest = _count(words)
+    lines = [line for text in _texts(terminal, rest) for line in text.splitlines()]
+    return terminal.say("\n".join(lines[-count:])) if lines and count else 0
+
+
+def _count(words: list[str]) -> tuple[int, list[str]]:
+    count, rest = 10, []
+    expected = False
+    for word in words:
+        if expected or re.fullmatch(r"-n?\d+", word):
+            count, expected = int(word.lstrip("-n") or 0), False
+        elif word == "-n":
+            expected = True
+        else:
+            rest.append(word)
+    return count, rest
+
+
+def sort(terminal: Terminal, words: list[str]) -> int:
+    """`… | sort [-r] [-u]`: the lines in order."""
+    letters, rest = options(words)
+    lines = [line for text in _texts(terminal, rest) for line in text.splitlines()]
+    ordered = sorted(set(lines) if "u" in letters else lines, reverse="r" in letters)
+    return terminal.say("\n".join(ordered)) if ordered else 0
+
+
+def wc(terminal: Terminal, words: list[str]) -> int:
+    """`… | wc -l`: how many lines."""
+    _, rest = options(words)
+    return terminal.say(str(sum(text.count("\n") for text in _texts(terminal, rest))))

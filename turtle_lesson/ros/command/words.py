@@ -1,0 +1,128 @@
+"""A shell's line taken apart: words with their quotes, and the signs between commands.
+
+The rules are those of POSIX's shells, without what this classroom leaves out: variables, substitutions and braces stay as they
+are typed, so that `"{x: 5.0}"` needs no care.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+OPERATORS = ("&&", "||", ">>", "2>&1", "&>", "2>", ";", "&", "|", ">", "<", "\n")
+SPACE = " \t\r"
+
+
+class UnfinishedError(ValueError):
+    """A quote is never closed, or the line ends in a backslash."""
+
+
+@dataclass(frozen=True)
+class Word:
+    """One word. `text` is without quotes; `pattern` has a backslash before each quoted sign that a glob would take."""
+
+    text: str
+    pattern: str
+
+    @property
+    def plain(self) -> bool:
+        """Whether no sign of it is quoted."""
+        return self.text == self.pattern
+
+
+@dataclass(frozen=True)
+class Operator:
+    """A sign such as `&&`."""
+
+    text: str
+
+
+Token = Word | Operator
+
+
+def tokens(text: str) -> Iterator[Token]:
+    """Take a script apart.
+
+    Raises:
+        UnfinishedError: if a quote is never closed.
+    """
+    scanner = _Scanner(text)
+    while (token := scanner.next()) is not None:
+        yield token
+
+
+def is_unfinished(text: str) -> bool:
+    """Whether a command goes on in the next line: a quote is open, or a backslash stands at its end."""
+    try:
+        found = list(tokens(text))
+    except UnfinishedError:
+        return True
+    return bool(found) and found[-1] in (Operator("&&"), Operator("||"), Operator("|"))
+
+
+class _Scanner:
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.at = 0
+
+    def next(self) -> Token | None:
+        self._skip_space()
+        if self.at >= len(self.text):
+            return None
+        for sign in OPERATORS:
+            if self.text.startswith(sign, self.at):
+                self.at += len(sign)
+                return Operator(sign)
+        return self._word()
+
+    def _skip_space(self) -> None:
+        text = self.text
+        while self.at < len(text):
+            if text[self.at] in SPACE:
+                self.at += 1
+            elif text.startswith("\\\n", self.at):
+                self.at += 2
+            elif text[self.at] == "#":
+                end = text.find("\n", self.at)
+                self.at = len(text) if end < 0 else end
+            else:
+                return
+
+    def _word(self) -> Word:
+        plain: list[str] = []
+        pattern: list[str] = []
+        while self.at < len(self.text):
+            char = self.text[self.at]
+            if char in SPACE or char in ";&|<>\n":
+                break
+            quoted = char in "'\"\\"
+            piece = self._quoted(char) if quoted else char
+            self.at += 0 if quoted else 1
+            plain.append(piece)
+            pattern.append("".join(f"\\{each}" for each in piece) or "\\" if quoted else piece)
+        return Word("".join(plain), "".join(pattern))
+
+    def _quoted(self, quote: str) -> str:
+        """The text of a quoted piece, which `self.at` is moved behind."""
+        if quote == "\\":
+            return self._after_backslash()
+        begin, self.at = self.at, self.at + 1
+        piece: list[str] = []
+        while self.at < len(self.text):
+            char = self.text[self.at]
+            self.at += 1
+            if char == quote:
+                return "".join(piece)
+            if char == "\\" and quote == '"' and self.text[self.at : self.at + 1] in {'"', "\\", "$", "`", "\n"}:
+                char = self.text[self.at].replace("\n", "")
+                self.at += 1
+            piece.append(char)
+        rest = self.text[begin : begin + 20]
+        raise UnfinishedError(f"the quote {quote} before {rest!r} is never closed: write another {quote} where it ends")
+
+    def _after_backslash(self) -> str:
+        if self.at + 1 >= len(self.text):
+            raise UnfinishedError("a backslash at the end of a line goes on in the next line, and there is none")
+        char = self.text[self.at + 1]
+        self.at += 2
+        return "" if char == "\n" else char

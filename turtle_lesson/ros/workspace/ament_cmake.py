@@ -1,0 +1,287 @@
+"""What `colcon build` makes of an `ament_cmake` package: CMake's three steps, configure, build and install, on paper.
+
+Commands are looked at in the order in which CMake carries them out, so that the first fault found is the one that a real
+build reports, at its line.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from ..core.tracebacks import shown_path
+from . import manifest_check
+from .cmake import CMakeError, CMakeFile, Command, evaluate
+from .cmake_install import install_entries, install_item, refused, unreadable
+from .cmake_interfaces import InterfaceCheck, not_found
+from .cmake_text import SHARE, cmake_message
+from .discover import Found
+from .errors import did_you_mean
+from .interface_files import interface_items
+from .known import CMAKE_COMMANDS, CMAKE_PACKAGES, COMMANDS_OF, brought_by
+from .outcome import PYTHON, BuildFailure, Environment, Item, Outcome, check_targets, with_hint
+
+_DEFINED = re.compile(r"^\s*(?:function|macro)\s*\(\s*(\w+)", re.MULTILINE | re.IGNORECASE)
+_PACKAGE_XML = f"{SHARE}/ament_cmake_core/cmake/core/ament_package_xml.cmake"
+_PYTHON_PLACE = f"local/lib/{PYTHON}/dist-packages"
+
+
+def build_ament_cmake(found: Found, environment: Environment) -> Outcome:
+    """Build one package: what it prints, and what is to be installed if nothing is refused."""
+    again = (environment.build / found.name / "Makefile").is_file()
+    build = _Build(found, environment, again)
+    try:
+        return build.run()
+    except BuildFailure as failure:
+        text, code = "".join(build.warnings) + failure.text, failure.code
+        if (
+            again
+            and code == 1
+            and text.startswith(("CMake Error at CMakeLists", "CMake Error at /opt", "Error parsing"))
+        ):
+            text += "gmake: *** [Makefile:786: cmake_check_build_system] Error 1\n"
+            code = 2
+        text = with_hint(text, [failure.hint, *build.hints])
+        return Outcome(code=code, stderr=text, seconds=failure.seconds)
+
+
+class _Build:
+    """The build of one package."""
+
+    def __init__(self, found: Found, environment: Environment, again: bool) -> None:
+        self.found = found
+        self.environment = environment
+        self.again = again
+        self.seen: set[str] = set()
+        self.commands: set[str] = set(CMAKE_COMMANDS)
+        self.finished = False
+        self.checks: list[InterfaceCheck] = []
+        self.warnings: list[str] = []
+        self.hints: list[str] = []
+        self.python: list[tuple[str, str]] = []
+        self.project, self.project_line = "Project", 1  # as CMake pretends where there is no project()
+
+    def run(self) -> Outcome:
+        cmake = self._read()
+        self._warn_of_catkin()
+        for command in cmake.commands:
+            self._configure(command)
+        if not self.finished:
+            self._unfinished()
+        for check in self.checks:
+            check.resolve(self.environment.types)
+        items = self._items(cmake)
+        self._warn_of_setup_py(cmake)
+        return self._outcome(items)
+
+    # -- configure -------------------------------------------------------------------------------------------------
+
+    def _read(self) -> CMakeFile:
+        file = self.found.path / "CMakeLists.txt"
+        if not file.is_file():
+            where = shown_path(str(self.found.path))
+            text = f'CMake Error: The source directory "{where}" does not appear to contain CMakeLists.txt.\n'
+            hint = "An ament_cmake package is built from its CMakeLists.txt. Or is this an ament_python package?"
+            if (self.found.path / "setup.py").is_file():
+                hint = (
+                    "There is a setup.py: if this is to be an ament_python package, say so in package.xml: "
+                    "<build_type>ament_python</build_type>."
+                )
+            raise BuildFailure(text, hint, seconds=0.1)
+        try:
+            source = file.read_text(encoding="utf-8")
+            self.commands.update(name.lower() for name in _DEFINED.findall(source))
+            cmake = evaluate(source, "CMakeLists.txt", self.found.path)
+            if not cmake.named("project"):
+                self._warn_of_project()
+                cmake = evaluate(f"project(Project) {source}", "CMakeLists.txt", self.found.path)
+            cmake.programs(), cmake.directories(), cmake.files()
+        except CMakeError as error:
+            raise unreadable(error) from None
+        except (OSError, UnicodeDecodeError) as error:
+            raise BuildFailure(f"CMake Error: CMakeLists.txt cannot be read: {error}\n", seconds=0.1) from None
+        return cmake
+
+    def _configure(self, command: Command) -> None:
+        where = f"CMakeLists.txt:{command.line} ({command.name})"
+        if command.name not in self.commands:
+            raise self._unknown(command, where)
+        special = getattr(self, f"_on_{command.name}", None)
+        if special is not None:
+            special(command, where)
+
+    def _unknown(self, command: Command, where: str) -> BuildFailure:
+        packages = brought_by(command.name)
+        if "rosidl_default_generators" in packages and command.name.startswith("rosidl"):
+            packages = ["rosidl_default_generators"]
+        hint = (
+            f"Write find_package({packages[0]} REQUIRED) above line {command.line}."
+            if packages
+            else did_you_mean(command.name, self.commands | {"rosidl_generate_interfaces"})
+        )
+        return refused(f'Unknown CMake command "{command.name}".', where, hint)
+
+    def _on_project(self, command: Command, where: str) -> None:
+        self.project_line = command.line
+        self.project = command.args[0] if command.args else self.project
+
+    def _on_find_package(self, command: Command, where: str) -> None:
+        if not command.args:
+            raise refused("find_package called with incorrect number of arguments", where)
+        name, required = command.args[0], "REQUIRED" in command.args
+        known = {*CMAKE_PACKAGES, *self.environment.findable, *self.environment.types.packages()}
+        if name in (known - {self.found.name}) | self.environment.findable:
+            self.seen.add(name)
+            self.commands |= COMMANDS_OF.get(name, frozenset())
+            return
+        if "QUIET" in command.args and not required:
+            return
+        text, hint = not_found(name, command.line, required, known)
+        if required:
+            raise BuildFailure(text, hint)
+        self.warnings.append(text)
+        self.hints.append(hint)
+
+    def _on_rosidl_generate_interfaces(self, command: Command, where: str) -> None:
+        check = InterfaceCheck(self.found, command, self.finished, self.seen)
+        check.configure()
+        self._check_xml(where, [f"{SHARE}/rosidl_cmake/cmake/rosidl_generate_interfaces.cmake:226 (ament_package_xml)"])
+        check.check_group()
+        self.checks.append(check)
+
+    def _on_ament_package(self, command: Command, where: str) -> None:
+        self._check_xml(where, [f"{SHARE}/ament_cmake_core/cmake/core/ament_package.cmake:63 (ament_package_xml)"])
+        self.finished = True
+
+    def _on_add_executable(self, command: Command, where: str) -> None:
+        what = f"{command.name}({' '.join(command.args[:1])} …)"
+        hint = "Write the node in Python and install it: install(PROGRAMS … DESTINATION lib/${PROJECT_NAME})."
+        raise refused(f"{what} builds a C++ program; this classroom builds and runs Python only", where, hint)
+
+    _on_add_library = _on_add_executable
+
+    def _on_ament_python_install_package(self, command: Command, where: str) -> None:
+        name = command.args[0] if command.args else ""
+        folder = self._option(command, "PACKAGE_DIR") or name
+        if self.checks and name == self.found.name:
+            text = (
+                f'add_custom_target cannot create target "ament_cmake_python_copy_{name}" because another target with the '
+                "same name already exists. The existing target is a custom target created in source directory "
+                f'"{shown_path(str(self.found.path))}". See documentation for policy CMP0002 for more details.'
+            )
+            stack = (f"CMakeLists.txt:{command.line} (ament_python_install_package)",)
+            place = f"{SHARE}/ament_cmake_python/cmake/ament_python_install_package.cmake:114 (add_custom_target)"
+            hint = (
+                f"The interfaces already make a Python package {name}: install the nodes as programs instead, "
+                f"install(PROGRAMS {name}/<file>.py DESTINATION lib/${{PROJECT_NAME}} RENAME <name>)."
+            )
+            raise refused(text, place, hint, stack)
+        if not (self.found.path / folder / "__init__.py").is_file():
+            text = f"ament_python_install_package() the Python package folder '{folder}' doesn't exist"
+            raise refused(text, where, f"Make {folder}/__init__.py, which may be empty.")
+        self.python.append((folder, name))
+
+    def _option(self, command: Command, word: str) -> str:
+        args = command.args
+        return args[args.index(word) + 1] if word in args[:-1] else ""
+
+    def _check_xml(self, where: str, stack: list[str]) -> None:
+        faults = [f"The manifest contains invalid XML:\n{self.found.xml_error}"] if self.found.xml_error else []
+        if self.found.root is not None:
+            faults = manifest_check.faults(self.found.root)
+        if faults:
+            raise self._refused_xml(faults, [*stack, where])
+        project = self.project
+        if project != self.found.name:
+            text = (
+                f"ament_package_xml() package name '{self.found.name}' in '/package.xml' does not match current "
+                f"PROJECT_NAME '{project}'. You must call project() with the same package name before."
+            )
+            hint = f"Write project({self.found.name}) in line {self.project_line} of CMakeLists.txt."
+            hint = "" if self.hints else hint  # there is none at all, and that is said already
+            raise refused(text, f"{_PACKAGE_XML}:53 (message)", hint, (*stack, where))
+
+    def _refused_xml(self, faults: list[str], stack: list[str]) -> BuildFailure:
+        file = shown_path(str(self.found.path / "package.xml"))
+        said = "\n".join(faults)
+        text = f"Error parsing '{file}':\ncatkin_pkg.package.InvalidPackage: Error(s) in package '{file}':\n{said}\n"
+        what = f"{SHARE}/ament_cmake_core/cmake/core/package_xml_2_cmake.py"
+        process = f"execute_process(/usr/bin/python3 {what} {file}) returned error code 1"
+        text += cmake_message(
+            process, f"{_PACKAGE_XML}:95 (message)", [f"{_PACKAGE_XML}:49 (_ament_package_xml)", *stack]
+        )
+        hints = [manifest_check.hint(fault) for fault in faults]
+        if self.found.xml_error:
+            hints = ["Is every <tag> closed by a </tag>, and every < in a text written as &lt;?"]
+        return BuildFailure(text, " ".join(filter(None, hints)))
+
+    def _unfinished(self) -> None:
+        self.hints.append(
+            "There is no ament_package() in CMakeLists.txt: without it ROS 2 does not find the package. Write it last."
+        )
+
+    # -- install ---------------------------------------------------------------------------------------------------
+
+    def _items(self, cmake: CMakeFile) -> list[Item]:
+        items = [install_item(self.found, entry, self.hints) for entry in install_entries(cmake)]
+        for folder, name in self.python:
+            items.append(Item(f"{_PYTHON_PLACE}/{name}", self.found.path / folder))
+        for check in self.checks:
+            items += interface_items(self.found, check.files)
+        check_targets(items)
+        return items
+
+    # -- what is worth a word --------------------------------------------------------------------------------------
+
+    def _warn_of_project(self) -> None:
+        text = (
+            "No project() command is present. The top-level CMakeLists.txt file must contain a literal, direct call to the "
+            "project() command. Add a line of code such as\n\n  project(ProjectName)\n\nnear the top of the file, but after "
+            'cmake_minimum_required().\n\nCMake is pretending there is a "project(Project)" command on the first line.'
+        )
+        message = cmake_message(text, "", kind="Warning (dev) in CMakeLists.txt").rstrip("\n")
+        self.warnings.append(f"{message}\nThis warning is for project developers.  Use -Wno-dev to suppress it.\n\n")
+        self.hints.append(f"Write project({self.found.name}) below cmake_minimum_required(…).")
+
+    def _warn_of_catkin(self) -> None:
+        if self.found.root is not None and not self.found.build_type:
+            text = "Manually-specified variables were not used by the project:\n\n  CATKIN_INSTALL_INTO_PREFIX_ROOT\n"
+            self.warnings.append(cmake_message(text.rstrip(), "", kind="Warning"))
+            self.hints.append(
+                "package.xml does not say how to build, so colcon takes it for a package of ROS 1. Add "
+                "<export><build_type>ament_cmake</build_type></export>."
+            )
+
+    def _warn_of_setup_py(self, cmake: CMakeFile) -> None:
+        file = self.found.path / "setup.py"
+        text = file.read_text(encoding="utf-8", errors="replace") if file.is_file() else ""
+        if "entry_points" not in text:
+            return
+        installed = [program for program in cmake.programs() if program.destination == f"lib/{self.found.name}"]
+        line = text[: text.index("entry_points")].count("\n") + 1
+        hint = "" if installed else (
+            f" Install each program in CMakeLists.txt: install(PROGRAMS {self.found.name}/<file>.py DESTINATION "
+            "lib/${PROJECT_NAME} RENAME <name>)."
+        )  # fmt: skip
+        self.hints.append(
+            f"setup.py, line {line}, lists entry_points, but package.xml says ament_cmake: CMake does not read setup.py, and "
+            f"nothing will be installed from them.{hint}"
+        )
+
+    def _outcome(self, items: list[Item]) -> Outcome:
+        files = [file for check in self.checks for file in check.files]
+        share = self.environment.install / self.found.name / "share" / self.found.name
+        changed = [file for file in files if not _same(share / file, self.found.path / file)]
+        seconds = (0.7 if self.again else 1.2) + 2.0 * len(changed)
+        stdout = [f"-- Found {name}" for name in sorted(self.seen)]
+        stdout += ["-- Configuring done", "-- Generating done"]
+        text = with_hint("".join(self.warnings), self.hints)
+        paths = [_PYTHON_PLACE] if self.python else []
+        return Outcome(0, text, stdout, seconds, items, self.found.runtime_dependencies(), paths)
+
+
+def _same(one: Path, other: Path) -> bool:
+    return one.is_file() and one.read_bytes() == other.read_bytes()
+
+
+__all__ = ["build_ament_cmake"]

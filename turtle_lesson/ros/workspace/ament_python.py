@@ -1,0 +1,212 @@
+"""What `colcon build` makes of an `ament_python` package: its modules, its data files, and a program an entry point."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import re
+from pathlib import PurePosixPath
+from typing import Any
+
+from ..core.tracebacks import shown_path
+from . import manifest_check
+from .discover import Found
+from .errors import did_you_mean
+from .outcome import PYTHON, BuildFailure, Environment, Item, Outcome, check_targets, with_hint
+from .setup_script import SetupError, install_scripts, read_setup
+
+SITE = f"lib/{PYTHON}/site-packages"
+_ENTRY = re.compile(r"\s*([\w.-]+)\s*=\s*([\w.]+)\s*:\s*([\w.]+)\s*(\[.*\])?\s*")
+
+
+def build_ament_python(found: Found, environment: Environment) -> Outcome:
+    """Build one package: what it prints, and what is to be installed if nothing is refused."""
+    try:
+        return _Build(found, environment).run()
+    except SetupError as error:
+        return Outcome(1, with_hint(str(error), [_setup_hint(found, str(error))]), seconds=0.3)
+    except BuildFailure as failure:
+        return Outcome(failure.code, with_hint(failure.text, [failure.hint]), seconds=failure.seconds)
+
+
+def _setup_hint(found: Found, text: str) -> str:
+    where = shown_path(str(found.path / "setup.py"))
+    if "SyntaxError" in text:
+        return f"In {where}: look at this line and at the end of the one before: is a comma or a bracket missing?"
+    return f"In {where}."
+
+
+class _Build:
+    """The build of one package."""
+
+    def __init__(self, found: Found, environment: Environment) -> None:
+        self.found = found
+        self.environment = environment
+        self.hints: list[str] = []
+        self.warnings: list[str] = []
+        self.setup: dict[str, Any] = {}
+
+    def run(self) -> Outcome:
+        self._check()
+        self.setup = read_setup(self.found.path)
+        name = str(self.setup.get("name", ""))
+        if name.replace("-", "_") != self.found.name.replace("-", "_"):
+            self.hints.append(
+                f"setup.py says name='{name}', and package.xml says '{self.found.name}': write the same in both."
+            )
+        items = [*self._modules(), *self._data(), *self._programs()]
+        check_targets(items)
+        seconds = 1.7 if self.environment.symlink else 1.3
+        text = with_hint("".join(self.warnings), self.hints)
+        return Outcome(0, text, [], seconds, items, self.found.runtime_dependencies(), [SITE])
+
+    def _check(self) -> None:
+        file = shown_path(str(self.found.path / "package.xml"))
+        faults = [f"The manifest contains invalid XML:\n{self.found.xml_error}"] if self.found.xml_error else []
+        if self.found.root is not None:
+            faults = manifest_check.faults(self.found.root)
+        if faults:
+            said = "\n".join(faults)
+            text = f"catkin_pkg.package.InvalidPackage: Error(s) in package '{file}':\n{said}\n"
+            raise BuildFailure(text, " ".join(filter(None, map(manifest_check.hint, faults))), seconds=0.3)
+        if not (self.found.path / "setup.py").is_file():
+            where = shown_path(str(self.found.path))
+            hint = "An ament_python package is built from its setup.py."
+            if (self.found.path / "CMakeLists.txt").is_file():
+                hint += " There is a CMakeLists.txt: is <build_type>ament_cmake</build_type> meant in package.xml?"
+            raise BuildFailure(f"error: there is no setup.py in {where}\n", hint, seconds=0.1)
+
+    # -- modules ---------------------------------------------------------------------------------------------------
+
+    def _modules(self) -> list[Item]:
+        items = []
+        top = {str(name).partition(".")[0] for name in self.setup.get("packages") or []}
+        for name in self.setup.get("packages") or []:
+            folder = self.found.path.joinpath(*str(name).split("."))
+            if not folder.is_dir():
+                text = f"error: package directory '{str(name).replace('.', '/')}' does not exist\n"
+                raise BuildFailure(text, f"setup.py names it in packages=…; make {name}/__init__.py.", seconds=0.5)
+        for name in sorted(top):
+            items.append(Item(f"{SITE}/{name}", self.found.path / name))
+        for module in self.setup.get("py_modules") or []:
+            file = self.found.path / f"{module}.py"
+            if not file.is_file():
+                hint = "setup.py names it in py_modules=…."
+                raise BuildFailure(f"error: file '{module}.py' does not exist\n", hint, seconds=0.5)
+            items.append(Item(f"{SITE}/{module}.py", file))
+        version = self.setup.get("version", "0.0.0")
+        info = f"{SITE}/{self.found.name}-{version}-py{PYTHON.removeprefix('python')}.egg-info"
+        entries = "[console_scripts]\n" + "".join(f"{line.strip()}\n" for line in self._entry_lines())
+        items.append(
+            Item(f"{info}/PKG-INFO", text=f"Metadata-Version: 2.1\nName: {self.found.name}\nVersion: {version}\n")
+        )
+        items.append(Item(f"{info}/entry_points.txt", text=entries))
+        items.append(Item(f"{info}/top_level.txt", text="".join(f"{name}\n" for name in sorted(top))))
+        return items
+
+    # -- data files ------------------------------------------------------------------------------------------------
+
+    def _data(self) -> list[Item]:
+        items = []
+        for entry in self.setup.get("data_files") or []:
+            if not isinstance(entry, (tuple, list)) or len(entry) != 2:
+                text = f"error: data_files has {entry!r}, which is no ('folder', ['file', …])\n"
+                raise BuildFailure(text, "Write ('share/' + package_name, ['package.xml']),.", seconds=0.5)
+            place, files = entry
+            for name in [files] if isinstance(files, str) else files:
+                items.append(self._data_file(os.fspath(place), os.fspath(name)))
+        return self._with_markers(items)
+
+    def _data_file(self, place: str, name: str) -> Item:
+        source = self.found.path / name
+        parts = PurePosixPath(place.replace(os.sep, "/"))
+        if parts.is_absolute() or ".." in parts.parts or ":" in place:
+            text = f"error: data_files: '{place}' lies outside of the package's install folder\n"
+            raise BuildFailure(text, f"Use a place such as 'share/{self.found.name}'.", seconds=0.5)
+        if not source.is_file():
+            there = [
+                path.relative_to(self.found.path).as_posix() for path in self.found.path.rglob("*") if path.is_file()
+            ]
+            text = f"error: can't copy '{name}': doesn't exist or not a regular file\n"
+            raise BuildFailure(
+                text, f"setup.py names it in data_files. {did_you_mean(name, there)}".strip(), seconds=0.6
+            )
+        return Item(f"{parts.as_posix()}/{source.name}", source)
+
+    def _with_markers(self, items: list[Item]) -> list[Item]:
+        name = self.found.name
+        targets = {item.target for item in items}
+        marker = f"share/ament_index/resource_index/packages/{name}"
+        start = f"WARNING:colcon.colcon_ros.task.ament_python.build:Package '{name}' doesn't explicitly install"
+        end = "(colcon-ros currently does it implicitly but that fallback will be removed in the future)\n"
+        if marker not in targets:
+            self.warnings.append(f"{start} a marker in the package index {end}")
+            items.append(Item(marker))
+        if f"share/{name}/package.xml" not in targets:
+            self.warnings.append(f"{start} the 'package.xml' file {end}")
+            items.append(Item(f"share/{name}/package.xml", self.found.path / "package.xml"))
+        return items
+
+    # -- programs --------------------------------------------------------------------------------------------------
+
+    def _entry_lines(self) -> list[str]:
+        entries = self.setup.get("entry_points") or {}
+        if not isinstance(entries, dict):
+            hint = "Write entry_points={'console_scripts': ['name = package.module:main']},."
+            raise BuildFailure("error: entry_points must be a dictionary\n", hint, seconds=0.5)
+        lines = entries.get("console_scripts") or []
+        return [lines] if isinstance(lines, str) else [str(line) for line in lines]
+
+    def _programs(self) -> list[Item]:
+        place = install_scripts(self.found.path)
+        items = []
+        for line in self._entry_lines():
+            match = _ENTRY.fullmatch(line)
+            if match is None:
+                text = f"error in {self.found.name} setup command: ('Invalid entry point: ', {line!r})\n"
+                hint = f"It looks like 'my_node = {self.found.name}.my_node:main'."
+                raise BuildFailure(text, hint, seconds=0.5)
+            name, module, function = match[1], match[2], match[3]
+            self._check_entry(name, module, function)
+            text = _PROGRAM.format(
+                line=line.strip(), module=module, first=function.partition(".")[0], function=function
+            )
+            items.append(Item(f"{place or 'bin'}/{name}", text=text, program=True))
+        if items and place != f"lib/{self.found.name}":
+            self.hints.append(
+                f"setup.cfg puts programs into {place or 'bin'}/, where ros2 run does not look: write in it [develop] "
+                f"script_dir=$base/lib/{self.found.name} and [install] install_scripts=$base/lib/{self.found.name}."
+            )
+        return items
+
+    def _check_entry(self, name: str, module: str, function: str) -> None:
+        """A real build does not look; the program would end with an error when it is run."""
+        file = self.found.path.joinpath(*module.split("."))
+        source = file.with_suffix(".py") if file.with_suffix(".py").is_file() else file / "__init__.py"
+        own = module.partition(".")[0] in {str(each).partition(".")[0] for each in self.setup.get("packages") or []}
+        if source.is_file():
+            text = source.read_text(encoding="utf-8", errors="replace")
+            if not re.search(rf"\b{re.escape(function.partition('.')[0])}\b", text):
+                self.hints.append(f"entry point '{name}': {module} has no {function}(), so `ros2 run` will fail.")
+        elif own or importlib.util.find_spec(module.partition(".")[0]) is None:
+            modules = [
+                ".".join(path.relative_to(self.found.path).with_suffix("").parts)
+                for path in sorted(self.found.path.rglob("*.py"))
+            ]
+            close = did_you_mean(module, modules)
+            self.hints.append(
+                f"entry point '{name}': there is no module {module}, so `ros2 run` will fail. {close}".strip()
+            )
+
+
+_PROGRAM = """\
+#!/usr/bin/python3
+# EASY-INSTALL-ENTRY-SCRIPT: made by colcon build from the entry point '{line}'
+import sys
+
+from {module} import {first}
+
+sys.exit({function}())
+"""
+
+__all__ = ["SITE", "build_ament_python"]

@@ -1,0 +1,221 @@
+"""`colcon build`: takes the packages in order, several at a time, and installs what each one comes to.
+
+The time that a build takes is robot time, the same on every computer.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, TextIO
+
+from ..core import NANOSECONDS, running_strand
+from ..interfaces.names import LOWER_CASE
+from ..interfaces.registry import Registry, registry
+from .ament_cmake import build_ament_cmake
+from .ament_python import build_ament_python
+from .console import Console
+from .discover import Found, in_order
+from .install_tree import install_package, prefix_of, prepare, write_setup_files
+from .installed import installed_names, read_installed
+from .outcome import Environment, Outcome
+from .source import resource
+
+if TYPE_CHECKING:
+    from ..world import World
+
+_BEGIN, _END = 0.1, 0.1
+"""What colcon takes before its first package and after its last, in s."""
+
+
+@dataclass
+class Plan:
+    """What one `colcon build` was asked for."""
+
+    base: Path
+    packages: list[Found]
+    install: Path
+    build: Path
+    log: Path
+    symlink: bool = False
+    go_on: bool = False
+    workers: int = 4
+    handlers: dict[str, bool] = field(default_factory=dict)
+
+
+@dataclass
+class _Job:
+    found: Found
+    outcome: Outcome
+    began: float
+
+    @property
+    def ends(self) -> float:
+        return self.began + self.outcome.seconds
+
+
+def build(world: World, plan: Plan, *, stdout: TextIO, stderr: TextIO) -> int:
+    """Build the plan's packages; return colcon's exit code."""
+    return _Builder(world, plan, Console(plan.handlers, stdout, stderr)).run()
+
+
+class _Builder:
+    """One run of `colcon build`."""
+
+    def __init__(self, world: World, plan: Plan, console: Console) -> None:
+        self.world = world
+        self.plan = plan
+        self.console = console
+        self.now = 0.0
+        self.code = 0
+        self.log: dict[str, Outcome] = {}
+        self.waiting = [found for found in in_order(plan.packages) if found.buildable]
+        self.running: list[_Job] = []
+        self.done: set[str] = set()
+
+    def run(self) -> int:
+        prepare(self.plan.install, self.plan.build, self.plan.log)
+        queued = len(self.waiting)
+        self._pass(_BEGIN)
+        self.console.queued([found.name for found in self.waiting])
+        while self.waiting or self.running:
+            self._start()
+            if not self.running:
+                break  # what is left depends on what failed
+            self._end(min(self.running, key=lambda job: job.ends))
+            if self.code and not self.plan.go_on:
+                self._abort()
+                break
+        write_setup_files(self.plan.install, installed_names(self.plan.install))
+        self._pass(_END)
+        self.console.summary(self.now, queued)
+        self._write_log()
+        return self.code
+
+    def _pass(self, seconds: float) -> None:
+        self.now += seconds
+        pass_time(self.world, seconds)
+
+    def _start(self) -> None:
+        own = {found.name for found in self.plan.packages if found.buildable}
+        for found in list(self.waiting):
+            if len(self.running) >= self.plan.workers:
+                return
+            if set(found.dependencies) & own - {found.name} <= self.done:
+                self.waiting.remove(found)
+                self.console.started(found.name)
+                self.running.append(_Job(found, self._outcome(found), self.now))
+
+    def _outcome(self, found: Found) -> Outcome:
+        environment = self._environment(found)
+        python = found.kind in {"ros.ament_python", "python"}
+        return (build_ament_python if python else build_ament_cmake)(found, environment)
+
+    def _end(self, job: _Job) -> None:
+        self._pass(max(0.0, job.ends - self.now))
+        self.running.remove(job)
+        found, outcome = job.found, job.outcome
+        if outcome.code == 0:
+            self._install(found, outcome)
+        self.log[found.name] = outcome
+        self.code = self.code or outcome.code
+        self.console.finished(found.name, outcome.seconds, outcome.code, outcome.stdout, outcome.stderr)
+
+    def _install(self, found: Found, outcome: Outcome) -> None:
+        environment = self._environment(found)
+        try:
+            outcome.stdout += install_package(found, outcome, environment)
+        except OSError as error:
+            outcome.code = 1
+            outcome.stderr += f"error: {found.name} cannot be installed: {error.strerror or error}: {error.filename}\n"
+            return
+        self.done.add(found.name)
+        resource(self.world, prefix_of(environment, found.name))
+
+    def _abort(self) -> None:
+        for job in self.running:
+            self.console.aborted(job.found.name, self.now - job.began + 0.05)
+        self.running.clear()
+
+    def _environment(self, found: Found) -> Environment:
+        """What the package may use: what is sourced, and those of this workspace that package.xml names."""
+        installed = set(installed_names(self.plan.install))
+        needed = _recursive(found, self.plan.install, installed)
+        packages = [read_installed(self.plan.install / name) for name in sorted(needed)]
+        types = types_for(
+            found, {each.name: (each.share, tuple(each.interfaces)) for each in packages if each.interfaces}
+        )
+        # Packages that are sourced are found, too, but not an older build of the package itself.
+        findable = frozenset({*self.world.packages.names(), *needed} - {found.name})
+        return Environment(self.plan.install, self.plan.build, findable, types, self.plan.symlink)
+
+    def _write_log(self) -> None:
+        stamp = time.strftime("%Y-%m-%d_%H-%M-%S", time.gmtime(1_800_000_000 + self.world.now // NANOSECONDS))
+        folder = self.plan.log / f"build_{stamp}"
+        for name, outcome in self.log.items():
+            (folder / name).mkdir(parents=True, exist_ok=True)
+            stdout = "".join(f"{line}\n" for line in outcome.stdout)
+            for file, text in (
+                ("stdout", stdout),
+                ("stderr", outcome.stderr),
+                ("stdout_stderr", stdout + outcome.stderr),
+            ):
+                (folder / name / f"{file}.log").write_text(text, encoding="utf-8")
+        folder.mkdir(parents=True, exist_ok=True)
+        summary = "".join(f"{name}: exit code {outcome.code}\n" for name, outcome in self.log.items())
+        (folder / "logger_all.log").write_text(summary, encoding="utf-8")
+        for name in ("latest", "latest_build"):
+            _point(self.plan.log / name, folder.name)
+
+
+def _point(link: Path, target: str) -> None:
+    try:
+        link.unlink(missing_ok=True)
+        link.symlink_to(target)
+    except OSError:  # a computer without links
+        link.write_text(target, encoding="utf-8")
+
+
+def _definitions(folder: Path) -> Iterable[Path]:
+    for kind in ("msg", "srv", "action"):
+        yield from sorted((folder / kind).glob(f"*.{kind}"))
+
+
+def _recursive(found: Found, install: Path, installed: set[str]) -> set[str]:
+    needed: set[str] = set()
+    waiting = list(found.dependencies)
+    while waiting:
+        name = waiting.pop()
+        if name in installed and name not in needed and name != found.name:
+            needed.add(name)
+            file = install / name / "share" / "colcon-core" / "packages" / name
+            waiting += file.read_text(encoding="utf-8").split(":") if file.is_file() else []
+    return needed
+
+
+def types_for(found: Found, others: Mapping[str, tuple[Path, tuple[str, ...] | None]]) -> Registry:
+    """The interfaces that a package's build sees: the built-in ones, what is sourced, `others`, and its own files."""
+    built_in = Registry().packages()
+    sourced = [registry.package(name) for name in registry.packages() if name not in built_in]
+    places = {package.name: (package.directory, package.files) for package in sourced} | dict(others)
+    places.pop(found.name, None)
+    files = tuple(path.relative_to(found.path).as_posix() for path in _definitions(found.path))
+    if files and LOWER_CASE.fullmatch(found.name):
+        places[found.name] = (found.path, files)
+    types = Registry()
+    for name, place in places.items():
+        types.add(name, *place)
+    return types
+
+
+def pass_time(world: World, seconds: float) -> None:
+    """Let robot time pass, in a simulated process as well as in a cell."""
+    if running_strand() is not None:
+        time.sleep(seconds)
+    else:
+        world.sim.run_until(world.now + round(seconds * NANOSECONDS))
+
+
+__all__ = ["Plan", "build"]

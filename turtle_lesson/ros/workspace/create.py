@@ -1,0 +1,211 @@
+"""`ros2 pkg create`: a new package's folder, with the files and the console output of ROS 2 Humble's."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import re
+import sys
+from pathlib import Path
+from typing import TextIO
+
+from ..core.tracebacks import shown_path
+from . import templates
+
+LICENCES = (
+    "Apache-2.0", "BSL-1.0", "BSD-2.0", "BSD-2-Clause", "BSD-3-Clause", "GPL-3.0-only", "LGPL-3.0-only", "MIT", "MIT-0",
+)  # fmt: skip
+TO_DO_LICENCE = "TODO: License declaration"
+TO_DO_DESCRIPTION = "TODO: Package description"
+USER = "user"
+"""The maintainer unless told otherwise: the real tool asks the computer, ours must say the same on each."""
+_GOOD_NAME = re.compile(r"[a-z][a-z0-9_]*")
+_UNWRITABLE = re.compile(r"[/\\\0\n\r]|^\.{0,2}$")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `ros2 pkg create`."""
+    parser.add_argument("package_name", help="name of the new package, in small letters with '_'")
+    parser.add_argument("--package-format", "--package_format", default="3", choices=["2", "3"], help="of package.xml")
+    parser.add_argument("--description", default=TO_DO_DESCRIPTION, help="one sentence on what it is for")
+    parser.add_argument("--license", default=TO_DO_LICENCE, help="such as Apache-2.0; '?' lists the known ones")
+    parser.add_argument("--destination-directory", default=os.curdir, help="folder in which it is made")
+    parser.add_argument(
+        "--build-type",
+        default="ament_cmake",
+        choices=["cmake", "ament_cmake", "ament_python"],
+        help="how it is built: ament_cmake can have interfaces, ament_python is simpler for Python alone",
+    )
+    parser.add_argument("--dependencies", nargs="+", default=[], help="packages that it needs")
+    parser.add_argument("--maintainer-email", help="of the one who looks after it")
+    parser.add_argument("--maintainer-name", default=USER, help="of the one who looks after it")
+    parser.add_argument("--node-name", help="also make a first program of this name")
+    parser.add_argument("--library-name", help="also make a C++ library of this name")
+
+
+def parse(words: list[str]) -> argparse.Namespace:
+    """The arguments for `create_package`, from the words after `ros2 pkg create`."""
+    parser = argparse.ArgumentParser("ros2 pkg create", description="Make a new ROS 2 package")
+    add_arguments(parser)
+    return parser.parse_args(words)
+
+
+def create_package(
+    args: argparse.Namespace, *, cwd: Path | None = None, stdout: TextIO | None = None, stderr: TextIO | None = None
+) -> int:
+    """Make the package that `args` (see `add_arguments`) asks for; return the exit code.
+
+    Args:
+        args: what was asked for.
+        cwd: the folder that relative paths begin in.
+        stdout, stderr: where the real tool's words go; the process's own streams unless given.
+    """
+    out, err = stdout or sys.stdout, stderr or sys.stderr
+    if args.license == "?":
+        print("Supported licenses:", *LICENCES, sep="\n", file=out)
+        return 0
+    if problem := _refusal(args, cwd or Path.cwd()):
+        print(f"\nAborted!\n{problem}", file=err)
+        return 1
+    return _Creation(args, cwd or Path.cwd(), out, err).run()
+
+
+def _refusal(args: argparse.Namespace, cwd: Path) -> str:
+    shown = os.path.join(args.destination_directory, args.package_name)
+    if _UNWRITABLE.search(args.package_name):
+        return f"'{args.package_name}' cannot be the name of a folder; a name looks like robot_controller"
+    if (cwd / args.destination_directory / args.package_name).exists():
+        advice = "Either remove the directory or choose a different destination directory or package name"
+        return f"The directory already exists: {shown}\n{advice}"
+    for option, value in (("--node-name", args.node_name), ("--library-name", args.library_name)):
+        if value and not re.fullmatch(r"[A-Za-z_]\w*", value):
+            return f"{option} '{value}' cannot be the name of a program: use letters, digits and '_'"
+    if args.build_type == "ament_python" and args.library_name:
+        return "--library-name makes a C++ library, which an ament_python package cannot have"
+    return ""
+
+
+class _Creation:
+    """One run of the command."""
+
+    def __init__(self, args: argparse.Namespace, cwd: Path, out: TextIO, err: TextIO) -> None:
+        self.args = args
+        self.name: str = args.package_name
+        self.maintainer = (args.maintainer_name, args.maintainer_email or f"{args.maintainer_name}@todo.todo")
+        self.dependencies = list(dict.fromkeys(args.dependencies))
+        self.destination = cwd / args.destination_directory
+        self.out, self.err = out, err
+
+    def run(self) -> int:
+        self._introduce()
+        try:
+            self._write_all()
+        except OSError as error:
+            print(f"\nAborted!\n{self.name} cannot be written: {error.strerror or error}", file=self.err)
+            return 1
+        self._licence()
+        if not _GOOD_NAME.fullmatch(self.name):
+            rule = "ROS 2 wants small letters, digits and '_', beginning with a letter"
+            print(f"[WARNING]: the package name '{self.name}' will be refused by colcon build: {rule}.", file=self.err)
+        return 0
+
+    def _say(self, text: str) -> None:
+        print(text, file=self.out)
+
+    def _introduce(self) -> None:
+        args = self.args
+        self._say("going to create a new package")
+        self._say(f"package name: {self.name}")
+        self._say(f"destination directory: {shown_path(os.path.abspath(self.destination))}")
+        self._say(f"package format: {args.package_format}")
+        self._say("version: 0.0.0")
+        self._say(f"description: {args.description}")
+        self._say(f"maintainer: {['{} <{}>'.format(*self.maintainer)]}")
+        self._say(f"licenses: {[args.license]}")
+        self._say(f"build type: {args.build_type}")
+        self._say(f"dependencies: {self.dependencies}")
+        if args.node_name:
+            self._say(f"node_name: {args.node_name}")
+        if args.library_name:
+            self._say(f"library_name: {args.library_name}")
+
+    def _path(self, *inner: str) -> str:
+        return os.path.join(self.args.destination_directory, self.name, *inner)
+
+    def _folder(self, *inner: str) -> None:
+        self._say(f"creating folder {self._path(*inner)}")
+        (self.destination / self.name).joinpath(*inner).mkdir(parents=True, exist_ok=True)
+
+    def _file(self, text: str, *inner: str) -> None:
+        self._say(f"creating {self._path(*inner)}")
+        (self.destination / self.name).joinpath(*inner).write_text(text, encoding="utf-8")
+
+    def _write_all(self) -> None:
+        args = self.args
+        self._folder()
+        xml = templates.package_xml(
+            self.name,
+            build_type=args.build_type,
+            description=args.description,
+            maintainer=self.maintainer,
+            licence=args.license,
+            dependencies=self.dependencies,
+            package_format=args.package_format,
+        )
+        self._file(xml, "package.xml")
+        if args.build_type == "ament_python":
+            self._python_files()
+        else:
+            self._cmake_files()
+
+    def _python_files(self) -> None:
+        args, name = self.args, self.name
+        self._say("creating source folder")
+        self._folder(name)
+        setup = templates.setup_py(
+            name, description=args.description, maintainer=self.maintainer, licence=args.license, node=args.node_name
+        )
+        self._file(setup, "setup.py")
+        self._file(templates.setup_cfg(name), "setup.cfg")
+        self._folder("resource")
+        self._file("", "resource", name)
+        self._file("", name, "__init__.py")
+        self._folder("test")
+        for tool in ("copyright", "flake8", "pep257"):
+            self._file(templates.style_test(tool), "test", f"test_{tool}.py")
+        if args.node_name:
+            self._file(templates.python_node(name, args.node_name), name, f"{args.node_name}.py")
+
+    def _cmake_files(self) -> None:
+        args, name = self.args, self.name
+        self._say("creating source and include folder")
+        self._folder("src")
+        self._folder("include", name)
+        cmake = templates.cmake_lists(
+            name,
+            build_type=args.build_type,
+            dependencies=self.dependencies,
+            node=args.node_name,
+            library=args.library_name,
+        )
+        self._file(cmake, "CMakeLists.txt")
+        if args.node_name:
+            self._file(templates.cpp_node(name), "src", f"{args.node_name}.cpp")
+        if args.library_name:
+            header, source = templates.cpp_library(name, args.library_name)
+            self._file(header, "include", name, f"{args.library_name}.hpp")
+            self._file(source, "src", f"{args.library_name}.cpp")
+
+    def _licence(self) -> None:
+        licence = self.args.license
+        if licence in LICENCES:
+            text = templates.licence_text(licence, self.maintainer[0])
+            (self.destination / self.name / "LICENSE").write_text(text, encoding="utf-8")
+            return
+        self._say(
+            f"\n[WARNING]: Unknown license '{licence}'.  This has been set in the package.xml, but no LICENSE file has "
+            "been created.\nIt is recommended to use one of the ament license identitifers:\n" + "\n".join(LICENCES)
+        )
+
+
+__all__ = ["add_arguments", "create_package", "parse"]

@@ -1,0 +1,154 @@
+"""The packages that `colcon` finds below a folder, and the order in which they can be built."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+from xml.etree import ElementTree
+
+from .errors import did_you_mean
+from .manifest import BUILD_TYPES
+
+IGNORE_MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
+_ORDERING = {"depend", "build_depend", "build_export_depend", "buildtool_depend", "buildtool_export_depend",
+             "exec_depend", "run_depend", "test_depend"}  # fmt: skip
+_ACCEPTED = re.compile(r"[a-zA-Z0-9][a-zA-Z0-9_-]*")
+
+
+class ColconError(Exception):
+    """Why colcon builds nothing at all; the text is what stands after `ERROR:colcon:colcon build: `."""
+
+
+@dataclass
+class Found:
+    """A package's folder.
+
+    Attributes:
+        name: what package.xml says, or the folder's name where it cannot be read.
+        path: the folder.
+        shown: the folder from the workspace's.
+        build_type: as package.xml says, empty if it says nothing.
+        dependencies: all packages that it names.
+        root: the parsed package.xml, or None.
+        xml_error: why package.xml cannot be read, empty if it can.
+    """
+
+    name: str
+    path: Path
+    shown: str
+    build_type: str = ""
+    dependencies: list[str] = field(default_factory=list)
+    root: ElementTree.Element | None = None
+    xml_error: str = ""
+
+    @property
+    def kind(self) -> str:
+        """As `colcon list` names it: `ros.ament_cmake`."""
+        if self.root is None:
+            return "python" if (self.path / "setup.py").is_file() else "cmake"
+        return f"ros.{self.build_type or 'catkin'}"
+
+    @property
+    def buildable(self) -> bool:
+        """Whether colcon knows how to build it at all."""
+        return self.root is None or not self.build_type or self.build_type in BUILD_TYPES
+
+    def member_of(self, group: str) -> bool:
+        """Whether package.xml has `<member_of_group>` of this group."""
+        elements = [] if self.root is None else self.root.findall("member_of_group")
+        return any((element.text or "").strip() == group for element in elements)
+
+    def runtime_dependencies(self) -> list[str]:
+        """The packages that are needed when it runs."""
+        tags = {"depend", "exec_depend", "build_export_depend", "buildtool_export_depend"}
+        children = [] if self.root is None else list(self.root)
+        return [(child.text or "").strip() for child in children if child.tag in tags]
+
+
+def discover(folder: Path, base: Path | None = None) -> list[Found]:
+    """All packages below a folder, sorted by their place; packages inside of packages are not looked for."""
+    base = base or folder
+    found = []
+    for place, folders, files in os.walk(folder):
+        path = Path(place)
+        if any(marker in files for marker in IGNORE_MARKERS):
+            folders.clear()
+        elif "package.xml" in files:
+            found.append(read_found(path, base))
+            folders.clear()
+        else:
+            folders[:] = sorted(name for name in folders if not name.startswith(".") and name != "__pycache__")
+    return found
+
+
+def read_found(path: Path, base: Path) -> Found:
+    """What one package's folder says about itself."""
+    shown = path.relative_to(base).as_posix() if path.is_relative_to(base) else str(path)
+    try:
+        root = ElementTree.fromstring((path / "package.xml").read_bytes())
+    except (ElementTree.ParseError, OSError, ValueError, LookupError) as error:
+        return Found(_name_of_project(path) or path.name, path, shown, xml_error=str(error))
+    name = " ".join((root.findtext("name") or "").split())
+    if not _ACCEPTED.fullmatch(name):  # colcon takes it for a package without package.xml then
+        name = _name_of_project(path) or path.name
+    build_type = (root.findtext("export/build_type") or "").strip()
+    dependencies = [(child.text or "").strip() for child in root if child.tag in _ORDERING]
+    return Found(name, path, shown, build_type, list(dict.fromkeys(filter(None, dependencies))), root)
+
+
+def _name_of_project(path: Path) -> str:
+    file = path / "CMakeLists.txt"
+    text = file.read_text(encoding="utf-8", errors="replace") if file.is_file() else ""
+    match = re.search(r"^\s*project\s*\(\s*([\w-]+)", text, re.MULTILINE | re.IGNORECASE)
+    return match[1] if match else ""
+
+
+def in_order(packages: Iterable[Found]) -> list[Found]:
+    """The packages so that each comes after those it depends on, otherwise by name.
+
+    Raises:
+        ColconError: two packages have one name, or some depend on each other in a circle.
+    """
+    waiting = sorted(packages, key=lambda found: found.name)
+    _check_unique(waiting)
+    ordered: list[Found] = []
+    while waiting:
+        names = {found.name for found in waiting}
+        ready = [found for found in waiting if not names.intersection(found.dependencies) - {found.name}]
+        if not ready:
+            lines = [f"{each.name}: {[name for name in each.dependencies if name in names]}" for each in waiting]
+            raise ColconError("\n".join(["Unable to order packages topologically:", *lines]))
+        ordered += ready
+        waiting = [found for found in waiting if found not in ready]
+    return ordered
+
+
+def _check_unique(packages: list[Found]) -> None:
+    places: dict[str, list[str]] = {}
+    for found in packages:
+        places.setdefault(found.name, []).append(found.shown)
+    twice = {name: shown for name, shown in places.items() if len(shown) > 1}
+    if twice:
+        lines = [line for name, shown in twice.items() for line in (f"- {name}:", *(f"  - {each}" for each in shown))]
+        raise ColconError("\n".join(["Duplicate package names not supported:", *lines]))
+
+
+def needed_by(packages: Iterable[Found], names: Iterable[str]) -> set[str]:
+    """The names of the packages, and of all among them that these depend on."""
+    by_name = {found.name: found for found in packages}
+    found: set[str] = set()
+    waiting = [name for name in names if name in by_name]
+    while waiting:
+        name = waiting.pop()
+        if name not in found:
+            found.add(name)
+            waiting += [each for each in by_name[name].dependencies if each in by_name]
+    return found
+
+
+def build_type_hint(build_type: str) -> str:
+    """What to try about an unknown build type."""
+    return did_you_mean(build_type, BUILD_TYPES) or f"Known are {', '.join(BUILD_TYPES)}."

@@ -1,0 +1,153 @@
+"""Writes what a build installs: the package's own files, the ament index, and the setup files."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+from .discover import Found
+from .outcome import Environment, Item, Outcome
+
+LAYOUT = ".colcon_install_layout"
+SETUP_FILES = ("setup", "local_setup")
+SHELLS = ("bash", "sh", "zsh")
+
+
+def prefix_of(environment: Environment, name: str) -> Path:
+    """The folder that a package is installed in."""
+    return environment.install / name
+
+
+def prepare(install: Path, build: Path, log: Path) -> None:
+    """Make the three folders, marked so that colcon looks for no packages in them."""
+    for folder in (install, build, log):
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / "COLCON_IGNORE").touch()
+    (install / LAYOUT).write_text("isolated\n", encoding="utf-8")
+    (build / ".built_by").write_text("colcon\n", encoding="utf-8")
+
+
+def install_package(found: Found, outcome: Outcome, environment: Environment) -> list[str]:
+    """Write a package's files in place of those of its last build; return the lines `-- Installing: …`."""
+    prefix = prefix_of(environment, found.name)
+    if (prefix / "share" / "colcon-core" / "packages" / found.name).is_file() and not prefix.is_symlink():
+        shutil.rmtree(prefix)  # only ever what a build has made
+    lines = []
+    for item in [*outcome.items, *_index(found, outcome), *_environment(found, outcome)]:
+        _write(item, prefix / item.target, environment.symlink)
+        lines.append(f"-- Installing: {prefix.name}/{item.target}")
+    _note_build(found, environment)
+    return lines
+
+
+def _write(item: Item, target: Path, symlink: bool) -> None:
+    target.parent.mkdir(parents=True, exist_ok=True)
+    if item.source is None:
+        target.write_text(item.text, encoding="utf-8")
+    elif symlink:
+        _link(item.source, target)
+        return
+    elif item.source.is_dir():
+        shutil.copytree(item.source, target, dirs_exist_ok=True, ignore=shutil.ignore_patterns("__pycache__", "*.pyc"))
+    else:
+        shutil.copyfile(item.source, target)
+    if item.program:
+        target.chmod(0o755)
+
+
+def _link(source: Path, target: Path) -> None:
+    """A link where the computer allows one (Windows may not), otherwise a copy. Folders stay folders, as with colcon."""
+    if source.is_dir():
+        for inner in _files_in(source):
+            _link(inner, target / inner.relative_to(source))
+        return
+    target.parent.mkdir(parents=True, exist_ok=True)
+    target.unlink(missing_ok=True)
+    try:
+        target.symlink_to(source.resolve())
+    except OSError:
+        shutil.copyfile(source, target)
+
+
+def _files_in(folder: Path) -> Iterator[Path]:
+    for place, folders, files in os.walk(folder):
+        folders[:] = sorted(name for name in folders if name != "__pycache__")
+        yield from (Path(place, name) for name in sorted(files) if not name.endswith(".pyc"))
+
+
+def _index(found: Found, outcome: Outcome) -> Iterator[Item]:
+    """The entries in the ament index, by which ROS 2 finds the package."""
+    name = found.name
+    index = "share/ament_index/resource_index"
+    targets = {item.target for item in outcome.items}
+    if found.kind != "ros.ament_python":
+        yield Item(f"{index}/packages/{name}")
+        yield Item(f"{index}/package_run_dependencies/{name}", text=";".join(outcome.dependencies))
+        yield Item(f"{index}/parent_prefix_path/{name}", text="/opt/ros/humble")
+        yield Item(f"share/{name}/cmake/{name}Config.cmake", text=_CONFIG.format(name=name))
+    if f"share/{name}/package.xml" not in targets:
+        yield Item(f"share/{name}/package.xml", found.path / "package.xml")
+    yield Item(f"share/colcon-core/packages/{name}", text=":".join(sorted(set(outcome.dependencies))))
+
+
+_CONFIG = "# By this file find_package({name}) finds the package.\nset({name}_FOUND TRUE)\n"
+
+
+def _environment(found: Found, outcome: Outcome) -> Iterator[Item]:
+    """What the package adds to the environment, one line a variable, as colcon's own .dsv files have it."""
+    share = f"share/{found.name}"
+    hooks = {"ament_prefix_path": "prepend-non-duplicate;AMENT_PREFIX_PATH;"}
+    for folder in outcome.paths or _python_folders(outcome):
+        hooks["pythonpath"] = f"prepend-non-duplicate;PYTHONPATH;{folder}"
+    place = "hook" if found.kind == "ros.ament_python" else "environment"
+    for name, line in hooks.items():
+        yield Item(f"{share}/{place}/{name}.dsv", text=line)
+    sources = [f"source;{share}/{place}/{name}.dsv\n" for name in hooks]
+    yield Item(f"{share}/package.dsv", text="".join(sources))
+    for shell in SHELLS:
+        yield Item(f"{share}/package.{shell}", text=_shell_lines(found.name, hooks, "$COLCON_CURRENT_PREFIX"))
+
+
+def _python_folders(outcome: Outcome) -> list[str]:
+    folders = [item.target for item in outcome.items if "/dist-packages/" in item.target]
+    return [folders[0].partition("/dist-packages/")[0] + "/dist-packages"] if folders else []
+
+
+def _shell_lines(name: str, hooks: dict[str, str], prefix: str) -> str:
+    lines = [f"# What the package {name} adds to the environment; COLCON_CURRENT_PREFIX is its folder.\n"]
+    for line in hooks.values():
+        _, variable, folder = line.split(";")
+        place = f"{prefix}/{folder}" if folder else prefix
+        lines.append(f'export {variable}="{place}${{{variable}:+:${variable}}}"\n')
+    return "".join(lines)
+
+
+def _note_build(found: Found, environment: Environment) -> None:
+    """The build folder, which remembers where the source is and that it went well."""
+    folder = environment.build / found.name
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "colcon_build.rc").write_text("0\n", encoding="utf-8")
+    (folder / "source_folder.txt").write_text(f"{found.path.resolve()}\n", encoding="utf-8")
+    if found.kind != "ros.ament_python":
+        cache = f"CMAKE_HOME_DIRECTORY:INTERNAL={found.path.resolve()}\n"
+        (folder / "CMakeCache.txt").write_text(cache, encoding="utf-8")
+        (folder / "Makefile").write_text("# The classroom's build needs no make.\n", encoding="utf-8")
+
+
+def write_setup_files(install: Path, names: Iterable[str]) -> None:
+    """`setup.bash`, `local_setup.bash` and the others, which overlay the packages in the order of `names`."""
+    for shell in SHELLS:
+        place = "${BASH_SOURCE[0]}" if shell == "bash" else "${(%):-%x}" if shell == "zsh" else "$0"
+        lines = [
+            "# Made by colcon build. In a page `source` reads the folder itself; a real terminal can run this, too.\n",
+            f'_folder="$(cd "$(dirname "{place}")" > /dev/null && pwd)"\n',
+        ]
+        for name in names:
+            lines.append(f'COLCON_CURRENT_PREFIX="$_folder/{name}"\n')
+            lines.append(f'. "$COLCON_CURRENT_PREFIX/share/{name}/package.{shell}"\n')
+        lines.append("unset COLCON_CURRENT_PREFIX _folder\n")
+        (install / f"local_setup.{shell}").write_text("".join(lines), encoding="utf-8")
+        chain = f'. "$(cd "$(dirname "{place}")" > /dev/null && pwd)/local_setup.{shell}"\n'
+        (install / f"setup.{shell}").write_text(f"# Made by colcon build.\n{chain}", encoding="utf-8")

@@ -1,0 +1,120 @@
+"""What `catkin_pkg`, which every real build asks, refuses in a `package.xml`: its words, and what to try.
+
+Facts: REP 149 (https://ros.org/reps/rep-0149.html) and catkin_pkg 0.5, whose sentences are compared with ours in a test.
+"""
+
+from __future__ import annotations
+
+import re
+from xml.etree import ElementTree
+
+from .errors import did_you_mean
+
+_DEPENDS = ("depend", "build_depend", "build_export_depend", "buildtool_depend", "buildtool_export_depend",
+            "exec_depend", "test_depend", "doc_depend", "group_depend")  # fmt: skip
+_TAGS = {
+    "name", "version", "description", "maintainer", "license", "url", "author", "conflict", "replace", "export",
+    "member_of_group", *_DEPENDS,
+}  # fmt: skip
+_EMAIL = re.compile(r"[-a-zA-Z0-9_%+]+(\.[-a-zA-Z0-9_%+]+)*@[-a-zA-Z0-9%]+(\.[-a-zA-Z0-9%]+)*\.[a-zA-Z]{2,}")
+
+
+def faults(root: ElementTree.Element) -> list[str]:
+    """Everything that is refused, in catkin_pkg's words; the first alone where it would stop at it."""
+    if root.tag != "package":
+        return ['The manifest must contain a single "package" root tag']
+    for tag in ("name", "version", "description"):
+        if len(root.findall(tag)) != 1:
+            return [f'The manifest must contain exactly one "{tag}" tag']
+    name = _text(root, "name")
+    return _redundant(root) + _unknown(root, name) or _values(root, name)
+
+
+def hint(fault: str) -> str:
+    """What to try about a fault, or nothing."""
+    for part, advice in _HINTS.items():
+        if part in fault:
+            return advice
+    if match := re.search(r"following tags: (.*)", fault):
+        return " ".join(filter(None, (did_you_mean(tag, _TAGS) for tag in match[1].split(", "))))
+    return ""
+
+
+def _text(root: ElementTree.Element, tag: str) -> str:
+    return " ".join((root.findtext(tag) or "").split())
+
+
+def _names(root: ElementTree.Element, *tags: str) -> list[str]:
+    return [(element.text or "").strip() for tag in tags for element in root.findall(tag)]
+
+
+def _values(root: ElementTree.Element, name: str) -> list[str]:
+    found = []
+    version = _text(root, "version")
+    if not re.match(r"[a-zA-Z0-9][a-zA-Z0-9_-]*$", name):
+        found.append(f'Package name "{name}" does not follow naming conventions')
+    if not version:
+        found.append("Package version must not be empty")
+    elif not re.fullmatch(r"[0-9]+\.[0-9]+\.[0-9]+", version):
+        found.append(f'Package version "{version}" does not follow version conventions')
+    if not _text(root, "description") and not len(root.find("description") or ()):
+        found.append("Package description must not be empty")
+    found += _people(root, name)
+    licences = _names(root, "license")
+    if not licences:
+        found.append('The package node must contain at least one "license" tag')
+    if not all(licences):
+        found.append("The license tag must neither be empty nor only contain whitespaces")
+    return found + _own_name(root, name)
+
+
+def _people(root: ElementTree.Element, name: str) -> list[str]:
+    maintainers = root.findall("maintainer")
+    if not maintainers:
+        return [f"Package '{name}' must declare at least one maintainer"]
+    found = []
+    for person in maintainers:
+        email = person.get("email")
+        if email is None:
+            found.append('The "maintainer" tag must have the attribute "email"')
+        elif not _EMAIL.fullmatch(email):
+            found.append(f'Invalid email "{email}" for person "{(person.text or "").strip()}"')
+    return found
+
+
+def _own_name(root: ElementTree.Element, name: str) -> list[str]:
+    tags = [tag for tag in _DEPENDS if tag != "group_depend" and name in _names(root, tag)]
+    kinds = ["build" if tag == "depend" else tag.removesuffix("_depend") for tag in tags]
+    same = "on a package with the same name as this package"
+    return [f'The package "{name}" must not "{kind}_depend" {same}' for kind in kinds]
+
+
+def _redundant(root: ElementTree.Element) -> list[str]:
+    found = []
+    for name in _names(root, "depend"):
+        others = [tag for tag in ("build_depend", "build_export_depend", "exec_depend") if name in _names(root, tag)]
+        if others:
+            found.append(f"The generic dependency on '{name}' is redundant with: {', '.join(others)}")
+    return found
+
+
+def _unknown(root: ElementTree.Element, name: str) -> list[str]:
+    tags = sorted({child.tag for child in root if isinstance(child.tag, str)} - _TAGS)
+    if not tags:
+        return []
+    version = root.get("format", "1")
+    start = f'The manifest of package "{name}" (with format version {version})'
+    return [f"{start} must not contain the following tags: {', '.join(tags)}"]
+
+
+_HINTS = {
+    'exactly one "': "Write that tag once, directly inside of <package>.",
+    "naming conventions": "A name has small letters, digits and '_', and begins with a letter.",
+    "version conventions": "A version is three numbers, such as <version>0.1.0</version>.",
+    "at least one maintainer": 'Add <maintainer email="you@example.org">Your Name</maintainer>.',
+    'attribute "email"': 'Write <maintainer email="you@example.org">Your Name</maintainer>.',
+    "Invalid email": "An address looks like you@example.org.",
+    'one "license" tag': "Add <license>Apache-2.0</license>.",
+    "redundant with": "<depend> says all of these at once: delete the others.",
+    "same name as this package": "Delete that line: a package does not depend on itself.",
+}

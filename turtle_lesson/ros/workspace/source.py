@@ -1,0 +1,175 @@
+"""`source install/setup.bash`: what was built becomes findable and importable, on top of what was there before."""
+
+from __future__ import annotations
+
+import importlib
+import shutil
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, TextIO
+
+from ..interfaces.registry import registry
+from .errors import did_you_mean
+from .install_tree import LAYOUT
+from .installed import installed_names, python_folders, read_installed
+from .package import Package, Target
+
+if TYPE_CHECKING:
+    from ..world import World
+
+_SETUP_FILES = {f"{name}.{shell}" for name in ("setup", "local_setup") for shell in ("bash", "sh", "zsh", "ps1")}
+_UNDERLAY = "/opt/ros/"
+
+
+@dataclass(frozen=True)
+class InstalledProgram:
+    """A program of a package with Python modules: every start imports them afresh, as a process of its own would."""
+
+    path: Path
+    folders: tuple[Path, ...]
+
+    def __call__(self) -> None:
+        forget_below(self.folders)
+        code = compile(self.path.read_bytes(), str(self.path), "exec")
+        exec(code, {"__name__": "__main__", "__file__": str(self.path), "__builtins__": __builtins__})
+
+
+def source(world: World, words: list[str], *, cwd: Path | None = None, stdout: TextIO, stderr: TextIO) -> int:
+    """`source FILE`: returns bash's exit code; a wrong name is answered in bash's words, and with what to try."""
+    if not words:
+        print("bash: source: filename argument required\nsource: usage: source filename [arguments]", file=stderr)
+        return 2
+    if words[0].startswith(_UNDERLAY):
+        return 0  # the classroom's own packages are always there
+    file = (cwd or Path.cwd()) / Path(words[0]).expanduser()
+    if problem := _problem(words[0], file):
+        print(problem, file=stderr)
+        return 1
+    overlay(world, file.resolve().parent)
+    return 0
+
+
+def _problem(word: str, file: Path) -> str:
+    if file.is_dir():
+        return f"bash: source: {word}: is a directory. Name the file in it: source {word.rstrip('/')}/setup.bash"
+    if not file.is_file():
+        text = f"bash: {word}: No such file or directory"
+        if file.parent.is_dir() and (close := did_you_mean(file.name, _SETUP_FILES)):
+            return f"{text}. {close}" if (file.parent / LAYOUT).is_file() else text
+        return f"{text}. Is colcon build done, and are you in the workspace's folder (the one that has src/ in it)?"
+    if file.name not in _SETUP_FILES or not (file.parent / LAYOUT).is_file():
+        return (
+            f"bash: {word}: this classroom's terminal sources only what colcon build makes: source install/setup.bash"
+        )
+    return ""
+
+
+# -- overlays ----------------------------------------------------------------------------------------------------------
+
+
+@dataclass
+class _Overlay:
+    """One sourced package, and what it hides in the registry of interfaces."""
+
+    prefix: Path
+    package: Package
+    paths: list[Path]
+    hidden: tuple[Path, tuple[str, ...] | None] | None
+
+
+def overlay(world: World, install: Path) -> list[str]:
+    """Make the packages of an install folder findable; return their names, each after those it needs."""
+    names = installed_names(install)
+    for name in names:
+        _add(world, install / name)
+    importlib.invalidate_caches()
+    return names
+
+
+def resource(world: World, prefix: Path) -> None:
+    """Read one package anew, if it is sourced: its files have changed."""
+    if any(each.prefix == prefix.resolve() for each in _overlays(world)):
+        _add(world, prefix.resolve())
+        importlib.invalidate_caches()
+
+
+def _overlays(world: World) -> list[_Overlay]:
+    overlays: list[_Overlay] = world.notebook.locals.setdefault("overlays", [])
+    return overlays
+
+
+def _add(world: World, prefix: Path) -> None:
+    if not _overlays(world):
+        world.notebook.at_exit.append(lambda: remove_all(world))
+    _remove(world, prefix)
+    package = read_installed(prefix)
+    paths = python_folders(prefix)
+    if paths:
+        package.executables = {name: _program(target, paths) for name, target in package.executables.items()}
+    hidden = _hidden(package)
+    _overlays(world).append(_Overlay(prefix, package, paths, hidden))
+    world.packages.add(package)
+    if package.interfaces:
+        registry.add(package.name, package.share, package.interfaces)
+    forget_below([prefix])
+    for path in paths:
+        if str(path) not in sys.path:
+            sys.path.append(str(path))
+
+
+def _program(target: Target, paths: list[Path]) -> Target:
+    return InstalledProgram(target, tuple(paths)) if isinstance(target, Path) else target
+
+
+def _hidden(package: Package) -> tuple[Path, tuple[str, ...] | None] | None:
+    """The interfaces of this name that were known before."""
+    if not package.interfaces or package.name not in registry.packages():
+        return None
+    before = registry.package(package.name)
+    return before.directory, before.files
+
+
+def _remove(world: World, prefix: Path) -> None:
+    for each in [each for each in _overlays(world) if each.prefix == prefix]:
+        _overlays(world).remove(each)
+        world.packages.remove_package(each.package)
+        _restore(each)
+        for path in each.paths:
+            if str(path) in sys.path:
+                sys.path.remove(str(path))
+        forget_below([prefix])
+
+
+def _restore(each: _Overlay) -> None:
+    if not each.package.interfaces or each.package.name not in registry.packages():
+        return
+    if registry.package(each.package.name).directory != each.package.share:
+        return  # somebody else has put another in its place
+    registry.remove(each.package.name)
+    if each.hidden is not None:
+        registry.add(each.package.name, *each.hidden)
+
+
+def remove_all(world: World) -> None:
+    """Undo every `source` of a world."""
+    for each in reversed(_overlays(world)[:]):
+        _remove(world, each.prefix)
+
+
+def forget_below(folders: list[Path] | tuple[Path, ...]) -> None:
+    """Have the modules in these folders be imported anew, from what the files say now.
+
+    Compiled files are deleted, too: Python takes them for good if the source has the same size and second.
+    """
+    starts = tuple(str(folder) for folder in folders)
+    for name, module in list(sys.modules.items()):
+        file = getattr(module, "__file__", None)
+        if isinstance(file, str) and file.startswith(starts):
+            del sys.modules[name]
+    for folder in folders:
+        for cache in list(folder.rglob("__pycache__")):
+            shutil.rmtree(cache, ignore_errors=True)
+
+
+__all__ = ["InstalledProgram", "overlay", "remove_all", "source"]
