@@ -2,11 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 from turtle_lesson.ros.bags.writer import BagWriter
+from turtle_lesson.ros.interfaces.registry import registry
+
+
+@pytest.fixture(scope="module", autouse=True)
+def no_package_is_left() -> Iterator[None]:
+    """`start()` makes the finished package importable; the next test file shall not find it."""
+    yield
+    if "robot_controller" in registry.packages():
+        registry.remove("robot_controller")
+
 
 SECOND = 1_000_000_000
 BEGIN = 1_800_000_000 * SECOND

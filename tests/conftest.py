@@ -11,11 +11,21 @@ import hypothesis.internal.conjecture.junkdrawer  # noqa: F401
 import pytest
 
 import turtle_lesson  # noqa: F401  (makes rclpy and the interface packages importable in every test)
+from turtle_lesson.ros.interfaces import registry
+from turtle_lesson.ros.interfaces.registry import forget_modules
 from turtle_lesson.ros.world import World, open_world
 
 SECOND = 1_000_000_000
 
 Program = Callable[[list[Any]], object]
+
+
+@pytest.fixture(autouse=True, scope="module")
+def no_package_of_another_module() -> None:
+    """Forget the `robot_controller` that tests of another module have built, sourced or imported."""
+    if "robot_controller" in registry.packages():
+        registry.remove("robot_controller")
+    forget_modules("robot_controller")
 
 
 @pytest.fixture

@@ -14,7 +14,7 @@ from typing import Any
 
 import pytest
 import rclpy
-from bag_help import write_bag
+from bag_help import no_package_is_left, write_bag  # noqa: F401
 from std_msgs.msg import Int32
 
 from turtle_lesson.ros.bags.text import moment_text, size_text

@@ -22,6 +22,7 @@ from interface_cases import (
 )
 
 from turtle_lesson.ros.interfaces import InvalidDefinition, Registry, finder
+from turtle_lesson.ros.interfaces.registry import forget_modules
 from turtle_lesson.ros.interfaces.slot_types import (
     Array,
     BasicType,
@@ -53,7 +54,8 @@ Twist, Vector3, Quaternion, PoseStamped, Imu, LaserScan, BatteryState, String, P
 
 @pytest.fixture(scope="module")
 def robot(tmp_path_factory):
-    """A registry that also has the lesson's package."""
+    """A registry that also has the lesson's package; what other tests have imported of one is forgotten."""
+    forget_modules("robot_controller")
     registry = Registry()
     registry.add("robot_controller", write_package(tmp_path_factory.mktemp("robot"), ROBOT_CONTROLLER))
     return registry

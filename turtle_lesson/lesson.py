@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 
 HERE = Path(__file__).resolve().parent
 FINISHED = HERE / "robot_controller"
+LONGEST_RUN = 1e9
+"""Seconds of robot time that one run may take: thirty years are enough for every mistake."""
 
 
 def start(seed: int = 0, package: str | Path | None = "finished", simulator: bool = True) -> Lesson:
@@ -112,6 +114,7 @@ class Lesson:
         set_player(world, self._player)
         self._obstacles: list[Obstacle] = []
         self._markers: Any = None
+        self._launched: dict[tuple[Path, str], LaunchHandle] = {}
         self._recorder: Recorder | None = None
         world.spawn(self._lab, name="lab", argv=["lab"])
         if simulator:
@@ -134,8 +137,10 @@ class Lesson:
 
         An interrupt (the stop button) pauses the world; the next run goes on from there.
         """
-        if isinstance(seconds, bool) or not isinstance(seconds, (int, float)) or not 0 <= seconds < float("inf"):
-            raise ValueError(f"seconds must be a number of seconds, 0 or more, got {seconds!r}: try lesson.run(5)")
+        if isinstance(seconds, bool) or not isinstance(seconds, (int, float)) or not 0 <= seconds <= LONGEST_RUN:
+            raise ValueError(
+                f"seconds must be a number of seconds from 0 to {LONGEST_RUN:.0e}, got {seconds!r}: try lesson.run(5)"
+            )
         self._world.sim.run_until(self._world.now + round(seconds * NANOSECONDS))
 
     def play(self, rate: float = 1.0) -> None:
@@ -151,12 +156,22 @@ class Lesson:
     def launch(self, package: str, launch_file: str, **arguments: Any) -> LaunchHandle:
         """Start what a package's launch file says: `ros2 launch package launch_file name:=value …`.
 
-        Returns a handle whose `stop()` is Ctrl-C. Raises LaunchError, which says what is wrong and where.
+        Launched again with the same arguments, it is stopped first, so that a cell can be run twice. Returns a handle
+        whose `stop()` is Ctrl-C. Raises LaunchError, which says what is wrong and where.
         """
         from .ros import launching
 
+        for name, value in (("package", package), ("launch_file", launch_file)):
+            if not isinstance(value, str):
+                raise TypeError(
+                    f'{name} must be a name such as "robot_controller" or "start_system.launch.py", got {value!r}'
+                )
         path = launching.find_launch_file(self._world, package, launch_file)
+        again = self._launched.get((path, repr(sorted(arguments.items()))))
+        if again is not None and again.running:
+            again.stop()  # or a cell that is run twice would double the robot
         handle = launching.launch_file(self._world, path, arguments)
+        self._launched[path, repr(sorted(arguments.items()))] = handle
         self._world.sim.settle()
         return handle
 

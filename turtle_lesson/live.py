@@ -13,6 +13,9 @@ if TYPE_CHECKING:
     from .ros.core import Simulation
 
 STEP = 1 / 30
+LONGEST_WORK = 0.1
+"""How long a step may keep the notebook busy, in seconds; a rate that needs more is as fast as the computer can."""
+
 LONGEST_STEP = 0.25
 """After a cell that computed for long, live mode does not rush to catch up: at most this many seconds a step."""
 
@@ -64,7 +67,7 @@ class Player:
             if simulation.closed:
                 return
             try:
-                simulation.run_until(simulation.now + round(step * NANOSECONDS))
+                self._run(simulation.now + round(step * NANOSECONDS))
             except KeyboardInterrupt:  # which would end Jupyter's event loop, and with it the kernel
                 self._task = None
                 print("Live mode was interrupted; lesson.play() goes on.")
@@ -74,3 +77,10 @@ class Player:
                 print("Live mode has stopped, because of this; lesson.play() goes on.")
                 print_error(error)
                 return
+
+    def _run(self, until: int) -> None:
+        """Run towards `until` (ns), but at most for `LONGEST_WORK` of real time, so that cells stay usable at any rate."""
+        simulation = self._simulation
+        deadline = real_monotonic() + LONGEST_WORK
+        while simulation.now < until and real_monotonic() < deadline:
+            simulation.run_until(min(until, simulation.now + NANOSECONDS))

@@ -12,7 +12,7 @@ def prepare(shell: Any) -> None:
     """Have errors in cells shown without the frames of the simulated ROS 2, and `ros2 …` understood in cells."""
     from .ros.command import magics
 
-    shell.set_custom_exc((Exception,), _show)
+    shell.set_custom_exc((Exception, KeyboardInterrupt), _show)
     magics.install(shell)
 
 

@@ -14,6 +14,9 @@ from typing import Any
 
 from .contents import Contents, Message, TopicContents, TopicKey
 
+BROKEN = (sqlite3.Error, UnicodeError)
+"""What reading a spoiled database raises; also SQLite's own complaint may not be readable."""
+
 FURTHEST = 1 << 40
 """How far, in row numbers, a readable row is looked for behind a spoiled one."""
 
@@ -35,7 +38,7 @@ def scan_sqlite(path: Path, *, keep: bool = False) -> Contents:
 def _open_and_scan(path: Path, found: Contents, keep: bool) -> Contents:
     try:
         database = sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro&immutable=1", uri=True)
-    except sqlite3.Error as error:
+    except BROKEN as error:
         found.flaws.append(f"{path.name}: it cannot be opened ({error})")
         return found
     with closing(database):
@@ -62,10 +65,10 @@ def _scan(database: sqlite3.Connection, name: str, found: Contents, keep: bool) 
         verdict = database.execute("PRAGMA quick_check(1)").fetchone()[0]
         if verdict != "ok":
             found.flaws.append(f"{name}: the database is spoiled ({verdict.splitlines()[-1]})")
-    except sqlite3.Error as error:
+    except BROKEN as error:
         found.flaws.append(f"{name}: the database is spoiled ({error})")
     if found.flaws:
-        with suppress(sqlite3.Error):
+        with suppress(*BROKEN):
             database.execute("PRAGMA writable_schema=ON")  # or a file that is too short is not read at all
     topics = _topics(database, name, found)
     data = "data" if keep else "NULL"
@@ -84,7 +87,7 @@ def _scan(database: sqlite3.Connection, name: str, found: Contents, keep: bool) 
 
 def _topics(database: sqlite3.Connection, name: str, found: Contents) -> dict[int, TopicKey]:
     definitions: dict[str, str] = {}
-    with suppress(sqlite3.Error):
+    with suppress(*BROKEN):
         query = "SELECT topic_type, encoded_message_definition FROM message_definitions"
         definitions = dict(database.execute(query).fetchall())
     topics: dict[int, TopicKey] = {}
@@ -93,7 +96,7 @@ def _topics(database: sqlite3.Connection, name: str, found: Contents) -> dict[in
         for number, topic, type_name, serialization, offered in database.execute(query):
             topics[number] = key = TopicKey(topic, type_name)
             found.topics[key] = TopicContents(0, serialization, offered, definitions.get(type_name, ""))
-    except sqlite3.Error as error:
+    except BROKEN as error:
         found.flaws.append(f"{name}: its topics cannot be read ({error})")
     return topics
 
@@ -109,7 +112,7 @@ def _rows(database: sqlite3.Connection, query: str, found: Contents) -> Iterator
                 last, jump = row[0], 0
                 yield row
             return
-        except sqlite3.Error:
+        except BROKEN:
             if not found.flaws:
                 found.flaws.append("the database is spoiled in its middle")
             jump = jump * 2 or 1

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from .simulation import Simulation
     from .strand import Strand
 
-DRIVE_LIMIT = 3_600 * 1_000_000_000
+DRIVE_LIMIT = 900 * 1_000_000_000
 """How much robot time, in ns, a blocking call from a notebook cell may take before it is given up."""
 
 T = TypeVar("T")
@@ -80,6 +80,6 @@ def why_not_done(simulation: Simulation, strand: Strand) -> SimulationError:
         )
     return DriveTimeout(
         f"{what} was still not done after {DRIVE_LIMIT // 1_000_000_000} s of robot time, so it was given up. "
-        "Is the node that should answer running, and is the name spelled as in `ros2 service list`? "
-        "A timeout_sec lets you decide how long to wait."
+        "Does anybody publish what it waits for, or offer the service, under the very name (`ros2 topic list`, "
+        "`ros2 service list`)? A timeout_sec lets you decide how long to wait."
     )

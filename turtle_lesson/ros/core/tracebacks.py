@@ -14,17 +14,20 @@ from pathlib import Path
 from types import TracebackType
 from typing import TextIO
 
-ROS_FOLDER = str(Path(__file__).resolve().parents[1]) + os.sep
+OUR_FOLDER = str(Path(__file__).resolve().parents[2]) + os.sep
+FINISHED_FOLDER = os.path.join(OUR_FOLDER, "robot_controller", "")
 PACKAGE_FOLDER = str(Path(__file__).resolve().parents[3]) + os.sep
 LIBRARY_FOLDER = os.path.dirname(os.__file__) + os.sep
 _CELL = re.compile(r"ipykernel_\d+[/\\]|^<ipython-input-")
 
 
 def is_ours(filename: str) -> bool:
-    """Whether a file is part of the simulated ROS 2, or of Python itself, and so no concern of a learner's."""
+    """Whether a file is part of this package, or of Python itself, and so no concern of a learner's."""
     if filename.startswith(LIBRARY_FOLDER):
         return "site-packages" not in filename
-    return filename.startswith((ROS_FOLDER, "<generated ", "<frozen "))
+    if filename.startswith(OUR_FOLDER):
+        return not filename.startswith(FINISHED_FOLDER)  # the finished nodes are there to be read
+    return filename.startswith(("generated/", "<generated ", "<frozen "))
 
 
 def learners_frames(trace: TracebackType | None) -> list[TracebackType]:

@@ -132,7 +132,11 @@ def refuse_destroyed(simulation: Simulation) -> NoReturn:
         raise WorldClosed(
             "this belongs to a world that a later start() has closed: make the node, and what belongs to it, again"
         )
-    raise InvalidHandle("cannot use Destroyable because destruction was requested")
+    error = InvalidHandle("cannot use Destroyable because destruction was requested")
+    error.add_note(
+        "It, or its node, was destroyed, perhaps by rclpy.shutdown(). Run the cells again that make the node and this."
+    )
+    raise error
 
 
 class RCLError(RuntimeError):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
-from types import FrameType
+from types import CodeType, FrameType
 from typing import Any
 
 from turtle_lesson.ros.core import EPOCH, NANOSECONDS
@@ -87,7 +87,7 @@ class RcutilsLogger:
 
     def __init__(self, name: str = "") -> None:
         self.name = name
-        self._sites: dict[tuple[str, int, int], CallSite] = {}
+        self._sites: dict[tuple[CodeType, int], CallSite] = {}
 
     def get_child(self, name: str) -> RcutilsLogger:
         """The logger `<this>.<name>`."""
@@ -138,7 +138,7 @@ class RcutilsLogger:
         if not isinstance(message, str):
             raise TypeError(f"a log message must be a str, got {message!r}: write str(…) or an f-string")
         filters = filters_of(options) if options else {}
-        key = (frame.f_code.co_filename, frame.f_lineno, frame.f_lasti)
+        key = (frame.f_code, frame.f_lasti)  # in a cell each statement of a line has code of its own
         site = self._sites.get(key)
         if site is None:
             site = self._sites[key] = CallSite(severity, name, filters)
