@@ -57,7 +57,8 @@ def _values(root: ElementTree.Element, name: str) -> list[str]:
         found.append("Package version must not be empty")
     elif not re.fullmatch(r"[0-9]+\.[0-9]+\.[0-9]+", version):
         found.append(f'Package version "{version}" does not follow version conventions')
-    if not _text(root, "description") and not len(root.find("description") or ()):
+    description = root.find("description")
+    if not _text(root, "description") and (description is None or len(description) == 0):
         found.append("Package description must not be empty")
     found += _people(root, name)
     licences = _names(root, "license")

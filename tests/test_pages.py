@@ -1,0 +1,42 @@
+"""The pages as a reader treats them: every cell run twice."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import nbformat
+import pytest
+from nbclient import NotebookClient
+
+PAGES = sorted((Path(__file__).resolve().parents[1] / "notebooks").glob("*.ipynb"))
+
+
+def run(cells: list[Any], page: Path) -> list[Any]:
+    """Run cells in a fresh kernel; the outputs. Raises CellExecutionError if one of them fails."""
+    notebook = nbformat.v4.new_notebook(cells=cells)
+    NotebookClient(
+        notebook, timeout=60, kernel_name="python3", resources={"metadata": {"path": str(page.parent)}}
+    ).execute()
+    return [output for cell in notebook.cells for output in cell.outputs]
+
+
+def code_cells(page: Path) -> list[Any]:
+    notebook = nbformat.read(page, as_version=4)
+    return [nbformat.v4.new_code_cell(cell.source) for cell in notebook.cells if cell.cell_type == "code"]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_every_cell_can_be_run_twice(page: Path) -> None:
+    twice = [nbformat.v4.new_code_cell(cell.source) for cell in code_cells(page) for _ in range(2)]
+    outputs = run(twice, page)
+    assert not [output for output in outputs if output.get("name") == "stderr"]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_it_is_stored_as_it_was_run(page: Path) -> None:
+    notebook = nbformat.read(page, as_version=4)
+    cells = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    assert [cell.execution_count for cell in cells] == list(range(1, len(cells) + 1))
+    assert all(len(cell.source.splitlines()) <= 15 for cell in cells)
