@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 import rclpy
+from adding_service import Request, Response, Run, add, server
 from example_interfaces.srv import AddTwoInts
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
 from rclpy.executors import Executor, MultiThreadedExecutor, SingleThreadedExecutor
@@ -19,23 +20,6 @@ from std_srvs.srv import Empty
 
 from turtle_lesson.ros.core import NeverWakes
 from turtle_lesson.ros.world import World
-
-Run = Callable[..., list[Any]]
-Request, Response = AddTwoInts.Request, AddTwoInts.Response
-
-
-def add(request: Any, response: Any) -> Any:
-    """The callback of a service that adds."""
-    response.sum = request.a + request.b
-    return response
-
-
-def server(found: list[Any]) -> None:
-    """A program that offers /add."""
-    rclpy.init()
-    node = rclpy.create_node("server")
-    node.create_service(AddTwoInts, "add", add)
-    rclpy.spin(node)
 
 
 def start() -> tuple[Node, Any]:

@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 import rclpy
+from adding_service import Request, Run, add, server
 from example_interfaces.srv import AddTwoInts
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
@@ -16,23 +17,6 @@ from rclpy.task import Future
 
 from turtle_lesson.ros.core import NeverWakes
 from turtle_lesson.ros.world import World
-
-Run = Callable[..., list[Any]]
-Request, Response = AddTwoInts.Request, AddTwoInts.Response
-
-
-def add(request: Any, response: Any) -> Any:
-    """The callback of a service that adds."""
-    response.sum = request.a + request.b
-    return response
-
-
-def server(found: list[Any]) -> None:
-    """A program that offers /add."""
-    rclpy.init()
-    node = rclpy.create_node("server")
-    node.create_service(AddTwoInts, "add", add)
-    rclpy.spin(node)
 
 
 def lazy_server(found: list[Any]) -> None:

@@ -30,14 +30,18 @@ def is_ours(filename: str) -> bool:
     return filename.startswith(("generated/", "<generated ", "<frozen "))
 
 
-def learners_frames(trace: TracebackType | None) -> list[TracebackType]:
-    """The entries of a traceback that belong to a learner's code, outermost first."""
+def traceback_entries(trace: TracebackType | None) -> list[TracebackType]:
+    """All entries of a traceback, outermost first."""
     entries = []
     while trace is not None:
-        if not is_ours(trace.tb_frame.f_code.co_filename):
-            entries.append(trace)
+        entries.append(trace)
         trace = trace.tb_next
     return entries
+
+
+def learners_frames(trace: TracebackType | None) -> list[TracebackType]:
+    """The entries of a traceback that belong to a learner's code, outermost first."""
+    return [entry for entry in traceback_entries(trace) if not is_ours(entry.tb_frame.f_code.co_filename)]
 
 
 def shorten(trace: TracebackType | None) -> TracebackType | None:
@@ -88,15 +92,6 @@ def _cause(error: BaseException) -> str:
         cause = format_error(error.__cause__)
         return f"{cause}\nThe above exception was the direct cause of the following exception:\n\n"
     return ""
-
-
-def traceback_entries(trace: TracebackType | None) -> list[TracebackType]:
-    """All entries of a traceback, outermost first."""
-    entries = []
-    while trace is not None:
-        entries.append(trace)
-        trace = trace.tb_next
-    return entries
 
 
 def print_error(error: BaseException, stream: TextIO | None = None) -> None:

@@ -31,16 +31,23 @@ _NUMPY_FUNCTIONS = [
 ]
 
 
-def _dispatch(name: str, real: Callable[..., Any]) -> Callable[..., Any]:
+def _dispatch(name: str, real: Callable[..., Any], source: Callable[[Strand], Any]) -> Callable[..., Any]:
+    """A function that draws from the `source` of the process that runs, and is the real one everywhere else."""
+
     def draw(*arguments: Any, **keywords: Any) -> Any:
         strand = getcurrent()
         if type(strand) is Strand:
-            return getattr(strand.process.random, name)(*arguments, **keywords)
+            return getattr(source(strand), name)(*arguments, **keywords)
         return real(*arguments, **keywords)
 
     draw.__name__ = draw.__qualname__ = name
     draw.__doc__ = real.__doc__
     return draw
+
+
+def _random(strand: Strand) -> Any:
+    """The random.Random of the process that runs."""
+    return strand.process.random
 
 
 def _draw_one(real: Callable[[], float]) -> Callable[[], float]:
@@ -66,18 +73,6 @@ def _numpy_state(strand: Strand) -> Any:
     return state
 
 
-def _dispatch_numpy(name: str, real: Callable[..., Any]) -> Callable[..., Any]:
-    def draw(*arguments: Any, **keywords: Any) -> Any:
-        strand = getcurrent()
-        if type(strand) is Strand:
-            return getattr(_numpy_state(strand), name)(*arguments, **keywords)
-        return real(*arguments, **keywords)
-
-    draw.__name__ = draw.__qualname__ = name
-    draw.__doc__ = real.__doc__
-    return draw
-
-
 def _default_rng(real: Callable[..., Any]) -> Callable[..., Any]:
     def default_rng(seed: Any = None) -> Any:
         strand = getcurrent()
@@ -99,7 +94,7 @@ def install() -> None:
     _installed.add("random")
     for name, real in list(vars(random).items()):
         if getattr(real, "__self__", None) is random._inst:
-            setattr(random, name, _dispatch(name, real))
+            setattr(random, name, _dispatch(name, real, _random))
     random.random = _draw_one(random._inst.random)
 
 
@@ -110,5 +105,5 @@ def install_for_numpy() -> None:
     _installed.add("numpy")
     module: Any = importlib.import_module("numpy.random")
     for name in _NUMPY_FUNCTIONS:
-        setattr(module, name, _dispatch_numpy(name, getattr(module, name)))
+        setattr(module, name, _dispatch(name, getattr(module, name), _numpy_state))
     module.default_rng = _default_rng(module.default_rng)

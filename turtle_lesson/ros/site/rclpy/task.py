@@ -32,7 +32,6 @@ class Future:
         self._cancelled = False
         self._result: Any = None
         self._exception: BaseException | None = None
-        self._exception_fetched = False
         self._callbacks: list[Callable[[Future], Any]] = []
         self._executor = executor
         self._answered_by: Any = None  # the client whose response this waits for, if any
@@ -64,13 +63,11 @@ class Future:
     def result(self) -> Any:
         """The result, None while there is none; raises the exception if there is one."""
         if self._exception is not None:
-            self._exception_fetched = True
             raise self._exception
         return self._result
 
     def exception(self) -> BaseException | None:
         """The exception, if there is one."""
-        self._exception_fetched = True
         return self._exception
 
     def set_result(self, result: Any) -> None:

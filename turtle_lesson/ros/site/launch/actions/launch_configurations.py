@@ -2,53 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, MutableMapping
 from typing import Any
 
 from ..action import Action
 from ..launch_context import LaunchContext
 from ..launch_description_entity import LaunchDescriptionEntity
 from ..some_types import SomeSubstitutionsType
-from ..substitution import Substitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
+from ._setting import Setting, Unsetting
 
 
-class SetLaunchConfiguration(Action):
+class SetLaunchConfiguration(Setting):
     """Gives a launch configuration a value."""
 
-    def __init__(self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.__name = normalize_to_list_of_substitutions(name)
-        self.__value = normalize_to_list_of_substitutions(value)
-
-    @property
-    def name(self) -> list[Substitution]:
-        """The configuration's name."""
-        return self.__name
-
-    @property
-    def value(self) -> list[Substitution]:
-        """Its new value."""
-        return self.__value
-
-    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Set it."""
-        name = perform_substitutions(context, self.name)
-        context.launch_configurations[name] = perform_substitutions(context, self.value)
-        return None
+    def kept_in(self, context: LaunchContext) -> MutableMapping[str, str]:
+        """In the context's `launch_configurations`."""
+        return context.launch_configurations
 
 
-class UnsetLaunchConfiguration(Action):
+class UnsetLaunchConfiguration(Unsetting):
     """Forgets a launch configuration."""
 
-    def __init__(self, name: SomeSubstitutionsType, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.__name = normalize_to_list_of_substitutions(name)
-
-    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Forget it."""
-        context.launch_configurations.pop(perform_substitutions(context, self.__name), None)
-        return None
+    def kept_in(self, context: LaunchContext) -> MutableMapping[str, str]:
+        """In the context's `launch_configurations`."""
+        return context.launch_configurations
 
 
 class PushLaunchConfigurations(Action):
