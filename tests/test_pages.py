@@ -30,8 +30,9 @@ def code_cells(page: Path) -> list[Any]:
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
 def test_every_cell_can_be_run_twice(page: Path) -> None:
     twice = [nbformat.v4.new_code_cell(cell.source) for cell in code_cells(page) for _ in range(2)]
-    outputs = run(twice, page)
-    assert not [output for output in outputs if output.get("name") == "stderr"]
+    said = "".join(output.text for output in run(twice, page) if output.get("name") == "stderr")
+    assert "Traceback" not in said
+    assert "Warning" not in said  # one of Python's own; a command may well say WARNING
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)

@@ -18,6 +18,9 @@ OUR_FOLDER = str(Path(__file__).resolve().parents[2]) + os.sep
 FINISHED_FOLDER = os.path.join(OUR_FOLDER, "robot_controller", "")
 PACKAGE_FOLDER = str(Path(__file__).resolve().parents[3]) + os.sep
 LIBRARY_FOLDER = os.path.dirname(os.__file__) + os.sep
+FAR = 2
+"""A file that is more folders up than that is not in the learner's workspace: its whole path is clearer."""
+
 _CELL = re.compile(r"ipykernel_\d+[/\\]|^<ipython-input-")
 
 
@@ -59,12 +62,15 @@ def shown_path(filename: str) -> str:
     """A file's name as a learner knows it, the same on every machine where that is possible."""
     if _CELL.search(filename):
         return "a cell of this notebook"
-    if filename.startswith(PACKAGE_FOLDER):
+    if filename.startswith(OUR_FOLDER):
         return filename[len(PACKAGE_FOLDER) :].replace(os.sep, "/")
-    try:
-        return Path(filename).relative_to(Path.cwd()).as_posix()
-    except ValueError:
+    if not os.path.isabs(filename):
         return filename
+    here, file = Path.cwd(), Path(filename)
+    for steps, folder in enumerate((here, *here.parents[:FAR])):
+        if file.is_relative_to(folder) and len(folder.parts) > 1:
+            return "../" * steps + file.relative_to(folder).as_posix()
+    return filename
 
 
 def format_error(error: BaseException) -> str:
