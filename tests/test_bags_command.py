@@ -54,6 +54,8 @@ def terminal(world: World, tmp_path: Path) -> Terminal:
 RECORDED = """\
 [INFO] [1800000000.000000000] [rosbag2_recorder]: Listening for topics...
 [INFO] [1800000000.000000000] [rosbag2_recorder]: Subscribed to topic '/count'
+[INFO] [1800000000.000000000] [rosbag2_recorder]: Recording...
+[INFO] [1800000000.000000000] [rosbag2_recorder]: All requested topics are subscribed. Stopping discovery...
 [INFO] [1800000001.000000000] [rosbag2_recorder]: Recording stopped
 """
 
@@ -107,6 +109,88 @@ def test_by_pattern(terminal: Terminal) -> None:
     assert "Subscribed to topic '/count'" not in terminal("ros2 bag record -a -x count -o b --for 1")[2]
 
 
+def test_topics_as_newer_releases_spell_them(terminal: Terminal) -> None:
+    err = terminal("ros2 bag record -o run --topics count /nobody --for 1")[2]
+    assert "Subscribed to topic '/count'" in err
+    assert "nobody published on /nobody while the bag was recorded" in err
+    assert "All requested topics" not in err
+    assert terminal("ros2 bag info -t run") == (0, "/count\n", "")
+
+
+def test_who_records_and_who_plays_is_in_the_graph_as_on_a_robot(terminal: Terminal) -> None:
+    world = terminal.world
+    seen: list[list[str]] = []
+
+    def look() -> None:
+        names = [node.full_name for node in world.graph.nodes if not node.hidden]
+        seen.append([name for name in names if name != "/talker"])
+
+    world.sim.call_later(500_000_000, look)
+    world.sim.call_later(1_500_000_000, look)
+    terminal("ros2 bag record /count -o run --for 1")
+    terminal("ros2 bag play run")
+    look()
+    assert seen == [["/rosbag2_recorder"], ["/rosbag2_player"], []]
+
+
+def test_lost_metadata_is_written_anew(terminal: Terminal) -> None:
+    write_bag(terminal.folder / "bag", 2)
+    (terminal.folder / "bag" / "metadata.yaml").unlink()
+    assert "there is no metadata.yaml" in terminal("ros2 bag info bag")[2]
+    assert terminal("ros2 bag reindex bag") == (
+        0,
+        "",
+        "[INFO] [1800000000.000000000] [rosbag2_cpp]: Beginning reindexing bag in directory: bag\n"
+        "[INFO] [1800000000.000000000] [rosbag2_cpp]: Reindexing complete.\n",
+    )
+    assert terminal("ros2 bag info bag")[::2] == (0, "")
+    assert terminal("ros2 bag reindex bag/bag_0.mcap") == (1, "", "[ERROR] [ros2bag]: Must specify a bag directory\n")
+
+
+def test_endless_words_are_answered_in_a_short_line(terminal: Terminal) -> None:
+    write_bag(terminal.folder / "bag", 2)
+    endless = "x" * 10_000
+    for line in (
+        f"record -a -o {endless}",
+        f"play bag -m {endless}",
+        f"play bag --topics {endless}",
+        f"info {endless}",
+    ):
+        code, out, err = terminal(f"ros2 bag {line}")
+        assert (code > 0, out) == (True, "")
+        assert len(err.splitlines()[-1]) < 350
+    assert [path.name for path in terminal.folder.iterdir()] == ["bag"]
+
+
+@pytest.mark.parametrize("line", ["list", "list --verbose storage", "convert -i bag -o out.yaml", "burst -h"])
+def test_verbs_that_are_not_here(terminal: Terminal, line: str) -> None:
+    code, out, err = terminal(f"ros2 bag {line}")
+    assert (code, out) == (2, "")
+    assert err.startswith(f"ros2 bag {line.split()[0]}: not in this classroom: ")
+    assert err.endswith(" On a robot it exists.\n")
+    assert err.count("\n") == 1
+
+
+def test_the_clock_of_the_bag(terminal: Terminal) -> None:
+    heard: list[float] = []
+
+    def main() -> None:
+        from rosgraph_msgs.msg import Clock
+
+        rclpy.init()
+        node = rclpy.create_node("ear")
+        node.create_subscription(Clock, "/clock", lambda m: heard.append(m.clock.sec + m.clock.nanosec / 1e9), 100)
+        rclpy.spin(node)
+
+    terminal.world.spawn(main, name="ear")
+    write_bag(terminal.folder / "bag", 100)
+    assert terminal("ros2 bag play bag --clock --topics /count --rate 0.5")[0] == 0
+    assert heard == [pytest.approx(1_800_000_000 + tick / 80) for tick in range(80)]
+    heard.clear()
+    terminal("ros2 bag play bag --clock 10 --start-offset 0.5")
+    assert heard == [pytest.approx(1_800_000_000.5 + tick / 10) for tick in range(5)]
+
+
 def test_nothing_is_overwritten(terminal: Terminal) -> None:
     terminal("ros2 bag record -a -o run --for 1")
     before = (terminal.folder / "run" / "run_0.mcap").read_bytes()
@@ -151,6 +235,14 @@ def test_mistakes(terminal: Terminal, line: str, error: str) -> None:
             "record -a -s zip",
             "ros2 bag record: error: argument -s/--storage: invalid choice: 'zip' (choose from 'mcap', 'sqlite3')",
         ),
+        ("play bag -r 1e-30", "argument -r/--rate: 1e-30 is slower than any robot can wait for"),
+        ("play bag --delay 1e300", "argument -d/--delay: 1e300 is too much: at most 1e+09"),
+        ("play bag --clock 0", "argument --clock: '0' is no number above 0"),
+        ("play bag -p", "argument -p/--start-paused: not in this classroom: there is no key to press to go on. On a"),
+        ("play bag --storage-config-file x", "argument --storage-config-file: not in this classroom: a bag is always"),
+        ("record -a -b 1000", "argument -b/--max-bag-size: not in this classroom: a bag is one file here. On a robot"),
+        ("record -a --compression-mode=file", "argument --compression-mode: not in this classroom: a bag is not com"),
+        ("info bag -v", "argument -v/--verbose: not in this classroom: there is no more to say of a bag."),
         ("play", "ros2 bag play: error: the following arguments are required: bag_path"),
         ("reord", "Did you mean 'record'?"),
     ],

@@ -8,12 +8,14 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import yaml
 from bag_help import write_bag
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from turtle_lesson.ros.bags import BagError
 from turtle_lesson.ros.bags.bag import Bag, open_bag
+from turtle_lesson.ros.bags.text import info_text
 
 COUNT = 100
 Written = list[tuple[str, int, bytes]]
@@ -86,6 +88,27 @@ def test_one_spoiled_byte_costs_one_chunk(sound: Sound, tmp_path: Path) -> None:
     assert "is spoiled (its checksum is wrong), so its messages are left out" in bag.damage
 
 
+def test_cut_short_at_every_twentieth_the_more_there_is_the_more_is_read(sound: Sound, tmp_path: Path) -> None:
+    counts = []
+    for part in range(20):
+        folder = spoil(sound, tmp_path, lambda data, part=part: data[: len(data) * part // 20])
+        try:
+            bag = open_bag(folder)
+        except BagError as error:
+            assert part < 3
+            assert "can be read: run_0" in str(error)
+            counts.append(0)
+            continue
+        messages = read(bag)
+        assert "is damaged: " in bag.damage
+        assert set(messages) <= set(sound[1])
+        assert len(messages) == bag.message_count == len(set(messages))
+        assert bag.message_count + (bag.lost or 0) == 2 * COUNT
+        counts.append(len(messages))
+    assert counts == sorted(counts)
+    assert counts[19] > 0.85 * 2 * COUNT
+
+
 @settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(part=st.floats(0, 1))
 def test_cut_short_anywhere(sound: Sound, tmp_path: Path, part: float) -> None:
@@ -118,6 +141,65 @@ def test_spoiled_bytes_anywhere(sound: Sound, tmp_path: Path, places: list[tuple
     assert len(messages) <= 2 * COUNT + 10
 
 
+def test_what_sqlite_says_of_a_spoiled_table_is_told_in_one_line(tmp_path: Path) -> None:
+    write_bag(tmp_path / "run", 1, "sqlite3")
+    file = tmp_path / "run" / "run_0.db3"
+    file.write_bytes(file.read_bytes().replace(b"CREATE TABLE topics(", b"CREATE TABLE topics\0"))
+    with pytest.raises(BagError, match=r"malformed database schema") as raised:
+        open_bag(tmp_path / "run")
+    assert str(raised.value).isprintable()
+
+
+def test_a_wrong_length_within_a_chunk_costs_nothing(tmp_path: Path) -> None:
+    written = write_bag(tmp_path / "run", 10, size=10)
+    file = tmp_path / "run" / "run_0.mcap"
+    data = bytearray(file.read_bytes())
+    chunk = data.index(b"\x06", 8)
+    at = data.index(
+        data[chunk + 9 + 16 : chunk + 9 + 24], chunk + 9 + 24
+    )  # the packed size: that of what is not packed
+    data[at] ^= 1
+    file.write_bytes(data)
+    bag = open_bag(tmp_path / "run")
+    assert "gives a wrong length" in bag.damage
+    assert sorted(read(bag)) == sorted(written)
+
+
+def test_a_database_whose_index_is_spoiled_is_read_without_it(tmp_path: Path) -> None:
+    written = write_bag(tmp_path / "run", COUNT, "sqlite3")
+    file = tmp_path / "run" / "run_0.db3"
+    connection = sqlite3.connect(file)
+    (page,) = connection.execute("SELECT rootpage FROM sqlite_master WHERE name = 'timestamp_idx'").fetchone()
+    (size,) = connection.execute("PRAGMA page_size").fetchone()
+    connection.close()
+    data = bytearray(file.read_bytes())
+    data[page * size - 2000 : page * size - 1990] = bytes(10)  # within the entries of the index
+    file.write_bytes(data)
+    bag = open_bag(tmp_path / "run")
+    assert "the database is spoiled" in bag.damage
+    assert sorted(read(bag)) == sorted(written)
+
+
+def test_an_index_that_leads_nowhere(tmp_path: Path) -> None:
+    """A chunk's length is spoiled, and of the others' places, which the summary knows, one is behind the file's end."""
+    from mcap.reader import make_reader
+
+    written = write_bag(tmp_path / "run", COUNT, size=2000)
+    file = tmp_path / "run" / "run_0.mcap"
+    with file.open("rb") as stream:
+        summary = make_reader(stream).get_summary()
+    assert summary is not None
+    places = [index.chunk_start_offset for index in summary.chunk_indexes]
+    data = bytearray(file.read_bytes())
+    last = data.rindex(places[-1].to_bytes(8, "little"))
+    data[last : last + 8] = b"\xff" * 8
+    data[places[1] + 1 : places[1] + 9] = b"\xff" * 8
+    file.write_bytes(data)
+    bag = open_bag(tmp_path / "run")
+    assert 0 < (bag.lost or 0) < 2 * COUNT
+    assert set(read(bag)) < set(written)
+
+
 @settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(data=st.binary(max_size=300), begin=st.sampled_from([b"", b"\x89MCAP0\r\n", b"SQLite format 3\0"]))
 def test_rubbish_is_no_bag(tmp_path: Path, data: bytes, begin: bytes) -> None:
@@ -145,6 +227,57 @@ def test_spoiled_metadata_is_told(sound: Sound, tmp_path: Path, text: str) -> No
     bag = open_bag(folder)
     assert "metadata.yaml cannot be read" in bag.damage
     assert len(read(bag)) == 2 * COUNT
+
+
+NONSENSE: st.SearchStrategy[Any] = (
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=5) | st.just({}) | st.just([{}])
+)
+KEYS = ["version", "storage_identifier", "relative_file_paths", "duration", "starting_time", "message_count", "files"]
+
+
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(lies=st.dictionaries(st.sampled_from([*KEYS, "topics_with_message_count", "compression_format"]), NONSENSE))
+@example(lies={"files": ""})
+@example(lies={"relative_file_paths": {}})
+def test_metadata_that_lies_never_hides_what_is_there(sound: Sound, tmp_path: Path, lies: dict[str, Any]) -> None:
+    folder = spoil(sound, tmp_path, lambda data: data)
+    found = yaml.safe_load((folder / "metadata.yaml").read_text())
+    found["rosbag2_bagfile_information"].update(lies)
+    (folder / "metadata.yaml").write_text(yaml.safe_dump(found))
+    bag = open_bag(folder)
+    assert bag.message_count == 2 * COUNT
+    assert sorted(read(bag)) == sorted(sound[1])
+    assert info_text(bag).count("Topic: /") == 2
+    repr(bag)
+
+
+@pytest.mark.parametrize("mode", ["MESSAGE", "FILE", "zip", 3, [1]])
+def test_metadata_that_lies_about_compression(sound: Sound, tmp_path: Path, mode: Any) -> None:
+    folder = spoil(sound, tmp_path, lambda data: data)
+    found = yaml.safe_load((folder / "metadata.yaml").read_text())
+    found["rosbag2_bagfile_information"].update(compression_mode=mode, compression_format="zstd")
+    (folder / "metadata.yaml").write_text(yaml.safe_dump(found))
+    bag = open_bag(folder)
+    try:
+        assert sorted(read(bag)) == sorted(sound[1])
+    except BagError as error:
+        assert "cannot be read to its end" in str(error)
+
+
+def test_files_that_are_none(tmp_path: Path) -> None:
+    for name in ("x.mcap", "x.db3", "x.mcap.zstd"):
+        (tmp_path / name).touch()
+        with pytest.raises(BagError, match=r"nothing of the bag .* can be read: x\."):
+            open_bag(tmp_path / name)
+        (tmp_path / name).unlink()
+    (tmp_path / "y" / "y_0.mcap").mkdir(parents=True)
+    with pytest.raises(BagError, match=r"there is no \.mcap or \.db3 file in it"):
+        open_bag(tmp_path / "y")
+    (tmp_path / "y" / "metadata.yaml").mkdir()
+    with pytest.raises(BagError, match=r"there is no \.mcap or \.db3 file in it"):
+        open_bag(tmp_path / "y")
+    with pytest.raises(BagError, match="is no bag"):
+        open_bag(tmp_path / "y" / "y_0.mcap")
 
 
 def test_a_file_outside_of_the_bag_is_never_read(sound: Sound, tmp_path: Path) -> None:

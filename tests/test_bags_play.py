@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -82,6 +83,12 @@ def test_at_twice_the_speed_from_half_a_second_on(world: World, bag: Path, numbe
     assert heard == [(SECOND + (number - 50) * PERIOD // 2, number) for number in range(50, 100)]
 
 
+def test_the_delay_is_waited_for_each_time(world: World, bag: Path, numbers: Numbers) -> None:
+    heard = numbers("/count")
+    play_in(world, bag, seconds=4.1, loop=True, delay=1.0)
+    assert [round(time / SECOND, 2) for time, number in heard if number == 0] == [1.0, 2.99]
+
+
 def test_under_another_name(world: World, bag: Path, numbers: Numbers) -> None:
     old, new = numbers("/count"), numbers("/robot/count")
     play_in(world, bag, remaps=parse_remaps(["/count:=/robot/count"]))
@@ -107,6 +114,51 @@ def test_played_and_recorded_again_it_is_the_same(world: World, bag: Path, tmp_p
     with Recording(world, tmp_path / "again", ["/count", "/chatter"], storage="sqlite3"):
         play_in(world, bag)
     assert sorted(open_bag(tmp_path / "again").messages()) == sorted(open_bag(bag).messages())
+
+
+@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
+def test_velocities_lead_a_turtle_of_another_world_along_the_same_path(tmp_path: Path, storage: str) -> None:
+    from turtle_lesson import start
+
+    def poses(during: Callable[[Any], object]) -> list[tuple[float, float]]:
+        lesson = start(package=None)
+        found: list[tuple[float, float]] = []
+
+        def watch() -> None:
+            from turtlesim.msg import Pose
+
+            rclpy.init()
+            node = rclpy.create_node("watch")
+            node.create_subscription(Pose, "/turtle1/pose", lambda pose: found.append((pose.x, pose.y)), 10)
+            rclpy.spin(node)
+
+        lesson._world.spawn(watch, name="watch")
+        during(lesson)
+        return found
+
+    def drive() -> None:
+        from geometry_msgs.msg import Twist
+
+        rclpy.init()
+        publisher = rclpy.create_node("driver").create_publisher(Twist, "/turtle1/cmd_vel", 10)
+        for number in range(40):
+            message = Twist()
+            message.linear.x, message.angular.z = 1.0 + number % 3, 0.5 * (number % 5) - 1.0
+            publisher.publish(message)
+            time.sleep(0.1)
+
+    def record(lesson: Any) -> None:
+        with lesson.record(tmp_path / "b", ["/turtle1/cmd_vel"], storage=storage):
+            lesson._world.spawn(drive, name="driver")
+            lesson.run(5)
+
+    def replay(lesson: Any) -> None:
+        lesson._world.spawn(lambda: play(open_bag(tmp_path / "b"), Playback(), lambda *_: None), name="player")
+        lesson.run(5)
+
+    first, again = poses(record), poses(replay)
+    assert len({round(x, 2) for x, _ in first}) > 50, "it went somewhere"
+    assert again == first
 
 
 def test_what_was_latched_is_latched_again(world: World, tmp_path: Path) -> None:

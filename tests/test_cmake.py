@@ -112,6 +112,7 @@ def test_arguments(text: str, expected: tuple[str, ...]) -> None:
         ("DEFINED name", True),
         ("name MATCHES ^tur", True),
         ("EXISTS /somewhere", False),
+        ("", False),
         ("CMAKE_VERSION VERSION_LESS 3.8", False),
     ],
 )
@@ -136,10 +137,9 @@ def test_one_branch_of_nested_conditions_counts() -> None:
         ("#[[ never", "line 1: this #[[ comment never ends"),
         ("if(1)\nproject(p)", "line 1: this if() has no endif()"),
         ("endif()", "line 1: endif() without an if() before it"),
-        ("if()\nendif()", "line 1: if() needs a condition"),
         ("if(a b)\nendif()", "line 1: if(a b) is no condition that CMake knows"),
         ("set(a ${b)", "line 1: '${b': a ${ is not closed by }"),
-        ("foreach(a b)\nset(c d)", "line 1: there is no endforeach() that ends this"),
+        ("foreach(a b)\nset(c d)", "line 1: this foreach() has no endforeach()"),
         (
             "foreach(f a)\ninstall(PROGRAMS ${f} DESTINATION x)\nendforeach()",
             "line 2: install() inside of foreach()",

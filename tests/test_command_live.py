@@ -6,14 +6,16 @@ import os
 import signal
 import threading
 from collections.abc import Callable
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
 
 from turtle_lesson.ros.command import live_rate
 from turtle_lesson.ros.command.driving import set_player
-from turtle_lesson.ros.command.shell import run_line
+from turtle_lesson.ros.command.shell import CommandInterrupted, Shell, run_line
 from turtle_lesson.ros.core.virtual_time import real_monotonic
+from turtle_lesson.ros.workspace.package import Package
 from turtle_lesson.ros.world import World
 
 
@@ -74,17 +76,38 @@ def test_a_command_is_paced_and_ends_by_itself(live: World) -> None:
 
 
 def test_what_never_ends_goes_on_until_the_stop_button(live: World, capsys: pytest.CaptureFixture[str]) -> None:
-    assert interrupted_after(1.0, lambda: run_line(live, "ros2 topic echo /word")) == 2
+    with pytest.raises(CommandInterrupted, match="ros2 topic echo /word was stopped"):
+        interrupted_after(1.0, lambda: run_line(live, "ros2 topic echo /word || echo on; echo on"))
+    assert Shell(live).exit_code == 2, "as the real one gives"
     assert live.now > 6_000_000_000, "it would have stopped after 5 s, were it not live"
-    assert capsys.readouterr().out.startswith("data: hello\n---\n")
+    out = capsys.readouterr().out
+    assert out.startswith("data: hello\n---\n")
+    assert "on\n" not in out
     assert own_nodes(live) == ["/talker"]
 
 
 def test_without_live_mode_the_stop_button_ends_the_cell_but_not_the_world(talker: World) -> None:
     with pytest.raises(KeyboardInterrupt):
-        interrupted_after(0.3, lambda: run_line(talker, "ros2 topic hz /word --for 1000000 > hz.txt; echo no"))
+        interrupted_after(0.3, lambda: run_line(talker, "ros2 topic hz /word --for 80000 > hz.txt; echo no"))
     assert own_nodes(talker) == ["/talker"]
     assert run_line(talker, "ros2 topic echo /word --once") == 0
+
+
+def test_what_runs_in_the_cell_itself_is_stopped_as_well(world: World, capsys: pytest.CaptureFixture[str]) -> None:
+    world.packages.add(Package("loud", Path("loud"), executables={"talker": _tick}))
+    with pytest.raises(CommandInterrupted):
+        interrupted_after(0.3, lambda: run_line(world, "ros2 run --for 80000 loud talker; echo no"))
+    assert "no" not in capsys.readouterr().out
+    assert own_nodes(world) == ["/ticker"], "as in a terminal, what was started there goes on"
+
+
+def _tick() -> None:
+    import rclpy
+
+    rclpy.init()
+    node = rclpy.create_node("ticker")
+    node.create_timer(0.01, lambda: None)
+    rclpy.spin(node)
 
 
 def test_run_returns_at_once_in_live_mode_too(live: World, capsys: pytest.CaptureFixture[str]) -> None:

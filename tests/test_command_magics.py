@@ -16,8 +16,10 @@ from traitlets.config import Config
 
 from turtle_lesson import start
 from turtle_lesson.ros.command import shell as terminal
-from turtle_lesson.ros.command.cells import COMMANDS, translate
+from turtle_lesson.ros.command.cells import COMMANDS, UNSURE, translate
 from turtle_lesson.ros.command.completion import complete
+from turtle_lesson.ros.command.elsewhere import ELSEWHERE, advice
+from turtle_lesson.ros.core.virtual_time import real_monotonic
 from turtle_lesson.ros.world import current_world
 
 Run = Callable[..., str]
@@ -168,6 +170,55 @@ def test_single_words_are_commands_too(run: Run, tmp_path: Path) -> None:
     assert run("ls | wc -l") == "2\n"
 
 
+def test_commands_stand_behind_python_on_one_line(run: Run) -> None:
+    assert run("x = 3; ros2 node list") == "/turtlesim\n"
+    assert run("for i in range(2): ros2 node list") == "/turtlesim\n" * 2
+    assert run("if x == 4: pass\nelif x: y = 1; ros2 node list | wc -l\nelse: ros2 topic list") == "1\n"
+    assert run("try: 1 / 0\nexcept ZeroDivisionError: ros2 node list") == "/turtlesim\n"
+    assert run("def f(): ros2 node list; echo 'a\nb'\nf()") == "/turtlesim\na\nb\n"
+
+
+def test_commands_in_functions_loops_and_with(run: Run) -> None:
+    cell = """
+import contextlib, io
+def look(times):
+\tfor _ in range(times):
+\t\tros2 node list
+with contextlib.redirect_stdout(io.StringIO()) as kept:
+\tlook(2)
+print(repr(kept.getvalue()))
+"""
+    assert run(cell) == run(cell) == repr("/turtlesim\n" * 2) + "\n"
+
+
+def test_a_text_is_written_to_a_file_as_in_a_terminal(run: Run) -> None:
+    out = run('x = 1\nif x:\n    cat > a.txt <<EOF\n"x": ros2 {x}\n  ros2 node list\nEOF\n    cat a.txt\n')
+    assert out == '"x": ros2 {x}\n  ros2 node list\n'
+
+
+def test_words_of_other_terminals_in_a_cell(
+    run: Run, ipython: InteractiveShell, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for word in (
+        "rviz2",
+        "x = 1; git status",
+        "if True:\n    nano x.py",
+        "ros topic list",
+        "$ rqt_graph",
+        "!ros2 topic list",
+    ):
+        ipython.run_cell(f"{word}\nprint('on')")
+        out, error = capsys.readouterr()
+        assert out == "on\n", word
+        assert error.count("\n") == 1, word
+        assert ipython.user_ns["_exit_code"] == 127
+
+
+def test_a_real_ros2_on_the_computer_is_asked_with_the_exclamation_mark(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("shutil.which", lambda name: f"/opt/ros/humble/bin/{name}")
+    assert translate(["!ros2 topic list\n"]) == ["!ros2 topic list\n"]
+
+
 def test_other_cell_magics_keep_their_cells(run: Run) -> None:
     assert run("%%writefile x.txt\nros2 topic list\n") == "Writing x.txt\n"
     assert run("cat x.txt") == "ros2 topic list\n"
@@ -244,6 +295,16 @@ def test_the_commands_of_the_lesson_run_as_typed(
         "cd /tmp",
         "kill -INT %1",
         "ros2 param set /n p '[1, 2'  # a comment",
+        "$ ros2 topic list",
+        "ros2\ttopic list",
+        "echo 'hello' > a.txt",
+        "rm -r build install log",
+        "chmod +x file.py",
+        "sudo apt install x",
+        "rviz2",
+        "rso2 topic list",
+        "Ros2 topic list",
+        "colon build",
     ],
 )
 def test_these_are_commands(line: str) -> None:
@@ -269,6 +330,36 @@ def test_these_are_commands(line: str) -> None:
         "x = [\nros2\n]",
         "f(a,\n  source - 1)",
         "x = 1 + \\\ncd",
+        "code = 5\ncode",
+        "code",
+        "date - 1",
+        "find",
+        "clear()",
+        "clear.all",
+        "clear = 1\nclear",
+        "def f(clear):\n    clear\n",
+        "if (clear := 1):\n    clear\n",
+        "rm = 1; rm - 1",
+        "code, x = 1, 2",
+        "code = !ls",
+        "code = %time 1",
+        "echo: int = 5",
+        "x = {ros2: cd}",
+        "x[1: cd]",
+        "f(lambda: cd)",
+        "x: cd",
+        "y: 'ros2 topic list' = 1; x = 1",
+        "if x: cd = 1; source = 2",
+        "else: x",
+        "!ls; cd x",
+        "x = !ls; cd x",
+        "%time 1; cd x",
+        "ros2?",
+        "%ros2?",
+        "git?",
+        "rosy = 1; rosy",
+        "print ros2",
+        "y = ros2 topic list",
         "# ros2 topic list",
         "print('ros2 topic list')",
         "def f(source):\n    source / 2\n    return source",
@@ -285,6 +376,13 @@ def test_python_that_could_be_a_command_is_python_if_the_name_is_a_variable() ->
     assert translate(["source / opt\n"], {"source"}) == ["source / opt\n"]
     assert translate(["source = 1\n", "source / opt\n"])[1] == "source / opt\n"
     assert translate(["source / opt\n"], set()) != ["source / opt\n"]
+
+
+@pytest.mark.parametrize("piece", ["x;", "1:cd a", "ros2 ;", "if x: ", "'; ls", "[;ls "])
+def test_endless_lines_are_read_at_once(piece: str) -> None:
+    began = real_monotonic()
+    translate([piece * (10_000 // len(piece)) + "\n"])
+    assert real_monotonic() - began < 2
 
 
 @given(some.lists(some.text(alphabet="ros2 cd\\\"'#()[]{}&|;=:\n\tx5%!é\x00"), max_size=6))
@@ -318,6 +416,14 @@ def test_whatever_a_cell_holds_its_lines_keep_their_number(parts: list[str]) -> 
         ("ros2 topic echo --fie", "--field"),
         ("ros2 topic list && ros2 no", "node"),
         ("colcon b", "build"),
+        ("ros2 param get /turtlesim back", "background_b"),
+        ("ros2 param get turtlesim background_", "background_g"),
+        ("ros2 param set /turtlesim ", "background_r"),
+        ("ros2 param set /turtlesim background_b ", "255"),
+        ("ros2 param describe /turtlesim background_b ", "background_g"),
+        ("ros2 bag record ", "/turtle1/pose"),
+        ("ros2 bag record -s ", "sqlite3"),
+        ("ros2 service find turtlesim/srv/Sp", "turtlesim/srv/Spawn"),
     ],
 )
 def test_tab_offers(run: Run, ipython: InteractiveShell, line: str, word: str) -> None:
@@ -336,6 +442,55 @@ def test_tab_completes_paths(run: Run, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
+    ("typed", "word"),
+    [
+        ("ros2 node info \\\n    /tur", "/turtlesim"),
+        ("y = 2; ros2 no", "node"),
+        ("if True: ros2 node l", "list"),
+        ("if x:\n    ros2 topic e", "echo"),
+        ("%ros2 topic e", "echo"),
+        ("%terminal ros2 topic e", "echo"),
+    ],
+)
+def test_tab_offers_wherever_a_command_may_stand(run: Run, ipython: InteractiveShell, typed: str, word: str) -> None:
+    with provisionalcompleter():
+        assert word in [each.text for each in ipython.Completer.completions(typed, len(typed))]
+
+
+def test_tab_completes_files_where_a_command_wants_one(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "a_bag").mkdir()
+    (tmp_path / "a.yaml").touch()
+    for command in ("ros2 bag play ", "ros2 bag info ", "ros2 param load /turtlesim ", "cat ", "source "):
+        assert {"a_bag/", "a.yaml"} <= {*complete(current_world(), command)}, command
+    assert complete(current_world(), "cd ") == ["a_bag/"]
+    assert complete(current_world(), "ros2 bag play a_") == ["a_bag/"]
+    assert complete(current_world(), "cat no/where") == complete(current_world(), "cat 'a b\0/") == []
+
+
+def test_tab_completes_the_arguments_of_a_launch_file(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "x.launch.py").write_text(
+        "from launch import LaunchDescription\nfrom launch.actions import DeclareLaunchArgument as Argument\n"
+        "print('loaded')\n"
+        "def generate_launch_description():\n"
+        "    return LaunchDescription([Argument('rate'), Argument('how', choices=['slow', 'fast'])])\n"
+    )
+    assert complete(current_world(), "ros2 launch x.launch.py ") == ["how:=fast", "how:=slow", "rate:="]
+    assert complete(current_world(), "ros2 launch x.launch.py rate:=5 how:=f") == ["how:=fast"]
+    assert complete(current_world(), "ros2 launch nope.launch.py ") == []
+
+
+def test_tab_completes_jobs(run: Run) -> None:
+    run("ros2 topic hz /turtle1/pose &")
+    assert complete(current_world(), "kill -INT %") == ["%1"]
+
+
+def test_tab_lets_no_time_pass(run: Run) -> None:
+    before = current_world().now
+    assert complete(current_world(), "ros2 param get /turtlesim ")
+    assert current_world().now == before
+
+
+@pytest.mark.parametrize(
     "line", ["ros2 nope ", "ros2 topic nope ", 'ros2 "', "ros2 topic echo /x y z q ", "x = ros2 ", ""]
 )
 def test_tab_offers_nothing_where_nothing_fits(run: Run, line: str) -> None:
@@ -350,4 +505,7 @@ def test_tab_leaves_python_alone(run: Run, ipython: InteractiveShell) -> None:
 
 
 def test_every_word_that_may_be_typed_bare_is_known_to_the_terminal(run: Run) -> None:
-    assert {*COMMANDS} <= {*terminal.PROGRAMS, *terminal.BUILTINS}
+    assert {*COMMANDS, *UNSURE} <= {*terminal.PROGRAMS, *terminal.BUILTINS, *ELSEWHERE}
+    assert {*terminal.PROGRAMS, *terminal.BUILTINS} <= {*COMMANDS, *UNSURE, "."}
+    assert all(advice([word]) for word in ELSEWHERE)
+    assert not ELSEWHERE & {*terminal.PROGRAMS, *terminal.BUILTINS}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import command_system as system
@@ -38,9 +39,6 @@ def test_a_node_that_is_busy_is_left_out_of_the_list_and_not_waited_for(world: W
     system.start(world, *system.LESSON)
 
     def caller() -> None:
-        type_in_background()
-
-    def type_in_background() -> None:
         import rclpy
         from robot_controller.srv import NavigateTo
 
@@ -65,6 +63,7 @@ def test_a_node_that_is_busy_is_left_out_of_the_list_and_not_waited_for(world: W
         ("1", 2, 1),
         ("1.0", 3, 1.0),
         ("true", 1, True),
+        ("True", 1, True),
         ("yes", 1, True),
         ("on", 1, True),
         ("abc", 4, "abc"),
@@ -142,6 +141,16 @@ def test_a_file_that_is_none_is_answered_in_a_line(content: str, demo: World, tm
     assert answer.stderr == f"[Errno 2] No such file or directory: '{tmp_path}/none.yaml'\n"
 
 
+def test_a_file_that_never_ends_is_not_read(demo: World, tmp_path: Path) -> None:
+    for path in filter(os.path.exists, ("/dev/zero", str(tmp_path))):
+        answer = type_in(demo, f"ros2 param load /param_demo {path}")
+        assert answer.stderr == f"cannot read {path}: it is a folder or a device, not a file\n"
+    file = tmp_path / "long.yaml"
+    file.write_text("#" * 10_000_000)
+    answer = type_in(demo, f"ros2 param load /param_demo {file}")
+    assert answer.code == 1 and "is too long: at most 100000 characters" in answer.stderr
+
+
 def test_the_old_ways_to_dump_are_warned_of(demo: World, tmp_path: Path) -> None:
     answer = type_in(demo, "ros2 param dump /status_monitor --print")
     assert answer.stdout == "/status_monitor:\n  ros__parameters:\n    use_sim_time: false\n\n"
@@ -155,7 +164,8 @@ def test_the_old_ways_to_dump_are_warned_of(demo: World, tmp_path: Path) -> None
 def test_nearly_right_names_are_found(demo: World) -> None:
     assert type_in(demo, "ros2 param get /param_dmo speed").stderr == "Node not found\nDid you mean '/param_demo'?\n"
     assert type_in(demo, "ros2 param get /param_demo sped").stderr == "Parameter not set\nDid you mean 'speed'?\n"
-    assert type_in(demo, "ros2 param describe /param_demo sped").stderr == "Did you mean 'speed'?\n"
+    answer = type_in(demo, "ros2 param describe /param_demo name sped")
+    assert answer.stderr == "/param_demo has no parameter 'sped'\nDid you mean 'speed'?\n"
     assert type_in(demo, "ros2 param set /param_demo sped 1.0").stderr.endswith("['sped'])\nDid you mean 'speed'?\n")
 
 

@@ -46,7 +46,8 @@ def test_info_counts_both_sides(lesson: World) -> None:
 
 
 def test_names_and_types_that_are_nearly_right_are_found(lesson: World) -> None:
-    assert type_in(lesson, "ros2 service type navigate_to").stderr == "Did you mean '/navigate_to'?\n"
+    answer = type_in(lesson, "ros2 service type navigate_to")
+    assert answer.stderr == "Unknown service 'navigate_to'\nDid you mean '/navigate_to'?\n"
     answer = type_in(lesson, "ros2 service call /navigate robot_controller/srv/NavigateTo")
     assert answer.stderr.endswith("nobody offers /navigate\nDid you mean '/navigate_to'?\n")
     answer = type_in(lesson, "ros2 service call /navigate_to std_msgs/msg/String")

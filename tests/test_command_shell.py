@@ -105,12 +105,55 @@ def test_any_text_is_taken_apart_or_refused(text: str) -> None:
         ("mkdir -p a/b; ls -R a", "a:\nb\n\na/b:\n"),
         ("ros2 pkg list | grep -c ^", "0\n"),
         ("ros2 pkg list | grep turtlesim", "turtlesim\n"),
+        ("cat <<END\na 'b\n $x\nEND\necho c", "a 'b\n $x\nc\n"),
+        ("cat <<END > x.txt && cat x.txt | wc -l\na\n\nEND", "2\n"),
+        ("grep b <<-END\n\ta\n\tb\n\tEND", "b\n"),
+        ("echo a \\  \n  b", "a b\n"),
+        ("echo a\tb", "a b\n"),
+        ("mkdir a; touch a/x y; cp y a; cp -r a b; mv y z; ls a b z", "a:\nx\ny\nb:\nx\ny\nz\n"),
+        ("mkdir -p a/b; touch c; rm -r a c; ls", ""),
+        ("mkdir a; rm a; rm -f nope; ls", "a\n"),
+        ("mkdir a; cp a b; cp -r a a/b; mv a b; ls", "b\n"),
         ("", ""),
         ("# only a comment", ""),
     ],
 )
 def test_lines(type_line, line: str, out: str) -> None:  # type: ignore[no-untyped-def]
     assert type_line(line)[1] == out
+
+
+@pytest.mark.parametrize(
+    ("line", "text"),
+    [
+        ("rqt_graph", "rqt_graph: no windows here; lesson.plot_graph(), "),
+        ("rviz2 -d x.rviz", "rviz2: no windows here; "),
+        ("rosdep install --from-paths src -y", "rosdep: nothing is to be installed here: "),
+        ("sudo apt install ros-humble-desktop", "sudo: nothing is to be installed here: "),
+        ("sudo ros2 topic list", "sudo: ros2 needs no sudo, neither here nor on a robot."),
+        ("python3 file.py", "python3: %run file.py runs a script in this notebook; "),
+        (
+            "nano x.py",
+            "nano: no editor here: open the file in JupyterLab's list at the left, or begin a cell with %%writefile x.py.",
+        ),
+        ("code .", "code: no editor here: "),
+        ("roscore", "roscore: ROS 2 needs none: "),
+        ("rostopic echo /x", "rostopic: that is ROS 1; in ROS 2 it is ros2 topic echo /x."),
+        ("catkin_make", "catkin_make: that is ROS 1; in ROS 2 it is colcon build."),
+        ("git status", "git: not in this classroom's terminal; !git status asks your computer."),
+        ("clear", "clear: JupyterLab's menu Edit clears the outputs of cells."),
+        ("export ROS_DOMAIN_ID=5", "export: %env NAME=value sets a variable of the notebook; "),
+        ("'!ros2' topic list", "ros2: the ! asks your computer, which has no ros2; without the ! "),
+    ],
+)
+def test_words_of_other_terminals_are_answered_with_what_to_do_here(type_line, line: str, text: str) -> None:  # type: ignore[no-untyped-def]
+    code, out, error = type_line(line)
+    assert (code, out) == (127, "")
+    assert error.startswith(text)
+    assert error.count("\n") == 1
+
+
+def test_long_words_of_other_terminals_are_cut(type_line) -> None:  # type: ignore[no-untyped-def]
+    assert len(type_line("git " + "x" * 10_000)[2]) < 400
 
 
 @pytest.mark.parametrize(
@@ -123,7 +166,21 @@ def test_lines(type_line, line: str, out: str) -> None:  # type: ignore[no-untyp
         ("ros2 pkg list >", "syntax error: '>' wants the name of a file"),
         ("cat < x", "syntax error: '<' is not in this classroom's terminal"),
         ("ros topic list", "ros: command not found. Did you mean 'ros2'?"),
-        ("rm -rf /", "rm: command not found. In this classroom's terminal there are ros2, colcon, source"),
+        (
+            "frobnicate -x /",
+            "frobnicate: command not found. In this classroom's terminal there are ros2, colcon, source",
+        ),
+        ("print(5)", "print(5): command not found. If it is Python, write it on a line of its own"),
+        ("rm -rf /", "rm: '/' stays where it is: the current folder or the notebook's is in it"),
+        ("rm -rf .", "rm: '.' stays where it is"),
+        ("rm -r /usr/lib", "rm: '/usr/lib' stays where it is: it is outside of the notebook's folder"),
+        ("rm nope", "rm: cannot remove 'nope': No such file or directory"),
+        ("rm", "rm: missing operand"),
+        ("mv .. x", "mv: '..' stays where it is"),
+        ("cp nope x", "cp: cannot stat 'nope': No such file or directory"),
+        ("cp a", "cp: name what to copy"),
+        ("mv nope x", "mv: cannot stat 'nope': No such file or directory"),
+        ("cat <<END\nnever", "syntax error: '<<END' is never closed"),
         ("cd nope", "cd: nope: No such file or directory"),
         ("cd a b", "cd: too many arguments"),
         ("mkdir", "mkdir: missing operand"),
@@ -194,6 +251,8 @@ def test_every_verb_has_help_of_its_own(world: World) -> None:
         verbs = {"": group.alone} if group.alone else group.verbs
         for name, verb in verbs.items():
             assert verb is not None
+            if verb.help.startswith("Not in this classroom"):
+                continue
             answer = type_in(world, f"ros2 {group.name} {name} -h".replace("  ", " "))
             assert (answer.stderr, answer.code) == ("", 0)
             assert answer.stdout.startswith(f"usage: ros2 {group.name}")

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import io
 import re
 
 import command_system as system
 import pytest
 import rclpy
-from command_cases import check, type_in
+from command_cases import cases, check, shape, type_in
 from command_interfaces import interfaces  # noqa: F401
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
 
-from turtle_lesson.ros.world import World, current_world, open_world
+from turtle_lesson.ros.command import run
+from turtle_lesson.ros.command.parser import parse
+from turtle_lesson.ros.world import World, current_world
 
 pytestmark = pytest.mark.usefixtures("interfaces")
 
@@ -31,6 +32,13 @@ def lesson(world: World) -> World:
 
 def test_list_info_find_and_type(lesson: World) -> None:
     check(lesson, "topic_list.txt")
+
+
+def test_a_type_that_does_not_exist_is_found_nowhere_and_said(lesson: World) -> None:
+    for name in ("geometry_msgs/Twist", "geometry_msgs/msg/Twst"):
+        answer = type_in(lesson, f"ros2 topic find {name}")
+        expected = f"There is no type '{name}'\nDid you mean 'geometry_msgs/msg/Twist'?\n"
+        assert (answer.stdout, answer.stderr, answer.code) == ("", expected, 0)
 
 
 @pytest.mark.parametrize("name", ["topic_echo.txt", "topic_rates.txt"])
@@ -83,6 +91,8 @@ def test_a_filter_lets_only_some_messages_through(lesson: World) -> None:
     assert values and all(value < 89 for value in values)
     answer = type_in(lesson, "ros2 topic echo /robot/status --filter 'm.batery < 89'")
     assert answer.code == 1 and "'TurtleStatus' object has no attribute 'batery'" in answer.stderr
+    answer = type_in(lesson, "ros2 topic echo /robot/status --filter 'exit(0)'")
+    assert answer.code == 1 and answer.stderr == "The filter expression 'exit(0)' failed: SystemExit: 0\n"
     answer = type_in(lesson, "ros2 topic echo /robot/status --filter 'm.battery <'")
     assert answer.code == 1 and answer.stderr.startswith("Invalid filter expression 'm.battery <': ")
 
@@ -144,6 +154,13 @@ def test_a_subscription_that_asks_for_too_much_hears_nothing_and_is_told_why(wor
         assert re.fullmatch(r"data: 'Hello World: \d+'\n---\n", answer.stdout) and answer.code == 0
 
 
+def test_a_queue_of_no_length_is_warned_of_in_a_line(world: World) -> None:
+    system.start(world, system.talker)
+    answer = type_in(world, "ros2 topic echo --once /chatter --qos-depth 0")
+    assert answer.stderr == "WARNING: A zero depth with KEEP_LAST doesn't make sense; no data could be stored.\n"
+    assert (answer.stdout.count("data: "), answer.code) == (1, 0)
+
+
 def test_publishers_that_differ_are_all_heard(world: World) -> None:
     def hasty() -> None:
         from rclpy.qos import qos_profile_sensor_data
@@ -168,6 +185,18 @@ def test_rosout_and_parameter_events_can_be_read(world: World) -> None:
     assert lines[6].startswith("file: ") and lines[7] == "function: talk" and lines[-1] == "---"
     keys = [line.split(":")[0] for line in lines]
     assert keys == ["stamp", "  sec", "  nanosec", "level", "name", "msg", "file", "function", "line", "---"]
+
+
+def test_parameter_events_as_recorded(world: World) -> None:
+    """What is heard first is the node of `ros2 param set` itself, which has a parameter as every node has."""
+    call = parse(["topic", "echo", "--once", "/parameter_events", "--for", "2"])
+    out = io.StringIO()
+    system.start(world, system.param_demo)
+    world.spawn(lambda: call.verb.main(call.arguments), name="ros2", stdout=out)
+    world.sim.run_until(world.now + 1_000_000_000)
+    type_in(world, "ros2 param set /param_demo speed 0.9")
+    [recorded] = cases("parameter_events.txt")
+    assert shape(out.getvalue().splitlines(), figures=True) == shape(recorded.stdout, figures=True)
 
 
 # ---------------------------------------------------------------- hz, bw, delay
@@ -254,34 +283,12 @@ def test_what_is_published_arrives(world: World) -> None:
     ],
 )
 def test_yaml_that_is_none_or_a_trap_is_answered_in_a_line(values: str, world: World) -> None:
-    import io
-
-    from turtle_lesson.ros.command import run
-
     error = io.StringIO()
     words = ["ros2", "topic", "pub", "-1", "-w", "0", "/n", "std_msgs/msg/Int32", values]
     assert run(world, words, stdout=io.StringIO(), stderr=error) == 1
     text = error.getvalue()
     assert 1 <= text.count("\n") <= 2 and len(text) < 1_000
     assert "Traceback" not in text
-
-
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
-@given(
-    st.lists(st.text(max_size=20), max_size=5),
-    st.sampled_from(["echo", "pub", "hz", "bw", "info", "type", "find", "list"]),
-)
-def test_nonsense_never_ends_in_a_traceback(words: list[str], verb: str) -> None:
-    import io
-
-    from turtle_lesson.ros.command import run
-
-    world = open_world()
-    out, error = io.StringIO(), io.StringIO()
-    code = run(world, ["ros2", "topic", verb, *words], stdout=out, stderr=error)
-    world.close()
-    assert code in (0, 1, 2)
-    assert "Traceback" not in error.getvalue()
 
 
 # ---------------------------------------------------------------- beside turtlesim, and usage
@@ -294,9 +301,16 @@ def test_beside_turtlesim() -> None:
     world = current_world()
     try:
         world.sim.run_until(world.now + 1_000_000_000)
-        check(world, "topic_turtlesim.txt")
+        check(world, "turtlesim.txt")
+        hz = type_in(world, "ros2 topic hz /turtle1/pose --for 4.5")
     finally:
         world.close()
+    # recorded: about 62.5 a second, told of after 64, 127 and 190 messages
+    assert re.findall(r"average rate: ([\d.]+)\n.* window: (\d+)\n", hz.stdout)[:3] == [
+        ("62.500", "64"),
+        ("62.500", "127"),
+        ("62.500", "190"),
+    ]
 
 
 def test_usage(world: World) -> None:

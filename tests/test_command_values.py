@@ -13,10 +13,14 @@ import yaml
 from command_cases import FOLDER
 from command_interfaces import interfaces  # noqa: F401
 
+from turtle_lesson.ros.command.common import CommandError
 from turtle_lesson.ros.command.text import Style, message_to_csv, message_to_yaml
-from turtle_lesson.ros.command.types import message_class
+from turtle_lesson.ros.command.types import message_class, service_class
 from turtle_lesson.ros.command.values import NoYaml, fill, read_yaml
 from turtle_lesson.ros.world import World
+
+CUT = 200
+"""Recorded lines that are longer than this may have been cut off."""
 
 
 def recorded_values() -> Iterator[tuple[str, str, str]]:
@@ -41,7 +45,8 @@ def test_yaml_becomes_a_message(kind: str, text: str, expected: str, world: Worl
         assert (type(caught.value).__name__, str(caught.value)) == (name, ast.literal_eval(quoted))
     else:
         fill(message, read_yaml(text) or {})
-        assert repr(message)[:230].startswith(expected.removeprefix("-> ")[:230])
+        shown, whole = expected.removeprefix("-> "), len(expected) < CUT
+        assert repr(message) == shown if whole else repr(message).startswith(shown)
 
 
 def recorded_formats() -> Iterator[tuple[str, str, str]]:
@@ -69,6 +74,31 @@ def test_what_is_printed_as_yaml_can_be_typed(name: str, world: World) -> None:
     again = type(message)()
     fill(again, read_yaml(text))
     assert message_to_yaml(again) == text
+
+
+def test_types_are_found_by_their_recorded_names(world: World) -> None:
+    for name in ("geometry_msgs/msg/Twist", "geometry_msgs/Twist"):
+        assert message_class(name).__name__ == "Twist"
+    assert service_class("std_srvs/srv/Empty").__name__ == "Empty"
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "geometry_msgs.msg.Twist",
+        "Twist",
+        "geometry_msgs/srv/Twist",
+        "nope/msg/X",
+        "geometry_msgs/msg/Nope",
+        "a/b/c/d",
+        "",
+    ],
+)
+def test_types_are_refused_by_their_recorded_names(name: str, world: World) -> None:
+    with pytest.raises(CommandError, match=r"^The passed message type is invalid"):
+        message_class(name)
+    with pytest.raises(CommandError, match=r"^The passed service type is invalid"):
+        service_class(name)
 
 
 def test_a_few_aliases_are_read() -> None:

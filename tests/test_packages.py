@@ -114,8 +114,8 @@ def test_what_is_missing(demo: Path, tmp_path: Path) -> None:
         ),
         (
             "<build_type>ament_cmake",
-            "<build_type>ament_python",
-            "demo/package.xml: build_type ament_python cannot be used in this classroom yet, ament_cmake can",
+            "<build_type>cmake",
+            "demo/package.xml: build_type cmake cannot be used in this classroom, ament_cmake and ament_python can",
         ),
         (
             GROUP,

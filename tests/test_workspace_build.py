@@ -199,6 +199,23 @@ def test_symlink_install(package: Path, world: World, tmp_path: Path) -> None:
             "does not begin with '#!/usr/bin/env python3'",
         ),
         ("package.xml", "<build_type>ament_cmake</build_type>", "", 0, "colcon takes it for a package of ROS 1"),
+        (
+            "package.xml",
+            'format="3"',
+            'format="2"',
+            1,
+            "(with format version 2) must not contain the following tags: member",
+        ),
+        ("package.xml", 'format="3"', "", 1, 'Write <package format="3"> in the second line'),
+        ("package.xml", 'format="3"', 'format="4"', 1, "Unable to handle package.xml format version '4'"),
+        ("package.xml", "<export>", "<export/><export>", 1, 'must not contain more than one "export" tags'),
+        (
+            "package.xml",
+            "<depend>rclpy",
+            "<depend since='2'>rclpy",
+            1,
+            'The "depend" tag must not have the following attr',
+        ),
         ("package.xml", "exec_depend>", "exec_dependd>", 1, "Did you mean 'exec_depend'?"),
         ("package.xml", "<version>0.0.0", "<version>1", 1, 'Package version "1" does not follow version conventions'),
     ],
@@ -319,7 +336,7 @@ def test_circles_and_twins_are_refused(package: Path, world: World) -> None:
 
 def test_event_handlers(package: Path, world: World) -> None:
     answer = colcon(world, "build --event-handlers console_direct+ console_start_end- summary-")
-    assert "-- Installing: robot_controller/lib/robot_controller/navigator" in answer.out
+    assert "-- Installing: install/robot_controller/lib/robot_controller/navigator" in answer.out
     assert ">>>" not in answer.out and "Summary" not in answer.out
     answer = colcon(world, "build --event-handlers console_cohesion+")
     assert "--- output: robot_controller\n" in answer.out
@@ -332,7 +349,7 @@ def test_list_and_graph(package: Path, world: World) -> None:
     lines = "bringup\tsrc/bringup\t(ros.ament_cmake)\nrobot_controller\tsrc/robot_controller\t(ros.ament_cmake)\n"
     assert colcon(world, "list").out == lines
     assert colcon(world, "list -t -n").out == "robot_controller\nbringup\n"
-    assert colcon(world, "graph").out == "robot_controller +*\nbringup           +\n"
+    assert colcon(world, "graph").out == "robot_controller  +*\nbringup            +\n"
 
 
 def test_a_place_without_packages(tmp_path: Path, world: World, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -378,6 +395,7 @@ def test_options_that_do_not_exist(package: Path, world: World) -> None:
 
 
 def test_words_for_cmake_are_taken(package: Path, world: World) -> None:
+    (package / "robot_controller/navigator_node.py").chmod(0o755)
     answer = colcon(world, "--log-level info build --cmake-args -DCMAKE_BUILD_TYPE=Release --symlink-install")
     assert (answer.code, answer.err) == (0, "")
     assert (package.parents[1] / "install/robot_controller/share/robot_controller/package.xml").is_symlink()

@@ -81,7 +81,7 @@ def test_an_ament_python_package(folder: Path) -> None:
     setup = read_setup(folder / "demo")
     assert (setup["name"], setup["packages"], setup["maintainer"]) == ("demo", ["demo"], "Ada L")
     assert setup["entry_points"] == {"console_scripts": ["talker = demo.talker:main"]}
-    assert setup["data_files"][1] == ("share/demo", ["package.xml"])
+    assert setup["data_files"][1] == ["share/demo", ["package.xml"]]
     assert install_scripts(folder / "demo") == "lib/demo"
     for name in ("copyright", "flake8", "pep257"):
         compile((folder / f"demo/test/test_{name}.py").read_text(), name, "exec")

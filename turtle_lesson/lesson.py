@@ -14,12 +14,15 @@ from .ros.console import CellOutput
 from .ros.core import EPOCH, NANOSECONDS
 from .ros.interfaces.registry import registry
 from .ros.workspace.package import Package, read_source_package
+from .ros.workspace.source import make_importable
 from .ros.world import World, open_world, wall_time
+from .shelf import Shelf
 
 if TYPE_CHECKING:
     from .lab.graph import GraphPicture
     from .lab.picture import Picture
     from .lab.recorder import Recorder
+    from .lab.widgets.station import Station
     from .ros.bags.recording import Recording
     from .ros.launching import LaunchHandle
     from .ros.workspace.export import Exported
@@ -99,13 +102,14 @@ def _install(world: World, folder: Path) -> None:
     """Make a package's executables, launch files and interfaces findable, as building and sourcing it would."""
     package = read_source_package(folder)
     world.packages.add(package)
+    make_importable(world, package)
     if package.interfaces:
         if package.name in registry.packages():
             registry.remove(package.name)
         registry.add(package.name, folder, package.interfaces)
 
 
-class Lesson:
+class Lesson(Shelf):
     """A running world, and what a page does with it. Times are in seconds of robot time."""
 
     def __init__(self, world: World, *, simulator: bool = True) -> None:
@@ -257,6 +261,11 @@ class Lesson:
     def _recording(self) -> Recorder:
         assert self._recorder is not None
         return self._recorder
+
+    def _make_station(self) -> Station:
+        from .classroom import Classroom
+
+        return Classroom(self._world, self._recording, self._player)
 
     def plot_path(self, **options: Any) -> Picture:
         """The way that the turtle went, on the map, from what /turtle1/pose said."""

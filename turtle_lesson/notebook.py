@@ -19,5 +19,10 @@ def prepare(shell: Any) -> None:
 def _show(
     shell: Any, kind: type[BaseException], error: BaseException, trace: TracebackType, tb_offset: Any = None
 ) -> None:
+    from .ros.command.shell import CommandInterrupted
+
     error.__traceback__ = shorten(trace)
+    if isinstance(error, CommandInterrupted):  # one line: for what never ends this is the usual way to end it
+        shell._showtraceback(kind, error, [f"KeyboardInterrupt: {error}"])
+        return
     shell.showtraceback((kind, error, error.__traceback__), tb_offset=0)

@@ -80,6 +80,7 @@ class Recorder(Recording):
         self.last_scan = message
 
     def _hear_markers(self, message: Any, info: Any) -> None:
+        self.worlds.append(info["source_timestamp"])
         apply(message, self.obstacles)
 
     def _hear_of_new_nodes(self, node: Any) -> Any:

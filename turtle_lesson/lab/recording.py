@@ -46,6 +46,7 @@ class Recording:
         self.commands = Table("forward", "sideways", "turn", limit=limit)
         self.statuses = Table("x", "y", "theta", "vel_x", "vel_y", "battery", limit=limit)
         self.scans = Table(limit=limit)
+        self.worlds = Table(limit=limit)
         self.last_scan: Any = None
         self.obstacles: dict[tuple[str, int], Obstacle] = {}
 

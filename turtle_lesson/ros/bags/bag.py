@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 
 SCANNERS = {".mcap": ("mcap", scan_mcap), ".db3": ("sqlite3", scan_sqlite)}
 METADATA = "metadata.yaml"
+LISTS = ("relative_file_paths", "files", "topics_with_message_count")
+"""What is a list in metadata.yaml."""
+
 LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
@@ -61,7 +64,8 @@ class Bag:
         self._flaws = contents.flaws
         promised = metadata.get("message_count")
         self._expected = promised if isinstance(promised, int) else contents.expected
-        self._mode = str(metadata.get("compression_mode") or "").lower()
+        mode = str(metadata.get("compression_mode") or "").lower()
+        self.compression = "file" if files[0].suffix == ".zstd" else mode if mode == "message" else ""
 
     def __repr__(self) -> str:
         damage = ", damaged" if self.damage else ""
@@ -116,11 +120,11 @@ class Bag:
 
     def _salvaged(self) -> Iterator[Message]:
         for message in _scan_all(self.files, keep=True).messages:
-            yield message._replace(data=_unpacked(message.data)) if self._mode == "message" else message
+            yield message._replace(data=_unpacked(message.data)) if self.compression == "message" else message
 
 
-def open_bag(path: str | Path) -> Bag:
-    """Open a bag: its folder, or one of its files.
+def open_bag(path: str | Path, *, listed_only: bool = True) -> Bag:
+    """Open a bag: its folder, or one of its files; with `listed_only` False all files in the folder are looked at.
 
     A damaged bag is opened, too: `damage` says what is wrong, and what can be read is read.
     Raises BagError if there is none, or nothing of it can be read.
@@ -129,7 +133,7 @@ def open_bag(path: str | Path) -> Bag:
     if not path.exists():
         raise BagError(f"Bag path '{path}' does not exist!")
     metadata, flaws = _read_metadata(path)
-    files, missing = _files_of(path, metadata)
+    files, missing = _files_of(path, metadata if listed_only else {})
     contents = _scan_all(files, keep=False)
     contents.flaws = [*flaws, *missing, *contents.flaws]
     if not contents.topics and contents.flaws:
@@ -159,7 +163,8 @@ def _read_metadata(path: Path) -> tuple[dict[str, Any], list[str]]:
         found = yaml.load(text, LOADER)["rosbag2_bagfile_information"]
         if not isinstance(found, dict):
             raise ValueError("it is no mapping")
-        return found, []
+        wrong = [key for key in LISTS if not isinstance(found.get(key, []), list)]
+        return found, [f"{METADATA} makes no sense: its {key} is no list" for key in wrong]
     except FileNotFoundError:
         return {}, [f"there is no {METADATA} (was the recording not stopped?)"]
     except Exception as error:

@@ -18,14 +18,25 @@ from .schema import schema_text, type_hash
 if TYPE_CHECKING:
     from .bag import Bag, BagTopic
 
-NODE = "_rosbag2_player"
+NODE = "rosbag2_player"
 
 Say = Callable[[str, str], None]
 
 
 @dataclass(frozen=True)
 class Playback:
-    """How to play: speed, where to begin (s), which topics, under which names, again and again, until when (s of the bag)."""
+    """How to play a bag.
+
+    Attributes:
+        rate: how many times as fast as recorded.
+        start_offset: where in the bag to begin (s).
+        topics: which to play; none named plays all.
+        remaps: other names for some topics.
+        loop: again and again.
+        delay: how long to wait before each time (s of robot time).
+        duration: how much of the bag to play (s), None for all.
+        clock: how often a second of robot time to say on /clock what time it is in the bag, 0 for never.
+    """
 
     rate: float = 1.0
     start_offset: float = 0.0
@@ -34,6 +45,7 @@ class Playback:
     loop: bool = False
     delay: float = 0.0
     duration: float | None = None
+    clock: float = 0.0
 
 
 class Player:
@@ -49,6 +61,7 @@ class Player:
         for topic in bag.topics:
             if not how.topics or topic.name in how.topics:
                 self._offer(node, topic)
+        self._clock = _Clock(node, how.clock, how.rate) if how.clock else None
 
     def _offer(self, node: Any, topic: BagTopic) -> None:
         try:
@@ -64,15 +77,19 @@ class Player:
         strand = running_strand()
         assert strand is not None
         simulation = strand.simulation
-        simulation.sleep_until(simulation.now + round(self._how.delay * NANOSECONDS))
+        sleep_until = simulation.sleep_until
         while True:
+            sleep_until(simulation.now + round(self._how.delay * NANOSECONDS))
             began, first = simulation.now, (self._bag.start or 0) + round(self._how.start_offset * NANOSECONDS)
+            if self._clock is not None:
+                self._clock.set(began, first)
+                sleep_until = self._clock.tick_until
             for message in self._wanted(first):
                 due = began + round((message.time - first) / self._how.rate)
                 if until is not None and due >= until:
-                    simulation.sleep_until(until)
+                    sleep_until(until)
                     return False
-                simulation.sleep_until(due)
+                sleep_until(due)
                 self._publish(message)
             simulation.sleep_until(simulation.now + LATENCY + LATENCY_SPREAD)  # what was sent last shall arrive, too
             if not self._how.loop or not self.published:
@@ -101,6 +118,33 @@ class Player:
         return [
             f"{count} messages of '{topic}' are spoiled and were left out" for topic, count in self._unreadable.items()
         ]
+
+
+class _Clock:
+    """Says on /clock, `frequency` times a second of robot time, what time it is in the bag."""
+
+    def __init__(self, node: Any, frequency: float, rate: float) -> None:
+        from rosgraph_msgs.msg import Clock
+
+        self._publisher = node.create_publisher(Clock, "/clock", 1)
+        self._simulation = node._ros_simulation
+        self._period = round(NANOSECONDS / frequency)
+        self._rate = rate
+
+    def set(self, began: int, first: int) -> None:
+        """At the virtual time `began` it is `first` in the bag (ns)."""
+        self._began, self._first, self._next = began, first, began
+
+    def tick_until(self, time: int) -> None:
+        """Sleep until a virtual time (ns), and tick meanwhile."""
+        while self._next <= time:
+            self._simulation.sleep_until(self._next)
+            message = self._publisher.msg_type()
+            moment = self._first + round((self._next - self._began) * self._rate)
+            message.clock.sec, message.clock.nanosec = divmod(moment, NANOSECONDS)
+            self._publisher.publish(message)
+            self._next += self._period
+        self._simulation.sleep_until(time)
 
 
 def _class_of(topic: BagTopic) -> Any:
@@ -134,7 +178,7 @@ def check_topics(bag: Bag, names: tuple[str, ...]) -> None:
     known = [topic.name for topic in bag.topics]
     for name in names:
         if name not in known:
-            raise BagError(f"the bag has no topic '{name}'. {did_you_mean(name, known)}".rstrip())
+            raise BagError(f"the bag has no topic '{name[:247]}'. {did_you_mean(name[:247], known)}".rstrip())
 
 
 def parse_remaps(rules: list[str]) -> dict[str, str]:
@@ -145,7 +189,7 @@ def parse_remaps(rules: list[str]) -> dict[str, str]:
     for rule in rules:
         old, sign, new = rule.partition(":=")
         if not (sign and old and new):
-            raise BagError(f"'{rule}' is no remapping: write it as /old_topic:=/new_topic")
+            raise BagError(f"'{rule[:80]}' is no remapping: write it as /old_topic:=/new_topic")
         validate_topic_name(old)
         validate_topic_name(new)
         remaps[_absolute(old)] = new
@@ -163,7 +207,7 @@ def play(bag: Bag, how: Playback, say: Say, seconds: float | None = None) -> boo
     check_topics(bag, how.topics)
     rclpy.init(args=[])
     try:
-        node = rclpy.create_node(NODE, start_parameter_services=False, enable_rosout=False)
+        node = rclpy.create_node(NODE, enable_rosout=False)
         player = Player(node, bag, how, say)
         for name in how.remaps:
             if name not in [topic.name for topic in bag.topics]:

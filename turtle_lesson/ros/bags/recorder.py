@@ -1,7 +1,7 @@
 """Recording: a node that subscribes to topics as they appear, and puts every message into a bag.
 
 Its subscriptions are made in the very moment in which a publisher appears (on a robot that takes some milliseconds), so
-that a bag of a whole run misses nothing. Its name is hidden, so that `ros2 node list` shows the system alone.
+that a bag of a whole run misses nothing; and what is still under way at the end belongs into it, too.
 """
 
 from __future__ import annotations
@@ -11,8 +11,9 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ..core import NANOSECONDS
+from ..core import EPOCH, NANOSECONDS
 from ..graph.graph import is_hidden
+from ..graph.topic import Reader, Writer
 from ..interfaces.cdr import serialize
 from ..interfaces.names import did_you_mean
 from ..interfaces.registry import registry
@@ -22,10 +23,14 @@ from .qos import request_for
 if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
 
-    from ..graph import Topic, Writer
+    from ..graph import Topic
     from .writer import BagWriter
 
-NODE = "_rosbag2_recorder"
+NODE = "rosbag2_recorder"
+"""The node of `ros2 bag record`."""
+
+HIDDEN_NODE = "_rosbag2_recorder"
+"""The node of `lesson.record`, of which `ros2 node list` says nothing."""
 
 Say = Callable[[str, str], None]
 
@@ -59,11 +64,12 @@ class Selection:
 
 
 class _Heard:
-    """A topic that is recorded: its type, its subscription, and the publishers that it had."""
+    """A topic that is recorded: its type, its subscription (since when, ns since 1970), and the publishers it had."""
 
-    def __init__(self, name: str, message_class: Any) -> None:
+    def __init__(self, name: str, message_class: Any, since: int) -> None:
         self.name = name
         self.message_class = message_class
+        self.since = since
         self.subscription: Any = None
         self.writers: list[Writer] = []
         self.registered = False
@@ -85,10 +91,13 @@ class Recorder:
         self._refused: set[str] = set()
         self._news: list[tuple[str, str]] = []
         self._looking = False
+        self._all_found = False
+        self._simulation = node._ros_simulation
         self._graph = node._ros_graph
         self._guard = node.create_guard_condition(self._tell)
         self._graph.on_change.append(self._look)
         self._look()
+        self._note("INFO", "Recording...")
 
     # -- finding topics --------------------------------------------------------------------------------------------
 
@@ -119,7 +128,7 @@ class Recorder:
 
     def _subscribe(self, name: str, topic: Topic) -> None:
         try:
-            heard = _Heard(name, _class_of(name, topic.types))
+            heard = _Heard(name, _class_of(name, topic.types), EPOCH + self._simulation.now)
         except BagError as error:
             self._refused.add(name)
             self._note("WARN", str(error))
@@ -134,7 +143,8 @@ class Recorder:
         self._heard[name] = heard
         self._note("INFO", f"Subscribed to topic '{name}'")
 
-    def _write(self, heard: _Heard, message: Any, time: int) -> None:
+    def _write(self, heard: _Heard, message: Any, sent: int) -> None:
+        """Put in a message, at the time at which it was sent; a latched one of before at which it was asked for."""
         if not self._register(heard):
             return
         try:
@@ -142,7 +152,7 @@ class Recorder:
         except ValueError as error:
             self._note("WARN", f"A message of topic '{heard.name}' cannot be recorded: {error}")
         else:
-            self._bag.write(heard.name, heard.message_class._TYPE_NAME, time, data)
+            self._bag.write(heard.name, heard.message_class._TYPE_NAME, max(sent, heard.since), data)
 
     def _register(self, heard: _Heard) -> bool:
         """Make a topic known in the bag, before its first message; False if the bag cannot hold it."""
@@ -167,6 +177,9 @@ class Recorder:
             self._register(heard)
         while self._news:
             self._say(*self._news.pop(0))
+        if not self._all_found and self._heard and self._heard.keys() == set(self._selection.topics):
+            self._all_found = True
+            self._say("INFO", "All requested topics are subscribed. Stopping discovery...")
 
     def silent(self) -> list[str]:
         """A sentence for each topic that was asked for by name and never appeared."""
@@ -181,15 +194,29 @@ class Recorder:
     # -- ending ----------------------------------------------------------------------------------------------------
 
     def close(self) -> None:
-        """Take what has arrived, and complete the bag."""
+        """Take what has arrived and what is under way, and complete the bag."""
         if self._look in self._graph.on_change:
             self._graph.on_change.remove(self._look)
         for heard in self._heard.values():
             while heard.subscription._has_work():
                 heard.subscription.callback(*heard.subscription._take())
+            for sent, message in _under_way(heard.subscription._reader):
+                self._write(heard, message, EPOCH + sent)
             self._register(heard)
         self._tell()
         self._bag.close()
+
+
+def _under_way(reader: Reader) -> list[tuple[int, Any]]:
+    """What has been sent to a reader and not arrived yet: when (virtual ns), and the message, in their order."""
+    found = []
+    for arrival, number, action, parcel in reader.topic.simulation._heap:
+        deliver = getattr(action, "__func__", None)
+        if deliver is Writer._deliver and reader in parcel[0]:
+            found.append((arrival - reader.topic.latency, number, parcel[1]))
+        elif deliver is Writer._deliver_kept and reader is parcel[0]:
+            found.append((parcel[2], number, parcel[1]))
+    return [(sent, message) for sent, _, message in sorted(found, key=lambda entry: entry[:2])]
 
 
 def _class_of(name: str, types: list[str]) -> Any:
@@ -215,7 +242,9 @@ class _TimeIsOver(Exception):
     """The stretch of time that was asked for has passed."""
 
 
-def record(bag: BagWriter, selection: Selection, say: Say, seconds: float | None = None) -> Recorder:
+def record(
+    bag: BagWriter, selection: Selection, say: Say, seconds: float | None = None, node_name: str = NODE
+) -> Recorder:
     """Record until interrupted, or for some seconds of robot time. Called in a simulated process.
 
     However this ends, the bag is completed.
@@ -225,7 +254,8 @@ def record(bag: BagWriter, selection: Selection, say: Say, seconds: float | None
     recorder = None
     try:
         rclpy.init(args=[])
-        node = rclpy.create_node(NODE, start_parameter_services=False, enable_rosout=False)
+        visible = not node_name.startswith("_")
+        node = rclpy.create_node(node_name, start_parameter_services=visible, enable_rosout=False)
         names = tuple(node.resolve_topic_name(name) for name in selection.topics)
         selection = Selection(names, selection.regex, selection.exclude, selection.hidden, selection.unpublished)
         recorder = Recorder(node, bag, selection, say)

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .errors import BagError
-from .recorder import Recorder, Selection, checked_names, record
-from .writer import BagWriter
+from .recorder import HIDDEN_NODE, Recorder, Selection, checked_names, record
+from .writer import BagWriter, is_there
 
 if TYPE_CHECKING:
     from ..world import World
@@ -29,6 +29,11 @@ class Recording:
         if topics is not None and not selection.topics:
             raise BagError("topics names no topic: leave it out to record all of them")
         self.path = Path(path).expanduser().absolute()
+        if is_there(self.path):
+            raise BagError(
+                f"Output folder '{path}' already exists. A bag is never overwritten: choose another name, or delete it "
+                f"first, with shutil.rmtree({str(path)!r})"
+            )
         self._shown = str(path)
         self._writer = BagWriter(self.path, storage)
         self._recorder: Recorder | None = None
@@ -36,7 +41,7 @@ class Recording:
         world.sim.settle()
 
     def _main(self, selection: Selection) -> None:
-        self._recorder = record(self._writer, selection, _keep_warnings_only)
+        self._recorder = record(self._writer, selection, _keep_warnings_only, node_name=HIDDEN_NODE)
 
     def __repr__(self) -> str:
         state = "done" if self.done else "going on"

@@ -129,6 +129,9 @@ class _Scan:
         _, _, size, checksum = CHUNK_HEAD.unpack_from(body)
         (compression,) = _texts(memoryview(body), CHUNK_HEAD.size, 1)
         begin = CHUNK_HEAD.size + 4 + len(compression) + 8
+        (packed_size,) = struct.unpack_from("<Q", body, begin - 8)
+        if not cut_short and packed_size != len(body) - begin:
+            self._flaw(f"the chunk at byte {place} gives a wrong length")  # its checksum tells whether that is all
         records = _decompressed(compression, body[begin:], size)
         if not cut_short and (len(records) != size or (checksum and zlib.crc32(records) != checksum)):
             self._flaw(f"the chunk at byte {place} is spoiled (its checksum is wrong), so its messages are left out")
@@ -163,7 +166,7 @@ class _Scan:
                     self._take(kind, body)
         except (struct.error, UnicodeDecodeError):
             self._flaw("its summary is spoiled")
-        self._chunks.sort()
+        self._chunks = sorted(place for place in self._chunks if place < self._size)
 
     # -- the result --------------------------------------------------------------------------------------------------
 

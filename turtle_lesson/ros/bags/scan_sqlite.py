@@ -39,7 +39,7 @@ def _open_and_scan(path: Path, found: Contents, keep: bool) -> Contents:
     try:
         database = sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro&immutable=1", uri=True)
     except BROKEN as error:
-        found.flaws.append(f"{path.name}: it cannot be opened ({error})")
+        found.flaws.append(f"{path.name}: it cannot be opened ({_told(error)})")
         return found
     with closing(database):
         database.text_factory = lambda raw: raw.decode(errors="replace")
@@ -62,11 +62,11 @@ def _pages(path: Path) -> tuple[int, bool]:
 
 def _scan(database: sqlite3.Connection, name: str, found: Contents, keep: bool) -> None:
     try:
-        verdict = database.execute("PRAGMA quick_check(1)").fetchone()[0]
+        verdict = database.execute("PRAGMA integrity_check(1)").fetchone()[0]
         if verdict != "ok":
-            found.flaws.append(f"{name}: the database is spoiled ({verdict.splitlines()[-1]})")
+            found.flaws.append(f"{name}: the database is spoiled ({_told(verdict.splitlines()[-1])})")
     except BROKEN as error:
-        found.flaws.append(f"{name}: the database is spoiled ({error})")
+        found.flaws.append(f"{name}: the database is spoiled ({_told(error)})")
     if found.flaws:
         with suppress(*BROKEN):
             database.execute("PRAGMA writable_schema=ON")  # or a file that is too short is not read at all
@@ -97,8 +97,13 @@ def _topics(database: sqlite3.Connection, name: str, found: Contents) -> dict[in
             topics[number] = key = TopicKey(topic, type_name)
             found.topics[key] = TopicContents(0, serialization, offered, definitions.get(type_name, ""))
     except BROKEN as error:
-        found.flaws.append(f"{name}: its topics cannot be read ({error})")
+        found.flaws.append(f"{name}: its topics cannot be read ({_told(error)})")
     return topics
+
+
+def _told(error: object) -> str:
+    """What SQLite says, in one line that can be printed: it quotes what is spoiled."""
+    return "".join(char if char.isprintable() else "?" for char in " ".join(str(error).split()))
 
 
 def _rows(database: sqlite3.Connection, query: str, found: Contents) -> Iterator[Any]:

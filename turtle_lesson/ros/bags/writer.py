@@ -1,7 +1,9 @@
 """Writing a bag: a new folder with metadata.yaml and one data file, as `ros2 bag record` makes it.
 
-`rosbags` writes the bytes (format version 8, which Humble and all later releases read). Added to it here: the real
-name of the file (`run_0.mcap`), and checksums, without which damage cannot be noticed.
+`rosbags` writes the bytes (format version 8: Humble and all later releases read it, and Humble cannot read 9, in which
+rosbag2_storage's yaml.hpp makes lists of the offered profiles). Added to it here: the real name of the file
+(`run_0.mcap`), the hash of each topic's type in an MCAP file (rosbag2_storage_mcap's `topic_type_hash`), and checksums,
+without which damage cannot be noticed.
 """
 
 from __future__ import annotations
@@ -9,6 +11,7 @@ from __future__ import annotations
 import weakref
 import zlib
 from collections.abc import Sequence
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -39,7 +42,7 @@ class BagWriter:
     def __init__(self, folder: Path, storage: str = "mcap") -> None:
         if storage not in STORAGES:
             raise BagError(f"a bag is stored as {' or '.join(STORAGES)}, got {storage!r}")
-        if _is_there(folder):
+        if is_there(folder):
             raise BagError(f"Output folder '{folder}' already exists.")
         self.folder = folder
         self.storage = storage
@@ -81,21 +84,33 @@ class BagWriter:
         self._end()
 
 
-def _is_there(folder: Path) -> bool:
+def is_there(folder: Path) -> bool:
+    """Whether there is something of that name. Raises BagError for what no file can be called."""
     try:
         return folder.exists()
     except (OSError, ValueError) as error:
-        raise BagError(f"a bag cannot be called {str(folder)[:80]!r}: {error}") from None
+        why = getattr(error, "strerror", None) or error
+        raise BagError(f"a bag cannot be called {str(folder)[:80]!r}: {why}") from None
 
 
 def _open(folder: Path, storage: str) -> Any:
     """A writer of rosbags, opened: the folder is there now."""
     from rosbags.rosbag2 import StoragePlugin, Writer, WriterError
-    from rosbags.rosbag2.storage_mcap import McapWriter
+    from rosbags.rosbag2.storage_mcap import McapWriter, write_channel, write_string
     from rosbags.rosbag2.storage_sqlite3 import Sqlite3Writer
 
     class CheckedMcapWriter(McapWriter):
-        """Writes smaller chunks, each with its checksum, which McapWriter leaves out."""
+        """Writes smaller chunks, each with its checksum, and the hash of each topic's type: McapWriter leaves them out."""
+
+        def add_connection(self, connection: Connection, offered_qos_profiles: str) -> None:
+            place = self.chunk.bio.tell()
+            super().add_connection(connection, offered_qos_profiles)
+            channel, noted = self.channels.pop(), BytesIO()
+            write_string(noted, "topic_type_hash")
+            write_string(noted, connection.digest)
+            self.channels.append(channel._replace(metadata=channel.metadata + noted.getvalue()))
+            self.chunk.bio.seek(place)  # what was written there is shorter
+            write_channel(self.chunk.bio, self.channels[-1], self.schemas)
 
         def close_chunk(self) -> None:
             start, checksum = self.bio.tell(), zlib.crc32(self.chunk.bio.getvalue())

@@ -96,17 +96,11 @@ def _program(call: Call) -> Callable[[], None]:
 
 def _run_as_process(world: World, call: Call, words: Sequence[str], stdout: Any, stderr: Any) -> int:
     waiter = Waiter(world, call.prog)
-    live = live_rate(world) is not None
     process = world.spawn(
         _program(call), name="ros2", argv=words, stdout=stdout, stderr=stderr, on_exit=waiter.ended
     )  # fmt: skip
     process.locals["cwd"] = Path.cwd()
-    try:
-        reason = waiter.wait(process)
-    except KeyboardInterrupt:
-        if not live:
-            raise
-        return INTERRUPTED
+    reason = waiter.wait(process)
     if reason:
         print(f"{call.prog}: {reason}", file=stderr)
     return process.exit_code or 0

@@ -8,7 +8,7 @@ what would go on for ever in a terminal (as after a Ctrl-C there).
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from argparse import ArgumentParser, Namespace
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 from turtle_lesson.ros.interfaces.names import did_you_mean
 from turtle_lesson.ros.world import current_process
 
+from .amounts import frequency, positive_float, seconds, stretch
 from .parser import Verb
 
 if TYPE_CHECKING:
@@ -32,9 +33,6 @@ PATIENCE = 5.0
 
 DISCOVERY = 0.1
 """How long, in s of robot time, a command looks around first, so that what was just started can appear."""
-
-FASTEST = 10_000.0
-"""How often a second a command can be told to do something."""
 
 HIDDEN_PREFIX = "_ros2cli"
 INTERRUPTED = 2
@@ -62,16 +60,13 @@ __all__ = [
     "now",
     "of_the_classroom",
     "positive_float",
-    "positive_int",
     "publishers",
-    "seconds",
     "services",
     "spin_for",
     "stretch_of",
     "subscriptions",
     "suggest",
     "topics",
-    "unsigned_int",
 ]
 
 
@@ -111,8 +106,6 @@ class Command:
             if str(error):
                 print(error, file=sys.stderr)
             return INTERRUPTED
-        except KeyboardInterrupt:
-            return INTERRUPTED
 
 
 # -- arguments that several verbs have ---------------------------------------------------------------------------
@@ -135,53 +128,10 @@ def add_duration(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--for",
         dest="seconds",
-        type=positive_float,
+        type=stretch,
         metavar="SECONDS",
         help=f"End after this stretch of robot time (default: {STRETCH:g}; only in this classroom)",
     )
-
-
-def positive_float(text: str) -> float:
-    """An argument that is a number above 0."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = 0.0
-    if not 0 < value < float("inf"):
-        raise ArgumentTypeError(f"'{text}' is no number above 0")
-    return value
-
-
-def frequency(text: str) -> float:
-    """An argument that says how often a second; more often than `FASTEST` no robot could."""
-    if positive_float(text) > FASTEST:
-        raise ArgumentTypeError(f"'{text}' times a second is too often; at most {FASTEST:g}")
-    return positive_float(text)
-
-
-def seconds(text: str) -> float:
-    """An argument that is a stretch of time, 0 s or more."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = -1.0
-    if not 0 <= value < float("inf"):
-        raise ArgumentTypeError(f"'{text}' is no number of seconds")
-    return value
-
-
-def positive_int(text: str) -> int:
-    """An argument that is a whole number above 0."""
-    if unsigned_int(text) == 0:
-        raise ArgumentTypeError("value must be a positive integer")
-    return unsigned_int(text)
-
-
-def unsigned_int(text: str) -> int:
-    """An argument that is a whole number, 0 or above."""
-    if not (text.isascii() and text.isdigit() and len(text) < 19):
-        raise ArgumentTypeError("value must be non-negative integer")
-    return int(text)
 
 
 # -- robot time --------------------------------------------------------------------------------------------------
@@ -293,8 +243,14 @@ def services(node: Node, include_hidden: bool = False) -> dict[str, list[str]]:
 
 
 def expanded(node: Node, name: str, *, is_service: bool = False) -> str:
-    """The full name of a topic or service as typed. Raises NameValidationException where ROS allows no such name."""
-    return node.resolve_service_name(name) if is_service else node.resolve_topic_name(name)
+    """The full name of a topic or service as typed.
+
+    Raises NameValidationException where ROS allows no such name, and CommandError for `{what}` that it does not know.
+    """
+    try:
+        return node.resolve_service_name(name) if is_service else node.resolve_topic_name(name)
+    except ValueError as error:
+        raise CommandError(str(error).rstrip()) from None
 
 
 def absolute(node_name: str) -> str:

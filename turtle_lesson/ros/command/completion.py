@@ -1,22 +1,19 @@
-"""What Tab offers in a command: verbs, options, and the names of nodes, topics, services, types and packages."""
+"""What Tab offers in a command: verbs, options, and what its arguments may be."""
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Iterable, Sequence
-from pathlib import Path
+import re
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
-import yaml
 from IPython.core.completer import CompletionContext, SimpleCompletion, SimpleMatcherResult, context_matcher
 
-from ..graph.graph import is_hidden
-from ..interfaces.registry import registry
 from ..world import current_world
-from .cells import COMMANDS
+from .cells import COMMANDS, inner_places
+from .completion_words import BY_NAME, job_numbers, paths, source_packages
 from .groups import GROUPS, Verb
 from .parser import Parser, Stop, verb_parser
-from .text import message_to_yaml
 from .words import Operator, UnfinishedError, Word, tokens
 
 if TYPE_CHECKING:
@@ -41,8 +38,12 @@ def _candidates(world: World, words: list[str], begun: str) -> Iterable[str]:
     program, *rest = words
     if program == "colcon":
         return _colcon(rest)
+    if program in {"jobs", "pwd"}:
+        return []
+    if program == "kill":
+        return ["-INT", "-TERM", "-KILL", *job_numbers(world)]
     if program != "ros2":
-        return _paths(begun)
+        return paths(begun, folders_only=program in {"cd", "mkdir"})
     if not rest:
         return [*GROUPS, "--help"]
     group = GROUPS.get(rest[0])
@@ -59,22 +60,8 @@ def _candidates(world: World, words: list[str], begun: str) -> Iterable[str]:
 
 def _colcon(words: Sequence[str]) -> list[str]:
     if not words:
-        return ["build"]
-    return ["--packages-select", "--symlink-install", "--event-handlers", *_source_packages()]
-
-
-def _source_packages() -> list[str]:
-    return sorted({path.parent.name for path in Path("src").glob("*/package.xml")})
-
-
-def _paths(begun: str) -> list[str]:
-    """The files and folders that a path may become."""
-    head, slash, _ = begun.rpartition("/")
-    place = Path(head + slash) if slash else Path()
-    if not place.is_dir():
-        return []
-    inside = [path for path in place.iterdir() if not path.name.startswith(".")]
-    return [f"{head}{slash}{path.name}{'/' if path.is_dir() else ''}" for path in inside]
+        return ["build", "graph", "list"]
+    return ["--packages-select", "--symlink-install", "--event-handlers", *source_packages()]
 
 
 # -- the arguments of a verb ---------------------------------------------------------------------------------------------
@@ -119,87 +106,8 @@ def _positional(parser: Parser, words: Sequence[str]) -> list[str]:
 def _values(world: World, action: argparse.Action, given: Sequence[str], begun: str) -> Iterable[str]:
     if action.choices is not None:
         return [str(choice) for choice in action.choices]
-    find = _BY_NAME.get(action.dest)
+    find = BY_NAME.get(action.dest)
     return [] if find is None else find(world, given, begun)
-
-
-Finder = Callable[["World", Sequence[str], str], Iterable[str]]
-
-
-def _nodes(world: World, given: Sequence[str], begun: str) -> list[str]:
-    return [node.full_name for node in world.graph.nodes if not node.hidden]
-
-
-def _topics(world: World, given: Sequence[str], begun: str) -> list[str]:
-    return [name for name in world.graph.topics() if not is_hidden(name)]
-
-
-def _services(world: World, given: Sequence[str], begun: str) -> list[str]:
-    return [name for name in world.graph.services() if not is_hidden(name)]
-
-
-def _types(*folders: str) -> Finder:
-    def find(world: World, given: Sequence[str], begun: str) -> list[str]:
-        own = _own_type(world, given[0]) if given else []
-        every = (f"{package}/{name}" for package in registry.packages() for name in registry.interface_names(package))
-        return own or [name for name in every if name.split("/")[1] in folders]
-
-    return find
-
-
-def _own_type(world: World, name: str) -> list[str]:
-    """The type of a topic or service that is there."""
-    topic = world.graph.topics().get(name)
-    if topic is not None:
-        return topic.types
-    return world.graph.services().get(name, [])
-
-
-def _packages(world: World, given: Sequence[str], begun: str) -> list[str]:
-    from .group_pkg import package_names
-
-    return package_names()
-
-
-def _executables(world: World, given: Sequence[str], begun: str) -> list[str]:
-    return sorted(world.packages.get(given[0]).executables) if given and given[0] in world.packages else []
-
-
-def _launch_files(world: World, given: Sequence[str], begun: str) -> list[str]:
-    if not given or given[0] not in world.packages:
-        return _paths(begun)
-    return [path.name for path in world.packages.get(given[0]).shared_files("*launch.*")]
-
-
-def _values_of(world: World, given: Sequence[str], begun: str) -> list[str]:
-    """The type that was named, with its default values, to be changed."""
-    name = given[1] if len(given) > 1 else ""
-    try:
-        made = registry.get(name)
-        values = yaml.safe_load(message_to_yaml(getattr(made, "Request", made)()))
-    except Exception:  # a name that is not finished, or a definition that is refused
-        return []
-    text = yaml.safe_dump(values, default_flow_style=True, sort_keys=False, width=1_000_000)
-    return [f'"{text.strip()}"']
-
-
-_MESSAGES, _SERVICES, _ALL = _types("msg"), _types("srv"), _types("msg", "srv", "action")
-
-_BY_NAME: dict[str, Finder] = {
-    "executable_name": _executables,
-    "launch_file_name": _launch_files,
-    "message_type": _MESSAGES,
-    "node": _nodes,
-    "node_name": _nodes,
-    "package_name": _packages,
-    "service_name": _services,
-    "service_type": _SERVICES,
-    "topic": _topics,
-    "topic_name": _topics,
-    "topic_type": _MESSAGES,
-    "type": _ALL,
-    "values": _values_of,
-}
 
 
 # -- IPython -------------------------------------------------------------------------------------------------------------
@@ -215,14 +123,19 @@ def install(shell: Any) -> None:
 @context_matcher()
 def command_matcher(context: CompletionContext) -> SimpleMatcherResult:
     """What IPython asks of the line at the cursor; a line that is no command is left to Python."""
-    line = context.text_until_cursor.rpartition("\n")[2].lstrip().removeprefix("%terminal ").removeprefix("%")
-    if not _reads_like_a_command(line):
+    above = context.full_text.split("\n")[: context.cursor_line]
+    text = "\n".join([*above, context.text_until_cursor.rpartition("\n")[2]])
+    line = re.sub(r"\\\n\s*", " ", text).rpartition("\n")[2]
+    command = next((line[at:] for at in (0, *inner_places(line)) if _reads_like_a_command(line[at:])), None)
+    if command is None:
         return {"completions": []}
-    begun = "" if line[-1:].isspace() else line.split()[-1]
-    found = [SimpleCompletion(text=word, type="command") for word in complete(current_world(), line)]
+    command = command.strip(" \t%").removeprefix("terminal ") + " " * command[-1:].isspace()
+    begun = "" if command[-1:].isspace() else command.split()[-1]
+    found = [SimpleCompletion(text=word, type="command") for word in complete(current_world(), command)]
     return {"completions": found, "suppress": True, "matched_fragment": begun}
 
 
 def _reads_like_a_command(line: str) -> bool:
     """Whether a line begins with a command's name and a blank, with no `=` or the like after it."""
-    return any(line.startswith(f"{word} ") and not line[len(word) :].lstrip().startswith("=") for word in COMMANDS)
+    found = re.match(r"\s*%?(?:terminal\s+)?(\w+)\s+(?![-+*/%&|^@]?=)", line)
+    return found is not None and found[1] in COMMANDS

@@ -1,114 +1,22 @@
-"""`ros2 bag record`, `info` and `play`.
+"""`ros2 bag record`, `info`, `play` and `reindex`.
 
 There is no recording of the real ones in golden/: arguments, texts and formats are those of ros2bag, rosbag2_transport
 and rosbag2_py of Humble and Jazzy, as far as this classroom has them. What goes to stderr there goes to stderr here, and
-the exit code after a Ctrl-C is 0, as there: both verbs handle it themselves. Keyboard controls and `--clock` are left out.
+the exit code after a Ctrl-C is 0, as there: both verbs handle it themselves. There are no keyboard controls.
 """
 
 from __future__ import annotations
 
-import math
 import sys
-from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from argparse import REMAINDER, SUPPRESS, ArgumentParser, Namespace
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 from turtle_lesson.ros.bags.errors import BagError
 
-from .common import Command, add_duration, current_process, end_of_stretch, now, stretch_of
-
-# -- arguments ---------------------------------------------------------------------------------------------------------
-
-
-def existing_path(text: str) -> str:
-    """An argument that names a file or folder which is there."""
-    if not _exists(Path(text)):
-        raise ArgumentTypeError(f"Bag path '{text}' does not exist!{_bags_here(text)}")
-    return text
-
-
-def _exists(path: Path) -> bool:
-    try:
-        return path.expanduser().exists()
-    except (OSError, ValueError, RuntimeError):
-        return False  # no path at all: far too long, or with a zero byte in it
-
-
-def _bags_here(text: str) -> str:
-    """What perhaps was meant: the bags beside the one that is not there."""
-    from turtle_lesson.ros.interfaces.names import did_you_mean
-
-    try:
-        folder = Path(text).expanduser().parent
-        bags = [path.parent.name for path in folder.glob("*/metadata.yaml")]
-    except (OSError, ValueError):
-        return ""
-    hint = did_you_mean(Path(text).expanduser().name, bags)
-    return f" {hint}" if hint else ""
-
-
-def positive_rate(text: str) -> float:
-    """An argument that is a number above 0."""
-    value = _number(text)
-    if not value > 0:
-        raise ArgumentTypeError(f"{text} is not in the valid range (> 0.0)")
-    return value
-
-
-def not_negative(text: str) -> float:
-    """An argument that is a number, 0 or above."""
-    value = _number(text)
-    if not value >= 0:
-        raise ArgumentTypeError(f"{text} is not in the valid range (>= 0.0)")
-    return value
-
-
-def _number(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
-        raise ArgumentTypeError(f"{text} is not the valid type (float)")
-    return value
-
-
-def _add_reader(parser: ArgumentParser) -> None:
-    parser.add_argument("bag_path", type=existing_path, help="The bag: its folder, or one of its files")
-    parser.add_argument(
-        "-s", "--storage", choices=["mcap", "sqlite3"], help="Accepted; how a bag is stored is seen from its files"
-    )
-
-
-def _record_arguments(parser: ArgumentParser) -> None:
-    parser.add_argument("topics", nargs="*", default=None, help="The topics to record")
-    parser.add_argument("-a", "--all", action="store_true", help="Record all topics but the hidden ones")
-    parser.add_argument("-e", "--regex", default="", help="Record the topics that this pattern is found in")
-    parser.add_argument("-x", "--exclude", default="", help="Leave out the topics that this pattern is found in")
-    parser.add_argument("--include-hidden-topics", action="store_true", help="Record topics with a hidden name, too")
-    parser.add_argument("--include-unpublished-topics", action="store_true", help="Note topics without publishers, too")
-    parser.add_argument("-o", "--output", help="The folder to make (default: named after day and time)")
-    parser.add_argument("-s", "--storage", default="mcap", choices=["mcap", "sqlite3"], help="How to store it")
-    add_duration(parser)
-
-
-def _play_arguments(parser: ArgumentParser) -> None:
-    _add_reader(parser)
-    parser.add_argument("-r", "--rate", type=positive_rate, default=1.0, help="How many times as fast as recorded")
-    parser.add_argument("--topics", nargs="+", default=[], help="Play these topics only")
-    parser.add_argument("-m", "--remap", nargs="+", default=[], help="Other names for topics: /old:=/new ...")
-    parser.add_argument("-l", "--loop", action="store_true", help="Begin again at the end")
-    parser.add_argument(
-        "-d", "--delay", type=not_negative, default=0.0, help="Seconds to wait before the first message"
-    )
-    parser.add_argument("--start-offset", type=not_negative, default=0.0, help="Begin so many seconds into the bag")
-    parser.add_argument("--playback-duration", type=_number, default=-1.0, help="Play so many seconds of the bag only")
-    parser.add_argument("--disable-keyboard-controls", action="store_true", help="Accepted; there are none here")
-    add_duration(parser)
-
-
-# -- what the verbs do -------------------------------------------------------------------------------------------------
+from .bag_arguments import info_arguments, play_arguments, reader_arguments, record_arguments
+from .common import Command, current_process, end_of_stretch, now, stretch_of
 
 
 def _record(args: Namespace) -> int:
@@ -121,7 +29,7 @@ def _record(args: Namespace) -> int:
     say = _logger("rosbag2_recorder")
     seconds = stretch_of(args)
     try:
-        names = checked_names(args.topics or ())
+        names = checked_names(_topics_of(args))
         selection = Selection(
             names, args.regex, args.exclude, args.include_hidden_topics, args.include_unpublished_topics
         )
@@ -143,13 +51,18 @@ def _record(args: Namespace) -> int:
     return 0
 
 
+def _topics_of(args: Namespace) -> list[str]:
+    return [*args.topics, *args.more_topics]
+
+
 def _contradiction(args: Namespace) -> str:
     """Why these arguments cannot go together, or nothing."""
-    if (args.all and (args.topics or args.regex)) or (args.topics and args.regex):
+    topics = _topics_of(args)
+    if (args.all and (topics or args.regex)) or (topics and args.regex):
         return "Must specify only one option out of topics, --regex or --all"
-    if not (args.all or args.topics or args.regex):
+    if not (args.all or topics or args.regex):
         return "Invalid choice: Must specify topic(s), --regex or --all"
-    if args.topics and args.exclude:
+    if topics and args.exclude:
         return "--exclude argument cannot be used when specifying a list of topics explicitly"
     return ""
 
@@ -170,7 +83,7 @@ def _info(args: Namespace) -> int:
         bag = open_bag(Path(args.bag_path).expanduser())
     except BagError as error:
         return _error(str(error))
-    print(info_text(bag))
+    print("\n".join(topic.name for topic in bag.topics) if args.topic_name else info_text(bag))
     return _error(bag.damage) if bag.damage else 0
 
 
@@ -190,6 +103,7 @@ def _play(args: Namespace) -> int:
             loop=args.loop,
             delay=args.delay,
             duration=args.playback_duration if args.playback_duration >= 0 else None,
+            clock=args.clock,
         )
         if bag.damage:
             say("ERROR", bag.damage)
@@ -203,6 +117,38 @@ def _play(args: Namespace) -> int:
     if not ended and seconds is not None and args.seconds is None:
         print(end_of_stretch(seconds), file=sys.stderr)
     return 1 if bag.damage else 0
+
+
+def _reindex(args: Namespace) -> int:
+    from turtle_lesson.ros.bags.reindex import reindex
+
+    folder = Path(args.bag_path).expanduser()
+    if not folder.is_dir():
+        return _error("Must specify a bag directory")
+    say = _logger("rosbag2_cpp")
+    say("INFO", f"Beginning reindexing bag in directory: {args.bag_path}")
+    try:
+        bag = reindex(folder)
+    except (BagError, OSError) as error:
+        return _error(str(error))
+    say("INFO", "Reindexing complete.")
+    return _error(bag.damage) if bag.damage else 0
+
+
+def _everything(parser: ArgumentParser) -> None:
+    """Take all words as they are, also those that look like options."""
+    parser.prefix_chars = ""
+    parser.add_argument("words", nargs=REMAINDER, help=SUPPRESS)
+
+
+def _not_here(verb: str, reason: str) -> Command:
+    """A verb of the real tool that is not here."""
+
+    def work(args: Namespace) -> int:
+        print(f"ros2 bag {verb}: not in this classroom: {reason}. On a robot it exists.", file=sys.stderr)
+        return 2
+
+    return Command(f"Not in this classroom: {reason}", _everything, work)
 
 
 def _logger(name: str) -> Any:
@@ -228,7 +174,11 @@ def _error(text: str) -> int:
 
 
 VERBS: dict[str, Any] = {
-    "info": Command("Say what is in a bag", _add_reader, _info),
-    "play": Command("Publish again what was recorded", _play_arguments, _play),
-    "record": Command("Write what is published into a bag", _record_arguments, _record),
+    "burst": _not_here("burst", "'ros2 bag play -r' plays as fast as you like"),
+    "convert": _not_here("convert", "record again with '-s', while the bag is played"),
+    "info": Command("Say what is in a bag", info_arguments, _info),
+    "list": _not_here("list", "there are no plugins; bags are stored as mcap or sqlite3"),
+    "play": Command("Publish again what was recorded", play_arguments, _play),
+    "record": Command("Write what is published into a bag", record_arguments, _record),
+    "reindex": Command("Write a bag's lost metadata.yaml anew", reader_arguments, _reindex),
 }

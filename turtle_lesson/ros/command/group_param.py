@@ -152,7 +152,7 @@ def _describe_arguments(parser: ArgumentParser) -> None:
 
 
 def describe(args: Namespace) -> None:
-    """`ros2 param describe`: silent for unknown parameters, unless something like them exists."""
+    """`ros2 param describe`. If one of the parameters is unknown the real one says nothing, of any of them."""
     with direct_node(args) as node:
         name = find_node(node, args)
         descriptors = ask(node, name, "DescribeParameters", names=args.parameter_names).descriptors
@@ -160,8 +160,9 @@ def describe(args: Namespace) -> None:
             _print_descriptor(descriptor)
         if not descriptors:
             known = listed(node, name)
-            hints = [suggest(each, known) for each in args.parameter_names if each not in known]
-            print(*filter(None, hints), sep="\n", end="\n" if any(hints) else "", file=sys.stderr)
+            for each in args.parameter_names:
+                if each not in known:
+                    print(f"{name} has no parameter '{each}'\n{suggest(each, known)}".rstrip(), file=sys.stderr)
 
 
 def _print_descriptor(descriptor: Any) -> None:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import sys
 import time
 from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING, Any
 
+from .amounts import frequency
 from .common import (
     HIDDEN_PREFIX,
     PATIENCE,
@@ -17,7 +19,6 @@ from .common import (
     direct_node,
     end_of_stretch,
     expanded,
-    frequency,
     now,
     of_the_classroom,
     services,
@@ -25,7 +26,7 @@ from .common import (
     stretch_of,
     suggest,
 )
-from .types import service_class
+from .types import service_class, unknown_type
 from .values import populate, read_yaml
 
 if TYPE_CHECKING:
@@ -57,21 +58,23 @@ def list_services(args: Namespace) -> None:
         print(f"{name} [{', '.join(types)}]" if args.show_types else name)
 
 
+def unknown_service(name: str, known: dict[str, list[str]]) -> CommandError:
+    """What is said of a service that does not exist."""
+    return CommandError(f"Unknown service '{name}'", suggest(name, known))
+
+
 def _type_arguments(parser: ArgumentParser) -> None:
     add_node_arguments(parser)
     parser.add_argument("service_name", help="Full name of the service, such as /spawn")
 
 
-def type_of(args: Namespace) -> int:
-    """`ros2 service type`: silent with exit code 1 for an unknown service, unless something like it exists."""
+def type_of(args: Namespace) -> None:
+    """`ros2 service type`. For an unknown service the real one says nothing, and ends with exit code 1."""
     with direct_node(args) as node:
         known = services(node, include_hidden=True)
-    if args.service_name in known:
-        print(*known[args.service_name], sep="\n")
-        return 0
-    if hint := suggest(args.service_name, known):
-        raise CommandError(hint)
-    return 1
+    if args.service_name not in known:
+        raise unknown_service(args.service_name, known)
+    print(*known[args.service_name], sep="\n")
 
 
 def _find_arguments(parser: ArgumentParser) -> None:
@@ -90,6 +93,8 @@ def find(args: Namespace) -> None:
         print(len(found))
     elif found:
         print(*found, sep="\n")
+    elif about := unknown_type(args.service_type, "srv"):
+        print(about, file=sys.stderr)
 
 
 def info(args: Namespace) -> None:
@@ -98,7 +103,7 @@ def info(args: Namespace) -> None:
         known = services(node, include_hidden=True)
         name = args.service_name
         if name not in known:
-            raise CommandError(f"Unknown service '{name}'", suggest(name, known))
+            raise unknown_service(name, known)
         types = known[name]
         print(f"Type: {types[0] if len(types) == 1 else types}")
         print(f"Clients count: {node.count_clients(name) - _clients_of_the_classroom(node, name)}")
@@ -124,7 +129,7 @@ def call(args: Namespace) -> None:
     values = read_yaml(args.values)
     package, _, name = kind._TYPE_NAME.replace("/srv/", "/").partition("/")
     with direct_node(args, f"{HIDDEN_PREFIX}_requester_{package}_{name}") as node:
-        client = node.create_client(kind, args.service_name)
+        client = node.create_client(kind, expanded(node, args.service_name, is_service=True))
         request = kind.Request()
         populate(request, values)
         _wait_for_service(node, client)
@@ -153,7 +158,7 @@ def _wait_for_service(node: Node, client: Client) -> None:
     known = services(node, include_hidden=True)
     if name in known:
         raise CommandError(f"{waited}: {name} is of type {', '.join(known[name])}, not {kind}")
-    hint = suggest(expanded(node, name, is_service=True), known)
+    hint = suggest(name, known)
     raise CommandError(
         f"{waited}: nobody offers {name}",
         hint or "Is its node running (`ros2 node list`)? `ros2 service list` shows the services.",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from argparse import ArgumentParser, Namespace
 
 from . import topic_echo, topic_pub, topic_rates
@@ -16,6 +17,7 @@ from .common import (
     suggest,
     topics,
 )
+from .types import unknown_type
 
 
 def _list_arguments(parser: ArgumentParser) -> None:
@@ -63,7 +65,7 @@ def info(args: Namespace) -> None:
     with direct_node(args) as node:
         name, known = args.topic_name, topics(node, include_hidden=True)
         if name not in known:
-            raise CommandError(f"Unknown topic '{name}'", suggest(name, known))
+            raise unknown_topic(name, known)
         types = known[name]
         end = "\n\n" if args.verbose else "\n"
         print(f"Type: {types[0] if len(types) == 1 else types}", end=end)
@@ -73,21 +75,23 @@ def info(args: Namespace) -> None:
                 print(describe_endpoint(each), end="\n\n")
 
 
+def unknown_topic(name: str, known: dict[str, list[str]]) -> CommandError:
+    """What is said of a topic that does not exist."""
+    return CommandError(f"Unknown topic '{name}'", suggest(name, known))
+
+
 def _type_arguments(parser: ArgumentParser) -> None:
     add_node_arguments(parser)
     parser.add_argument("topic_name", help="Full name of the topic, such as /turtle1/pose")
 
 
-def type_of(args: Namespace) -> int:
-    """`ros2 topic type`: silent with exit code 1 for an unknown topic, unless something like it exists."""
+def type_of(args: Namespace) -> None:
+    """`ros2 topic type`. For an unknown topic the real one says nothing, and ends with exit code 1."""
     with direct_node(args) as node:
         known = topics(node, include_hidden=True)
-    if args.topic_name in known:
-        print(*known[args.topic_name], sep="\n")
-        return 0
-    if hint := suggest(args.topic_name, known):
-        raise CommandError(hint)
-    return 1
+    if args.topic_name not in known:
+        raise unknown_topic(args.topic_name, known)
+    print(*known[args.topic_name], sep="\n")
 
 
 def _find_arguments(parser: ArgumentParser) -> None:
@@ -106,6 +110,8 @@ def find(args: Namespace) -> None:
         print(len(found))
     elif found:
         print(*found, sep="\n")
+    elif about := unknown_type(args.topic_type, "msg"):
+        print(about, file=sys.stderr)
 
 
 VERBS: dict[str, Verb] = {

@@ -9,11 +9,9 @@ from IPython.core.magic import Magics, line_cell_magic, line_magic, magics_class
 
 from ..world import current_world
 from . import cells, completion
-from .shell import begin_here, run_line
+from .shell import Shell, begin_here, run_line
 
 EXIT_CODE = "_exit_code"
-INTERRUPTED = 130
-"""The exit code that a shell gives to what Ctrl-C ended."""
 
 
 @magics_class
@@ -46,8 +44,10 @@ class TerminalMagics(Magics):
 
     def _run(self, script: str) -> None:
         assert self.shell is not None
-        self.shell.user_ns[EXIT_CODE] = INTERRUPTED
-        self.shell.user_ns[EXIT_CODE] = run_line(current_world(), script)
+        try:
+            run_line(current_world(), script)
+        finally:
+            self.shell.user_ns[EXIT_CODE] = Shell(current_world()).exit_code
 
 
 def install(shell: Any) -> None:

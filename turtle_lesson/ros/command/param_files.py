@@ -10,7 +10,7 @@ from typing import Any
 from . import param_values
 from .common import CommandError, direct_node, suggest
 from .param_calls import arguments_of_all, ask, find_node, listed, set_values, with_reason
-from .values import read_yaml
+from .values import MAX_LENGTH, read_yaml
 
 
 def dump_arguments(parser: ArgumentParser) -> None:
@@ -69,13 +69,7 @@ def load(args: Namespace) -> None:
 
 def _read_file(path: str, node_name: str, *, wildcard: bool) -> list[tuple[str, Any]]:
     """The parameters that a file has for a node. Raises CommandError if it has none."""
-    try:
-        text = Path(path).read_text(encoding="utf-8")
-    except FileNotFoundError:
-        raise CommandError(f"[Errno 2] No such file or directory: '{path}'") from None
-    except (OSError, ValueError) as error:
-        raise CommandError(f"cannot read {path}: {getattr(error, 'strerror', None) or error}") from None
-    content = read_yaml(text, path)
+    content = read_yaml(_text_of(path), path)
     if not isinstance(content, dict):
         raise CommandError(f"{path} is no parameter file: expected a line '{node_name}:' and ros__parameters below it")
     keys = [key for key in (["/**"] if wildcard else []) + [node_name] if key in content]
@@ -92,3 +86,17 @@ def _read_file(path: str, node_name: str, *, wildcard: bool) -> list[tuple[str, 
             )
         found.update(param_values.flat(content[key]["ros__parameters"]))
     return list(found.items())
+
+
+def _text_of(path: str) -> str:
+    """The text of a file. Devices are not read, and of a file no more than YAML may have: some never end."""
+    file = Path(path)
+    try:
+        if file.exists() and not file.is_file():
+            raise CommandError(f"cannot read {path}: it is a folder or a device, not a file")
+        with file.open(encoding="utf-8") as stream:
+            return stream.read(MAX_LENGTH + 1)
+    except FileNotFoundError:
+        raise CommandError(f"[Errno 2] No such file or directory: '{path}'") from None
+    except (OSError, ValueError) as error:
+        raise CommandError(f"cannot read {path}: {getattr(error, 'strerror', None) or error}") from None

@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, Namespace
+import sys
+import warnings
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from typing import TYPE_CHECKING, Any
+
+from .amounts import MOST
+from .common import expanded
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -47,7 +52,14 @@ def add_qos_arguments(parser: ArgumentParser, verb: str, preset: str, automatic:
 
 
 def _depth(text: str) -> int:
-    return int(text)
+    """A length; a negative one is accepted, and without effect."""
+    try:
+        depth = int(text)
+    except ValueError:
+        raise ArgumentTypeError(f"'{text}' is no whole number") from None
+    if depth > MOST:
+        raise ArgumentTypeError(f"value must be at most {MOST}")
+    return depth
 
 
 def is_chosen(args: Namespace) -> bool:
@@ -69,7 +81,7 @@ def profile_of(args: Namespace, preset: str, **defaults: str) -> QoSProfile:
     if args.qos_profile is not None:
         defaults = {}
     if args.qos_depth is not None and args.qos_depth >= 0:
-        profile.depth = args.qos_depth
+        _set_depth(profile, args.qos_depth)
     policies = {
         "history": QoSHistoryPolicy,
         "reliability": QoSReliabilityPolicy,
@@ -82,12 +94,21 @@ def profile_of(args: Namespace, preset: str, **defaults: str) -> QoSProfile:
     return profile
 
 
+def _set_depth(profile: QoSProfile, depth: int) -> None:
+    """Set the depth; rclpy's warning of a depth of 0 becomes a line that names no file of ours."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        profile.depth = depth
+    for warning in caught:
+        print(f"WARNING: {warning.message}", file=sys.stderr)
+
+
 def matching_profile(node: Node, topic: str, preset: str) -> QoSProfile:
     """The preset, changed so that a subscription hears every publisher that is there."""
     from rclpy.qos import QoSDurabilityPolicy, QoSPresetProfiles, QoSReliabilityPolicy
 
     profile = _copy(QoSPresetProfiles.get_from_short_key(preset))
-    offers = [info.qos_profile for info in node.get_publishers_info_by_topic(topic)]
+    offers = [info.qos_profile for info in node.get_publishers_info_by_topic(expanded(node, topic))]
     if offers:
         reliability, durability = QoSReliabilityPolicy, QoSDurabilityPolicy
         weak, strong = reliability.BEST_EFFORT, reliability.RELIABLE

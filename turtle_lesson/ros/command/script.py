@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from .words import Operator, Token, Word
+from .words import HereText, Operator, Token, Word
 
 
 class ShellSyntaxError(ValueError):
@@ -21,6 +21,7 @@ class Command:
     """One simple command: its words, and where its input and output go."""
 
     words: list[Word] = field(default_factory=list)
+    given: str | None = None
     stdout: tuple[str, str] | None = None
     stderr: str | None = None
     background: bool = False
@@ -33,6 +34,8 @@ def pipelines(found: Sequence[Token]) -> Iterator[tuple[str, list[Command]]]:
         command = pipeline[-1]
         if isinstance(token, Word):
             _take(command, token)
+        elif isinstance(token, HereText):
+            command.given = token.text
         elif token.text == "|":
             _check(command, "|")
             pipeline.append(Command())

@@ -16,8 +16,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..workspace.errors import did_you_mean
+from . import INTERRUPTED, terminal_files
 from . import run as run_ros2
-from . import terminal_files
+from .elsewhere import advice
 from .parser import cut
 from .script import Command, ShellSyntaxError, expand, pipelines
 from .streams import cell_streams
@@ -30,7 +31,18 @@ if TYPE_CHECKING:
 
 NOT_FOUND = 127
 SYNTAX = 2
+STOPPED = 130
+"""The exit code that a shell gives to what Ctrl-C has ended; `ros2` itself answers with another."""
+
 PROGRAMS = ("ros2", "colcon", "source", ".")
+
+
+class CommandInterrupted(KeyboardInterrupt):
+    """The user has stopped a command: what comes after it is not carried out. `code` is its exit code."""
+
+    def __init__(self, words: Sequence[str]) -> None:
+        super().__init__(f"{cut(' '.join(words), 100)} was stopped, and nothing after it was done")
+        self.code = INTERRUPTED if words[0] == "ros2" else STOPPED
 
 
 class Shell:
@@ -52,7 +64,7 @@ class Shell:
         """Run a script of one line or several; a failing command prints and does not raise.
 
         Raises:
-            KeyboardInterrupt: if the user stops a command that is not live.
+            CommandInterrupted: if the user stops a command.
         """
         out, error = cell_streams()
         try:
@@ -65,7 +77,11 @@ class Shell:
             failed = self.exit_code != 0
             if (condition == "&&" and failed) or (condition == "||" and not failed):
                 continue
-            self.exit_code = self._pipeline(pipeline, out, error)
+            try:
+                self.exit_code = self._pipeline(pipeline, out, error)
+            except CommandInterrupted as stop:
+                self.exit_code = stop.code
+                raise
         return self.exit_code
 
     def _pipeline(self, commands: list[Command], out: Any, error: Any) -> int:
@@ -74,7 +90,7 @@ class Shell:
         for number, command in enumerate(commands):
             last = number == len(commands) - 1
             target = out if last else io.StringIO()
-            code = self._one(command, handed_on, target, error)
+            code = self._one(command, handed_on if command.given is None else command.given, target, error)
             handed_on = None if last else target.getvalue()
         return code
 
@@ -85,6 +101,8 @@ class Shell:
                 return self._guarded(words, given, to, error_to, command.background)
         except (OSError, ValueError) as mistake:
             return _said(words[0], mistake, error)
+        except KeyboardInterrupt:
+            raise CommandInterrupted(words) from None
 
     def _guarded(self, words: Sequence[str], given: str | None, out: Any, error: Any, background: bool) -> int:
         try:
@@ -100,7 +118,7 @@ class Shell:
             return _workspace(self.world, words, out, error)
         if name in BUILTINS:
             return BUILTINS[name](Terminal(self.world, out, error, given), list(words[1:]))
-        print(_not_found(name), file=error)
+        print(_not_found(words), file=error)
         return NOT_FOUND
 
 
@@ -112,8 +130,15 @@ def _workspace(world: World, words: Sequence[str], out: Any, error: Any) -> int:
     return program(world, list(words[1:]), stdout=out, stderr=error, cwd=Path.cwd())
 
 
-def _not_found(name: str) -> str:
+def _not_found(words: Sequence[str]) -> str:
+    """What to say of a command that there is none of."""
+    name = words[0]
+    other = advice(words)
+    if other:
+        return f"{name.lstrip('!')}: {cut(other, 300)}."
     hint = did_you_mean(name[:100], [*PROGRAMS, *BUILTINS])
+    if not hint and re.match(r"\w+[(=\[.]", name):
+        hint = "If it is Python, write it on a line of its own: behind a command all is the terminal's."
     computer = (
         "In this classroom's terminal there are ros2, colcon, source and a few more; !command asks your computer."
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from .terminal_changes import cp, mv, rm
 from .terminal_files import cd, chmod, ls, mkdir, pwd, touch
 from .terminal_io import Builtin
 from .terminal_jobs import kill, list_jobs
@@ -11,6 +12,7 @@ BUILTINS: dict[str, Builtin] = {
     "cat": cat,
     "cd": cd,
     "chmod": chmod,
+    "cp": cp,
     "echo": echo,
     "grep": grep,
     "head": head,
@@ -18,7 +20,9 @@ BUILTINS: dict[str, Builtin] = {
     "kill": kill,
     "ls": ls,
     "mkdir": mkdir,
+    "mv": mv,
     "pwd": pwd,
+    "rm": rm,
     "sort": sort,
     "tail": tail,
     "touch": touch,

@@ -7,7 +7,8 @@ from argparse import ArgumentParser, Namespace
 from collections.abc import Callable
 from typing import Any
 
-from .common import CommandError, add_duration, add_node_arguments, direct_node, expanded, suggest, topics, unsigned_int
+from .amounts import unsigned_int
+from .common import CommandError, add_duration, add_node_arguments, direct_node, expanded, suggest, topics
 from .listening import class_of_topic, listen, not_published
 from .quality import add_qos_arguments, is_chosen, matching_profile, profile_of
 from .text import Style, message_to_csv, message_to_yaml
@@ -115,7 +116,7 @@ def filter_of(expression: str | None) -> Callable[[Any], bool]:
     def passes(message: Any) -> bool:
         try:
             return bool(eval(code, {"m": message}))
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             text = f"The filter expression '{expression[:200]}' failed: {type(error).__name__}: {error}"
             raise CommandError(text) from None
 

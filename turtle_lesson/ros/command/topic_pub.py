@@ -6,6 +6,7 @@ import time
 from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING, Any
 
+from .amounts import LONGEST, frequency, seconds, unsigned_int
 from .common import (
     PATIENCE,
     CommandError,
@@ -13,16 +14,14 @@ from .common import (
     add_node_arguments,
     direct_node,
     end_of_stretch,
-    frequency,
+    expanded,
     now,
     of_the_classroom,
-    seconds,
     spin_for,
     stretch_of,
     subscriptions,
     suggest,
     topics,
-    unsigned_int,
 )
 from .quality import add_qos_arguments, profile_of
 from .types import message_class
@@ -67,9 +66,11 @@ def pub(args: Namespace) -> None:
     profile = profile_of(args, PRESET, reliability="reliable", durability="transient_local", history="keep_last")
     times = 1 if args.once else args.times
     needed = args.wait_matching_subscriptions
+    if times / args.rate > LONGEST:
+        raise CommandError(f"{times} messages at {args.rate:g} a second take longer than a day: make it fewer")
     with direct_node(args, args.node_name) as node:
         message = _message(args.message_type, args.values)
-        publisher = node.create_publisher(type(message), args.topic_name, profile)
+        publisher = node.create_publisher(type(message), expanded(node, args.topic_name), profile)
         _wait_for_subscriptions(node, publisher, (1 if times else 0) if needed is None else needed)
         _publish(node, publisher, message, args, times)
 

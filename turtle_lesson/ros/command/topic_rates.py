@@ -13,15 +13,8 @@ from typing import Any
 
 from turtle_lesson.ros.world import current_process
 
-from .common import (
-    CommandError,
-    add_duration,
-    add_node_arguments,
-    direct_node,
-    positive_int,
-    stretch_of,
-    unsigned_int,
-)
+from .amounts import positive_int
+from .common import CommandError, add_duration, add_node_arguments, direct_node, stretch_of
 from .listening import listen, wait_for_class
 from .topic_echo import filter_of
 
@@ -169,7 +162,7 @@ def delay_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--window",
         "-w",
-        type=unsigned_int,
+        type=positive_int,
         default=DELAY_WINDOW,
         help="How many messages the average is of (default: %(default)s)",
     )

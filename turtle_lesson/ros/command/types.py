@@ -43,6 +43,13 @@ def _find(name: str, folder: str) -> Any:
         return None
 
 
+def unknown_type(name: str, folder: str) -> str:
+    """A line about a type that does not exist, or that was typed in its short form; nothing for one that does."""
+    if name.count("/") == 2 and _find(name, folder) is not None:
+        return ""
+    return f"There is no type '{name}'\n{suggest_type(name, folder)}".rstrip()
+
+
 def suggest_type(name: str, folder: str) -> str:
     """`Did you mean 'std_msgs/msg/String'?`, or nothing if no type is like that."""
     from turtle_lesson.ros.interfaces import registry

@@ -35,7 +35,7 @@ def read_yaml(text: str, what: str = "The passed value") -> Any:
     import yaml
 
     if len(text) > MAX_LENGTH:
-        raise NoYaml(f"{what} is too long: {len(text)} characters of YAML, at most {MAX_LENGTH} are read")
+        raise NoYaml(f"{what} is too long: at most {MAX_LENGTH} characters of YAML are read")
     try:
         return yaml.load(text, _loader())
     except yaml.MarkedYAMLError as error:

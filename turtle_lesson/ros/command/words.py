@@ -6,15 +6,21 @@ are typed, so that `"{x: 5.0}"` needs no care.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+
+_CONTINUED = re.compile(r"\\[ \t]*\n")
+"""A backslash at a line's end. Blanks behind it, which nobody sees, do no harm here."""
+
+_HERE = re.compile(r"<<-?[ \t]*(['\"]?)(\w+)\1")
 
 OPERATORS = ("&&", "||", ">>", "2>&1", "&>", "2>", ";", "&", "|", ">", "<", "\n")
 SPACE = " \t\r"
 
 
 class UnfinishedError(ValueError):
-    """A quote is never closed, or the line ends in a backslash."""
+    """A quote or a `<<END` is never closed, or the line ends in a backslash."""
 
 
 @dataclass(frozen=True)
@@ -37,7 +43,14 @@ class Operator:
     text: str
 
 
-Token = Word | Operator
+@dataclass(frozen=True)
+class HereText:
+    """The lines between `<<END` and END, which a command is given to read."""
+
+    text: str
+
+
+Token = Word | Operator | HereText
 
 
 def tokens(text: str) -> Iterator[Token]:
@@ -69,6 +82,9 @@ class _Scanner:
         self._skip_space()
         if self.at >= len(self.text):
             return None
+        here = _HERE.match(self.text, self.at)
+        if here is not None:
+            return self._here_text(here)
         for sign in OPERATORS:
             if self.text.startswith(sign, self.at):
                 self.at += len(sign)
@@ -80,8 +96,8 @@ class _Scanner:
         while self.at < len(text):
             if text[self.at] in SPACE:
                 self.at += 1
-            elif text.startswith("\\\n", self.at):
-                self.at += 2
+            elif (continued := _CONTINUED.match(text, self.at)) is not None:
+                self.at = continued.end()
             elif text[self.at] == "#":
                 end = text.find("\n", self.at)
                 self.at = len(text) if end < 0 else end
@@ -120,9 +136,25 @@ class _Scanner:
         rest = self.text[begin : begin + 20]
         raise UnfinishedError(f"the quote {quote} before {rest!r} is never closed: write another {quote} where it ends")
 
+    def _here_text(self, sign: re.Match[str]) -> HereText:
+        """Cut the lines up to the closing word out of the text, so that what follows the sign is read next."""
+        self.at = sign.end()
+        begin = self.text.find("\n", self.at) + 1
+        tabs = "\t*" if sign[0].startswith("<<-") else ""
+        closing = re.compile(rf"^{tabs}{sign[2]}[ \t\r]*$", re.MULTILINE).search(self.text, begin) if begin else None
+        if closing is None:
+            raise UnfinishedError(f"{sign[0]!r} is never closed: write {sign[2]} alone on a line where the text ends")
+        inside = self.text[begin : closing.start()]
+        self.text = self.text[: begin - 1] + self.text[closing.end() :]
+        return HereText(re.sub(r"(?m)^\t+", "", inside) if tabs else inside)
+
     def _after_backslash(self) -> str:
-        if self.at + 1 >= len(self.text):
+        continued = _CONTINUED.match(self.text, self.at)
+        if continued is not None:
+            self.at = continued.end()
+            return ""
+        if not self.text[self.at + 1 :].strip(" \t"):
             raise UnfinishedError("a backslash at the end of a line goes on in the next line, and there is none")
         char = self.text[self.at + 1]
         self.at += 2
-        return "" if char == "\n" else char
+        return char

@@ -6,23 +6,41 @@ build reports, at its line.
 
 from __future__ import annotations
 
+import os
 import re
 from pathlib import Path
 
 from ..core.tracebacks import shown_path
+from ..interfaces.registry import Registry
 from . import manifest_check
 from .cmake import CMakeError, CMakeFile, Command, evaluate
 from .cmake_install import install_entries, install_item, refused, unreadable
 from .cmake_interfaces import InterfaceCheck, not_found
+from .cmake_refusals import refusal
 from .cmake_text import SHARE, cmake_message
 from .discover import Found
 from .errors import did_you_mean
-from .interface_files import interface_items
+from .installed import prefix_of
+from .interface_files import definitions, interface_items
 from .known import CMAKE_COMMANDS, CMAKE_PACKAGES, COMMANDS_OF, brought_by
 from .outcome import PYTHON, BuildFailure, Environment, Item, Outcome, check_targets, with_hint
 
 _DEFINED = re.compile(r"^\s*(?:function|macro)\s*\(\s*(\w+)", re.MULTILINE | re.IGNORECASE)
 _PACKAGE_XML = f"{SHARE}/ament_cmake_core/cmake/core/ament_package_xml.cmake"
+_EXTENSIONS = f"{SHARE}/ament_cmake_core/cmake/core/ament_execute_extensions.cmake"
+_HOOKS = (
+    f"{SHARE}/ament_cmake_core/cmake/environment_hooks/ament_environment_hooks.cmake:29 (message)",
+    f"{SHARE}/ament_cmake_core/cmake/environment_hooks/ament_cmake_environment_hooks_package_hook.cmake:20 "
+    "(ament_environment_hooks)",
+    f"{_EXTENSIONS}:48 (include)",
+    f"{SHARE}/ament_cmake_core/cmake/core/ament_package.cmake:73 (ament_execute_extensions)",
+)
+_TWICE = (
+    "ament_environment_hooks() must be called before ament_generate_package_environment() (which is invoked by "
+    "ament_package())"
+)
+_OLD = 'if given arguments:\n\n  "ament_cmake_core" "IN_LIST" "_ARG_EXCLUDE"\n\nUnknown arguments specified'
+_QUIET = {"STATUS", "VERBOSE", "DEBUG", "TRACE", "CHECK_START", "CHECK_PASS", "CHECK_FAIL", "CONFIGURE_LOG"}
 _PYTHON_PLACE = f"local/lib/{PYTHON}/dist-packages"
 
 
@@ -55,6 +73,7 @@ class _Build:
         self.seen: set[str] = set()
         self.commands: set[str] = set(CMAKE_COMMANDS)
         self.finished = False
+        self.modern = False
         self.checks: list[InterfaceCheck] = []
         self.warnings: list[str] = []
         self.hints: list[str] = []
@@ -69,8 +88,9 @@ class _Build:
         if not self.finished:
             self._unfinished()
         for check in self.checks:
-            check.resolve(self.environment.types)
+            check.resolve(self._types())
         items = self._items(cmake)
+        self._warn_of_definitions()
         self._warn_of_setup_py(cmake)
         return self._outcome(items)
 
@@ -106,6 +126,8 @@ class _Build:
         where = f"CMakeLists.txt:{command.line} ({command.name})"
         if command.name not in self.commands:
             raise self._unknown(command, where)
+        if wrong := refusal(command, self.found.path):
+            raise refused(wrong[0], where, wrong[1])
         special = getattr(self, f"_on_{command.name}", None)
         if special is not None:
             special(command, where)
@@ -149,8 +171,25 @@ class _Build:
         check.check_group()
         self.checks.append(check)
 
+    def _on_cmake_minimum_required(self, command: Command, where: str) -> None:
+        self.modern = True
+
+    def _on_message(self, command: Command, where: str) -> None:
+        kind, text = (command.args or ("",))[0], "".join(command.args[1:])
+        if kind in {"FATAL_ERROR", "SEND_ERROR"}:  # CMake would go on after SEND_ERROR, and fail in the end
+            raise refused(text, where)
+        if kind in {"WARNING", "AUTHOR_WARNING", "DEPRECATION"}:
+            self.warnings.append(cmake_message(text, where, kind="Warning"))
+        elif kind not in _QUIET:
+            self.warnings.append("".join(command.args[kind == "NOTICE" :]) + "\n")
+
     def _on_ament_package(self, command: Command, where: str) -> None:
+        if self.finished:
+            raise refused(_TWICE, _HOOKS[0], f"Delete line {command.line}.", (*_HOOKS[1:], where))
         self._check_xml(where, [f"{SHARE}/ament_cmake_core/cmake/core/ament_package.cmake:63 (ament_package_xml)"])
+        if not self.modern:
+            hint = "Write cmake_minimum_required(VERSION 3.8) as the first line of CMakeLists.txt."
+            raise refused(_OLD, f"{_EXTENSIONS}:41 (if)", hint, (_HOOKS[3], where))
         self.finished = True
 
     def _on_add_executable(self, command: Command, where: str) -> None:
@@ -220,6 +259,14 @@ class _Build:
             "There is no ament_package() in CMakeLists.txt: without it ROS 2 does not find the package. Write it last."
         )
 
+    def _types(self) -> Registry:
+        """All types that exist in this build; of the package's own those alone that CMakeLists.txt names."""
+        types = self.environment.types
+        if self.found.name in types.packages():
+            types.remove(self.found.name)
+        types.add(self.found.name, self.found.path, tuple(file for check in self.checks for file in check.files))
+        return types
+
     # -- install ---------------------------------------------------------------------------------------------------
 
     def _items(self, cmake: CMakeFile) -> list[Item]:
@@ -229,7 +276,18 @@ class _Build:
         for check in self.checks:
             items += interface_items(self.found, check.files)
         check_targets(items)
+        if self.environment.symlink:
+            self._warn_of_mode(items)
         return items
+
+    def _warn_of_mode(self, items: list[Item]) -> None:
+        """A link has the mode of the file that it leads to; a copy gets one that can be run."""
+        files = [item.source for item in items if item.program and item.source is not None]
+        if left := [shown_path(str(file)) for file in files if not os.access(file, os.X_OK)]:
+            self.hints.append(
+                f"--symlink-install links to {', '.join(left)}, which cannot be run (ros2 run: No executable found): "
+                f"!chmod +x {' '.join(left)}"
+            )
 
     # -- what is worth a word --------------------------------------------------------------------------------------
 
@@ -252,6 +310,17 @@ class _Build:
                 "<export><build_type>ament_cmake</build_type></export>."
             )
 
+    def _warn_of_definitions(self) -> None:
+        """Definitions that lie there and that nobody asks for: nothing is made of them, and importing them fails."""
+        named = {file for check in self.checks for file in check.files}
+        there = [path.relative_to(self.found.path).as_posix() for path in definitions(self.found.path)]
+        if left := [file for file in there if file not in named]:
+            names = " ".join(f'"{file}"' for file in left)
+            self.hints.append(
+                f"nothing is made of {', '.join(left)}, which CMakeLists.txt does not name: write {names} in "
+                "rosidl_generate_interfaces(${PROJECT_NAME} …)."
+            )
+
     def _warn_of_setup_py(self, cmake: CMakeFile) -> None:
         file = self.found.path / "setup.py"
         text = file.read_text(encoding="utf-8", errors="replace") if file.is_file() else ""
@@ -270,7 +339,7 @@ class _Build:
 
     def _outcome(self, items: list[Item]) -> Outcome:
         files = [file for check in self.checks for file in check.files]
-        share = self.environment.install / self.found.name / "share" / self.found.name
+        share = prefix_of(self.environment.install, self.found.name) / "share" / self.found.name
         changed = [file for file in files if not _same(share / file, self.found.path / file)]
         seconds = (0.7 if self.again else 1.2) + 2.0 * len(changed)
         stdout = [f"-- Found {name}" for name in sorted(self.seen)]

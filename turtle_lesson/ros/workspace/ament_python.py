@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib.util
 import os
 import re
-from pathlib import PurePosixPath
+from pathlib import Path, PurePosixPath
 from typing import Any
 
 from ..core.tracebacks import shown_path
@@ -33,7 +33,7 @@ def _setup_hint(found: Found, text: str) -> str:
     where = shown_path(str(found.path / "setup.py"))
     if "SyntaxError" in text:
         return f"In {where}: look at this line and at the end of the one before: is a comma or a bracket missing?"
-    return f"In {where}."
+    return "" if "setup.cfg" in text else f"In {where}."
 
 
 class _Build:
@@ -80,15 +80,16 @@ class _Build:
 
     def _modules(self) -> list[Item]:
         items = []
-        top = {str(name).partition(".")[0] for name in self.setup.get("packages") or []}
-        for name in self.setup.get("packages") or []:
-            folder = self.found.path.joinpath(*str(name).split("."))
-            if not folder.is_dir():
-                text = f"error: package directory '{str(name).replace('.', '/')}' does not exist\n"
-                raise BuildFailure(text, f"setup.py names it in packages=…; make {name}/__init__.py.", seconds=0.5)
+        packages = self._names("packages")
+        top = {name.partition(".")[0] for name in packages}
+        for name in packages:
+            if not self._folder(name).is_dir():
+                place = self._folder(name).relative_to(self.found.path).as_posix()
+                text = f"error: package directory '{place}' does not exist\n"
+                raise BuildFailure(text, f"setup.py names it in packages=…; make {place}/__init__.py.", seconds=0.5)
         for name in sorted(top):
-            items.append(Item(f"{SITE}/{name}", self.found.path / name))
-        for module in self.setup.get("py_modules") or []:
+            items.append(Item(f"{SITE}/{name}", self._folder(name)))
+        for module in self._names("py_modules"):
             file = self.found.path / f"{module}.py"
             if not file.is_file():
                 hint = "setup.py names it in py_modules=…."
@@ -104,17 +105,40 @@ class _Build:
         items.append(Item(f"{info}/top_level.txt", text="".join(f"{name}\n" for name in sorted(top))))
         return items
 
+    def _names(self, option: str) -> list[str]:
+        """The modules that `packages=` or `py_modules=` lists."""
+        given = self.setup.get(option) or []
+        if not isinstance(given, list) or not all(
+            isinstance(name, str) and all(map(str.isidentifier, name.split("."))) for name in given
+        ):
+            text = f"error in {self.found.name} setup command: '{option}' must be a list of module names\n"
+            raise BuildFailure(text, f"Write {option}=['{self.found.name}'], with brackets.", seconds=0.5)
+        return given
+
+    def _folder(self, package: str) -> Path:
+        """Where a package lies: in its own folder, unless `package_dir=` says otherwise."""
+        given = self.setup.get("package_dir") or {}
+        places = {str(name): str(place) for name, place in given.items()} if isinstance(given, dict) else {}
+        top, *inner = package.split(".")
+        place = places.get(top) or "/".join(filter(None, (places.get("", ""), top)))
+        folder = self.found.path.joinpath(place, *inner)
+        if not folder.resolve().is_relative_to(self.found.path.resolve()):
+            text = f"error: package_dir: '{place[:80]}' lies outside of the package's folder\n"
+            raise BuildFailure(text, "Put the modules into the package.", seconds=0.5)
+        return folder
+
     # -- data files ------------------------------------------------------------------------------------------------
 
     def _data(self) -> list[Item]:
         items = []
-        for entry in self.setup.get("data_files") or []:
-            if not isinstance(entry, (tuple, list)) or len(entry) != 2:
-                text = f"error: data_files has {entry!r}, which is no ('folder', ['file', …])\n"
+        given = self.setup.get("data_files") or []
+        for entry in given if isinstance(given, list) else [given]:
+            files = entry[1] if isinstance(entry, list) and len(entry) == 2 else None
+            files = [files] if isinstance(files, str) else files
+            if not isinstance(files, list) or not all(isinstance(name, str) for name in [entry[0], *files]):
+                text = f"error: data_files has {str(entry)[:80]}, which is no ('folder', ['file', …])\n"
                 raise BuildFailure(text, "Write ('share/' + package_name, ['package.xml']),.", seconds=0.5)
-            place, files = entry
-            for name in [files] if isinstance(files, str) else files:
-                items.append(self._data_file(os.fspath(place), os.fspath(name)))
+            items += [self._data_file(entry[0], name) for name in files]
         return self._with_markers(items)
 
     def _data_file(self, place: str, name: str) -> Item:
@@ -155,7 +179,9 @@ class _Build:
             hint = "Write entry_points={'console_scripts': ['name = package.module:main']},."
             raise BuildFailure("error: entry_points must be a dictionary\n", hint, seconds=0.5)
         lines = entries.get("console_scripts") or []
-        return [lines] if isinstance(lines, str) else [str(line) for line in lines]
+        if isinstance(lines, str):
+            return [line for line in lines.splitlines() if line.strip()]
+        return [str(line) for line in lines] if isinstance(lines, list) else [str(lines)]
 
     def _programs(self) -> list[Item]:
         place = install_scripts(self.found.path)
@@ -181,9 +207,9 @@ class _Build:
 
     def _check_entry(self, name: str, module: str, function: str) -> None:
         """A real build does not look; the program would end with an error when it is run."""
-        file = self.found.path.joinpath(*module.split("."))
+        file = self._folder(module)
         source = file.with_suffix(".py") if file.with_suffix(".py").is_file() else file / "__init__.py"
-        own = module.partition(".")[0] in {str(each).partition(".")[0] for each in self.setup.get("packages") or []}
+        own = module.partition(".")[0] in {each.partition(".")[0] for each in self._names("packages")}
         if source.is_file():
             text = source.read_text(encoding="utf-8", errors="replace")
             if not re.search(rf"\b{re.escape(function.partition('.')[0])}\b", text):

@@ -6,20 +6,22 @@ The time that a build takes is robot time, the same on every computer.
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
 from ..core import NANOSECONDS, running_strand
+from ..core.tracebacks import shown_path
 from ..interfaces.names import LOWER_CASE
 from ..interfaces.registry import Registry, registry
 from .ament_cmake import build_ament_cmake
 from .ament_python import build_ament_python
 from .console import Console
-from .discover import Found, in_order
-from .install_tree import install_package, prefix_of, prepare, write_setup_files
-from .installed import installed_names, read_installed
+from .discover import Found, in_order, needed_by
+from .install_tree import install_package, prepare, write_setup_files
+from .installed import installed_names, prefix_of, read_installed
+from .interface_files import definitions
 from .outcome import Environment, Outcome
 from .source import resource
 
@@ -36,10 +38,12 @@ class Plan:
 
     base: Path
     packages: list[Found]
+    workspace: list[Found]
     install: Path
     build: Path
     log: Path
     symlink: bool = False
+    merged: bool = False
     go_on: bool = False
     workers: int = 4
     handlers: dict[str, bool] = field(default_factory=dict)
@@ -76,7 +80,8 @@ class _Builder:
         self.done: set[str] = set()
 
     def run(self) -> int:
-        prepare(self.plan.install, self.plan.build, self.plan.log)
+        layout = "merged" if self.plan.merged else "isolated"
+        prepare(self.plan.install, self.plan.build, self.plan.log, layout)
         queued = len(self.waiting)
         self._pass(_BEGIN)
         self.console.queued([found.name for found in self.waiting])
@@ -109,9 +114,24 @@ class _Builder:
                 self.running.append(_Job(found, self._outcome(found), self.now))
 
     def _outcome(self, found: Found) -> Outcome:
+        if missing := self._missing(found):
+            return Outcome(1, seconds=0.01, colcon_error=missing)
         environment = self._environment(found)
         python = found.kind in {"ros.ament_python", "python"}
         return (build_ament_python if python else build_ament_cmake)(found, environment)
+
+    def _missing(self, found: Found) -> str:
+        """What colcon says where packages of this workspace are needed and neither built nor sourced."""
+        needed = needed_by(self.plan.workspace, [found.name]) - {found.name, *self.world.packages.names()}
+        order = [each.name for each in self.plan.workspace if each.name in needed]
+        there = set(installed_names(self.plan.install))
+        lacking = [name for name in order if name not in there]
+        if not lacking:
+            return ""
+        files = [shown_path(str(prefix_of(self.plan.install, name) / f"share/{name}/package.sh")) for name in lacking]
+        text = "\n- ".join(["Failed to find the following files:", *files])
+        text += "\n- ".join(["\nCheck that the following packages have been built:", *lacking])
+        return f"{text}\nHint: colcon build --packages-up-to {found.name} builds them first."
 
     def _end(self, job: _Job) -> None:
         self._pass(max(0.0, job.ends - self.now))
@@ -121,6 +141,10 @@ class _Builder:
             self._install(found, outcome)
         self.log[found.name] = outcome
         self.code = self.code or outcome.code
+        if outcome.colcon_error:
+            task = "cmake" if found.kind != "ros.ament_python" else "python"
+            where = f"colcon.colcon_{'cmake' if task == 'cmake' else 'core'}.task.{task}.build"
+            self.console.error(f"[{self.now + _BEGIN:.3f}s] ERROR:{where}:{outcome.colcon_error}")
         self.console.finished(found.name, outcome.seconds, outcome.code, outcome.stdout, outcome.stderr)
 
     def _install(self, found: Found, outcome: Outcome) -> None:
@@ -132,7 +156,7 @@ class _Builder:
             outcome.stderr += f"error: {found.name} cannot be installed: {error.strerror or error}: {error.filename}\n"
             return
         self.done.add(found.name)
-        resource(self.world, prefix_of(environment, found.name))
+        resource(self.world, self.plan.install, found.name)
 
     def _abort(self) -> None:
         for job in self.running:
@@ -143,7 +167,7 @@ class _Builder:
         """What the package may use: what is sourced, and those of this workspace that package.xml names."""
         installed = set(installed_names(self.plan.install))
         needed = _recursive(found, self.plan.install, installed)
-        packages = [read_installed(self.plan.install / name) for name in sorted(needed)]
+        packages = [read_installed(self.plan.install, name) for name in sorted(needed)]
         types = types_for(
             found, {each.name: (each.share, tuple(each.interfaces)) for each in packages if each.interfaces}
         )
@@ -178,11 +202,6 @@ def _point(link: Path, target: str) -> None:
         link.write_text(target, encoding="utf-8")
 
 
-def _definitions(folder: Path) -> Iterable[Path]:
-    for kind in ("msg", "srv", "action"):
-        yield from sorted((folder / kind).glob(f"*.{kind}"))
-
-
 def _recursive(found: Found, install: Path, installed: set[str]) -> set[str]:
     needed: set[str] = set()
     waiting = list(found.dependencies)
@@ -190,7 +209,7 @@ def _recursive(found: Found, install: Path, installed: set[str]) -> set[str]:
         name = waiting.pop()
         if name in installed and name not in needed and name != found.name:
             needed.add(name)
-            file = install / name / "share" / "colcon-core" / "packages" / name
+            file = prefix_of(install, name) / "share" / "colcon-core" / "packages" / name
             waiting += file.read_text(encoding="utf-8").split(":") if file.is_file() else []
     return needed
 
@@ -201,7 +220,7 @@ def types_for(found: Found, others: Mapping[str, tuple[Path, tuple[str, ...] | N
     sourced = [registry.package(name) for name in registry.packages() if name not in built_in]
     places = {package.name: (package.directory, package.files) for package in sourced} | dict(others)
     places.pop(found.name, None)
-    files = tuple(path.relative_to(found.path).as_posix() for path in _definitions(found.path))
+    files = tuple(path.relative_to(found.path).as_posix() for path in definitions(found.path))
     if files and LOWER_CASE.fullmatch(found.name):
         places[found.name] = (found.path, files)
     types = Registry()

@@ -11,14 +11,15 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ..core.tracebacks import shown_path
 from .cmake_conditions import is_true
-from .cmake_syntax import Argument, Call, CMakeError, read_calls
+from .cmake_syntax import Argument, Call, CMakeError, check_blocks, read_calls
 
 __all__ = ["CMakeError", "CMakeFile", "Command", "Installed", "Program", "read_cmake"]
 
 _VARIABLE = re.compile(r"\\(.)|\$\{([^${}]*)\}", re.DOTALL)
 _ESCAPES = {"n": "\n", "t": "\t", "r": "\r"}
-_LOOPS = {"foreach": "endforeach", "while": "endwhile", "function": "endfunction", "macro": "endmacro"}
+_LOOPS = {"foreach", "while", "function", "macro"}
 _MATTERS = {"install", "rosidl_generate_interfaces", "project", "ament_package"}
 _INSTALL_WORDS = {
     "DESTINATION", "RENAME", "PERMISSIONS", "FILE_PERMISSIONS", "DIRECTORY_PERMISSIONS", "CONFIGURATIONS",
@@ -98,10 +99,12 @@ class CMakeFile:
         found = []
         for command in self._installs("PROGRAMS"):
             names, options = _until(command.args[1:], _INSTALL_WORDS)
-            destination, rename = self._destination(command, options), options.get("RENAME")
+            rename = options.get("RENAME")
             if rename and len(names) > 1:
                 reason = "RENAME gives one name, so install one program at a time: install(PROGRAMS a.py …)"
-                raise CMakeError(reason, command.line, self.file)
+                words = "install PROGRAMS given RENAME option with more than one file."
+                raise self._refused(command, reason, words)
+            destination = self._destination(command, options)
             for name in names:
                 found.append(Program(name, destination, rename or Path(name).name, command.line))
         return found
@@ -127,9 +130,14 @@ class CMakeFile:
 
     def _destination(self, command: Command, options: dict[str, str]) -> str:
         if not options.get("DESTINATION"):
-            reason = f"install({command.args[0]} …) needs a DESTINATION, such as lib/${{PROJECT_NAME}}"
-            raise CMakeError(reason, command.line, self.file)
+            kind = command.args[0]
+            reason = f"install({kind} …) needs a DESTINATION, such as lib/${{PROJECT_NAME}}"
+            raise self._refused(command, reason, f"install {kind} given no DESTINATION!")
         return options["DESTINATION"].rstrip("/")
+
+    def _refused(self, command: Command, reason: str, words: str) -> CMakeError:
+        place = f"{command.line} ({command.name})"
+        return CMakeError(reason, command.line, self.file, words=words, place=place)
 
 
 def _until(args: tuple[str, ...], words: set[str]) -> tuple[list[str], dict[str, str]]:
@@ -163,7 +171,9 @@ def evaluate(text: str, file: str = "CMakeLists.txt", folder: Path | None = None
     variables = dict.fromkeys(("CMAKE_CURRENT_SOURCE_DIR", "CMAKE_SOURCE_DIR", "PROJECT_SOURCE_DIR"), where)
     variables |= {"CMAKE_CURRENT_LIST_DIR": where, "BUILD_TESTING": "ON", "UNIX": "1"}
     evaluator = _Evaluator(variables, file)
-    return CMakeFile(list(evaluator.run(read_calls(text, file))), file)
+    calls = read_calls(text, file)
+    check_blocks(calls, file)
+    return CMakeFile(list(evaluator.run(calls)), file)
 
 
 class _Evaluator:
@@ -173,20 +183,17 @@ class _Evaluator:
         self.variables = variables
         self.file = file
         self._branches: list[str] = []  # one per open if: "taken", "waiting" for its branch, or "done"
-        self._opened: list[int] = []
-        self._loop: tuple[str, int] | None = None
+        self._loops: list[str] = []
 
     def run(self, calls: list[Call]) -> Iterator[Command]:
         """The commands that take effect."""
         for call in calls:
-            if self._loop:
+            if self._loops:
                 self._inside_loop(call)
             elif not self._conditional(call) and self._active:
+                if call.name == "return":
+                    return
                 yield from self._effect(call)
-        if self._branches:
-            raise CMakeError("this if() has no endif()", self._opened[-1], self.file)
-        if self._loop:
-            raise CMakeError(f"there is no {self._loop[0]}() that ends this", self._loop[1], self.file)
 
     @property
     def _active(self) -> bool:
@@ -194,22 +201,19 @@ class _Evaluator:
 
     def _inside_loop(self, call: Call) -> None:
         """A loop's or function's body is not run, so nothing that matters may stand in it."""
-        assert self._loop is not None
-        if call.name == self._loop[0]:
-            self._loop = None
+        if call.name == f"end{self._loops[-1]}":
+            self._loops.pop()
+        elif call.name in _LOOPS:
+            self._loops.append(call.name)
         elif call.name in _MATTERS:
-            what = self._loop[0].removeprefix("end")
-            reason = f"{call.name}() inside of {what}() is not understood in this classroom; write it out"
+            reason = f"{call.name}() inside of {self._loops[-1]}() is not understood in this classroom; write it out"
             raise CMakeError(reason, call.line, self.file)
 
     def _conditional(self, call: Call) -> bool:
         if call.name == "if":
             taken = self._active and self._holds(call)
             self._branches.append("taken" if taken else "waiting" if self._active else "done")
-            self._opened.append(call.line)
         elif call.name in {"elseif", "else", "endif"}:
-            if not self._branches:
-                raise CMakeError(f"{call.name}() without an if() before it", call.line, self.file)
             self._next_branch(call)
         else:
             return False
@@ -218,19 +222,19 @@ class _Evaluator:
     def _next_branch(self, call: Call) -> None:
         state = self._branches.pop()
         if call.name == "endif":
-            self._opened.pop()
-        elif state == "waiting" and (call.name == "else" or self._holds(call)):
+            return
+        if state == "waiting" and (call.name == "else" or self._holds(call)):
             self._branches.append("taken")
         else:
             self._branches.append("waiting" if state == "waiting" else "done")
 
     def _holds(self, call: Call) -> bool:
-        words = [(self.expand(argument), argument.quoted) for argument in call.args]
+        words = [(self.expand(argument, call), argument.quoted) for argument in call.args]
         return is_true(words, self.variables, call.line, self.file)
 
     def _effect(self, call: Call) -> Iterator[Command]:
         if call.name in _LOOPS:
-            self._loop = (_LOOPS[call.name], call.line)
+            self._loops.append(call.name)
             return
         args = self._arguments(call)
         if call.name == "set" and args:
@@ -249,17 +253,23 @@ class _Evaluator:
     def _arguments(self, call: Call) -> tuple[str, ...]:
         values: list[str] = []
         for argument in call.args:
-            text = self.expand(argument)
+            text = self.expand(argument, call)
             values += [text] if argument.quoted else [part for part in _split(text) if part]
         return tuple(values)
 
-    def expand(self, argument: Argument) -> str:
+    def expand(self, argument: Argument, call: Call) -> str:
         """The argument with its variables and escapes put in; an unset variable is empty, as in CMake."""
         text = argument.text
         if argument.raw:
             return text
         if text.count("${") > text.count("}"):
-            raise CMakeError(f"'{text}': a ${{ is not closed by }}", argument.line, self.file)
+            reason = f"'{text}': a ${{ is not closed by }}"
+            file = shown_path(str(Path(self.variables.get("CMAKE_CURRENT_SOURCE_DIR", ".")) / Path(self.file).name))
+            words = (
+                f"Syntax error in cmake code at\n\n  {file}:{argument.line}\n\nwhen parsing string\n\n  {text}\n\n"
+                "There is an unterminated variable reference."
+            )
+            raise CMakeError(reason, argument.line, self.file, words=words, place=f"{call.line} ({call.name})")
         for _ in range(10):  # ${a_${b}} needs a round for each level
             expanded = _VARIABLE.sub(self._replace, text)
             if expanded == text or "${" not in expanded:

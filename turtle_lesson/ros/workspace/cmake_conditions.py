@@ -27,12 +27,17 @@ Word = tuple[str, bool]
 def is_true(words: Sequence[Word], variables: Mapping[str, str], line: int, file: str) -> bool:
     """Whether the condition holds; each word comes with whether it was quoted."""
     if not words:
-        raise CMakeError("if() needs a condition, such as if(BUILD_TESTING)", line, file)
+        return False  # so does CMake
     reader = _Condition(list(words), variables)
-    value = reader.either()
+    try:
+        value = reader.either()
+    except (re.error, RecursionError):  # no regular expression, or thousands of parentheses
+        reader.broken = True
     if reader.words or reader.broken:
         text = " ".join(word for word, _ in words)
-        raise CMakeError(f"if({text}) is no condition that CMake knows", line, file)
+        given = " ".join(f'"{word}"' for word, _ in words)
+        said = f"if given arguments:\n\n  {given}\n\nUnknown arguments specified"
+        raise CMakeError(f"if({text}) is no condition that CMake knows", line, file, words=said, place=f"{line} (if)")
     return value
 
 

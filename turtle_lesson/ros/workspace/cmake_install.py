@@ -73,15 +73,7 @@ def _check_program(found: Found, entry: Program, source: Path, hints: list[str])
 
 def unreadable(error: CMakeError) -> BuildFailure:
     """Text that is no CMake, or needs more of it than is understood here."""
-    reason = error.reason
-    if "never closed" in reason and "'('" in reason:
-        reason = f'Parse error. Function missing ending ")". {reason[0].upper()}{reason[1:]}.'
-    elif "endif" in reason:
-        reason = f"Flow control statements are not properly nested: {reason}."
-    elif "needs a DESTINATION" in reason:
-        kind = reason.partition("(")[2].split()[0]
-        hint = reason[0].upper() + reason[1:] + "."
-        return refused(f"install {kind} given no DESTINATION!", f"CMakeLists.txt:{error.line} (install)", hint)
-    failure = refused(reason, f"CMakeLists.txt:{error.line}")
+    hint = f"CMakeLists.txt, line {error.line}: {error.reason}." if error.words else ""
+    failure = refused(error.words or error.reason, f"CMakeLists.txt:{error.place}", hint)
     failure.seconds = 0.1
     return failure

@@ -6,17 +6,29 @@ Facts: https://cmake.org/cmake/help/latest/manual/cmake-language.7.html. Nothing
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 
 class CMakeError(ValueError):
-    """A CMakeLists.txt that CMake would refuse, or that needs more of CMake than is understood here."""
+    """A CMakeLists.txt that CMake would refuse, or that needs more of CMake than is understood here.
 
-    def __init__(self, reason: str, line: int, file: str = "CMakeLists.txt") -> None:
+    Attributes:
+        reason: what is wrong, and what to try.
+        line: where the mistake is.
+        words: what CMake itself says, where it says it otherwise.
+        place: what stands behind the file's name in CMake's message: `12 (install)`, or the line alone.
+    """
+
+    def __init__(
+        self, reason: str, line: int, file: str = "CMakeLists.txt", *, words: str = "", place: str | int = ""
+    ) -> None:
         super().__init__(reason, line, file)
         self.reason = reason
         self.line = line
         self.file = file
+        self.words = words
+        self.place = str(place or line)
 
     def __str__(self) -> str:
         return f"{self.file}, line {self.line}: {self.reason}"
@@ -42,6 +54,7 @@ class Call:
 
 
 _SPACE = re.compile(r"\s+")
+_BLANKS = re.compile(r"[ \t\r]+")
 _COMMENT = re.compile(r"#(?!\[=*\[)[^\n]*")
 _BRACKET = re.compile(r"\[(=*)\[\n?(.*?)\]\1\]", re.DOTALL)
 _NAME = re.compile(r"[A-Za-z_]\w*")
@@ -78,11 +91,32 @@ class _Reader:
         line = self.line
         self.position += 1
         if not self.take(_BRACKET):
-            raise CMakeError("this #[[ comment never ends; close it with ]]", line, self.file)
+            rest = self.text[self.text.index("[", self.position + 1) + 1 :]
+            words = f'Parse error. Expected a command name, got unterminated bracket with text "{_shown(rest)}".'
+            reason = "this #[[ comment never ends; close it with ]]"
+            raise CMakeError(reason, line, self.file, words=words, place=self.last_line)
         return True
 
-    def error(self, reason: str, line: int | None = None) -> CMakeError:
-        return CMakeError(reason, line or self.line, self.file)
+    @property
+    def last_line(self) -> int:
+        return self.text.count("\n") + 1
+
+    def got(self) -> tuple[str, int]:
+        """What CMake calls the token that comes next, and the line at which it says so."""
+        rest = self.text[self.position :]
+        if rest[:1] == "\n":
+            return f'newline with text "{_shown(rest[:1])}"', self.line + 1
+        if rest[:1] in {"(", ")"}:
+            return f'{"left" if rest[0] == "(" else "right"} paren with text "{rest[0]}"', self.line
+        if match := _QUOTED.match(rest):
+            return f'quoted argument with text "{match[1][:60]}"', self.line
+        if match := _NAME.match(rest):
+            return f'identifier with text "{match[0][:60]}"', self.line
+        match = _PLAIN.match(rest)
+        return f'unquoted argument with text "{(match[0] if match else rest)[:60]}"', self.line
+
+    def error(self, reason: str, line: int, words: str, place: int) -> CMakeError:
+        return CMakeError(reason, line, self.file, words=words, place=place)
 
 
 def read_calls(text: str, file: str = "CMakeLists.txt") -> list[Call]:
@@ -102,13 +136,19 @@ def read_calls(text: str, file: str = "CMakeLists.txt") -> list[Call]:
 
 def _call(reader: _Reader) -> Call:
     line = reader.line
+    token, place = reader.got()
     name = reader.take(_NAME)
     if not name:
         found = reader.text[reader.position : reader.position + 20].split("\n")[0]
-        raise reader.error(f"expected a command such as find_package(…), found {found!r}")
-    reader.take(_SPACE)
+        words = f"Parse error. Expected a command name, got {token}."
+        raise reader.error(f"expected a command such as find_package(…), found {found!r}", line, words, place)
+    reader.take(_BLANKS)
     if not reader.text.startswith("(", reader.position):
-        raise reader.error(f"expected '(' after {name[0]!r}: a command looks like {name[0]}(argument)", line)
+        token, place = reader.got()
+        words = f'Parse error. Expected "(", got {token}.'
+        if reader.position >= len(reader.text):
+            words = 'Unexpected end of file.\nParse error. Function missing opening "(".'
+        raise reader.error(f"expected '(' after {name[0]!r}: a command looks like {name[0]}(…)", line, words, place)
     reader.position += 1
     return Call(name[0].lower(), tuple(_arguments(reader, name[0], line)), line)
 
@@ -120,7 +160,8 @@ def _arguments(reader: _Reader, name: str, line: int) -> list[Argument]:
         reader.skip_blanks()
         here = reader.line
         if reader.position >= len(reader.text):
-            raise reader.error(f"the '(' of {name} is never closed; put a ')' where its arguments end", line)
+            reason = f"the '(' of {name} is never closed; put a ')' where its arguments end"
+            raise reader.error(reason, line, 'Parse error. Function missing ending ")". End of file reached.', line)
         character = reader.text[reader.position]
         if character in "()":
             reader.position += 1
@@ -139,4 +180,46 @@ def _argument(reader: _Reader, line: int) -> Argument:
         return Argument(match[1].replace("\\\n", ""), line, quoted=True)
     if match := reader.take(_PLAIN):
         return Argument(match[0], line)
-    raise reader.error('this quote is never closed; end the text with another "', line)
+    rest = reader.text[reader.position + 1 :]
+    words = f'Parse error. Function missing ending ")". Instead found unterminated string with text "{_shown(rest)}".'
+    reason = 'this quote is never closed; end the text with another "'
+    raise reader.error(reason, line, words, reader.last_line)
+
+
+def _shown(rest: str) -> str:
+    """Text as CMake shows it, every line a paragraph; a long one is cut."""
+    cut = rest if len(rest) <= 400 else f"{rest[:400]}…"
+    return cut.replace("\n", "\n\n")
+
+
+_ENDS = {"endif": "if", "endforeach": "foreach", "endwhile": "while", "endfunction": "function", "endmacro": "macro"}
+
+
+def check_blocks(calls: Sequence[Call], file: str) -> None:
+    """Every `if` and every loop is closed, in the right order.
+
+    Raises:
+        CMakeError: where CMake says `Flow control statements are not properly nested`.
+    """
+    opened: list[Call] = []
+    for call in calls:
+        if call.name in _ENDS.values():
+            opened.append(call)
+        elif call.name in {*_ENDS, "else", "elseif"}:
+            start = _ENDS.get(call.name, "if")
+            if not opened or opened[-1].name != start:
+                raise _not_nested(call, f"{call.name}() without {_a(start)}() before it", file)
+            if call.name in _ENDS:
+                opened.pop()
+    if opened:
+        call = opened[-1]
+        raise _not_nested(call, f"this {call.name}() has no end{call.name}()", file)
+
+
+def _a(name: str) -> str:
+    return f"an {name}" if name == "if" else f"a {name}"
+
+
+def _not_nested(call: Call, reason: str, file: str) -> CMakeError:
+    words = "Flow control statements are not properly nested."
+    return CMakeError(reason, call.line, file, words=words, place=f"{call.line} ({call.name})")

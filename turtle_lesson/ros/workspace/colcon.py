@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn, TextIO
 
@@ -12,6 +11,8 @@ from .build import Plan, build
 from .console import DEFAULTS, OTHERS
 from .discover import ColconError, Found, build_type_hint, discover, in_order, needed_by
 from .errors import did_you_mean
+from .override import overridden
+from .selection import UnknownPackageError, add_selection, choose
 
 if TYPE_CHECKING:
     from ..world import World
@@ -21,6 +22,11 @@ VERBS = (
     "version-check",
 )  # fmt: skip
 _HERE = ("build", "graph", "list")
+_INSTEAD = {
+    "info": "colcon list shows what there is, and a package's package.xml says the rest.",
+    "test": "run a package's tests with pytest: !python -m pytest src/<package>/test",
+    "test-result": "pytest says itself how its tests went.",
+}
 _USAGE = (
     "usage: colcon [-h] [--log-base LOG_BASE] [--log-level LOG_LEVEL]\n              {{{verbs}}}\n              ...\n"
 )
@@ -60,21 +66,29 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """Say what is wrong with the arguments."""
-        self.err.write(f"{self.format_usage()}{self.prog}: error: {message[:300]}\n{self._advice(message)}")
+        self.refuse(f"{self.format_usage()}{self.prog}: error: {message[:300]}")
+
+    def refuse(self, text: str, hint: str = "") -> NoReturn:
+        """End with a text, and with what to try."""
+        self.err.write(f"{text}\n{hint}\n" if hint else f"{text}\n")
         raise _Exit(2)
 
-    def _advice(self, message: str) -> str:
-        _, _, given = message.partition("unrecognized arguments: ")
-        options = [option for action in self._actions for option in action.option_strings if option.startswith("--")]
-        hint = did_you_mean(given.split()[0][:60], options) if given.strip() else ""
-        return f"{hint}\n" if hint else ""
+    def parse_all(self, words: list[str]) -> argparse.Namespace:
+        """The arguments; what is left over is refused in colcon's words."""
+        args, unknown = self.parse_known_args(words)
+        if unknown:
+            options = [each for action in self._actions for each in action.option_strings if each.startswith("--")]
+            text = f"{_USAGE.format(verbs=','.join(VERBS))}colcon: error: unrecognized arguments: {' '.join(unknown)[:300]}"
+            hint = did_you_mean(unknown[0].partition("=")[0][:60], options)
+            self.refuse(text, hint or f"{self.prog} -h lists what it takes.")
+        return args
 
 
 def run(world: World, words: list[str], *, stdout: TextIO, stderr: TextIO, cwd: Path | None = None) -> int:
     """Carry out `colcon WORDS…` in a folder; return the exit code."""
     usage = _USAGE.format(verbs=",".join(VERBS))
-    while words[:1] in (["--log-base"], ["--log-level"]):
-        words = words[2:]  # taken, and without effect here
+    while words and words[0].partition("=")[0] in {"--log-base", "--log-level"}:
+        words = words[1 if "=" in words[0] else 2 :]  # taken, and without effect here
     if not words:
         stdout.write(usage + "\n")
         stderr.write("Error: No verb provided\n")
@@ -90,13 +104,17 @@ def run(world: World, words: list[str], *, stdout: TextIO, stderr: TextIO, cwd: 
         stderr.write(usage + said + (f"{close}\n" if close else ""))
         return 2
     if verb not in _HERE:
-        stderr.write(f"colcon {verb} is not there in this classroom; build, list and graph are.\n")
+        instead = _INSTEAD.get(verb, "build, list and graph are.")
+        stderr.write(f"colcon {verb} is not there in this classroom; {instead}\n")
         return 1
     command = _Command(world, verb, stdout, stderr, (cwd or Path.cwd()).resolve())
     try:
         return command.run(words[1:])
     except _Exit as end:
         return end.code
+    except UnknownPackageError as error:
+        stderr.write(f"{error}\n")
+        return 1
     except ColconError as error:
         stderr.write(f"[{command.clock()}s] ERROR:colcon:colcon {verb}: {error}\n")
         return 1
@@ -124,7 +142,7 @@ class _Command:
     def run(self, words: list[str]) -> int:
         args = self._parse(words)
         found = self._found(args)
-        chosen = self._choose(args, found)
+        chosen = choose(args, found, self._warn)
         if self.verb == "list":
             return self._list(args, chosen)
         if self.verb == "graph":
@@ -135,18 +153,19 @@ class _Command:
         parser = _Parser(
             f"colcon {self.verb}",
             description=_DESCRIPTIONS[self.verb],
-            allow_abbrev=False,
             formatter_class=lambda prog: argparse.HelpFormatter(prog, width=80),
         )
         parser.out, parser.err = self.out, self.err
-        _add_selection(parser)
+        add_selection(parser)
         if self.verb == "build":
             _add_build(parser)
         elif self.verb == "list":
-            parser.add_argument("-n", "--names-only", action="store_true", help="show the names alone")
-            parser.add_argument("-p", "--paths-only", action="store_true", help="show the places alone")
+            either = parser.add_mutually_exclusive_group()
+            either.add_argument("--names-only", "-n", action="store_true", help="show the names alone")
+            either.add_argument("--paths-only", "-p", action="store_true", help="show the places alone")
+            parser.add_argument("-g", "--topological-graph", action="store_true", help=argparse.SUPPRESS)
             parser.add_argument("-t", "--topological-order", action="store_true", help="each after those it needs")
-        return parser.parse_args(_without_cmake_arguments(words, parser))
+        return parser.parse_all(_without_cmake_arguments(words, parser))
 
     def _warn(self, text: str, module: str = "colcon.colcon_core.package_selection") -> None:
         self.err.write(f"[{self.clock()}s] WARNING:{module}:{text}\n")
@@ -161,42 +180,23 @@ class _Command:
             found += [each for each in discover(folder, self.cwd) if each.path not in {other.path for other in found}]
         return found
 
-    def _choose(self, args: argparse.Namespace, found: list[Found]) -> list[Found]:
-        names = {each.name for each in found}
-        for option in ("packages_select", "packages_up_to", "packages_skip", "packages_ignore"):
-            for name in getattr(args, option) or []:
-                if name not in names:
-                    flag = "--" + option.replace("_", "-")
-                    self._warn(f"ignoring unknown package '{name[:80]}' in {flag}")
-                    self._suggest(name, names)
-        chosen = set(names)
-        if args.packages_select:
-            chosen &= set(args.packages_select)
-        if args.packages_up_to:
-            chosen &= needed_by(found, args.packages_up_to)
-        chosen -= set(args.packages_skip or []) | set(args.packages_ignore or [])
-        return [each for each in found if each.name in chosen]
-
-    def _suggest(self, name: str, names: Iterable[str]) -> None:
-        hint = did_you_mean(name, names) or (f"There are: {', '.join(sorted(names))}." if names else "")
-        if hint:
-            self.err.write(f"Hint: {hint}\n")
-
     def _list(self, args: argparse.Namespace, chosen: list[Found]) -> int:
-        ordered = in_order(chosen) if args.topological_order else sorted(chosen, key=lambda each: each.name)
-        for each in ordered:
+        if args.topological_graph:
+            obsolete = "The list options --topological-graph / -g are obsolete, instead use `colcon graph`"
+            self.err.write(f"{obsolete}\n")
+            return 1
+        ordered = in_order(chosen)
+        for each in ordered if args.topological_order else sorted(chosen, key=lambda each: each.name):
             line = f"{each.name}\t{each.shown}\t({each.kind})"
             self.out.write((each.name if args.names_only else each.shown if args.paths_only else line) + "\n")
         return 0
 
     def _graph(self, chosen: list[Found]) -> int:
         ordered = in_order(chosen)
-        width = max((len(each.name) for each in ordered), default=0)
+        width = max((len(each.name) for each in ordered), default=0) + 2
         for place, each in enumerate(ordered):
-            marks = ["*" if each.name in other.dependencies else "." for other in ordered[place + 1 :]]
-            self.out.write(
-                f"{each.name.ljust(width)}{' ' * (place + 1)}+{''.join(marks).replace('.', ' ')}".rstrip() + "\n"
-            )
+            marks = "".join(_mark(each, other, chosen) for other in ordered[place + 1 :])
+            self.out.write(f"{each.name.ljust(width + place)}+{marks}\n")
         return 0
 
     def _build(self, args: argparse.Namespace, chosen: list[Found], found: list[Found]) -> int:
@@ -208,13 +208,17 @@ class _Command:
                 self.err.write(f"Hint: {place}: the build_type is unknown. {build_type_hint(each.build_type)}\n")
         if not found:
             self._nothing()
+        if text := overridden(self.world, chosen, self.cwd / args.install_base, args.allow_overriding):
+            self._warn(text)
         plan = Plan(
             base=self.cwd,
             packages=chosen,
             install=self.cwd / args.install_base,
             build=self.cwd / args.build_base,
             log=self.cwd / "log",
+            workspace=found,
             symlink=args.symlink_install,
+            merged=args.merge_install,
             go_on=args.continue_on_error,
             workers=1 if args.executor == "sequential" else max(1, args.parallel_workers),
             handlers=self._handlers(args.event_handlers or []),
@@ -249,11 +253,21 @@ class _Command:
         return handlers
 
 
+def _mark(each: Found, other: Found, chosen: list[Found]) -> str:
+    """How `other` depends on a package: itself, through others, or not at all."""
+    if each.name in other.dependencies:
+        return "*"
+    return "." if each.name in needed_by(chosen, [other.name]) else " "
+
+
 _DESCRIPTIONS = {
     "build": "Build the packages below this folder, and install them into install/.",
     "list": "Show the packages below this folder.",
     "graph": "Show which package depends on which: a * where the one above needs that one.",
 }
+
+
+_CMAKE_ARGUMENTS = {"--cmake-args", "--ament-cmake-args", "--catkin-cmake-args"}
 
 
 def _without_cmake_arguments(words: list[str], parser: argparse.ArgumentParser) -> list[str]:
@@ -262,24 +276,16 @@ def _without_cmake_arguments(words: list[str], parser: argparse.ArgumentParser) 
     kept: list[str] = []
     for_cmake = False
     for word in words:
-        for_cmake = word == "--cmake-args" or (for_cmake and word not in options)
+        for_cmake = word in _CMAKE_ARGUMENTS or (for_cmake and word not in options)
         if not for_cmake:
             kept.append(word)
     return kept
 
 
-def _add_selection(parser: argparse.ArgumentParser) -> None:
-    many = {"nargs": "*", "metavar": "PKG_NAME"}
-    parser.add_argument("--base-paths", nargs="*", metavar="PATH", help="folders to look for packages in (default: .)")
-    parser.add_argument("--packages-select", help="these packages alone", **many)  # type: ignore[arg-type]
-    parser.add_argument("--packages-up-to", help="these and all that they need", **many)  # type: ignore[arg-type]
-    parser.add_argument("--packages-skip", help="all but these", **many)  # type: ignore[arg-type]
-    parser.add_argument("--packages-ignore", help="as if these were not there", **many)  # type: ignore[arg-type]
-
-
 def _add_build(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--build-base", default="build", help="folder for what is made on the way (default: build)")
     parser.add_argument("--install-base", default="install", help="folder for what is installed (default: install)")
+    parser.add_argument("--merge-install", action="store_true", help="one folder for all packages, not one for each")
     parser.add_argument(
         "--symlink-install", action="store_true", help="link to the files in src/, so that an edit counts at once"
     )
@@ -287,6 +293,9 @@ def _add_build(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--executor", choices=["parallel", "sequential"], default="parallel", help="several at a time?")
     parser.add_argument("--parallel-workers", type=int, default=4, metavar="NUMBER", help="how many at a time")
     parser.add_argument("--event-handlers", nargs="*", metavar="NAME+", help="e.g. console_direct+ shows all output")
-    parser.add_argument("--cmake-args", nargs="*", metavar="*", help="taken, and without effect here")
+    for option in sorted(_CMAKE_ARGUMENTS):
+        parser.add_argument(option, nargs="*", metavar="*", help="taken, and without effect here")
+    parser.add_argument("--allow-overriding", nargs="+", default=[], metavar="PKG_NAME", help="of an underlay")
+    parser.add_argument("--cmake-clean-first", action="store_true", help="taken, and without effect here")
     parser.add_argument("--cmake-clean-cache", action="store_true", help="taken, and without effect here")
     parser.add_argument("--cmake-force-configure", action="store_true", help="taken, and without effect here")

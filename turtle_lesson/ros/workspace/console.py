@@ -61,6 +61,10 @@ class Console:
         """A package's build begins."""
         self._say("console_start_end", f"Starting >>> {name}")
 
+    def error(self, text: str) -> None:
+        """What colcon itself finds wrong."""
+        print(text, file=self.err)
+
     def finished(self, name: str, seconds: float, code: int, stdout: list[str], stderr: str) -> None:
         """A package's build ended, with what it printed."""
         self._output(name, stdout, stderr)

@@ -63,7 +63,7 @@ class Found:
 
     def runtime_dependencies(self) -> list[str]:
         """The packages that are needed when it runs."""
-        tags = {"depend", "exec_depend", "build_export_depend", "buildtool_export_depend"}
+        tags = {"depend", "exec_depend", "build_export_depend", "buildtool_export_depend", "run_depend"}
         children = [] if self.root is None else list(self.root)
         return [(child.text or "").strip() for child in children if child.tag in tags]
 
@@ -119,7 +119,7 @@ def in_order(packages: Iterable[Found]) -> list[Found]:
         names = {found.name for found in waiting}
         ready = [found for found in waiting if not names.intersection(found.dependencies) - {found.name}]
         if not ready:
-            lines = [f"{each.name}: {[name for name in each.dependencies if name in names]}" for each in waiting]
+            lines = [f"{each.name}: {sorted(needed_by(waiting, [each.name]) - {each.name})}" for each in waiting]
             raise ColconError("\n".join(["Unable to order packages topologically:", *lines]))
         ordered += ready
         waiting = [found for found in waiting if found not in ready]

@@ -92,6 +92,11 @@ class PackageIndex:
 
 def _no_executable(package: Package, executable: str) -> ExecutableNotFoundError:
     libexec = shown_path(str(package.libexec))
+    lying = sorted(path.name for path in package.libexec.iterdir()) if package.libexec.is_dir() else []
+    if executable in lying:
+        file = shown_path(str((package.libexec / executable).resolve()))
+        text = f"executable '{executable}' not found on the libexec directory '{libexec}'"
+        return ExecutableNotFoundError(text, f"It lies there, but cannot be run: !chmod +x {file}, then source again.")
     if not package.executables:
         prefix = shown_path(str(package.prefix or package.share))
         return ExecutableNotFoundError(

@@ -7,46 +7,76 @@ import shutil
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from .discover import Found
+from ..core.tracebacks import shown_path
+from .discover import ColconError, Found
+from .installed import LAYOUT, layout_of, prefix_of
 from .outcome import Environment, Item, Outcome
 
-LAYOUT = ".colcon_install_layout"
 SETUP_FILES = ("setup", "local_setup")
 SHELLS = ("bash", "sh", "zsh")
 
 
-def prefix_of(environment: Environment, name: str) -> Path:
-    """The folder that a package is installed in."""
-    return environment.install / name
+def prepare(install: Path, build: Path, log: Path, layout: str = "isolated") -> None:
+    """Make the three folders, marked so that colcon looks for no packages in them.
 
-
-def prepare(install: Path, build: Path, log: Path) -> None:
-    """Make the three folders, marked so that colcon looks for no packages in them."""
+    Raises:
+        ColconError: the install folder has the other layout.
+    """
+    before = layout_of(install)
+    if before not in {"", layout}:
+        raise ColconError(
+            f"The install directory '{install.name}' was created with the layout '{before}'. Please remove the install "
+            f"directory, pick a different one or {'add' if before == 'merged' else 'remove'} the '--merge-install' option."
+        )
     for folder in (install, build, log):
         folder.mkdir(parents=True, exist_ok=True)
         (folder / "COLCON_IGNORE").touch()
-    (install / LAYOUT).write_text("isolated\n", encoding="utf-8")
+    (install / LAYOUT).write_text(f"{layout}\n", encoding="utf-8")
     (build / ".built_by").write_text("colcon\n", encoding="utf-8")
 
 
 def install_package(found: Found, outcome: Outcome, environment: Environment) -> list[str]:
     """Write a package's files in place of those of its last build; return the lines `-- Installing: …`."""
-    prefix = prefix_of(environment, found.name)
-    if (prefix / "share" / "colcon-core" / "packages" / found.name).is_file() and not prefix.is_symlink():
-        shutil.rmtree(prefix)  # only ever what a build has made
+    prefix = prefix_of(environment.install, found.name)
+    manifest = environment.build / found.name / "install_manifest.txt"
+    _uninstall(prefix, manifest)
     lines = []
-    for item in [*outcome.items, *_index(found, outcome), *_environment(found, outcome)]:
+    items = [*outcome.items, *_index(found, outcome), *_environment(found, outcome)]
+    manifest.parent.mkdir(parents=True, exist_ok=True)
+    manifest.write_text("".join(f"{target}\n" for item in items for target in _targets(item)), encoding="utf-8")
+    for item in items:
         _write(item, prefix / item.target, environment.symlink)
-        lines.append(f"-- Installing: {prefix.name}/{item.target}")
+        lines.append(f"-- Installing: {shown_path(str(prefix))}/{item.target}")
     _note_build(found, environment)
     return lines
+
+
+def _targets(item: Item) -> Iterator[str]:
+    """The files that come of an item."""
+    if item.source is not None and item.source.is_dir():
+        yield from (f"{item.target}/{path.relative_to(item.source).as_posix()}" for path in _files_in(item.source))
+    else:
+        yield item.target
+
+
+def _uninstall(prefix: Path, manifest: Path) -> None:
+    """Delete what the last build of a package has installed, and nothing else, whatever the manifest says."""
+    names = manifest.read_text(encoding="utf-8").splitlines() if manifest.is_file() else []
+    for name in names:
+        file = prefix / name
+        if file.parent.resolve().is_relative_to(prefix.resolve()) and (file.is_symlink() or file.is_file()):
+            file.unlink()
+            for folder in file.parents:
+                if folder == prefix or any(folder.iterdir()):
+                    break
+                folder.rmdir()
 
 
 def _write(item: Item, target: Path, symlink: bool) -> None:
     target.parent.mkdir(parents=True, exist_ok=True)
     if item.source is None:
         target.write_text(item.text, encoding="utf-8")
-    elif symlink:
+    elif symlink and not item.copied:
         _link(item.source, target)
         return
     elif item.source.is_dir():
@@ -145,7 +175,8 @@ def write_setup_files(install: Path, names: Iterable[str]) -> None:
             f'_folder="$(cd "$(dirname "{place}")" > /dev/null && pwd)"\n',
         ]
         for name in names:
-            lines.append(f'COLCON_CURRENT_PREFIX="$_folder/{name}"\n')
+            inner = "" if prefix_of(install, name) == install else f"/{name}"
+            lines.append(f'COLCON_CURRENT_PREFIX="$_folder{inner}"\n')
             lines.append(f'. "$COLCON_CURRENT_PREFIX/share/{name}/package.{shell}"\n')
         lines.append("unset COLCON_CURRENT_PREFIX _folder\n")
         (install / f"local_setup.{shell}").write_text("".join(lines), encoding="utf-8")

@@ -8,13 +8,27 @@ from pathlib import Path
 from .outcome import PYTHON
 from .package import Package
 
+LAYOUT = ".colcon_install_layout"
+"""The file in which an install folder says `isolated` (a folder a package) or `merged` (one for all)."""
 PYTHON_FOLDERS = (f"lib/{PYTHON}/site-packages", f"local/lib/{PYTHON}/dist-packages")
 _INDEX = "share/ament_index/resource_index"
 
 
+def layout_of(install: Path) -> str:
+    """`isolated`, `merged`, or nothing where colcon has not installed anything yet."""
+    file = install / LAYOUT
+    return file.read_text(encoding="utf-8").strip() if file.is_file() else ""
+
+
+def prefix_of(install: Path, name: str) -> Path:
+    """The folder that a package is installed in."""
+    return install if layout_of(install) == "merged" else install / name
+
+
 def installed_names(install: Path) -> list[str]:
     """The packages in an install folder, each after those it needs."""
-    files = {file.name: file for file in install.glob("*/share/colcon-core/packages/*") if file.is_file()}
+    pattern = "share/colcon-core/packages/*" if layout_of(install) == "merged" else "*/share/colcon-core/packages/*"
+    files = {file.name: file for file in install.glob(pattern) if file.is_file()}
     needs = {name: set(file.read_text(encoding="utf-8").split(":")) & set(files) for name, file in files.items()}
     ordered: list[str] = []
     while needs:
@@ -24,16 +38,16 @@ def installed_names(install: Path) -> list[str]:
     return ordered
 
 
-def read_installed(prefix: Path) -> Package:
-    """One package, by the folder that it is installed in."""
-    name = prefix.name
+def read_installed(install: Path, name: str) -> Package:
+    """One package of an install folder."""
+    prefix = prefix_of(install, name)
     share = prefix / "share" / name
     return Package(
         name=name,
         share=share,
         executables={path.name: path for path in _programs(prefix / "lib" / name)},
         interfaces=_interfaces(prefix, name),
-        source=source_of(prefix),
+        source=source_of(install, name),
         prefix=prefix,
     )
 
@@ -53,9 +67,9 @@ def _interfaces(prefix: Path, name: str) -> list[str]:
     return [line for line in lines if "_Re" not in line.rpartition("/")[2] and not line.endswith(".idl")]
 
 
-def source_of(prefix: Path) -> Path | None:
+def source_of(install: Path, name: str) -> Path | None:
     """The folder that an installed package was built from, if it is still there."""
-    file = prefix.parent.parent / "build" / prefix.name / "source_folder.txt"
+    file = install.parent / "build" / name / "source_folder.txt"
     if not file.is_file():
         return None
     folder = Path(file.read_text(encoding="utf-8").strip())
@@ -70,5 +84,6 @@ def python_folders(prefix: Path) -> list[Path]:
 def _has_own(folder: Path, prefix: Path) -> bool:
     if not folder.is_dir():
         return False
-    made = {prefix.name} if _interfaces(prefix, prefix.name) else set()
+    index = prefix / _INDEX / "rosidl_interfaces"
+    made = {path.name for path in index.iterdir()} if index.is_dir() else set()
     return any(path.name not in made and not path.name.endswith(".egg-info") for path in folder.iterdir())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 from ..interfaces.names import module_name
@@ -9,10 +10,17 @@ from .discover import Found
 from .outcome import PYTHON, Item
 
 
+def definitions(folder: Path) -> Iterator[Path]:
+    """The definition files of a package, where they are looked for."""
+    for kind in ("msg", "srv", "action"):
+        yield from sorted((folder / kind).glob(f"*.{kind}"))
+
+
 def interface_items(found: Found, files: list[str]) -> list[Item]:
     """What is installed for the interface files of a package, such as `msg/TurtleStatus.msg`."""
     name = found.name
-    items = [Item(f"share/{name}/{file}", found.path / file) for file in files]
+    # Copied, as the classes are made from these: with --symlink-install, too, a new field counts after a build.
+    items = [Item(f"share/{name}/{file}", found.path / file, copied=True) for file in files]
     for file in files:
         items += _parts(found, file)
     listed = sorted(item.target.removeprefix(f"share/{name}/") for item in items)

@@ -21,12 +21,14 @@ class Item:
         source: the file or folder that is copied; None where `text` is written.
         text: the content of a file that the build makes.
         program: whether it can be run.
+        copied: whether it is copied even by `--symlink-install`.
     """
 
     target: str
     source: Path | None = None
     text: str = ""
     program: bool = False
+    copied: bool = False
 
 
 @dataclass
@@ -41,6 +43,7 @@ class Outcome:
         items: what is installed if it went well.
         dependencies: the packages that are needed when it runs.
         paths: folders below the prefix that hold Python packages of the learner's.
+        colcon_error: what colcon itself says where it does not even begin.
     """
 
     code: int = 0
@@ -50,6 +53,7 @@ class Outcome:
     items: list[Item] = field(default_factory=list)
     dependencies: list[str] = field(default_factory=list)
     paths: list[str] = field(default_factory=list)
+    colcon_error: str = ""
 
 
 @dataclass

@@ -7,9 +7,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ..core.tracebacks import shown_path
+from .ament_python import SITE, build_ament_python
 from .cmake import CMakeError, CMakeFile, Program, read_cmake
+from .discover import read_found
 from .errors import PackageError
 from .manifest import Manifest, read_manifest
+from .outcome import Environment
+from .python_program import PythonProgram
 
 Target = Path | Callable[[], object]
 """What an executable is: a Python file, or a callable that is its `main()`."""
@@ -32,6 +36,7 @@ class Package:
         installed: for a package used as it lies there, what would be in its share folder after a build, by
             the path that it would have there; None means everything under `share`.
         warnings: what would go wrong with it on a robot although it can be used here.
+        modules: for an ament_python package used as it lies there, the folders in which its modules lie.
     """
 
     name: str
@@ -42,6 +47,7 @@ class Package:
     prefix: Path | None = None
     installed: dict[str, Path] | None = None
     warnings: list[str] = field(default_factory=list)
+    modules: list[Path] = field(default_factory=list)
 
     @property
     def libexec(self) -> Path:
@@ -71,10 +77,38 @@ def read_source_package(folder: Path | str) -> Package:
     if not folder.is_dir():
         raise PackageError(f"there is no folder {shown_path(str(folder))}")
     manifest = read_manifest(folder / "package.xml")
+    if manifest.build_type == "ament_python":
+        return _read_ament_python(folder, manifest)
     if manifest.build_type != "ament_cmake":
-        reason = f"build_type {manifest.build_type} cannot be used in this classroom yet, ament_cmake can"
+        reason = f"build_type {manifest.build_type} cannot be used in this classroom, ament_cmake and ament_python can"
         raise PackageError(reason, manifest.file)
     return _read_ament_cmake(folder, manifest)
+
+
+def _read_ament_python(folder: Path, manifest: Manifest) -> Package:
+    """What a build would install, used where it lies."""
+    outcome = build_ament_python(read_found(folder, folder), Environment(folder / "install", folder / "build"))
+    if outcome.code:
+        raise PackageError(f"a build would refuse it:\n{outcome.stderr.strip()}", folder / "setup.py")
+    share, libexec = f"share/{manifest.name}/", f"lib/{manifest.name}/"
+    modules = {item.source.parent for item in outcome.items if item.source and item.target.startswith(f"{SITE}/")}
+    programs = {item.target.removeprefix(libexec): item for item in outcome.items if item.target.startswith(libexec)}
+    return Package(
+        name=manifest.name,
+        share=folder,
+        executables={
+            name: PythonProgram(folder / "lib" / manifest.name / name, tuple(sorted(modules)), item.text)
+            for name, item in programs.items()
+        },
+        source=folder,
+        installed={
+            item.target.removeprefix(share): item.source
+            for item in outcome.items
+            if item.source and item.target.startswith(share)
+        },
+        modules=sorted(modules),
+        warnings=[line.removeprefix("Hint: ") for line in outcome.stderr.splitlines() if line.startswith("Hint: ")],
+    )
 
 
 def _read_ament_cmake(folder: Path, manifest: Manifest) -> Package:

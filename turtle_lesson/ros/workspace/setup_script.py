@@ -1,19 +1,20 @@
-"""Reads a `setup.py` by running it with a stand-in for setuptools, which notes what `setup(…)` was given."""
+"""Reads a `setup.py` by running it in a process of its own (see `setup_runner`), as colcon does, and a `setup.cfg`."""
 
 from __future__ import annotations
 
 import configparser
-import contextlib
-import io
+import json
+import subprocess
 import sys
-import traceback
-from collections.abc import Iterator
-from fnmatch import fnmatchcase
+import tempfile
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 from ..core.tracebacks import shown_path
+
+_RUNNER = Path(__file__).with_name("setup_runner.py")
+LONGEST = 10.0
+"""What a setup.py may take, in s of real time."""
 
 
 class SetupError(Exception):
@@ -24,19 +25,24 @@ def read_setup(folder: Path) -> dict[str, Any]:
     """What the package's `setup.py` gives to `setup(…)`.
 
     Raises:
-        SetupError: it fails, or never calls `setup`.
+        SetupError: it fails, does not end, or never calls `setup`.
     """
-    file = folder / "setup.py"
-    given: list[dict[str, Any]] = []
-    try:
-        code = compile(file.read_bytes(), "setup.py", "exec")
-        with contextlib.chdir(folder), _stand_ins(given), contextlib.redirect_stdout(io.StringIO()):
-            exec(code, {"__name__": "__main__", "__file__": "setup.py"})
-    except (Exception, SystemExit) as error:
-        raise SetupError(_python_text(error, folder)) from None
-    if not given:
-        raise SetupError(f"{shown_path(str(file))} never calls setup(…)\n")
-    return given[-1]
+    with tempfile.TemporaryDirectory() as scratch:
+        answer = Path(scratch) / "answer.json"
+        command = [sys.executable, "-I", "-X", "utf8", str(_RUNNER), str(folder.resolve()), str(answer)]
+        try:
+            done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, timeout=LONGEST, check=False)
+        except subprocess.TimeoutExpired:
+            text = f"setup.py did not end within {LONGEST:g} s: is there a loop in it, or a wait?\n"
+            raise SetupError(text) from None
+        result = json.loads(answer.read_text(encoding="utf-8")) if answer.is_file() else {}
+    if "error" in result:
+        raise SetupError(result["error"])
+    if "setup" not in result:
+        ended = f" and ended Python with exit code {done.returncode}" if done.returncode else ""
+        raise SetupError(f"{shown_path(str(folder / 'setup.py'))} never calls setup(…){ended}\n")
+    setup: dict[str, Any] = result["setup"]
+    return setup
 
 
 def install_scripts(folder: Path) -> str | None:
@@ -50,48 +56,3 @@ def install_scripts(folder: Path) -> str | None:
         if config.has_option("install", option):
             return config.get("install", option).strip().removeprefix("$base").strip("/")
     return None
-
-
-@contextlib.contextmanager
-def _stand_ins(given: list[dict[str, Any]]) -> Iterator[None]:
-    """Have `import setuptools` and `from distutils.core import setup` find the stand-in for a while."""
-
-    def setup(**options: Any) -> None:
-        given.append(options)
-
-    modules = {}
-    for name in ("setuptools", "distutils", "distutils.core"):
-        modules[name] = module = ModuleType(name)
-        module.__dict__.update(setup=setup, find_packages=_find_packages, find_namespace_packages=_find_packages)
-        module.__path__ = []
-    before = {name: sys.modules.get(name) for name in modules}
-    sys.modules.update(modules)
-    try:
-        yield
-    finally:
-        for name, module_before in before.items():
-            sys.modules.pop(name)
-            if module_before is not None:
-                sys.modules[name] = module_before
-
-
-def _find_packages(where: str = ".", exclude: Any = (), include: Any = ("*",)) -> list[str]:
-    found = []
-    for file in sorted(Path(where).rglob("__init__.py")):
-        name = ".".join(file.parent.relative_to(where).parts)
-        inside = all((Path(where).joinpath(*name.split(".")[:i]) / "__init__.py").is_file() for i in range(1, 99))
-        wanted = any(fnmatchcase(name, pattern) for pattern in include)
-        if name and inside and wanted and not any(fnmatchcase(name, pattern) for pattern in exclude):
-            found.append(name)
-    return found
-
-
-def _python_text(error: BaseException, folder: Path) -> str:
-    frames = [frame for frame in traceback.extract_tb(error.__traceback__) if frame.filename == "setup.py"]
-    lines = ["Traceback (most recent call last):\n"] if frames else []
-    source = (folder / "setup.py").read_text(encoding="utf-8", errors="replace").splitlines()
-    for frame in frames:
-        lines.append(f'  File "setup.py", line {frame.lineno}, in {frame.name}\n')
-        if frame.lineno and frame.lineno <= len(source):
-            lines.append(f"    {source[frame.lineno - 1].strip()}\n")
-    return "".join([*lines, *traceback.format_exception_only(error)])

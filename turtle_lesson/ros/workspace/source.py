@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib
-import shutil
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,28 +10,15 @@ from typing import TYPE_CHECKING, TextIO
 
 from ..interfaces.registry import registry
 from .errors import did_you_mean
-from .install_tree import LAYOUT
-from .installed import installed_names, python_folders, read_installed
+from .installed import LAYOUT, installed_names, python_folders, read_installed
 from .package import Package, Target
+from .python_program import PythonProgram, forget_below
 
 if TYPE_CHECKING:
     from ..world import World
 
 _SETUP_FILES = {f"{name}.{shell}" for name in ("setup", "local_setup") for shell in ("bash", "sh", "zsh", "ps1")}
 _UNDERLAY = "/opt/ros/"
-
-
-@dataclass(frozen=True)
-class InstalledProgram:
-    """A program of a package with Python modules: every start imports them afresh, as a process of its own would."""
-
-    path: Path
-    folders: tuple[Path, ...]
-
-    def __call__(self) -> None:
-        forget_below(self.folders)
-        code = compile(self.path.read_bytes(), str(self.path), "exec")
-        exec(code, {"__name__": "__main__", "__file__": str(self.path), "__builtins__": __builtins__})
 
 
 def source(world: World, words: list[str], *, cwd: Path | None = None, stdout: TextIO, stderr: TextIO) -> int:
@@ -72,7 +58,7 @@ def _problem(word: str, file: Path) -> str:
 class _Overlay:
     """One sourced package, and what it hides in the registry of interfaces."""
 
-    prefix: Path
+    install: Path
     package: Package
     paths: list[Path]
     hidden: tuple[Path, tuple[str, ...] | None] | None
@@ -82,15 +68,16 @@ def overlay(world: World, install: Path) -> list[str]:
     """Make the packages of an install folder findable; return their names, each after those it needs."""
     names = installed_names(install)
     for name in names:
-        _add(world, install / name)
+        _add(world, install, name)
     importlib.invalidate_caches()
     return names
 
 
-def resource(world: World, prefix: Path) -> None:
+def resource(world: World, install: Path, name: str) -> None:
     """Read one package anew, if it is sourced: its files have changed."""
-    if any(each.prefix == prefix.resolve() for each in _overlays(world)):
-        _add(world, prefix.resolve())
+    install = install.resolve()
+    if any((each.install, each.package.name) == (install, name) for each in _overlays(world)):
+        _add(world, install, name)
         importlib.invalidate_caches()
 
 
@@ -99,16 +86,17 @@ def _overlays(world: World) -> list[_Overlay]:
     return overlays
 
 
-def _add(world: World, prefix: Path) -> None:
+def _add(world: World, install: Path, name: str) -> None:
     if not _overlays(world):
         world.notebook.at_exit.append(lambda: remove_all(world))
-    _remove(world, prefix)
-    package = read_installed(prefix)
+    _remove(world, install, name)
+    package = read_installed(install, name)
+    prefix = package.prefix or install
     paths = python_folders(prefix)
     if paths:
         package.executables = {name: _program(target, paths) for name, target in package.executables.items()}
     hidden = _hidden(package)
-    _overlays(world).append(_Overlay(prefix, package, paths, hidden))
+    _overlays(world).append(_Overlay(install, package, paths, hidden))
     world.packages.add(package)
     if package.interfaces:
         registry.add(package.name, package.share, package.interfaces)
@@ -119,7 +107,7 @@ def _add(world: World, prefix: Path) -> None:
 
 
 def _program(target: Target, paths: list[Path]) -> Target:
-    return InstalledProgram(target, tuple(paths)) if isinstance(target, Path) else target
+    return PythonProgram(target, tuple(paths)) if isinstance(target, Path) else target
 
 
 def _hidden(package: Package) -> tuple[Path, tuple[str, ...] | None] | None:
@@ -130,15 +118,16 @@ def _hidden(package: Package) -> tuple[Path, tuple[str, ...] | None] | None:
     return before.directory, before.files
 
 
-def _remove(world: World, prefix: Path) -> None:
-    for each in [each for each in _overlays(world) if each.prefix == prefix]:
+def _remove(world: World, install: Path, name: str) -> None:
+    for each in [each for each in _overlays(world) if (each.install, each.package.name) == (install, name)]:
         _overlays(world).remove(each)
         world.packages.remove_package(each.package)
         _restore(each)
         for path in each.paths:
-            if str(path) in sys.path:
+            shared = any(path in other.paths for other in _overlays(world))  # in a merged install folder
+            if str(path) in sys.path and not shared:
                 sys.path.remove(str(path))
-        forget_below([prefix])
+        forget_below([each.package.prefix or each.install])
 
 
 def _restore(each: _Overlay) -> None:
@@ -154,22 +143,21 @@ def _restore(each: _Overlay) -> None:
 def remove_all(world: World) -> None:
     """Undo every `source` of a world."""
     for each in reversed(_overlays(world)[:]):
-        _remove(world, each.prefix)
+        _remove(world, each.install, each.package.name)
 
 
-def forget_below(folders: list[Path] | tuple[Path, ...]) -> None:
-    """Have the modules in these folders be imported anew, from what the files say now.
+def make_importable(world: World, package: Package) -> None:
+    """Have the modules of a package that is used as it lies there be found, as long as the world lasts."""
+    added = [str(path) for path in package.modules if str(path) not in sys.path]
+    sys.path += added
+    forget_below(package.modules)
+    importlib.invalidate_caches()
 
-    Compiled files are deleted, too: Python takes them for good if the source has the same size and second.
-    """
-    starts = tuple(str(folder) for folder in folders)
-    for name, module in list(sys.modules.items()):
-        file = getattr(module, "__file__", None)
-        if isinstance(file, str) and file.startswith(starts):
-            del sys.modules[name]
-    for folder in folders:
-        for cache in list(folder.rglob("__pycache__")):
-            shutil.rmtree(cache, ignore_errors=True)
+    def undo() -> None:
+        sys.path[:] = [path for path in sys.path if path not in added]
+        forget_below(package.modules)
+
+    world.notebook.at_exit.append(undo)
 
 
-__all__ = ["InstalledProgram", "overlay", "remove_all", "source"]
+__all__ = ["make_importable", "overlay", "remove_all", "source"]

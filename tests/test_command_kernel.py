@@ -1,0 +1,71 @@
+"""Commands in a real Jupyter kernel: what the stop button ends, and that the rest of the cell does not go on."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import signal
+import threading
+import warnings
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from jupyter_client.manager import start_new_kernel
+
+Ask = Callable[..., tuple[str, str]]
+
+
+@pytest.fixture(scope="module")
+def ask(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Ask]:
+    """Runs a cell in a kernel, stops it after some seconds if told so, and returns what it printed and its error."""
+    root = str(Path(__file__).resolve().parents[1])
+    manager, client = start_new_kernel(cwd=str(tmp_path_factory.mktemp("notebook")), kernel_name="python3")
+
+    def ask(cell: str, stop_after: float | None = None) -> tuple[str, str]:
+        said: dict[str, str] = {"out": "", "error": ""}
+
+        def hear(message: dict[str, Any]) -> None:
+            content = message["content"]
+            said["out"] += content.get("text", "")
+            said["error"] += "".join(content.get("traceback", []))
+
+        timer = threading.Timer(stop_after or 0.0, os.kill, [manager.provisioner.pid, signal.SIGINT])
+        if stop_after is not None:
+            timer.start()
+        client.execute_interactive(cell, output_hook=hear, timeout=30, allow_stdin=False)
+        timer.cancel()
+        return said["out"], said["error"]
+
+    ask(f"import sys; sys.path.insert(0, {root!r})")
+    ask("%load_ext turtle_lesson\nfrom turtle_lesson import start\nlesson = start(seed=0)")
+    yield ask
+    client.stop_channels()
+    manager.shutdown_kernel(now=True)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)
+        asyncio.get_event_loop().close()  # which jupyter_client leaves open
+
+
+def test_the_stop_button_ends_a_long_command_and_the_cell(ask: Ask) -> None:
+    out, error = ask("ros2 topic hz /turtle1/pose --for 80000 > hz.txt; echo on\nprint('on')", stop_after=0.5)
+    assert out == ""
+    assert (
+        error == "KeyboardInterrupt: ros2 topic hz /turtle1/pose --for 80000 was stopped, and nothing after it was done"
+    )
+    assert ask("print(_exit_code)\nros2 node list") == ("2\n/turtlesim\n", "")
+
+
+def test_so_it_does_in_live_mode(ask: Ask) -> None:
+    ask("lesson.play(5.0)")
+    out, error = ask("ros2 topic echo /turtle1/pose --field x\nprint('on')", stop_after=1.0)
+    assert out.startswith("5.54")
+    assert "on\n" not in out
+    assert error.startswith("KeyboardInterrupt: ros2 topic echo /turtle1/pose --field x was stopped")
+    assert ask("lesson.pause()\nros2 topic echo /turtle1/pose --field x --once") == ("5.544444561004639\n---\n", "")
+
+
+def test_python_may_catch_it(ask: Ask) -> None:
+    cell = "try:\n    ros2 topic hz /turtle1/pose --for 80000 > x\nexcept KeyboardInterrupt: ros2 node list"
+    assert ask(cell, stop_after=0.5) == ("/turtlesim\n", "")

@@ -1,0 +1,80 @@
+"""Mistakes in a CMakeLists.txt: what a real CMake says about each, recorded, is what `colcon build` here says."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from workspace_cases import XML, Answer, change, colcon, make_package, timeless
+
+from turtle_lesson.ros.world import World
+
+RECORDED = json.loads((Path(__file__).with_name("data") / "cmake_mistakes.json").read_text(encoding="utf-8"))
+
+
+@pytest.fixture
+def demo(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The package of the recording, in a workspace that is the current folder."""
+    monkeypatch.chdir(tmp_path)
+    folder = tmp_path / "src/demo"
+    for name in ("demo", "launch"):
+        (folder / name).mkdir(parents=True)
+    (folder / "package.xml").write_text(XML.replace("robot_controller", "demo"))
+    (folder / "CMakeLists.txt").write_text(RECORDED["cmake"])
+    (folder / "demo/node.py").write_text("#!/usr/bin/env python3\n")
+    return folder
+
+
+def said(answer: Answer) -> list[str]:
+    """Its stderr without empty lines, durations and advice."""
+    return timeless([line for line in answer.err.splitlines() if line.strip() and not line.startswith("Hint: ")])
+
+
+@pytest.mark.parametrize("case", RECORDED["cases"], ids=lambda case: repr(case["new"][:40]))
+def test_a_mistake(demo: Path, world: World, case: dict[str, object]) -> None:
+    (demo / "CMakeLists.txt").write_text(RECORDED["cmake"].replace(case["old"], case["new"]))
+    answer = colcon(world)
+    assert (answer.code, said(answer)) == (case["code"], timeless(case["stderr"]))  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "hint"),
+    [
+        ("find_package(ament_cmake REQUIRED)", "find_package(ament_cmake REQUIRED", "line 4: the '(' of find_package is never"),
+        ("DIRECTORY launch D", 'DIRECTORY "launch D', "line 9: this quote is never closed"),
+        ("# line 5", "if(X)", "line 5: this if() has no endif()"),
+        ("install(PROGRAMS", "install(PROGRAM", "Did you mean 'PROGRAMS'?"),
+        ("cmake_minimum_required(VERSION 3.8)", "", "Write cmake_minimum_required(VERSION 3.8) as the first line"),
+        ("ament_package()", "ament_package()\nament_package()", "Delete line 12."),
+        ("# line 5", "include(demo/node.py)", "Only CMakeLists.txt itself is read in this classroom"),
+        ("# line 5", f"if({'NOT ' * 5000}X)\nendif()", "is no condition that CMake knows"),
+        ("# line 5", 'if(X MATCHES "(")\nendif()', "is no condition that CMake knows"),
+    ],
+)  # fmt: skip
+def test_advice_names_the_line(demo: Path, world: World, old: str, new: str, hint: str) -> None:
+    change(demo / "CMakeLists.txt", old, new)
+    answer = colcon(world)
+    assert answer.code == 1
+    assert hint in answer.err
+
+
+def test_what_a_message_says_is_seen(demo: Path, world: World) -> None:
+    change(demo / "CMakeLists.txt", "# line 5", "message(NOTICE a b)\nmessage(STATUS quiet)")
+    answer = colcon(world)
+    assert (answer.code, said(answer)) == (0, ["--- stderr: demo", "ab", "---"])
+
+
+def test_a_definition_that_nobody_names_is_spoken_of(
+    tmp_path: Path, world: World, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    package = make_package(tmp_path)
+    (package / "msg/Extra.msg").write_text("int32 a\n")
+    answer = colcon(world)
+    assert answer.code == 0
+    assert "nothing is made of msg/Extra.msg, which CMakeLists.txt does not name: write" in answer.err
+    change(package / "msg/TurtleStatus.msg", "float32 x", "Extra x")
+    answer = colcon(world)
+    assert answer.code == 2
+    assert "msg/Extra.msg is there, but CMakeLists.txt does not name it" in answer.err

@@ -1,0 +1,64 @@
+"""The lab's station in the simulated world: its hidden node, and a clock that a page can turn."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from .lab.widgets.loop import Loop
+from .lab.widgets.station import Clock
+from .ros.core import NANOSECONDS
+
+if TYPE_CHECKING:
+    from .lab.recorder import Recorder
+    from .live import Player
+    from .ros.world import World
+
+
+class Classroom:
+    """A `Station` (see lab/widgets/station.py) in a world of this notebook."""
+
+    def __init__(self, world: World, recorder: Recorder, player: Player) -> None:
+        self._world = world
+        self.recorder = recorder
+        self.node: Any = recorder.node
+        self.clock: Clock | None = RobotClock(world, player)
+        self.loop = Loop()
+
+    @property
+    def now(self) -> float:
+        """Robot time: seconds since the world began."""
+        return self._world.now / NANOSECONDS
+
+    @property
+    def ended(self) -> bool:
+        """Whether a newer `start()` has taken this world's place."""
+        return self._world.sim.closed
+
+
+class RobotClock:
+    """The clock of a world."""
+
+    def __init__(self, world: World, player: Player) -> None:
+        self._world, self._player = world, player
+
+    @property
+    def playing(self) -> bool:
+        """Whether robot time goes on by itself."""
+        return self._player.playing
+
+    @property
+    def rate(self) -> float:
+        """How many times as fast as life it goes on."""
+        return self._player.rate
+
+    def play(self, rate: float) -> None:
+        """Let robot time go on by itself, at `rate` times real time."""
+        self._player.play(rate)
+
+    def pause(self) -> None:
+        """Let it stand still."""
+        self._player.pause()
+
+    def step(self, seconds: float) -> None:
+        """Let some seconds pass at once."""
+        self._world.sim.run_until(self._world.now + round(seconds * NANOSECONDS))

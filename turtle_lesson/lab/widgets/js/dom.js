@@ -1,0 +1,69 @@
+// Small helpers that every widget shares.
+
+/** An element: element("button", {class: "go", onclick: f}, "Go"). Attributes that are functions become listeners. */
+function element(tag, attributes = {}, ...children) {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (typeof value === "function") made.addEventListener(name.slice(2), value);
+    else if (value === true) made.setAttribute(name, "");
+    else if (value !== false && value != null) made.setAttribute(name, value);
+  }
+  made.append(...children.filter((child) => child != null));
+  return made;
+}
+
+/** The Float32Array in a trait of bytes. */
+function floats(view) {
+  if (!view || !view.byteLength) return new Float32Array(0);
+  const bytes = new Uint8Array(view.buffer, view.byteOffset, view.byteLength);
+  return new Float32Array(bytes.slice().buffer);
+}
+
+/** A number as people write it, with a true minus sign; a dash for what is no number. */
+function figure(value, digits = 2) {
+  if (!Number.isFinite(value)) return "–";
+  const text = value.toFixed(digits);
+  return (Number(text) === 0 ? text.replace("-", "") : text).replace("-", "−");
+}
+
+/** Tell Python that this view is there, until it is closed; returns how to send orders, and how to end. */
+function connect(model) {
+  const view = Math.random().toString(36).slice(2);
+  const order = (name, content = {}) => model.send({ ...content, do: name, view });
+  order("open");
+  const heart = setInterval(() => order("alive"), 20000);
+  return { order, close: () => (clearInterval(heart), order("close")) };
+}
+
+/** Call `draw` at the next repaint, however often this is asked for until then. */
+function atRepaint(draw) {
+  let asked = 0;
+  return () => {
+    if (!asked) asked = requestAnimationFrame(() => ((asked = 0), draw()));
+  };
+}
+
+/** A canvas that is sharp on every screen: draw(context, width, height, colours) works in CSS pixels. */
+function sharpCanvas(attributes, draw) {
+  const canvas = element("canvas", attributes);
+  const repaint = atRepaint(() => {
+    const { width, height } = canvas.getBoundingClientRect();
+    if (!width || !height) return;
+    const scale = window.devicePixelRatio || 1;
+    const [wide, high] = [Math.round(width * scale), Math.round(height * scale)];
+    if (canvas.width !== wide || canvas.height !== high) Object.assign(canvas, { width: wide, height: high });
+    const context = canvas.getContext("2d");
+    context.setTransform(scale, 0, 0, scale, 0, 0);
+    context.clearRect(0, 0, width, height);
+    draw(context, width, height, colours(canvas));
+  });
+  const sizes = new ResizeObserver(repaint);
+  sizes.observe(canvas);
+  return { canvas, repaint, close: () => sizes.disconnect() };
+}
+
+/** The colours of the style sheet, which follow the page's theme. */
+function colours(node) {
+  const style = getComputedStyle(node);
+  return new Proxy({}, { get: (_, name) => style.getPropertyValue(`--tl-${name}`).trim() });
+}

@@ -1,0 +1,125 @@
+"""Message types as data: which fields a class has, of which kind, and which constants.
+
+Everything is read from what the generated Python classes of any ROS 2 offer (`get_fields_and_field_types`, constants as
+attributes in capitals), so it works alike with the simulated ones and with the real ones.
+"""
+
+from __future__ import annotations
+
+import importlib
+import re
+from dataclasses import dataclass
+from typing import Any
+
+INTEGERS = {f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)}
+FLOATS = {"float", "double"}
+NUMBERS = INTEGERS | FLOATS | {"octet", "char"}
+NAMES = {"float": "float32", "double": "float64", "boolean": "bool", "octet": "byte"}
+"""How a .msg file calls what a Python class calls by its IDL name."""
+
+LARGEST_FLOAT32 = 3.402823466e38
+
+_SEQUENCE = re.compile(r"sequence<(.+?)(?:, (\d+))?>$")
+_FIXED = re.compile(r"(.+)\[(\d+)\]$")
+_BOUNDED_TEXT = re.compile(r"(w?string)<(\d+)>$")
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """The kind of a field: of what, how many, how long."""
+
+    base: str
+    """"double", "int32", "boolean", "octet", "string", …, or a message such as "geometry_msgs/Vector3"."""
+    array: str = ""
+    """"", "fixed" (exactly `size`), "bounded" (at most `size`) or "unbounded"."""
+    size: int = 0
+    longest: int = 0
+    """Most characters of a bounded string; 0 for any number."""
+
+    @property
+    def is_message(self) -> bool:
+        """Whether a value, or each element, has fields of its own."""
+        return "/" in self.base
+
+    @property
+    def is_number(self) -> bool:
+        """Whether it is one number, or true and false, that can be drawn as one."""
+        return not self.array and (self.base in NUMBERS or self.base == "boolean")
+
+    @property
+    def element(self) -> Kind:
+        """The kind of one element."""
+        return Kind(self.base, longest=self.longest)
+
+    def __str__(self) -> str:
+        """As a .msg file writes it: "float64[<=3]"."""
+        ends = {"": "", "fixed": f"[{self.size}]", "bounded": f"[<={self.size}]", "unbounded": "[]"}
+        return NAMES.get(self.base, self.base) + (f"<={self.longest}" if self.longest else "") + ends[self.array]
+
+
+def read_kind(text: str) -> Kind:
+    """The kind that `get_fields_and_field_types` calls `text`: "sequence<double, 3>", "uint8[4]", "string<10>", …"""
+    array, size = "", 0
+    if found := _SEQUENCE.match(text):
+        text, array, size = found[1], "bounded" if found[2] else "unbounded", int(found[2] or 0)
+    elif found := _FIXED.match(text):
+        text, array, size = found[1], "fixed", int(found[2])
+    if found := _BOUNDED_TEXT.match(text):
+        return Kind(found[1], array, size, int(found[2]))
+    return Kind(text, array, size)
+
+
+def kinds_of(message_class: Any) -> dict[str, Kind]:
+    """The fields of a message class, in the order of its file."""
+    kinds = {name: read_kind(text) for name, text in message_class.get_fields_and_field_types().items()}
+    # C++ allows no empty struct, so a message without fields has one that no file names
+    return {} if list(kinds) == ["structure_needs_at_least_one_member"] else kinds
+
+
+def constants_of(message_class: Any) -> dict[str, Any]:
+    """The constants that a message class defines, in the order of its file; of type byte as numbers."""
+    found: dict[str, Any] = {}
+    for name, value in vars(message_class).items():
+        if name.isupper() and name[0] != "_" and not name.endswith("__DEFAULT"):
+            if isinstance(value, bytes) and len(value) == 1:
+                value = value[0]
+            if isinstance(value, (bool, int, float, str)):
+                found[name] = value
+    return found
+
+
+def limits_of(base: str) -> tuple[int, int]:
+    """Smallest and largest value of a type of whole numbers."""
+    if base in ("octet", "char"):
+        return 0, 255
+    bits = int(base.lstrip("uint"))
+    return (0, 2**bits - 1) if base.startswith("u") else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
+
+
+def find_class(type_name: str) -> Any:
+    """The class of "geometry_msgs/msg/Twist", "geometry_msgs/Twist" or "turtlesim/srv/Spawn".
+
+    Raises ValueError where it cannot be imported, with what to try.
+    """
+    package, _, rest = type_name.partition("/")
+    folder, _, name = rest.rpartition("/")
+    try:
+        return getattr(importlib.import_module(f"{package}.{folder or 'msg'}"), name)
+    except (ImportError, AttributeError):
+        raise ValueError(
+            f"the type {type_name} cannot be imported here: is its package built and sourced? Try "
+            f"colcon build --packages-select {package}, then source install/setup.bash"
+        ) from None
+
+
+def plain(value: Any) -> Any:
+    """A message, or a field's value, as YAML and JSON have it: dictionaries, lists, numbers, text."""
+    if hasattr(value, "get_fields_and_field_types"):
+        return {name: plain(getattr(value, name)) for name in kinds_of(value)}
+    if isinstance(value, (bool, int, float, str)):
+        return value
+    if isinstance(value, (bytes, bytearray)):
+        return value[0] if len(value) == 1 else list(value)
+    if hasattr(value, "tolist"):  # numpy's and array's
+        return value.tolist()
+    return [plain(each) for each in value]

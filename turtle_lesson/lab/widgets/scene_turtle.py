@@ -1,0 +1,126 @@
+"""The turtle in three dimensions, of few flat faces: the same turtle as in the plots, which shows it from above."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ..drawing import BACK, BODY, HEAD, LEGS, OUTLINE, RIM, SHELL, SKIN, TAIL
+from .scene_mesh import Mesh, ellipsoid, joined, loft, placed, polygon, ring
+
+LENGTH = 0.95
+"""From its nose to its tail, m. All that follows is in parts of this length: it looks along +x, its middle is (0, 0)."""
+
+CREST = "#2fb98f"
+"""The plates along the middle of its back."""
+SEAM = "#d8f3e6"
+BELLY, EDGE, TOP = 0.075, 0.145, 0.36
+"""Heights of the belly, of the shell's edge and of its highest point."""
+
+HIPS = ((0.17, 0.16), (-0.19, 0.15))
+"""About these points its legs swing, the front one and the hind one on the left."""
+
+
+def body() -> Mesh:
+    """All of it but the legs."""
+    return joined([_rim(), _shell(), _head(), _tail()]).moved(placed(size=LENGTH))
+
+
+def legs() -> dict[str, tuple[tuple[float, float], Mesh]]:
+    """By name, the point (m) about which each leg swings, and the leg as seen from there."""
+    made = {}
+    for name, hip, shape in zip(("front", "hind"), HIPS, LEGS, strict=True):
+        left = _leg(shape, hip)
+        x, y = (LENGTH * each for each in hip)
+        made[f"{name}_left"] = ((x, y), left)
+        made[f"{name}_right"] = ((x, -y), left.mirrored())
+    return made
+
+
+def whole() -> Mesh:
+    """The turtle standing still."""
+    return joined([body(), *(leg.moved(placed(x, y)) for (x, y), leg in legs().values())])
+
+
+def _leg(shape: tuple[float, ...], hip: tuple[float, float]) -> Mesh:
+    x, y, width, height, turn = shape
+    foot = ellipsoid((width / 2, height / 2, 0.06), SKIN, sides=8, levels=4)
+    return foot.moved(placed(x - hip[0], y - hip[1], 0.062, math.radians(turn))).moved(placed(size=LENGTH))
+
+
+def _rim() -> Mesh:
+    """The belt around the shell, and the belly below it."""
+    middle, across, along = BODY[0], BODY[2] / 2, BODY[3] / 2
+    belt = [
+        ring((middle, 0, BELLY), 0.86 * across, 0.84 * along, 12),
+        ring((middle, 0, BELLY + 0.03), across, along, 12),
+        ring((middle, 0, EDGE), 0.93 * across, 0.92 * along, 12),
+        ring((middle, 0, EDGE + 0.01), 0.6 * across, 0.6 * along, 12),
+    ]
+    return joined([loft(belt, RIM), polygon(belt[0][::-1], SKIN)])
+
+
+def _shell() -> Mesh:
+    """A dome of plates: six around a hexagon, with pale seams between them."""
+    radii = (1.12, 0.98, 0.56)
+    dome = [_ring_of_shell(radius, 12, -0.012) for radius in radii]
+    seams = joined([loft(dome, SEAM), polygon(dome[-1], SEAM)])
+    crest = polygon(_shrunk(_ring_of_shell(0.56, 6)), CREST)
+    return joined([seams, crest, *(_plate(number) for number in range(6))])
+
+
+def _plate(number: int) -> Mesh:
+    """One of the six plates around the hexagon: two faces, which meet along its middle."""
+    inner, outer, edge = (_ring_of_shell(radius, 12) for radius in (0.56, 0.98, 1.12))
+    first, middle, last = (2 * number + step for step in (0, 1, 2))
+    # the hexagon's side is straight: its middle lies between its corners
+    between = (inner[first % 12] + inner[last % 12]) / 2
+    halves = (
+        [inner[first % 12], outer[first % 12], edge[first % 12], edge[middle], outer[middle], between],
+        [between, outer[middle], edge[middle], edge[last % 12], outer[last % 12], inner[last % 12]],
+    )
+    centre = np.mean([inner[first % 12], inner[last % 12], edge[first % 12], edge[last % 12]], axis=0)
+    shrunk = [[centre + 0.93 * (corner - centre) for corner in half] for half in halves]
+    return joined([_folded(half) for half in shrunk])
+
+
+def _folded(half: list[np.ndarray]) -> Mesh:
+    """Half a plate: steep at the edge and flatter above, so two faces."""
+    if len(half) != 6:
+        raise AssertionError
+    a, b, c, d, e, f = half
+    upper, lower = ([a, b, e, f], [b, c, d, e]) if np.hypot(*c[:2]) > np.hypot(*a[:2]) else ([], [])
+    if not upper:
+        upper, lower = [a, b, e, f], [b, c, d, e]
+    return joined([polygon(upper, SHELL), polygon(lower, SHELL)])
+
+
+def _ring_of_shell(radius: float, sides: int, lift: float = 0.0) -> np.ndarray:
+    """Points on the dome, `radius` times as far from its middle as the plates' edge in the plots."""
+    height = EDGE - 0.02 + (TOP - EDGE) * math.sqrt(max(0.0, 1 - (radius / 1.16) ** 2)) + lift
+    return ring((BACK[0], 0, height), radius * BACK[2] / 2, radius * BACK[3] / 2, sides)
+
+
+def _shrunk(points: np.ndarray, by: float = 0.9) -> np.ndarray:
+    middle = points.mean(axis=0)
+    return middle + by * (points - middle)
+
+
+def _head() -> Mesh:
+    x, _, width, height, _ = HEAD
+    skull = ellipsoid((width / 2, height / 2, 0.098), SKIN, sides=10, levels=6).moved(placed(x + 0.01, 0, 0.185))
+    neck = loft([_collar(0.24, 0.075, 0.12), _collar(0.37, 0.065, 0.165)], SKIN)
+    eye = ellipsoid((0.026, 0.022, 0.028), OUTLINE, sides=6, levels=4).moved(placed(x + 0.075, 0.073, 0.215))
+    return joined([skull, neck, eye, eye.mirrored()])
+
+
+def _collar(x: float, radius: float, height: float) -> np.ndarray:
+    turns = np.arange(8) * math.tau / 8
+    return np.column_stack([np.full(8, x), radius * np.cos(turns), height + radius * np.sin(turns)])
+
+
+def _tail() -> Mesh:
+    (root, half, *_), (tip, *_), _ = ((*corner, 0.0) for corner in TAIL)
+    around = np.array([[root, -half, 0.10], [root, 0.0, 0.075], [root, half, 0.10], [root, 0.0, 0.145]])
+    return loft([np.tile([tip, 0.0, 0.07], (4, 1)), around], SKIN)

@@ -1,0 +1,63 @@
+"""Where a widget stands: a hidden node in a running system, what it has heard, and the clock if it can be turned.
+
+The widgets see nothing else of the system. In the classroom the station is the lab's node in the simulated world; on a
+robot it is a node of the real rclpy (see `robot`).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Protocol
+
+from .loop import Loop
+
+if TYPE_CHECKING:
+    from ..recorder import Recorder
+
+
+class Clock(Protocol):
+    """A clock that a widget can turn."""
+
+    @property
+    def playing(self) -> bool:
+        """Whether robot time goes on by itself."""
+        ...
+
+    @property
+    def rate(self) -> float:
+        """How many times as fast as life it goes on; infinite for as fast as possible."""
+        ...
+
+    def play(self, rate: float) -> None:
+        """Let robot time go on by itself."""
+        ...
+
+    def pause(self) -> None:
+        """Let it stand still."""
+        ...
+
+    def step(self, seconds: float) -> None:
+        """Let some seconds pass at once."""
+        ...
+
+
+class Station(Protocol):
+    """What every widget needs of the system that it shows."""
+
+    node: Any
+    """An rclpy Node with a hidden name, spun by somebody else; its callbacks happen in the notebook's loop."""
+    recorder: Recorder
+    """What was heard so far."""
+    loop: Loop
+    """The notebook's event loop."""
+    clock: Clock | None
+    """None where nobody can turn the clock, as on a real robot."""
+
+    @property
+    def now(self) -> float:
+        """Robot time: seconds since the recorder's origin."""
+        ...
+
+    @property
+    def ended(self) -> bool:
+        """Whether this system is gone, so that its widgets have nothing to show any more."""
+        ...

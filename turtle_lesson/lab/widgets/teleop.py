@@ -1,0 +1,164 @@
+"""Driving by hand: a stick and keys in the browser, velocities on a topic."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import traitlets
+
+from ...ros.core.virtual_time import real_monotonic
+from ..words import number
+from .live_widget import LiveWidget, script, styles
+from .outlet import Outlet, let_time_go_on
+from .station import Station
+
+TYPE = "geometry_msgs/msg/Twist"
+PERIOD = 0.1
+"""Seconds of robot time between two velocities while the stick is held."""
+
+SIGN_OF_LIFE = 0.3
+"""Seconds of real time after which a stick that says nothing counts as let go: the dead man's switch."""
+
+FASTEST = {"forward": 10.0, "turn": 10.0}
+"""What the highest speeds can be set to, m/s and rad/s."""
+
+
+class Teleop(LiveWidget):
+    """Publishes a Twist ten times a second while the stick is held, and one with zeros when it is let go.
+
+    The period is counted on the robot's clock, as every node's timer is; whether somebody still holds the stick is
+    counted in real time, since a person does.
+    """
+
+    topic = traitlets.Unicode().tag(sync=True)
+    limits = traitlets.Dict({"forward": 2.0, "turn": 2.0}).tag(sync=True)
+    """The speeds of a stick that is pushed all the way: "forward" in m/s, "turn" in rad/s."""
+    stick = traitlets.Dict({"forward": 0.0, "turn": 0.0, "held": False}).tag(sync=True)
+    """Where the stick is, from -1 to 1 (turn: to the left), and whether somebody holds it."""
+    sent = traitlets.Dict({"linear": 0.0, "angular": 0.0, "count": 0}).tag(sync=True)
+    """The newest velocity on the topic, m/s and rad/s, and how many there were."""
+    unheard = traitlets.Unicode().tag(sync=True)
+    """Why nobody hears it; "" if somebody does."""
+
+    def __init__(self, station: Station, topic: str) -> None:
+        from geometry_msgs.msg import Twist
+
+        self._esm = script("dom", "small", "teleop")
+        self._css = styles("base", "small", "teleop")
+        if not isinstance(topic, str) or not topic:
+            raise ValueError(f'the topic to drive on must be a name such as "/turtle1/cmd_vel", got {topic!r}')
+        name = station.node.resolve_topic_name(topic)
+        self._message = Twist
+        self._outlet = Outlet(station, name, Twist, TYPE)
+        self._timer: Any = None
+        self._last_sign = self._last_look = -math.inf
+        super().__init__(station, topic=name, unheard=self._outlet.why_unheard())
+
+    # -- orders ------------------------------------------------------------------------------------------------------
+
+    def do_drive(self, forward: float, turn: float) -> None:
+        """The stick is held, and is here: both from -1 to 1, turning to the left positive."""
+        place = {"forward": _unit("forward", forward), "turn": _unit("turn", turn)}
+        self._last_sign = real_monotonic()
+        changed = place != {name: self.stick[name] for name in place}
+        begun = self._timer is None
+        self.stick = {**place, "held": True}
+        if begun:
+            self.words = f"Driving on {self.topic}."
+            self._timer = self.station.node.create_timer(PERIOD, self._hop)
+            let_time_go_on(self.station)
+        if begun or (changed and not any(place.values())):
+            self._send()
+
+    def do_release(self) -> None:
+        """The stick was let go: stop."""
+        if self._timer is not None:
+            self._stop("Stopped.")
+
+    def do_stop(self) -> None:
+        """Send zeros, whoever drives."""
+        self._stop("Stopped.")
+
+    def do_limits(self, **speeds: float) -> None:
+        """Set the highest speeds: forward (m/s), turn (rad/s)."""
+        for name, value in speeds.items():
+            if name not in FASTEST or isinstance(value, bool) or not isinstance(value, (int, float)):
+                raise ValueError(f"A highest speed is a number, forward or turn, got {name}={value!r}.")
+            if not 0 < value <= FASTEST[name]:
+                raise ValueError(f"The highest speed ({name}) must be above 0 and at most {FASTEST[name]:g}.")
+            self.limits = {**self.limits, name: float(value)}
+
+    # -- as time goes by ---------------------------------------------------------------------------------------------
+
+    def tick(self) -> None:
+        """Stop if nobody says any more that the stick is held, and look who listens."""
+        self._watch()
+        self._outlet.flush()
+        if real_monotonic() - self._last_look > 0.5:
+            self._last_look = real_monotonic()
+            self.unheard = self._outlet.why_unheard()
+
+    def closed(self) -> None:
+        """The last view is gone: stop, and leave the topic."""
+        self._close()
+
+    def close(self) -> None:
+        """Stop, leave the topic, and go."""
+        self._close()
+        super().close()
+
+    def _close(self) -> None:
+        if not self.station.ended:
+            self.do_release()
+            self._outlet.close()
+
+    def _hop(self) -> None:
+        self.station.loop.now_or_soon(self._beat)
+
+    def _beat(self) -> None:
+        self._watch()
+        if self._timer is not None and not self.station.ended:
+            self._send()
+
+    def _watch(self) -> None:
+        if self._timer is not None and real_monotonic() - self._last_sign > SIGN_OF_LIFE:
+            self._stop(f"Stopped: the stick said nothing for {SIGN_OF_LIFE} s.")
+
+    def _stop(self, words: str) -> None:
+        if self._timer is not None:
+            self.station.node.destroy_timer(self._timer)
+            self._timer = None
+        self.stick = {"forward": 0.0, "turn": 0.0, "held": False}
+        self.words = words
+        self._send()
+
+    def _send(self) -> None:
+        message = self._message()
+        message.linear.x = self.stick["forward"] * self.limits["forward"]
+        message.angular.z = self.stick["turn"] * self.limits["turn"]
+        self._outlet.publish(message)
+        self.sent = {"linear": message.linear.x, "angular": message.angular.z, "count": self.sent["count"] + 1}
+
+    # -- in words ----------------------------------------------------------------------------------------------------
+
+    def text(self) -> str:
+        """Where it drives, how fast at most, and what it sent last."""
+        most = f"at most {number(self.limits['forward'])} m/s and {number(self.limits['turn'])} rad/s"
+        last = f"last sent {in_words(**self.sent)}" if self.sent["count"] else "nothing sent yet"
+        return f"Teleop on {self.topic}, {most}: {last}. {self._outlet.why_unheard()}".strip()
+
+
+def in_words(linear: float, angular: float, count: int = 0) -> str:
+    """A velocity: "1.00 m/s forward and 0.50 rad/s to the left"."""
+    if not linear and not angular:
+        return "zeros (stop)"
+    along = f"{number(abs(linear))} m/s {'forward' if linear > 0 else 'backward'}" if linear else ""
+    around = f"{number(abs(angular))} rad/s to the {'left' if angular > 0 else 'right'}" if angular else ""
+    return " and ".join(filter(None, (along, around)))
+
+
+def _unit(name: str, value: float) -> float:
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        raise ValueError(f"The stick's {name} must be a number from -1 to 1, got {value!r}.")
+    return max(-1.0, min(1.0, float(value)))

@@ -1,0 +1,181 @@
+"""What the arguments of a command may be: names of nodes, topics, services, types, parameters and packages, and files."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import redirect_stdout
+from io import StringIO
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import yaml
+
+from .. import launching
+from ..graph.graph import is_hidden
+from ..interfaces.registry import registry
+from .common import absolute
+from .group_pkg import package_names
+from .jobs import jobs
+from .text import message_to_yaml
+
+if TYPE_CHECKING:
+    from ..world import World
+
+# -- files ---------------------------------------------------------------------------------------------------------------
+
+
+def paths(begun: str, *, folders_only: bool = False) -> list[str]:
+    """The files and folders that a path may become; hidden ones if its last part begins with a dot."""
+    head, slash, last = begun.rpartition("/")
+    place = Path(head + slash).expanduser() if slash else Path()
+    try:
+        found = [path for path in place.iterdir() if path.name.startswith(".") == last.startswith(".")]
+    except (OSError, ValueError, RuntimeError):
+        return []
+    return [f"{head}{slash}{path.name}{'/' * path.is_dir()}" for path in found if path.is_dir() or not folders_only]
+
+
+def source_packages() -> list[str]:
+    """The packages that `colcon build` would build from here."""
+    return sorted({path.parent.name for path in Path("src").glob("**/package.xml")})
+
+
+# -- names ---------------------------------------------------------------------------------------------------------------
+
+Finder = Callable[["World", Sequence[str], str], Iterable[str]]
+
+
+def _nodes(world: World, given: Sequence[str], begun: str) -> list[str]:
+    return [node.full_name for node in world.graph.nodes if not node.hidden]
+
+
+def _topics(world: World, given: Sequence[str], begun: str) -> list[str]:
+    return [name for name in world.graph.topics() if not is_hidden(name)]
+
+
+def _services(world: World, given: Sequence[str], begun: str) -> list[str]:
+    return [name for name in world.graph.services() if not is_hidden(name)]
+
+
+def _types(*folders: str) -> Finder:
+    def find(world: World, given: Sequence[str], begun: str) -> list[str]:
+        own = _own_type(world, given[0]) if given else []
+        every = (f"{package}/{name}" for package in registry.packages() for name in registry.interface_names(package))
+        return own or [name for name in every if name.split("/")[1] in folders]
+
+    return find
+
+
+def _own_type(world: World, name: str) -> list[str]:
+    """The type of a topic or service that is there."""
+    topic = world.graph.topics().get(name)
+    if topic is not None:
+        return topic.types
+    return world.graph.services().get(name, [])
+
+
+def _packages(world: World, given: Sequence[str], begun: str) -> list[str]:
+    return package_names()
+
+
+def _executables(world: World, given: Sequence[str], begun: str) -> list[str]:
+    return sorted(world.packages.get(given[0]).executables) if given and given[0] in world.packages else []
+
+
+def _launch_files(world: World, given: Sequence[str], begun: str) -> list[str]:
+    if not given or given[0] not in world.packages:
+        return _launch_arguments(world, given, begun)
+    return [path.name for path in world.packages.get(given[0]).shared_files("*launch.*")]
+
+
+def _launch_arguments(world: World, given: Sequence[str], begun: str) -> list[str]:
+    """The arguments that a launch file takes and was not given yet: `rate:=`, or with their values if there are few."""
+    try:
+        is_path = Path(given[0]).is_file()
+        path = Path(given[0]) if is_path else launching.find_launch_file(world, *given[:2])
+        with redirect_stdout(StringIO()):
+            taken = launching.launch_arguments(world, path)
+    except Exception:  # a file that is not there, or not finished
+        return []
+    left = [each for each in taken if not any(word.startswith(f"{each.name}:=") for word in given)]
+    return [f"{each.name}:={choice}" for each in left for choice in each.choices or ("",)]
+
+
+def _parameters(world: World, given: Sequence[str], begun: str) -> list[str]:
+    node = _node_of(world, given[0]) if given else None
+    return [] if node is None else list(node.list_parameters([], 0).names)
+
+
+def _value_now(world: World, given: Sequence[str], begun: str) -> list[str]:
+    """The value that a parameter has, to be changed."""
+    node = _node_of(world, given[0]) if len(given) > 1 else None
+    if node is None or not node.has_parameter(given[1]):
+        return []
+    text = yaml.safe_dump(node.get_parameter(given[1]).value, default_flow_style=True, width=1_000_000)
+    text = text.removesuffix("...\n").strip()
+    return [f'"{text}"' if " " in text else text]
+
+
+def _node_of(world: World, name: str) -> Any:
+    """The running node of a name. Tab must not let time pass, so it does not ask the node's services, as commands do."""
+    for entry in world.graph.nodes:
+        context = entry.process.locals.get("rclpy.context")
+        for node in context._nodes if context is not None else ():
+            if node.get_fully_qualified_name() == absolute(name):
+                return node
+    return None
+
+
+def job_numbers(world: World) -> list[str]:
+    """What `kill` may be given: `%1`."""
+    return [f"%{job.number}" for job in jobs(world).running]
+
+
+def _files(world: World, given: Sequence[str], begun: str) -> list[str]:
+    return paths(begun)
+
+
+def _folders(world: World, given: Sequence[str], begun: str) -> list[str]:
+    return paths(begun, folders_only=True)
+
+
+def _values_of(world: World, given: Sequence[str], begun: str) -> list[str]:
+    """The type that was named, with its default values, to be changed."""
+    name = given[1] if len(given) > 1 else ""
+    try:
+        made = registry.get(name)
+        values = yaml.safe_load(message_to_yaml(getattr(made, "Request", made)()))
+    except Exception:  # a name that is not finished, or a definition that is refused
+        return []
+    text = yaml.safe_dump(values, default_flow_style=True, sort_keys=False, width=1_000_000)
+    return [f'"{text.strip()}"']
+
+
+_MESSAGES, _SERVICES, _ALL = _types("msg"), _types("srv"), _types("msg", "srv", "action")
+
+BY_NAME: dict[str, Finder] = {
+    "bag_path": _files,
+    "dependencies": _packages,
+    "destination_directory": _folders,
+    "executable_name": _executables,
+    "launch_arguments": _launch_arguments,
+    "launch_file_name": _launch_files,
+    "message_type": _MESSAGES,
+    "node": _nodes,
+    "node_name": _nodes,
+    "output": _files,
+    "output_dir": _folders,
+    "package_name": _packages,
+    "parameter_file": _files,
+    "parameter_name": _parameters,
+    "parameter_names": _parameters,
+    "service_name": _services,
+    "service_type": _SERVICES,
+    "topic": _topics,
+    "topic_name": _topics,
+    "topic_type": _MESSAGES,
+    "topics": _topics,
+    "type": _ALL,
+    "value": _value_now,
+    "values": _values_of,
+}

@@ -1,0 +1,84 @@
+"""Words that belong to other terminals, of a robot or of ROS 1, and what to do here instead."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+_ROS_1 = {
+    "catkin_create_pkg": "ros2 pkg create",
+    "catkin_make": "colcon build",
+    "catkin": "colcon build",
+    "rosbag": "ros2 bag",
+    "roslaunch": "ros2 launch",
+    "rosmsg": "ros2 interface",
+    "rosnode": "ros2 node",
+    "rospack": "ros2 pkg",
+    "rosparam": "ros2 param",
+    "rosrun": "ros2 run",
+    "rosservice": "ros2 service",
+    "rossrv": "ros2 interface",
+    "rostopic": "ros2 topic",
+}
+
+_PICTURES = "no windows here; lesson.plot_graph(), plot_path(), plot_status() and plot_scan() draw into the page"
+_NO_INSTALLING = "nothing is to be installed here: ROS 2 is simulated, and all that the lesson needs is there"
+_EDITOR = "no editor here: open the file in JupyterLab's list at the left, or begin a cell with %%writefile FILE"
+_SCRIPT = "%run FILE runs a script in this notebook; ros2 run starts the program of a package"
+
+_HERE = {
+    "apt": _NO_INSTALLING,
+    "apt-get": _NO_INSTALLING,
+    "bash": "type the commands into the cell, as in a terminal; %%terminal makes a whole cell a script",
+    "clear": "JupyterLab's menu Edit clears the outputs of cells",
+    "cmake": "colcon build does that, from a package's CMakeLists.txt",
+    "code": _EDITOR,
+    "emacs": _EDITOR,
+    "export": "%env NAME=value sets a variable of the notebook; ROS 2 here needs none",
+    "gazebo": "the simulated world is there already: turtlesim, which start() starts",
+    "gedit": _EDITOR,
+    "make": "colcon build does that, from a package's CMakeLists.txt",
+    "nano": _EDITOR,
+    "pip3": "%pip install NAME installs into this notebook's Python",
+    "printenv": "%env shows the variables of the notebook; ROS 2 here needs none",
+    "python": _SCRIPT,
+    "python3": _SCRIPT,
+    "roscore": "ROS 2 needs none: its nodes find one another",
+    "rosdep": _NO_INSTALLING,
+    "rqt": _PICTURES,
+    "rqt_console": _PICTURES,
+    "rqt_graph": _PICTURES,
+    "rqt_plot": _PICTURES,
+    "rviz": _PICTURES,
+    "rviz2": _PICTURES,
+    "sudo": _NO_INSTALLING,
+    "unset": "%env shows the variables of the notebook; ROS 2 here needs none",
+    "vi": _EDITOR,
+    "vim": _EDITOR,
+}
+
+_ON_THE_COMPUTER = frozenset((
+    "awk", "curl", "date", "df", "diff", "docker", "du", "find", "git", "htop", "less", "man", "more", "ping", "ps", "sed",
+    "ssh", "tar", "tee", "top", "tree", "unzip", "wget", "which", "whoami",
+))  # fmt: skip
+
+ELSEWHERE = frozenset({*_ROS_1, *_HERE, *_ON_THE_COMPUTER})
+"""All these words."""
+
+NEVER_PYTHON = frozenset(
+    {*_ROS_1, *_HERE} - {"bash", "catkin", "code", "export", "make", "python", "sudo", "unset", "vi"}
+)
+"""Those that nobody would call a variable, so that one alone on a line is meant for a terminal."""
+
+
+def advice(words: Sequence[str]) -> str:
+    """A sentence on what to do instead of a command; nothing for a word that is none of these."""
+    name = words[0]
+    if name.startswith("!"):
+        return f"the ! asks your computer, which has no {name[1:]}; without the ! this classroom answers"
+    if name == "sudo" and words[1:2] in (["ros2"], ["colcon"]):
+        return f"{words[1]} needs no sudo, neither here nor on a robot"
+    if name in _ROS_1:
+        return f"that is ROS 1; in ROS 2 it is {' '.join([_ROS_1[name], *words[1:]])}"
+    if name in _ON_THE_COMPUTER:
+        return f"not in this classroom's terminal; !{' '.join(words)} asks your computer"
+    return _HERE.get(name, "").replace("FILE", words[-1] if len(words) == 2 else "FILE")

@@ -1,0 +1,90 @@
+"""The terminal's words that change files and folders: rm, cp, mv. What is outside of the notebook's folder stays as it is."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+from .terminal_io import Terminal, options
+
+
+def rm(terminal: Terminal, words: list[str]) -> int:
+    """`rm [-r] [-f] name…`: delete files, and with -r folders."""
+    letters, names = options(words)
+    if not names and "f" not in letters:
+        return terminal.fail("rm: missing operand: name the files to delete, as in rm -r build install log")
+    return max((_delete(terminal, name, letters) for name in names), default=0)
+
+
+def _delete(terminal: Terminal, name: str, letters: set[str]) -> int:
+    path = Path(name)
+    if not path.exists() and not path.is_symlink():
+        return 0 if "f" in letters else terminal.fail(f"rm: cannot remove '{name}': No such file or directory")
+    if why := _why_not(path):
+        return terminal.fail(f"rm: '{name}' stays where it is: {why}")
+    if path.is_symlink() or not path.is_dir():
+        path.unlink()
+    elif letters & {"r", "R"}:
+        shutil.rmtree(path)
+    else:
+        return terminal.fail(f"rm: cannot remove '{name}': Is a directory. rm -r deletes a folder and all in it")
+    return 0
+
+
+def _why_not(path: Path) -> str:
+    """Why this must not be deleted or moved away; nothing if it may be."""
+    from .shell import home
+
+    place = path.parent.resolve() / path.name if path.is_symlink() else path.resolve()
+    if any(each.is_relative_to(place) for each in (Path.cwd(), home())):
+        return "the current folder or the notebook's is in it"
+    if not any(place.is_relative_to(each) for each in (Path.cwd(), home())):
+        return "it is outside of the notebook's folder; with a ! before it, the command asks your computer"
+    return ""
+
+
+def cp(terminal: Terminal, words: list[str]) -> int:
+    """`cp [-r] from… to`: copy files, and with -r folders."""
+    letters, names = options(words)
+    if len(names) < 2:
+        return terminal.fail("cp: name what to copy, and where to: cp old.py new.py")
+    return max(_copy(terminal, name, _target(name, names[-1]), letters) for name in names[:-1])
+
+
+def _copy(terminal: Terminal, name: str, target: Path, letters: set[str]) -> int:
+    source = Path(name)
+    if not source.exists():
+        return terminal.fail(f"cp: cannot stat '{name}': No such file or directory")
+    if not source.is_dir():
+        shutil.copy(source, target)
+    elif not letters & {"r", "R", "a"}:
+        return terminal.fail(f"cp: -r not specified; omitting directory '{name}'")
+    elif target.resolve().is_relative_to(source.resolve()):
+        return terminal.fail(f"cp: cannot copy a directory, '{name}', into itself, '{target}'")
+    else:
+        shutil.copytree(source, target, dirs_exist_ok=True)
+    return 0
+
+
+def mv(terminal: Terminal, words: list[str]) -> int:
+    """`mv from… to`: rename or move files and folders."""
+    _, names = options(words)
+    if len(names) < 2:
+        return terminal.fail("mv: name what to move, and where to: mv old.py new.py")
+    return max(_move(terminal, name, _target(name, names[-1])) for name in names[:-1])
+
+
+def _move(terminal: Terminal, name: str, target: Path) -> int:
+    source = Path(name)
+    if not source.exists():
+        return terminal.fail(f"mv: cannot stat '{name}': No such file or directory")
+    if why := _why_not(source):
+        return terminal.fail(f"mv: '{name}' stays where it is: {why}")
+    shutil.move(source, target)
+    return 0
+
+
+def _target(name: str, to: str) -> Path:
+    """Where a file goes: into a folder that is there, or else to the name itself."""
+    place = Path(to)
+    return place / Path(name).resolve().name if place.is_dir() else place

@@ -1,0 +1,44 @@
+"""A program of a package with Python modules of its own: each start imports them afresh, as a process of its own would."""
+
+from __future__ import annotations
+
+import shutil
+import sys
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True)
+class PythonProgram:
+    """What runs such a program.
+
+    Attributes:
+        path: the file, which is read at each start; one that does not exist stands for `text`.
+        folders: the folders of its modules.
+        text: the code of a program that no file holds, as an entry point used without a build.
+    """
+
+    path: Path
+    folders: tuple[Path, ...]
+    text: str | None = None
+
+    def __call__(self) -> None:
+        forget_below(self.folders)
+        code = compile(self.path.read_bytes() if self.text is None else self.text, str(self.path), "exec")
+        exec(code, {"__name__": "__main__", "__file__": str(self.path), "__builtins__": __builtins__})
+
+
+def forget_below(folders: Iterable[Path]) -> None:
+    """Have the modules in these folders be imported anew, from what the files say now.
+
+    Compiled files are deleted, too: Python takes them for good if the source has the same size and second.
+    """
+    folders = tuple(folders)
+    for name, module in list(sys.modules.items()):
+        file = getattr(module, "__file__", None)
+        if isinstance(file, str) and any(Path(file).is_relative_to(folder) for folder in folders):
+            del sys.modules[name]
+    for folder in folders:
+        for cache in list(folder.rglob("__pycache__")):
+            shutil.rmtree(cache, ignore_errors=True)
