@@ -44,6 +44,14 @@ def test_a_program_is_started_and_left_running(world: World, capsys: pytest.Capt
     assert nodes(world) == ["/navigator"]
 
 
+def test_starting_the_same_twice_is_pointed_out(world: World, capsys: pytest.CaptureFixture[str]) -> None:
+    run_line(world, "ros2 run robot_controller navigator; ros2 run robot_controller navigator")
+    last = capsys.readouterr().out.splitlines()[-1]
+    assert last == "The same goes on as [1]: everything in it is there twice now. To end that: kill -INT %1"
+    run_line(world, "kill -INT %1; ros2 run robot_controller navigator")
+    assert "The same goes on as [2]" in capsys.readouterr().out.splitlines()[-1]
+
+
 def test_what_the_last_line_advises_ends_it_as_ctrl_c_does(world: World, capsys: pytest.CaptureFixture[str]) -> None:
     run_line(world, "ros2 run robot_controller navigator; jobs; kill -INT %1; jobs")
     out = capsys.readouterr().out

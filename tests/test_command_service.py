@@ -30,6 +30,13 @@ def test_a_call_takes_as_long_as_the_service_needs(lesson: World) -> None:
     assert answer.code == 0
 
 
+def test_values_without_quotes_are_explained(lesson: World) -> None:
+    answer = type_in(lesson, "ros2 service call /navigate_to robot_controller/srv/NavigateTo x: 9.0")
+    *_, error, hint = answer.stderr.splitlines()
+    assert (error, answer.code) == ("ros2: error: unrecognized arguments: 9.0", 2)
+    assert hint == 'Values go into quotes, so that they are one word: "{x: 5.0, y: 5.0}"'
+
+
 def test_a_call_again_and_again_ends_after_a_stretch(lesson: World) -> None:
     command = "ros2 service call /navigate_to robot_controller/srv/NavigateTo '{y: 1.0}' -r 2 --for 3"
     answer = type_in(lesson, command)

@@ -81,6 +81,23 @@ def test_a_sourced_package_is_built_in_place(package: Path, world: World) -> Non
     assert started(world, "robot_controller", "navigator").startswith("new code")
 
 
+def test_a_message_made_before_the_build_is_told_from_a_new_one(package: Path, world: World) -> None:
+    colcon(world)
+    source_in(world)
+    old = importlib.import_module("robot_controller.msg").TurtleStatus()
+    change(package / "msg/TurtleStatus.msg", "float32 battery", "uint8 lives 9")
+    colcon(world)
+    source_in(world)
+    import rclpy
+
+    rclpy.init()
+    kind = importlib.import_module("robot_controller.msg").TurtleStatus
+    publisher = rclpy.create_node("n").create_publisher(kind, "status", 10)
+    with pytest.raises(TypeError) as caught:
+        publisher.publish(old)
+    assert "was made before TurtleStatus was built anew: import it again" in caught.value.__notes__[0]
+
+
 def test_with_symlinks_an_edit_counts_at_once(package: Path, world: World) -> None:
     colcon(world, "build --symlink-install")
     (package / "robot_controller/navigator_node.py").chmod(0o755)

@@ -9,6 +9,7 @@ from .lab.widgets.station import Clock
 from .ros.core import NANOSECONDS
 
 if TYPE_CHECKING:
+    from .lab.obstacle_board import ObstacleBoard
     from .lab.recorder import Recorder
     from .live import Player
     from .ros.world import World
@@ -17,9 +18,10 @@ if TYPE_CHECKING:
 class Classroom:
     """A `Station` (see lab/widgets/station.py) in a world of this notebook."""
 
-    def __init__(self, world: World, recorder: Recorder, player: Player) -> None:
+    def __init__(self, world: World, recorder: Recorder, player: Player, board: ObstacleBoard) -> None:
         self._world = world
         self.recorder = recorder
+        self.board = board
         self.node: Any = recorder.node
         self.clock: Clock | None = RobotClock(world, player)
         self.loop = Loop()
@@ -48,8 +50,22 @@ class RobotClock:
 
     @property
     def rate(self) -> float:
-        """How many times as fast as life it goes on."""
+        """How many times as fast as life it goes on, or will when it is played; infinite for as fast as possible."""
         return self._player.rate
+
+    @rate.setter
+    def rate(self, rate: float) -> None:
+        self._player.rate = rate
+
+    @property
+    def wall_seconds(self) -> float:
+        """Seconds of real time for which it has played since `play`."""
+        return self._player.wall_seconds
+
+    @property
+    def speed(self) -> float:
+        """How many times as fast as life it really goes."""
+        return self._player.speed if self._player.playing else 0.0
 
     def play(self, rate: float) -> None:
         """Let robot time go on by itself, at `rate` times real time."""

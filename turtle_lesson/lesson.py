@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 from collections.abc import Iterable
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,11 +16,12 @@ from .ros.core import EPOCH, NANOSECONDS
 from .ros.interfaces.registry import registry
 from .ros.workspace.package import Package, read_source_package
 from .ros.workspace.source import make_importable
-from .ros.world import World, open_world, wall_time
+from .ros.world import World, open_world
 from .shelf import Shelf
 
 if TYPE_CHECKING:
     from .lab.graph import GraphPicture
+    from .lab.obstacle_board import ObstacleBoard
     from .lab.picture import Picture
     from .lab.recorder import Recorder
     from .lab.widgets.station import Station
@@ -116,8 +118,6 @@ class Lesson(Shelf):
         self._world = world
         self._player = Player(world.sim)
         set_player(world, self._player)
-        self._obstacles: list[Obstacle] = []
-        self._markers: Any = None
         self._launched: dict[tuple[Path, str], LaunchHandle] = {}
         self._recorder: Recorder | None = None
         world.spawn(self._lab, name="lab", argv=["lab"])
@@ -148,7 +148,10 @@ class Lesson(Shelf):
         self._world.sim.run_until(self._world.now + round(seconds * NANOSECONDS))
 
     def play(self, rate: float = 1.0) -> None:
-        """Let robot time go on by itself, `rate` times as fast as real time, until `pause()`. Other cells work on."""
+        """Let robot time go on by itself, `rate` times as fast as real time, until `pause()`. Other cells work on.
+
+        `math.inf` is as fast as possible.
+        """
         self._player.play(rate)
 
     def pause(self) -> None:
@@ -209,40 +212,16 @@ class Lesson(Shelf):
 
     def place(self, *obstacles: Obstacle) -> None:
         """Put obstacles (`Circle`, `Box`) into the world. They are published on /world/obstacles."""
-        self.set_obstacles([*self._obstacles, *obstacles])
+        self._board.put([*self._board.obstacles, *obstacles])
 
     def set_obstacles(self, obstacles: Iterable[Obstacle] | str) -> None:
         """Replace all obstacles, by a list of them or by the name of a ready-made world."""
-        from .turtlesim.obstacles import WORLDS, Box, Circle
-
-        if isinstance(obstacles, str):
-            if obstacles not in WORLDS:
-                raise ValueError(f"there is no world called {obstacles!r}; there are {', '.join(map(repr, WORLDS))}")
-            obstacles = WORLDS[obstacles]
-        wanted = list(obstacles)
-        for each in wanted:
-            if not isinstance(each, (Circle, Box)):
-                raise TypeError(f"an obstacle is a Circle or a Box, got {each!r}: try Circle(x=8.0, y=5.5, radius=0.5)")
-        self._obstacles = wanted
-        self._publish_obstacles()
+        self._board.put(obstacles)
 
     @property
     def obstacles(self) -> tuple[Obstacle, ...]:
         """The obstacles in the world."""
-        return tuple(self._obstacles)
-
-    def _publish_obstacles(self) -> None:
-        from rclpy.time import Time
-
-        from .turtlesim.obstacles import to_marker_array
-
-        if self._markers is None:
-            from rclpy.qos import DurabilityPolicy, QoSProfile
-            from visualization_msgs.msg import MarkerArray
-
-            latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-            self._markers = self._recording.node.create_publisher(MarkerArray, "/world/obstacles", latched)
-        self._markers.publish(to_marker_array(self._obstacles, Time(nanoseconds=wall_time(self._world)).to_msg()))
+        return self._board.obstacles
 
     # -- pictures --------------------------------------------------------------------------------------------------
 
@@ -262,10 +241,16 @@ class Lesson(Shelf):
         assert self._recorder is not None
         return self._recorder
 
+    @cached_property
+    def _board(self) -> ObstacleBoard:
+        from .lab.obstacle_board import ObstacleBoard
+
+        return ObstacleBoard(self._recording)
+
     def _make_station(self) -> Station:
         from .classroom import Classroom
 
-        return Classroom(self._world, self._recording, self._player)
+        return Classroom(self._world, self._recording, self._player, self._board)
 
     def plot_path(self, **options: Any) -> Picture:
         """The way that the turtle went, on the map, from what /turtle1/pose said."""

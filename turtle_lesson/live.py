@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from collections import deque
 from typing import TYPE_CHECKING
 
 from .ros.core import NANOSECONDS
@@ -13,11 +14,20 @@ if TYPE_CHECKING:
     from .ros.core import Simulation
 
 STEP = 1 / 30
-LONGEST_WORK = 0.1
+LONGEST_WORK = 0.03
 """How long a step may keep the notebook busy, in seconds; a rate that needs more is as fast as the computer can."""
+
+BREATH = 0.004
+"""Seconds that the notebook has to itself, to answer and to draw, after a step that was cut short."""
 
 LONGEST_STEP = 0.25
 """After a cell that computed for long, live mode does not rush to catch up: at most this many seconds a step."""
+
+PIECE = NANOSECONDS // 10
+"""A step is run in pieces of so much robot time, between which the wall clock is looked at."""
+
+MOST = 1e6
+"""Seconds of robot time in one step at most; an infinite rate, which is as fast as possible, never gets there."""
 
 
 class Player:
@@ -26,20 +36,41 @@ class Player:
     def __init__(self, simulation: Simulation) -> None:
         self._simulation = simulation
         self._task: asyncio.Task[None] | None = None
-        self.rate = 1.0
+        self._rate = 1.0
+        self._watch = Stopwatch()
 
     @property
     def playing(self) -> bool:
         """Whether robot time goes on by itself."""
         return self._task is not None and not self._task.done()
 
+    @property
+    def rate(self) -> float:
+        """How many times as fast as real time; `math.inf` is as fast as possible. Can be changed at any time."""
+        return self._rate
+
+    @rate.setter
+    def rate(self, rate: float) -> None:
+        if isinstance(rate, bool) or not isinstance(rate, (int, float)) or not rate > 0:
+            raise ValueError(
+                f"rate must be a number above 0, got {rate!r}: 1.0 is as fast as life, 10 ten times faster, "
+                "math.inf as fast as possible"
+            )
+        self._rate = float(rate)
+
+    @property
+    def wall_seconds(self) -> float:
+        """Seconds of real time for which it has played since `play()`."""
+        return self._watch.seconds
+
+    @property
+    def speed(self) -> float:
+        """How many times as fast as real time it really went in the last second; 0 if it did not play."""
+        return self._watch.speed
+
     def play(self, rate: float) -> None:
         """Go on by itself at `rate` times real time; if it does so already, only change the rate."""
-        if not isinstance(rate, (int, float)) or not 0 < rate < float("inf"):
-            raise ValueError(
-                f"rate must be a number above 0, got {rate!r}: 1.0 is as fast as life, 10 ten times faster"
-            )
-        self.rate = float(rate)
+        self.rate = rate
         if self.playing:
             return
         try:
@@ -48,6 +79,7 @@ class Player:
             raise RuntimeError(
                 "play() needs a notebook, whose event loop goes on between cells; in a script use lesson.run(seconds)"
             ) from None
+        self._watch.start(real_monotonic())
         self._task = loop.create_task(self._play())
 
     def pause(self) -> None:
@@ -58,16 +90,16 @@ class Player:
 
     async def _play(self) -> None:
         simulation = self._simulation
-        last = real_monotonic()
+        last, done = real_monotonic(), True
         while not simulation.closed:
-            await asyncio.sleep(STEP)
+            await asyncio.sleep(STEP if done else BREATH)
             now = real_monotonic()
-            step = min(now - last, LONGEST_STEP) * self.rate
-            last = now
+            step = min(max(min(now - last, LONGEST_STEP), BREATH) * self.rate, MOST)
+            last, begun = now, simulation.now
             if simulation.closed:
                 return
             try:
-                self._run(simulation.now + round(step * NANOSECONDS))
+                done = self._run(begun + round(step * NANOSECONDS))
             except KeyboardInterrupt:  # which would end Jupyter's event loop, and with it the kernel
                 self._task = None
                 print("Live mode was interrupted; lesson.play() goes on.")
@@ -77,10 +109,53 @@ class Player:
                 print("Live mode has stopped, because of this; lesson.play() goes on.")
                 print_error(error)
                 return
+            self._watch.mark(real_monotonic(), simulation.now - begun)
 
-    def _run(self, until: int) -> None:
-        """Run towards `until` (ns), but at most for `LONGEST_WORK` of real time, so that cells stay usable at any rate."""
+    def _run(self, until: int) -> bool:
+        """Run towards `until` (ns), but at most for `LONGEST_WORK` of real time, so that cells stay usable at any rate.
+
+        Returns whether it got there.
+        """
         simulation = self._simulation
         deadline = real_monotonic() + LONGEST_WORK
         while simulation.now < until and real_monotonic() < deadline:
-            simulation.run_until(min(until, simulation.now + NANOSECONDS))
+            simulation.run_until(min(until, simulation.now + PIECE))
+        return simulation.now >= until
+
+
+class Stopwatch:
+    """Real time since a start, and how fast robot time went by in its last second."""
+
+    WINDOW = 1.0
+
+    def __init__(self) -> None:
+        self._began = self._last = 0.0
+        self._played = 0
+        self._marks: deque[tuple[float, int]] = deque()
+
+    def start(self, now: float) -> None:
+        """Begin anew at this moment (s)."""
+        self._began = self._last = now
+        self._played = 0
+        self._marks = deque([(now, 0)])
+
+    def mark(self, now: float, played: int) -> None:
+        """By this moment (s) so much more robot time (ns) went by."""
+        self._last = now
+        self._played += played
+        self._marks.append((now, self._played))
+        while len(self._marks) > 2 and self._marks[1][0] < now - self.WINDOW:
+            self._marks.popleft()
+
+    @property
+    def seconds(self) -> float:
+        """Real time from the start to the last mark, s."""
+        return self._last - self._began
+
+    @property
+    def speed(self) -> float:
+        """Robot time by real time in the last second; 0 before there is a second mark."""
+        if len(self._marks) < 2:
+            return 0.0
+        (first, before), (last, after) = self._marks[0], self._marks[-1]
+        return (after - before) / NANOSECONDS / max(last - first, 1e-9)

@@ -9,6 +9,7 @@ from collections.abc import Callable, Hashable
 from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
+    from .lab.widgets.dashboard import Dashboard
     from .lab.widgets.form import Form
     from .lab.widgets.lab_view import LabView
     from .lab.widgets.live_plot import LivePlot
@@ -41,11 +42,11 @@ class Shelf:
 
         return self._widget("goal pad", lambda station: LabView(station, GOAL_PAD))
 
-    def dashboard(self) -> LabView:
+    def dashboard(self) -> Dashboard:
         """Everything at once: map, clock, status, scan, rates, nodes, services and log."""
-        from .lab.widgets.lab_view import DASHBOARD, LabView
+        from .lab.widgets.dashboard import Dashboard
 
-        return self._widget("dashboard", lambda station: LabView(station, DASHBOARD))
+        return self._widget("dashboard", Dashboard)
 
     def teleop(self, topic: str = "/turtle1/cmd_vel") -> Teleop:
         """Drive by hand, with keys or a stick: publishes geometry_msgs/msg/Twist on a topic."""

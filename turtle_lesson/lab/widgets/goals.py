@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
+from weakref import WeakSet
 
 from .station import Station
 
@@ -34,6 +35,15 @@ class Goal:
         return {name: getattr(self, name) for name in ("number", "x", "y", "theta", "sent", "state", "answer")}
 
 
+_desks: WeakSet[GoalDesk] = WeakSet()
+
+
+def goals_from(station: Station) -> list[Goal]:
+    """All goals that were sent from this page, whichever of its widgets sent them, in their order."""
+    here = [desk for desk in _desks if desk.recorder is station.recorder]
+    return sorted((goal for desk in here for goal in desk.goals), key=lambda goal: goal.sent)
+
+
 class GoalDesk:
     """Sends goals and keeps their list; `changed(goal)` is called with each news of one."""
 
@@ -41,6 +51,12 @@ class GoalDesk:
         self._station, self._changed = station, changed
         self._client: Any = None
         self.goals: list[Goal] = []
+        _desks.add(self)
+
+    @property
+    def recorder(self) -> object:
+        """What this desk's system is known by."""
+        return self._station.recorder
 
     @property
     def current(self) -> Goal | None:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 GOAL_PAD = ["clock", "map", "goals"]
-DASHBOARD = ["clock", "map", "goals"]
+SCRIPTS = ("clock", "map", "goals", "signs", "status", "log", "scan", "rates", "lights", "dashboard", "lab_view")
 
 
 class LabView(GoalsPanel, MapPanel, ClockPanel):
@@ -31,7 +31,7 @@ class LabView(GoalsPanel, MapPanel, ClockPanel):
     panels = traitlets.List(traitlets.Unicode()).tag(sync=True)
 
     def __init__(self, station: Station, panels: list[str]) -> None:
-        self._esm = script("dom", "clock", "map", "goals", "lab_view")
+        self._esm = script("dom", *SCRIPTS)
         self._css = styles("base", "lab_view")
         super().__init__(station, panels=panels)
         self.tick()

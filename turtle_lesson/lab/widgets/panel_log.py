@@ -24,8 +24,8 @@ Line = list[Any]
 class LogPanel(LiveWidget):
     """Keeps the newest lines of the log. It is sent in two pieces, so that a new line does not cost the whole log."""
 
-    log_old = traitlets.List().tag(sync=True)
-    log_new = traitlets.List().tag(sync=True)
+    log_old: Any = traitlets.List().tag(sync=True)
+    log_new: Any = traitlets.List().tag(sync=True)
     log_least = traitlets.Unicode("INFO").tag(sync=True)
     """Lines below this level are not shown."""
 

@@ -12,7 +12,7 @@ from ..recording import NANOSECONDS, OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC
 from ..system import EVERYWHERE, is_hidden
 from ..table import Table
 from .ear import Ear
-from .frequency import PAUSE, WINDOW, frequency, verdict
+from .frequency import PAUSE, frequency, verdict
 from .live_widget import LiveWidget
 from .pace import Pace
 

@@ -54,7 +54,7 @@ def in_words(beams: Beams) -> dict[str, Any]:
     counted = f"{int(beams.sees.sum())} of {len(beams)} beams see something"
     if beam is None:
         return {"beam": -1, "nearest": f"nothing within {number(beams.most, 1)} m", "count": counted}
-    place = f"{number(beams.ranges[beam])} m {direction(beams.angles[beam])}"
+    place = f"{number(beams.ranges[beam])} m, {direction(beams.angles[beam])}"
     return {"beam": beam, "nearest": place, "count": counted}
 
 

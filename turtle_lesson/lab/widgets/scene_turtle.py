@@ -71,29 +71,17 @@ def _shell() -> Mesh:
 
 
 def _plate(number: int) -> Mesh:
-    """One of the six plates around the hexagon: two faces, which meet along its middle."""
-    inner, outer, edge = (_ring_of_shell(radius, 12) for radius in (0.56, 0.98, 1.12))
-    first, middle, last = (2 * number + step for step in (0, 1, 2))
-    # the hexagon's side is straight: its middle lies between its corners
-    between = (inner[first % 12] + inner[last % 12]) / 2
-    halves = (
-        [inner[first % 12], outer[first % 12], edge[first % 12], edge[middle], outer[middle], between],
-        [between, outer[middle], edge[middle], edge[last % 12], outer[last % 12], inner[last % 12]],
-    )
-    centre = np.mean([inner[first % 12], inner[last % 12], edge[first % 12], edge[last % 12]], axis=0)
-    shrunk = [[centre + 0.93 * (corner - centre) for corner in half] for half in halves]
-    return joined([_folded(half) for half in shrunk])
-
-
-def _folded(half: list[np.ndarray]) -> Mesh:
-    """Half a plate: steep at the edge and flatter above, so two faces."""
-    if len(half) != 6:
-        raise AssertionError
-    a, b, c, d, e, f = half
-    upper, lower = ([a, b, e, f], [b, c, d, e]) if np.hypot(*c[:2]) > np.hypot(*a[:2]) else ([], [])
-    if not upper:
-        upper, lower = [a, b, e, f], [b, c, d, e]
-    return joined([polygon(upper, SHELL), polygon(lower, SHELL)])
+    """One of the six plates around the hexagon: flatter above and steep at the edge, with a fold along its middle."""
+    rings = [_ring_of_shell(radius, 12) for radius in (0.56, 0.98, 1.12)]
+    left, middle, right = ([ring[(2 * number + step) % 12] for ring in rings] for step in (0, 1, 2))
+    middle[0] = (left[0] + right[0]) / 2  # the hexagon's side is straight
+    points = _shrunk(np.array([left, middle, right]).reshape(-1, 3), 0.93).reshape(3, 3, 3)
+    quads = [
+        [points[side, step], points[side, step + 1], points[side + 1, step + 1], points[side + 1, step]]
+        for side in (0, 1)
+        for step in (0, 1)
+    ]
+    return joined([polygon(quad, SHELL) for quad in quads])
 
 
 def _ring_of_shell(radius: float, sides: int, lift: float = 0.0) -> np.ndarray:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from .loop import Loop
 
 if TYPE_CHECKING:
+    from ..obstacle_board import ObstacleBoard
     from ..recorder import Recorder
 
 
@@ -24,7 +25,20 @@ class Clock(Protocol):
 
     @property
     def rate(self) -> float:
-        """How many times as fast as life it goes on; infinite for as fast as possible."""
+        """How many times as fast as life it goes on, or will when it is played; infinite for as fast as possible."""
+        ...
+
+    @rate.setter
+    def rate(self, rate: float) -> None: ...
+
+    @property
+    def wall_seconds(self) -> float:
+        """Seconds of real time for which it has played since `play`."""
+        ...
+
+    @property
+    def speed(self) -> float:
+        """How many times as fast as life it really goes; 0 while it stands still."""
         ...
 
     def play(self, rate: float) -> None:
@@ -47,6 +61,8 @@ class Station(Protocol):
     """An rclpy Node with a hidden name, spun by somebody else; its callbacks happen in the notebook's loop."""
     recorder: Recorder
     """What was heard so far."""
+    board: ObstacleBoard
+    """The obstacles of the world, and who publishes them."""
     loop: Loop
     """The notebook's event loop."""
     clock: Clock | None

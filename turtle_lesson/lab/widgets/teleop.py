@@ -67,9 +67,10 @@ class Teleop(LiveWidget):
         if begun:
             self.words = f"Driving on {self.topic}."
             self._timer = self.station.node.create_timer(PERIOD, self._hop)
-            let_time_go_on(self.station)
         if begun or (changed and not any(place.values())):
             self._send()
+        if begun:
+            let_time_go_on(self.station)
 
     def do_release(self) -> None:
         """The stick was let go: stop."""

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any
 
 from ..core import EPOCH, NANOSECONDS
 from ..graph.graph import is_hidden
-from ..graph.topic import Reader, Writer
 from ..interfaces.cdr import serialize
 from ..interfaces.names import did_you_mean
 from ..interfaces.registry import registry
@@ -200,23 +199,11 @@ class Recorder:
         for heard in self._heard.values():
             while heard.subscription._has_work():
                 heard.subscription.callback(*heard.subscription._take())
-            for sent, message in _under_way(heard.subscription._reader):
+            for sent, message in heard.subscription._reader.under_way():
                 self._write(heard, message, EPOCH + sent)
             self._register(heard)
         self._tell()
         self._bag.close()
-
-
-def _under_way(reader: Reader) -> list[tuple[int, Any]]:
-    """What has been sent to a reader and not arrived yet: when (virtual ns), and the message, in their order."""
-    found = []
-    for arrival, number, action, parcel in reader.topic.simulation._heap:
-        deliver = getattr(action, "__func__", None)
-        if deliver is Writer._deliver and reader in parcel[0]:
-            found.append((arrival - reader.topic.latency, number, parcel[1]))
-        elif deliver is Writer._deliver_kept and reader is parcel[0]:
-            found.append((parcel[2], number, parcel[1]))
-    return [(sent, message) for sent, _, message in sorted(found, key=lambda entry: entry[:2])]
 
 
 def _class_of(name: str, types: list[str]) -> Any:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Protocol
 
 from ..core import NANOSECONDS, Process, drive, running_strand
 from ..core.driving import DRIVE_LIMIT
 from ..core.errors import DriveTimeout, SimulationError
 from ..core.virtual_time import real_monotonic, real_sleep
+from .amounts import LONGEST
 
 if TYPE_CHECKING:
     from ..core.strand import Strand
@@ -33,9 +35,9 @@ def set_player(world: World, player: Pace) -> None:
 
 
 def live_rate(world: World) -> float | None:
-    """How many times as fast as real time the world goes in live mode, or None if it is not live."""
+    """How many times as fast as real time the world goes in live mode; None if it is not live, or unpaced."""
     player: Pace | None = world.notebook.locals.get("player")
-    return player.rate if player is not None and player.playing else None
+    return player.rate if player is not None and player.playing and math.isfinite(player.rate) else None
 
 
 class Waiter:
@@ -80,13 +82,16 @@ class Waiter:
         return ""
 
     def _drive(self, process: Process) -> None:
-        """Run as fast as possible. A verb limits its own waits: one that goes on for longer was told so."""
+        """Run as fast as possible. A verb limits its own waits: one that goes on for longer was told so, for a day or two."""
         simulation = self._world.sim
+        end = simulation.now + round(2 * LONGEST * NANOSECONDS)
         while process.alive:
             begun = simulation.now
             try:
                 drive(simulation, self._world.notebook, self._park, process)
             except DriveTimeout:
+                if begun > end:
+                    raise
                 simulation.run_until(begun + DRIVE_LIMIT)
 
     def _park(self, process: Process) -> None:

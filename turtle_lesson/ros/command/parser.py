@@ -79,7 +79,8 @@ class Parser(argparse.ArgumentParser):
 
     def option_names(self) -> list[str]:
         """All its options."""
-        return [name for action in self._actions for name in action.option_strings]
+        shown = [action for action in self._actions if action.help != argparse.SUPPRESS]
+        return [name for action in shown for name in action.option_strings]
 
     @property
     def actions(self) -> list[argparse.Action]:
@@ -166,7 +167,7 @@ def _parse_verb(verb: Verb, prog: str, words: list[str]) -> Call:
     parser = verb_parser(verb, prog)
     arguments, unknown = parser.parse_known_args(words)
     if unknown:
-        raise _unrecognized(unknown, parser.option_names())
+        raise _unrecognized(unknown, parser.option_names(), hasattr(arguments, "values"))
     return Call(verb, arguments, prog)
 
 
@@ -185,9 +186,11 @@ def _invalid_choice(prog: str, usage: str, what: str, name: str, known: Iterable
     return Stop("\n".join(filter(None, lines)), 2)
 
 
-def _unrecognized(words: Sequence[str], options: Sequence[str]) -> Stop:
+def _unrecognized(words: Sequence[str], options: Sequence[str], takes_values: bool = False) -> Stop:
     lines = [top_usage(), f"ros2: error: unrecognized arguments: {cut(' '.join(words), 200)}"]
     if words[0].startswith("-"):
         name = words[0].partition("=")[0][:100]
         lines.append(did_you_mean(name, [option for option in options if len(option) > 2]))
+    elif takes_values:
+        lines.append('Values go into quotes, so that they are one word: "{x: 5.0, y: 5.0}"')
     return Stop("\n".join(filter(None, lines)), 2)

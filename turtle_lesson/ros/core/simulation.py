@@ -197,6 +197,10 @@ class Simulation:
             self._leave()
             asyncio._set_running_loop(loop)
 
+    def scheduled(self) -> list[tuple[int, int, Callable[[Any], object], Any]]:
+        """What `at` was asked for and has not happened yet, in its order: time (ns), a number, action, argument."""
+        return sorted(self._heap, key=lambda event: event[:2])
+
     @property
     def busy(self) -> bool:
         """Whether anything is going to happen at all."""

@@ -45,6 +45,17 @@ class Reader:
         """From now on keep, beside each message, when it was sent and when it arrived (ns)."""
         self.times = deque(maxlen=self.quality.depth)
 
+    def under_way(self) -> list[tuple[int, Any]]:
+        """What was sent to this reader and has not arrived yet: when (ns), and the message, in their order."""
+        found = []
+        for arrival, _, action, parcel in self.topic.simulation.scheduled():
+            deliver = getattr(action, "__func__", None)
+            if deliver is Writer._deliver and self in parcel[0]:
+                found.append((arrival - self.topic.latency, parcel[1]))
+            elif deliver is Writer._deliver_kept and self is parcel[0]:
+                found.append((parcel[2], parcel[1]))
+        return sorted(found, key=lambda entry: entry[0])
+
 
 class Writer:
     """A publisher's end: knows the readers that its messages go to."""

@@ -53,6 +53,10 @@ def no_message(value: object, kind: Any) -> TypeError:
     error, name = TypeError(f"Expected {kind}, got {type(value)}"), kind.__name__
     if value is kind:
         error.add_note(f"This is the class itself; a message of it is {name}().")
+    elif type(value).__name__ == name and type(value).__module__ == kind.__module__:
+        error.add_note(
+            f"This {name} was made before {name} was built anew: import it again, and make the message again."
+        )
     elif not hasattr(value, "get_fields_and_field_types"):
         fields = list(kind.get_fields_and_field_types())
         example = f"{name}({fields[0]}=…)" if fields else f"{name}()"

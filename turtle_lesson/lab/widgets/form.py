@@ -1,0 +1,266 @@
+"""A form for the messages of a topic, or for the requests of a service."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import traitlets
+
+from ..words import count, listed
+from .caller import Caller
+from .form_fields import FieldError, Group, Rows, Single, find_part
+from .live_widget import LiveWidget, script, styles
+from .message_types import find_class
+from .outlet import Outlet, let_time_go_on
+from .station import Station
+from .typed_line import call_line, publish_line
+from .typed_names import did_you_mean, enumerated, is_hidden
+
+FASTEST = 100.0
+"""How many messages a second a form publishes at most."""
+
+LONGEST = 3600.0
+"""How long, in s of robot time, a form waits for an answer at most."""
+
+
+class Form(LiveWidget):
+    """Publishes messages, once or at a rate, or calls a service and shows its answer.
+
+    What stands in the fields is kept here as text, so that all views show the same, and an error stays beside its field.
+    """
+
+    name = traitlets.Unicode().tag(sync=True)
+    kind = traitlets.Unicode().tag(sync=True)
+    """"topic" or "service"."""
+    type_name = traitlets.Unicode().tag(sync=True)
+    tree = traitlets.List().tag(sync=True)
+    """The fields: what there is to draw."""
+    values = traitlets.Dict().tag(sync=True)
+    """What stands in each field, by its path."""
+    errors = traitlets.Dict().tag(sync=True)
+    """What is wrong in a field, by its path."""
+    line = traitlets.Unicode().tag(sync=True)
+    """The same for the terminal; "" while a field has an error."""
+    remark = traitlets.Unicode().tag(sync=True)
+    """What to know of this line, or of this form."""
+    rate = traitlets.Float(10.0).tag(sync=True)
+    """Messages a second of robot time."""
+    timeout = traitlets.Float(60.0).tag(sync=True)
+    """How long to wait for an answer, s of robot time."""
+    running = traitlets.Bool(False).tag(sync=True)
+    """Whether it publishes at the rate, or waits for an answer."""
+    published = traitlets.Int(0).tag(sync=True)
+    answer = traitlets.Unicode().tag(sync=True)
+    """The newest answer in YAML."""
+    unheard = traitlets.Unicode().tag(sync=True)
+
+    def __init__(self, station: Station, name: str) -> None:
+        self._esm = script("dom", "small", "form_fields", "form")
+        self._css = styles("base", "small", "form")
+        full, kind, type_name = _look_up(station.node, name)
+        message_class = find_class(type_name)
+        self._whole = Group("", "", message_class if kind == "topic" else message_class.Request)
+        self._outlet = Outlet(station, full, message_class, type_name)
+        self._caller = Caller(station, message_class, full)
+        self._timer: Any = None
+        self._repeated: Any = None
+        super().__init__(station, name=full, kind=kind, type_name=type_name)
+        self._bring_up_to_date(fields_too=True)
+        self.tick()
+
+    # -- orders: the fields ------------------------------------------------------------------------------------------
+
+    def do_edit(self, path: str, text: Any) -> None:
+        """Put a text (true or false, for a checkbox) into a field."""
+        part = find_part(self._whole, path)
+        if not isinstance(part, Single):
+            raise ValueError(f"{path} is no single field.")
+        part.set(text)
+        self._bring_up_to_date()
+
+    def do_add(self, path: str) -> None:
+        """Add a row to an array."""
+        self._rows(path).add()
+        self._bring_up_to_date(fields_too=True)
+
+    def do_remove(self, path: str, row: int) -> None:
+        """Take a row of an array away."""
+        self._rows(path).remove(row)
+        self._bring_up_to_date(fields_too=True)
+
+    def do_now(self, path: str, on: bool) -> None:
+        """Fill a time with the moment of sending, or not."""
+        part = find_part(self._whole, path)
+        if not isinstance(part, Group) or not part.is_time:
+            raise ValueError(f"{path} is no time.")
+        part.now = bool(on)
+        self._bring_up_to_date(fields_too=True)
+
+    def do_reset(self) -> None:
+        """Put the defaults into all fields."""
+        self._whole = Group("", "", self._whole.message_class)
+        self._bring_up_to_date(fields_too=True)
+
+    def do_options(self, rate: float | None = None, timeout: float | None = None) -> None:
+        """Set how often to publish (messages a second), how long to wait for an answer (s)."""
+        if rate is not None:
+            self.rate = _within("rate", rate, 0.01, FASTEST)
+            if self._timer is not None:
+                self._publish_again_and_again(self._repeated)
+        if timeout is not None:
+            self.timeout = _within("waiting time", timeout, 0.1, LONGEST)
+        self._bring_up_to_date()
+
+    def _rows(self, path: str) -> Rows:
+        part = find_part(self._whole, path)
+        if not isinstance(part, Rows):
+            raise ValueError(f"{path} is no array.")
+        return part
+
+    # -- orders: sending ---------------------------------------------------------------------------------------------
+
+    def do_publish(self) -> None:
+        """Publish once."""
+        self._publish(self._sound(), f"Published on {self.name}.")
+        let_time_go_on(self.station)
+
+    def do_repeat(self) -> None:
+        """Publish at the rate, until `stop`. What is edited meanwhile is published as soon as it is sound."""
+        self._publish_again_and_again(self._sound())
+        let_time_go_on(self.station)
+
+    def do_stop(self) -> None:
+        """Publish no more; wait for no answer any more."""
+        if self._timer is not None:
+            self._drop_timer()
+            self.words = f"Stopped after {count(self.published, 'message')} on {self.name}."
+        elif self._caller.asking:
+            self._caller.give_up()
+            self.words = f"Waits for {self.name} no more; whether it does what was asked is not known."
+
+    def do_call(self) -> None:
+        """Call the service."""
+        request = self._sound().build(self._time)
+        self.answer = ""
+        self.words = f"Asked {self.name}; waiting for its answer."
+        self._caller.ask(request, self.timeout, self._answered)
+        if self._caller.asking:
+            let_time_go_on(self.station)
+
+    def _publish_again_and_again(self, whole: Group) -> None:
+        self._drop_timer()
+        self._repeated = whole
+        self._timer = self.station.node.create_timer(1 / self.rate, self._hop)
+        self._publish(whole, f"Publishes on {self.name}, {self.rate:g} times a second of robot time.")
+
+    def _hop(self) -> None:
+        self.station.loop.now_or_soon(self._repeat)
+
+    def _repeat(self) -> None:
+        if self._timer is None or self.station.ended:
+            return
+        if not self.errors:
+            self._repeated = self._whole
+        self._publish(self._repeated)
+
+    def _publish(self, whole: Group, words: str = "") -> None:
+        self._outlet.publish(whole.build(self._time))
+        self.published += 1
+        self.words = words or self.words
+
+    def _answered(self, words: str, answer: str) -> None:
+        self.answer, self.words = answer, words
+        self.running = False
+
+    def _sound(self) -> Group:
+        if self.errors:
+            raise ValueError(f"Not sent: {'; '.join(f'{path}: {words}' for path, words in self.errors.items())}.")
+        return self._whole
+
+    def _time(self) -> Any:
+        return self.station.node.get_clock().now().to_msg()
+
+    # -- as time goes by ---------------------------------------------------------------------------------------------
+
+    def tick(self) -> None:
+        """Look who listens, and whether an answer is overdue."""
+        self._caller.look()
+        self._outlet.flush()
+        self.running = self._timer is not None or self._caller.asking
+        self.unheard = self._outlet.why_unheard() if self.kind == "topic" else self._caller.why_unheard()
+
+    def closed(self) -> None:
+        """The last view is gone: publish no more."""
+        if not self.station.ended:
+            self._drop_timer()
+            self._outlet.close()
+            self._caller.close()
+
+    def close(self) -> None:
+        """Publish no more, and go."""
+        self.closed()
+        super().close()
+
+    def _drop_timer(self) -> None:
+        if self._timer is not None:
+            self.station.node.destroy_timer(self._timer)
+            self._timer = None
+        self.running = False
+
+    # -- the state -----------------------------------------------------------------------------------------------------
+
+    def _bring_up_to_date(self, fields_too: bool = False) -> None:
+        singles = list(self._whole.singles())
+        self.values = {single.path: single.text for single in singles}
+        self.errors = {single.path: words for single in singles if (words := _error_of(single))}
+        if fields_too:
+            self.tree = self._whole.state()["parts"]
+        self.line = "" if self.errors else self._terminal_line()
+        self.remark = "The stamp is left out: a line for the terminal cannot know it." if self._has_now() else ""
+
+    def _terminal_line(self) -> str:
+        values = self._whole.changed() or {}
+        if self.kind == "service":
+            return call_line(self.name, self.type_name, values)
+        return publish_line(self.name, self.type_name, values, None)
+
+    def _has_now(self) -> bool:
+        return "'now': True" in repr(self.tree)
+
+    def text(self) -> str:
+        """What the form is for, and what it would send."""
+        what = "messages on" if self.kind == "topic" else "requests to"
+        wrong = listed([f"{path} ({words})" for path, words in self.errors.items()])
+        now = f"to mend first: {wrong}" if self.errors else self.line
+        return f"Form for {what} {self.name} ({self.type_name}): {now}"
+
+
+def _look_up(node: Any, name: str) -> tuple[str, str, str]:
+    """Full name, "topic" or "service", and type. Raises ValueError with what was meant perhaps."""
+    if not isinstance(name, str) or not name:
+        raise ValueError(f'a form is for a topic or a service such as "/turtle1/cmd_vel", got {name!r}')
+    topics, services = dict(node.get_topic_names_and_types()), dict(node.get_service_names_and_types())
+    full = name if name.startswith("/") else f"{node.get_namespace().rstrip('/')}/{name}"
+    for kind, known in (("topic", topics), ("service", services)):
+        if full in known:
+            return full, kind, known[full][0]
+    known_names = sorted(each for each in (*topics, *services) if not is_hidden(each))
+    hint = did_you_mean(name, known_names)
+    if not hint:
+        usual = [each for each in known_names if "parameter" not in each]
+        hint = f"There are: {enumerated(usual)}." if usual else "There are none at all yet."
+    raise ValueError(f'there is no topic or service called "{name}" now. {hint}')
+
+
+def _error_of(single: Single) -> str:
+    try:
+        single.value()
+    except FieldError as error:
+        return str(error)
+    return ""
+
+
+def _within(what: str, value: Any, low: float, high: float) -> float:
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not low <= value <= high:
+        raise ValueError(f"The {what} must be a number from {low:g} to {high:g}, got {value!r}.")
+    return float(value)

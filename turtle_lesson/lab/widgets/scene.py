@@ -1,0 +1,200 @@
+"""The world in three dimensions: meshcat's viewer inside a widget, fed over the notebook's own channel."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import traitlets
+
+from ...ros.core.virtual_time import real_monotonic
+from ..beams import read_beams
+from ..words import angle, count, listed, number, point
+from . import scene_parts as parts
+from .goals import Goal, goals_from
+from .live_widget import LiveWidget, script, styles
+from .scene_commands import viewer_bundle
+from .scene_picture import draw_scene
+from .scene_trail import Trail
+
+if TYPE_CHECKING:
+    from ..picture import Picture
+    from ..recording import Obstacle, Recording
+    from .scene_page import ScenePage
+    from .station import Station
+
+SCRIPTS = ("dom", "scene_theme", "scene_stage", "scene_camera", "scene_view")
+TRAIL_PERIOD = 0.1
+"""The trail is sent again at most so often, in seconds; what the turtle stands on, nobody sees."""
+DESCRIPTION_PERIOD = 1.0
+"""So often at most, a screen reader's description of the scene changes, in seconds."""
+
+
+def _commands() -> Any:
+    """A trait for a part of the scene: meshcat commands, each as bytes, that bring it up to date."""
+    return traitlets.List(traitlets.Bytes()).tag(sync=True)
+
+
+class Scene(LiveWidget):
+    """Floor, walls, obstacles, turtle, trail, laser and goal, to be turned under the mouse.
+
+    The whole state is in the traits, one for each part of the scene, so that a view that comes late, a second window or a
+    reloaded frame is complete at once; what has not changed is not sent again.
+    """
+
+    bundle = traitlets.Bytes().tag(sync=True)
+    """The viewer's script, compressed; it travels once."""
+    stage = _commands()
+    turtle = traitlets.Bytes().tag(sync=True)
+    """One command that says where the turtle is; empty until a pose was heard."""
+    trail = _commands()
+    """The older part of the trail."""
+    tip = _commands()
+    """Its newest piece."""
+    scan = _commands()
+    obstacles = _commands()
+    goal = _commands()
+    description = traitlets.Unicode().tag(sync=True)
+    """The scene in words, for a screen reader."""
+
+    def __init__(self, station: Station) -> None:
+        self._esm = script(*SCRIPTS, "scene")
+        self._css = styles("base", "scene")
+        self._trail = Trail(station.recorder.poses)
+        self._drawn: dict[str, Any] = {}
+        self._due: dict[str, float] = {}
+        super().__init__(station, bundle=viewer_bundle(), stage=parts.stage())
+        self.tick()
+
+    # -- what a page asks for ------------------------------------------------------------------------------------------
+
+    def snapshot(self) -> ScenePage:
+        """The scene as it is now, as one page of HTML that needs neither kernel nor network.
+
+        The page is shown where it is the last value of a cell; `save("scene.html")` writes it to a file.
+        """
+        from .scene_page import snapshot_page
+
+        return snapshot_page(self)
+
+    def animation(self, since: float | None = None, until: float | None = None) -> ScenePage:
+        """The turtle's run as a page of HTML with a play bar, from `since` to `until` (seconds of robot time).
+
+        Raises ValueError where no pose was heard in that time.
+        """
+        from .scene_replay import replay_page
+
+        return replay_page(self, since, until)
+
+    def text(self) -> str:
+        """Where the turtle is, and what is around it."""
+        return f"3-D scene: {describe(self.station.recorder, self._current_goal())}"
+
+    def picture(self) -> Picture | None:
+        """The same scene drawn by matplotlib, from one side."""
+        return draw_scene(self.station.recorder, self._current_goal())
+
+    # -- bringing it up to date ----------------------------------------------------------------------------------------
+
+    def tick(self) -> None:
+        """Send the parts that have changed."""
+        super().tick()
+        self._draw_turtle()
+        self._draw_trail()
+        self._draw_scan()
+        self._draw_obstacles()
+        self._draw_goal()
+        if self._is_due("description", DESCRIPTION_PERIOD):
+            self.description = self.text()
+
+    def _draw_turtle(self) -> None:
+        pose = newest_pose(self.station.recorder)
+        if pose is not None and self._is_new("turtle", pose):
+            self.turtle = parts.turtle_at(*pose)
+
+    def _draw_trail(self) -> None:
+        if not self._is_due("trail", TRAIL_PERIOD) or not self._trail.follow():
+            return
+        if self._is_new("trail", self._trail.changes):
+            self.trail = parts.trail("lab/trail", self._trail.old)
+        self.tip = parts.trail("lab/tip", [self._trail.tip])
+
+    def _draw_scan(self) -> None:
+        recorder = self.station.recorder
+        scan = recorder.last_scan
+        if scan is None or self._drawn.get("scan") is scan:
+            return
+        pose = newest_pose(recorder, until=int(recorder.scans.newest(1)["stamp"][0]))
+        if pose is not None:
+            self._drawn["scan"] = scan
+            self.scan = parts.scan(scan, *pose)
+
+    def _draw_obstacles(self) -> None:
+        standing = list(self.station.recorder.obstacles.values())
+        if self._is_new("obstacles", standing):
+            self.obstacles = parts.obstacles(standing)
+
+    def _draw_goal(self) -> None:
+        goal = self._current_goal()
+        if self._is_new("goal", None if goal is None else (goal.x, goal.y, goal.theta)):
+            self.goal = parts.goal(goal)
+        if goal is not None and self._is_new("news", (goal.sent, goal.state)):
+            self.words = f"Goal {point(goal.x, goal.y)} m: {goal.state}."
+
+    def _current_goal(self) -> Goal | None:
+        """The newest goal from this page, unless the navigator did not take it."""
+        goals = [goal for goal in goals_from(self.station) if goal.state in ("on its way", "reached")]
+        return goals[-1] if goals else None
+
+    def _is_new(self, name: str, value: object) -> bool:
+        """Whether a part has to be drawn again; the first time it has."""
+        if name in self._drawn and self._drawn[name] == value:
+            return False
+        self._drawn[name] = value
+        return True
+
+    def _is_due(self, name: str, period: float) -> bool:
+        now = real_monotonic()
+        if now < self._due.get(name, 0.0):
+            return False
+        self._due[name] = now + period
+        return True
+
+
+def newest_pose(recorder: Recording, until: int | None = None) -> tuple[float, float, float] | None:
+    """The newest pose (m, m, rad), of those not later than `until` (ns); None where none was heard."""
+    poses = recorder.poses.newest(1 if until is None else 256)
+    if until is not None and len(poses) and poses["stamp"][0] <= until:
+        poses = poses[poses["stamp"] <= until]
+    if not len(poses):
+        return None
+    place = tuple(float(poses[-1][name]) for name in ("x", "y", "theta"))
+    return place if all(map(math.isfinite, place)) else None  # type: ignore[return-value]
+
+
+def describe(recorder: Recording, goal: Goal | None) -> str:
+    """A scene in one sentence: turtle, obstacles, laser and goal."""
+    pose = newest_pose(recorder)
+    if pose is None:
+        return "no pose heard yet."
+    x, y, theta = pose
+    around = [*_standing(list(recorder.obstacles.values())), *_seen(recorder.last_scan)]
+    if goal is not None:
+        away = number(math.hypot(goal.x - x, goal.y - y))
+        around.append(f"the goal at {point(goal.x, goal.y)} m is {away} m away")
+    rest = f"; {listed(around)}" if around else ""
+    return f"the turtle is at {point(x, y)} m facing {angle(theta)}{rest}."
+
+
+def _standing(obstacles: list[Obstacle]) -> list[str]:
+    if not obstacles:
+        return []
+    places = ", ".join(f"{each.shape} at {point(each.x, each.y)} m" for each in obstacles)
+    return [f"{count(len(obstacles), 'obstacle')} ({places})"]
+
+
+def _seen(scan: Any) -> list[str]:
+    if scan is None:
+        return []
+    beams = read_beams(scan)
+    return [f"{int(beams.sees.sum())} of the laser's {count(len(beams), 'beam')} see something"]

@@ -1,0 +1,116 @@
+"""The 3-D scene as a picture that stays, for readers without a kernel: drawn from the same meshes, from one side."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .. import style
+from ..beams import read_beams
+from ..picture import Picture
+from ..track import WORLD
+from . import scene_turtle as turtle
+from . import scene_world as world
+from .scene_mesh import Mesh, placed
+from .scene_trail import Trail
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from ..recording import Recording
+    from .goals import Goal
+
+AROUND, UP = math.radians(-62), math.radians(40)
+"""From where one looks: the direction in which the eye is, and its height above the horizon."""
+LIGHT = np.array([-0.35, -0.45, 0.82])
+
+
+def draw_scene(recording: Recording, goal: Goal | None) -> Picture:
+    """Return the scene as it is now, with its text."""
+    from .scene import describe, newest_pose
+
+    text = f"3-D scene: {describe(recording, goal)}"
+    pose = newest_pose(recording)
+    if pose is None:
+        return Picture(text)
+    with style.applied():
+        figure = style.card(6.4, 4.9)
+        axes = style.axes_at(figure, 0.15, 0.15, 6.1, 4.35)
+        axes.set(aspect="equal")
+        axes.set_axis_off()
+        _draw_floor(axes, recording)
+        _draw_things(axes, recording, goal, pose)
+        axes.autoscale_view(tight=True)
+        style.heading(figure, "The world in three dimensions", text.split(": ", 1)[1].split(";")[0].rstrip("."))
+    return Picture(text, figure)
+
+
+def _draw_floor(axes: Axes, recording: Recording) -> None:
+    """What lies on the floor: nothing of it hides anything."""
+    _draw(axes, world.floor(), layer=1)
+    _draw(axes, world.grid(), layer=2)
+    trail = Trail(recording.poses)
+    trail.follow()
+    _draw(axes, world.ribbon([*trail.old, trail.tip]), layer=3, lit=False)
+
+
+def _draw_things(axes: Axes, recording: Recording, goal: Goal | None, pose: tuple[float, float, float]) -> None:
+    """What stands there, the farthest first."""
+    things = [*world.walls(), *map(world.obstacle_mesh, recording.obstacles.values())]
+    things.append(turtle.whole().moved(placed(pose[0], pose[1], 0.0, pose[2])))
+    if goal is not None:
+        things.append(world.goal_mesh(goal.x, goal.y, goal.theta))
+    things.sort(key=_distance, reverse=True)
+    for layer, thing in enumerate(things):
+        _draw(axes, thing, layer=10 + layer)
+    if recording.last_scan is not None:
+        _draw_laser(axes, recording)
+
+
+def _draw_laser(axes: Axes, recording: Recording) -> None:
+    from .scene import newest_pose
+
+    there = newest_pose(recording, until=int(recording.scans.newest(1)["stamp"][0]))
+    if there is not None:
+        free, marks = world.fan(read_beams(recording.last_scan))
+        where = placed(there[0], there[1], 0.0, there[2])
+        _draw(axes, free.moved(where), layer=4, lit=False, alpha=0.22)
+        _draw(axes, marks.moved(where), layer=5, lit=False, alpha=0.8)
+
+
+def _draw(axes: Axes, mesh: Mesh, layer: float, lit: bool = True, **look: Any) -> None:
+    """Draw those triangles that face the eye, the farthest first."""
+    from matplotlib.collections import PolyCollection
+
+    across, up, depth = _seen(mesh.corners)
+    flat = np.stack([across, up], axis=2)
+    colours = mesh.colours * (_brightness(mesh) if lit else 1.0)
+    first, second = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
+    facing = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0] > 0 if lit else np.ones(len(mesh), bool)
+    order = np.argsort(depth.mean(axis=1), kind="stable")
+    order = order[facing[order]]
+    edges: Any = {"edgecolors": "face", "linewidths": 0.25} if "alpha" not in look else {"edgecolors": "none"}
+    faces = PolyCollection(list(flat[order]), facecolors=np.clip(colours[order], 0, 1), zorder=layer, **edges, **look)
+    axes.add_collection(faces)
+
+
+def _seen(points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Points (…, 3) as the eye sees them: to the right, up, and towards it."""
+    x, y, z = np.moveaxis(points - (WORLD / 2, WORLD / 2, 0), -1, 0)
+    outward = x * math.cos(AROUND) + y * math.sin(AROUND)
+    across = -x * math.sin(AROUND) + y * math.cos(AROUND)
+    return across, -outward * math.sin(UP) + z * math.cos(UP), outward * math.cos(UP) + z * math.sin(UP)
+
+
+def _distance(mesh: Mesh) -> float:
+    return -float(_seen(mesh.corners)[2].mean())
+
+
+def _brightness(mesh: Mesh) -> np.ndarray:
+    """How bright each triangle is, by the light's direction: n by 1."""
+    normals = np.cross(mesh.corners[:, 1] - mesh.corners[:, 0], mesh.corners[:, 2] - mesh.corners[:, 0])
+    lengths = np.linalg.norm(normals, axis=1)
+    facing = (normals @ LIGHT) / np.where(lengths > 0, lengths, 1.0)
+    return (0.66 + 0.36 * np.maximum(facing, 0.0))[:, None]
