@@ -1,7 +1,7 @@
 """Turtle Lesson: learn to build a ROS 2 robot controller in notebooks, with nothing to install but Python packages.
 
 Importing this package makes `rclpy`, `launch`, the message packages and their kin importable, unless a real ROS 2 is
-sourced, which is never hidden. `start()` makes a world to work in.
+sourced, which is never hidden. `start()` makes a world to work in; `connect()` shows the robot of a real ROS 2.
 """
 
 from __future__ import annotations
@@ -15,9 +15,10 @@ from .ros.interfaces import finder
 
 if TYPE_CHECKING:
     from .lesson import Lesson, start
+    from .robot import Robot, connect
 
 __version__ = "0.1.0"
-__all__ = ["Lesson", "load_ipython_extension", "start"]
+__all__ = ["Lesson", "Robot", "connect", "load_ipython_extension", "start"]
 
 SITE = str(Path(__file__).resolve().parent / "ros" / "site")
 
@@ -43,6 +44,10 @@ def __getattr__(name: str) -> Any:
         from . import lesson
 
         return getattr(lesson, name)
+    if name in {"Robot", "connect"}:
+        from . import robot
+
+        return getattr(robot, name)
     raise AttributeError(f"module 'turtle_lesson' has no attribute {name!r}")
 
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import importlib.util
 from collections.abc import Iterable
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .desk import Desk
+from .insight import Insight
 from .live import Player
 from .ros.command.driving import set_player
 from .ros.command.shell import open_terminal
@@ -18,11 +19,11 @@ from .ros.workspace.package import Package, read_source_package
 from .ros.workspace.source import make_importable
 from .ros.world import World, open_world
 from .shelf import Shelf
+from .sourced import HERE, real_ros
 
 if TYPE_CHECKING:
-    from .lab.graph import GraphPicture
+    from .exam_place import ExamPlace
     from .lab.obstacle_board import ObstacleBoard
-    from .lab.picture import Picture
     from .lab.recorder import Recorder
     from .lab.widgets.station import Station
     from .ros.bags.recording import Recording
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
     from .ros.workspace.export import Exported
     from .turtlesim.obstacles import Obstacle
 
-HERE = Path(__file__).resolve().parent
 FINISHED = HERE / "robot_controller"
 LONGEST_RUN = 1e9
 """Seconds of robot time that one run may take: thirty years are enough for every mistake."""
@@ -63,11 +63,11 @@ def start(seed: int = 0, package: str | Path | None = "finished", simulator: boo
 
 
 def _check_no_real_ros() -> None:
-    found = importlib.util.find_spec("rclpy")
-    if found is None or found.origin is None or not Path(found.origin).resolve().is_relative_to(HERE):
-        place = found.origin if found else "nowhere"
+    place = real_ros()
+    if place:
         raise RuntimeError(
-            f"a real ROS 2 is sourced here (rclpy is {place}), and the simulated one never hides it. Start Jupyter from a "
+            f"a real ROS 2 is sourced here (rclpy is {place}), and the simulated one never hides it. "
+            "turtle_lesson.connect() shows its robot with the same widgets. For a simulated world, start Jupyter from a "
             "terminal in which no setup file was sourced."
         )
 
@@ -111,7 +111,7 @@ def _install(world: World, folder: Path) -> None:
         registry.add(package.name, folder, package.interfaces)
 
 
-class Lesson(Shelf):
+class Lesson(Insight, Shelf, Desk):
     """A running world, and what a page does with it. Times are in seconds of robot time."""
 
     def __init__(self, world: World, *, simulator: bool = True) -> None:
@@ -120,6 +120,7 @@ class Lesson(Shelf):
         set_player(world, self._player)
         self._launched: dict[tuple[Path, str], LaunchHandle] = {}
         self._recorder: Recorder | None = None
+        world.keep_trace()
         world.spawn(self._lab, name="lab", argv=["lab"])
         if simulator:
             out = CellOutput(world.sim)
@@ -247,31 +248,12 @@ class Lesson(Shelf):
 
         return ObstacleBoard(self._recording)
 
+    def _make_exam_place(self) -> ExamPlace:
+        from .exam_place import ExamPlace
+
+        return ExamPlace(self._world, self._recording.node, self._board)
+
     def _make_station(self) -> Station:
         from .classroom import Classroom
 
         return Classroom(self._world, self._recording, self._player, self._board)
-
-    def plot_path(self, **options: Any) -> Picture:
-        """The way that the turtle went, on the map, from what /turtle1/pose said."""
-        from .lab.path import plot_path
-
-        return plot_path(self._recording, **options)
-
-    def plot_status(self, **options: Any) -> Picture:
-        """Position, heading, velocity and battery over time, from what /robot/status said."""
-        from .lab.status import plot_status
-
-        return plot_status(self._recording, **options)
-
-    def plot_scan(self) -> Picture:
-        """The last scan that /obstacles brought, as the turtle sees it."""
-        from .lab.scan import plot_scan
-
-        return plot_scan(self._recording)
-
-    def plot_graph(self) -> GraphPicture:
-        """Which nodes there are, and by which topics and services they are joined."""
-        from .lab.graph import plot_graph
-
-        return plot_graph(self._recording.node)

@@ -12,8 +12,13 @@ def prepare(shell: Any) -> None:
     """Have errors in cells shown without the frames of the simulated ROS 2, and `ros2 …` understood in cells."""
     from .ros.command import magics
 
+    shell.register_magic_function(solution, "cell")
     shell.set_custom_exc((Exception, KeyboardInterrupt), _show)
     magics.install(shell)
+
+
+def solution(line: str, cell: str) -> None:
+    """`%%solution NAME`: does nothing. To run a folded solution, delete this first line of its cell."""
 
 
 def _show(

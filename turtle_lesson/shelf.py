@@ -1,6 +1,7 @@
-"""All widgets of one system, each made when it is first asked for; asked for again, it is the same one in another place.
+"""What shows one system: pictures that stay, and widgets, each made when it is first asked for.
 
-So a cell that is run twice leaves nothing behind, and two views of a widget are always in step.
+Asked for again, a widget is the same one in another place. So a cell that is run twice leaves nothing behind, and two views
+of a widget are always in step.
 """
 
 from __future__ import annotations
@@ -9,6 +10,9 @@ from collections.abc import Callable, Hashable
 from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
+    from .lab.graph import GraphPicture
+    from .lab.picture import Picture
+    from .lab.recorder import Recorder
     from .lab.widgets.dashboard import Dashboard
     from .lab.widgets.form import Form
     from .lab.widgets.lab_view import LabView
@@ -22,12 +26,18 @@ Widget = TypeVar("Widget")
 
 
 class Shelf:
-    """What shows a running system and acts on it. A subclass says where: `_make_station()`."""
+    """What shows a running system and acts on it. A subclass says where: `_make_station()` and `_recording`."""
 
     _widgets: dict[Hashable, Any]
 
     def _make_station(self) -> Station:
         raise NotImplementedError
+
+    @property
+    def _recording(self) -> Recorder:
+        raise NotImplementedError
+
+    # -- widgets -----------------------------------------------------------------------------------------------------
 
     def _widget(self, key: Hashable, make: Callable[[Station], Widget]) -> Widget:
         """The widget of this key; made now if there is none yet."""
@@ -77,3 +87,29 @@ class Shelf:
         from .lab.widgets.scene import Scene
 
         return self._widget("scene", Scene)
+
+    # -- pictures ----------------------------------------------------------------------------------------------------
+
+    def plot_path(self, **options: Any) -> Picture:
+        """The way that the turtle went, on the map, from what /turtle1/pose said."""
+        from .lab.path import plot_path
+
+        return plot_path(self._recording, **options)
+
+    def plot_status(self, **options: Any) -> Picture:
+        """Position, heading, velocity and battery over time, from what /robot/status said."""
+        from .lab.status import plot_status
+
+        return plot_status(self._recording, **options)
+
+    def plot_scan(self) -> Picture:
+        """The last scan that /obstacles brought, as the turtle sees it."""
+        from .lab.scan import plot_scan
+
+        return plot_scan(self._recording)
+
+    def plot_graph(self) -> GraphPicture:
+        """Which nodes there are, and by which topics and services they are joined."""
+        from .lab.graph import plot_graph
+
+        return plot_graph(self._recording.node)

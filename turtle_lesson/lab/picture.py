@@ -47,17 +47,22 @@ class Picture:
 
         It has 256 colours: a flat drawing needs no more, and a page stores a quarter of the bytes.
         """
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
         from PIL import Image
+
+        pixels = Image.fromarray(self.pixels())
+        stream = io.BytesIO()
+        pixels.quantize(256, method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(stream, "png")
+        return stream.getvalue()
+
+    def pixels(self) -> np.ndarray:
+        """The figure as rows of pixels with red, green, blue and opacity, `SHARPNESS` of them for each pixel shown."""
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
 
         figure = self._figure()
         with style.applied(), _sharp(figure):
             canvas = FigureCanvasAgg(figure)
             canvas.draw()
-            pixels = Image.fromarray(np.asarray(canvas.buffer_rgba()))
-        stream = io.BytesIO()
-        pixels.quantize(256, method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(stream, "png")
-        return stream.getvalue()
+            return np.asarray(canvas.buffer_rgba())
 
     def save(self, path: str | Path) -> Path:
         """Write the figure to a file in the format of its ending (png, svg, pdf); returns the path."""

@@ -7,6 +7,8 @@ while a simulator listens to it).
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from .channel import Channel
@@ -18,18 +20,50 @@ GLANCE_PERIOD = 1.0
 """Seconds between two glances at the graph, for publishers that come late in a node's life."""
 
 
+@dataclass(frozen=True, slots=True)
+class Advice:
+    """What to try where nothing was heard: how to start a simulator, start the lesson's nodes, and wait."""
+
+    simulator: str
+    launch: str
+    patience: str
+
+
+_BY_HAND = "ros2 run turtlesim turtlesim_node"
+IN_A_LESSON = Advice(
+    simulator=f"start(simulator=True), or: {_BY_HAND}",
+    launch='lesson.launch("robot_controller", "start_system.launch.py"), or: ros2 run robot_controller',
+    patience="Let time pass: lesson.run(1.0)",
+)
+ON_A_ROBOT = Advice(
+    simulator=f"in a terminal: {_BY_HAND}",
+    launch="in a terminal: ros2 launch robot_controller start_system.launch.py, or: ros2 run robot_controller",
+    patience="Wait a moment",
+)
+
+
 class Recorder(Recording):
     """Fills itself with what `node` (an rclpy Node, spun by somebody else) hears.
 
-    `origin` (ns) is the moment that plots call 0 s; without it, that is now on the node's clock.
+    `origin` (ns) is the moment that plots call 0 s; without it, that is now on the node's clock. `advice` is what to try
+    where nothing was heard.
     """
 
-    def __init__(self, node: Any, *, turtle: str = "turtle1", origin: int | None = None, limit: int = LIMIT) -> None:
+    def __init__(
+        self,
+        node: Any,
+        *,
+        turtle: str = "turtle1",
+        origin: int | None = None,
+        limit: int = LIMIT,
+        advice: Advice = IN_A_LESSON,
+    ) -> None:
         if origin is None:
             origin = node.get_clock().now().nanoseconds
         super().__init__(turtle=turtle, origin=origin, limit=limit)
         self.node = node
-        self._channels = self._make_channels(node)
+        self._closed = False
+        self._channels = self._make_channels(node, advice)
         self._timer = node.create_timer(GLANCE_PERIOD, self._glance)
         self._events = self._hear_of_new_nodes(node)
         self.look()
@@ -45,6 +79,7 @@ class Recorder(Recording):
 
     def close(self) -> None:
         """Stop listening; what was heard stays."""
+        self._closed = True
         for channel in self._channels.values():
             channel.close()
         self.node.destroy_subscription(self._events)
@@ -52,22 +87,26 @@ class Recorder(Recording):
 
     def why_silent(self, topic: str) -> str:
         """A sentence on why nothing was heard on a topic, and what to try."""
+        if self._closed:
+            return f"No message had come on {topic} when the recorder was closed."
         self.look()
         return self._channels[topic].why_silent()
 
-    def _make_channels(self, node: Any) -> dict[str, Channel]:
+    def _make_channels(self, node: Any, advice: Advice) -> dict[str, Channel]:
         twist, pose = "geometry_msgs/msg/Twist", "turtlesim/msg/Pose"
         scan, markers = "sensor_msgs/msg/LaserScan", "visualization_msgs/msg/MarkerArray"
         commands = self.commands.listener("linear.x", "linear.y", "angular.z")
         poses = self.poses.listener("x", "y", "theta", "linear_velocity")
+        simulator = f"Is the simulator running? Try {advice.simulator}"
+        channel = partial(Channel, node, patience=advice.patience)
         channels = (
-            Channel(node, self.pose_topic, pose, lambda _: poses, _SIMULATOR),
-            Channel(node, self.command_topic, twist, lambda _: commands, _NAVIGATOR, driven=True),
-            Channel(node, STATUS_TOPIC, STATUS_TYPE, self._status_listener, _MONITOR),
-            Channel(node, SCAN_TOPIC, scan, lambda _: self._hear_scan, _DETECTOR),
-            Channel(node, OBSTACLE_TOPIC, markers, lambda _: self._hear_markers, _SIMULATOR, latched=True),
+            channel(self.pose_topic, pose, lambda _: poses, simulator),
+            channel(self.command_topic, twist, lambda _: commands, f"Try {advice.launch} navigator", driven=True),
+            channel(STATUS_TOPIC, STATUS_TYPE, self._status_listener, f"Try {advice.launch} status_monitor"),
+            channel(SCAN_TOPIC, scan, lambda _: self._hear_scan, f"Try {advice.launch} obstacle_detector"),
+            channel(OBSTACLE_TOPIC, markers, lambda _: self._hear_markers, simulator, latched=True),
         )
-        return {channel.topic: channel for channel in channels}
+        return {each.topic: each for each in channels}
 
     def _status_listener(self, message_type: Any) -> Listener:
         """A learner's TurtleStatus may lack a number that ours has: that column then holds nothing."""
@@ -94,8 +133,3 @@ class Recorder(Recording):
 
 
 _NUMBERS = {"float", "double", "int", "uint"}
-_LAUNCH = 'lesson.launch("robot_controller", "start_system.launch.py"), or: ros2 run robot_controller'
-_SIMULATOR = "Is the simulator running? Try start(simulator=True), or: ros2 run turtlesim turtlesim_node"
-_NAVIGATOR = f"Try {_LAUNCH} navigator"
-_MONITOR = f"Try {_LAUNCH} status_monitor"
-_DETECTOR = f"Try {_LAUNCH} obstacle_detector"

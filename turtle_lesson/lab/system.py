@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -44,6 +45,8 @@ def is_hidden(name: str) -> bool:
 
 def read_system(node: Any) -> list[NodeView]:
     """Return the visible nodes that `node` (an rclpy Node) sees in the graph, sorted by name."""
+    from rclpy.node import NodeNameNonExistentError
+
     found: dict[str, NodeView] = {}
     for name, namespace in sorted(node.get_node_names_and_namespaces()):
         full_name = f"{namespace.rstrip('/')}/{name}"
@@ -52,14 +55,19 @@ def read_system(node: Any) -> list[NodeView]:
         if full_name in found:
             found[full_name].copies += 1
             continue
-        found[full_name] = NodeView(
-            full_name,
-            publishes=_visible(node.get_publisher_names_and_types_by_node(name, namespace)),
-            hears=_visible(node.get_subscriber_names_and_types_by_node(name, namespace)),
-            offers=_visible(node.get_service_names_and_types_by_node(name, namespace)),
-            calls=_visible(node.get_client_names_and_types_by_node(name, namespace)),
-        )
+        with suppress(NodeNameNonExistentError):  # gone since the list was made
+            found[full_name] = _view(node, name, namespace, full_name)
     return [found[name] for name in sorted(found)]
+
+
+def _view(node: Any, name: str, namespace: str, full_name: str) -> NodeView:
+    return NodeView(
+        full_name,
+        publishes=_visible(node.get_publisher_names_and_types_by_node(name, namespace)),
+        hears=_visible(node.get_subscriber_names_and_types_by_node(name, namespace)),
+        offers=_visible(node.get_service_names_and_types_by_node(name, namespace)),
+        calls=_visible(node.get_client_names_and_types_by_node(name, namespace)),
+    )
 
 
 def topics_of(nodes: list[NodeView]) -> Ends:

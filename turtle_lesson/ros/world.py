@@ -13,6 +13,7 @@ from typing import Any
 from .core import EPOCH, Process, Simulation, running_strand, virtual_random, virtual_time
 from .core.process import Output
 from .graph import Graph
+from .trace import Trace
 from .workspace.index import PackageIndex
 
 FIRST_PID = 1001
@@ -28,6 +29,7 @@ class World:
         self.seed = seed
         self.sim = Simulation()
         self.graph = Graph(self.sim)
+        self.trace: Trace | None = None
         self.packages = PackageIndex()
         self.processes: list[Process] = []
         self._pid = FIRST_PID
@@ -38,6 +40,10 @@ class World:
     def now(self) -> int:
         """The virtual time since the world's start, in ns."""
         return self.sim.now
+
+    def keep_trace(self) -> None:
+        """From now on note what new nodes publish, call and run: `trace`."""
+        self.trace = self.graph.trace = Trace(self.sim)
 
     def _make_process(self, name: str, **details: Any) -> Process:
         number = self._names[name] = self._names.get(name, 0) + 1

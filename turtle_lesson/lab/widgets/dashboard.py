@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 from ..beams import read_beams
 from ..words import angle, count, listed, number, point
 from .lab_view import LabView
-from .live_widget import styles
 from .panel_lights import LightsPanel, look, missing
 from .panel_log import LogPanel
 from .panel_rates import RatesPanel
@@ -18,7 +17,7 @@ if TYPE_CHECKING:
     from ..picture import Picture
     from .station import Station
 
-DASHBOARD = ["clock", "map", "goals", "status", "log", "scan", "rates", "lights"]
+DASHBOARD = ["clock", "map", "goals", "editor", "status", "log", "scan", "rates", "lights"]
 
 
 class Dashboard(LogPanel, LightsPanel, RatesPanel, ScanPanel, StatusPanel, LabView):
@@ -26,7 +25,7 @@ class Dashboard(LogPanel, LightsPanel, RatesPanel, ScanPanel, StatusPanel, LabVi
 
     def __init__(self, station: Station) -> None:
         super().__init__(station, DASHBOARD)
-        self._css = styles("base", "lab_view", "dashboard")
+        self.title = "Dashboard"
 
     def text(self) -> str:
         """Time, place, battery, the nearest thing, what is missing, and how many goals were sent."""
@@ -34,7 +33,7 @@ class Dashboard(LogPanel, LightsPanel, RatesPanel, ScanPanel, StatusPanel, LabVi
         return f"Dashboard at {number(self.station.now)} s of robot time: {'; '.join(facts)}."
 
     def picture(self) -> Picture | None:
-        """Path, status and scan side by side."""
+        """Path and status side by side."""
         from .dashboard_picture import dashboard_picture
 
         return dashboard_picture(self.station.recorder, self.text())

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,7 +10,6 @@ from .. import style
 from ..path import plot_path
 from ..picture import SHARPNESS, Picture
 from ..recording import Recording
-from ..scan import plot_scan
 from ..status import plot_status
 
 if TYPE_CHECKING:
@@ -22,34 +20,24 @@ GAP = 12
 
 
 def dashboard_picture(recording: Recording, text: str) -> Picture:
-    """Path on the left, status and scan on the right, as far as there is anything to draw."""
-    path, *others = (plot(recording) for plot in (plot_path, plot_status, plot_scan))
-    columns = [[_pixels(each) for each in group if each.figure is not None] for group in ([path], others)]
-    columns = [column for column in columns if column]
-    return Picture(text, _sheet(columns) if columns else None)
+    """Path and status side by side, as far as there is anything to draw."""
+    cards = [plot(recording) for plot in (plot_path, plot_status)]
+    drawn = [card.pixels() for card in cards if card.figure is not None]
+    return Picture(text, _sheet(drawn) if drawn else None)
 
 
-def _pixels(picture: Picture) -> np.ndarray:
-    """A picture as rows of pixels with red, green, blue and opacity."""
-    from PIL import Image
-
-    return np.asarray(Image.open(io.BytesIO(picture.png())).convert("RGBA"))
-
-
-def _sheet(columns: list[list[np.ndarray]]) -> Figure:
-    """A figure on which the pictures of each column stand below each other, pixel for pixel."""
+def _sheet(cards: list[np.ndarray]) -> Figure:
+    """A figure on which pictures (rows of pixels) stand side by side, pixel for pixel, their tops in line."""
     from matplotlib.figure import Figure
 
     gap = GAP * SHARPNESS
-    heights = [sum(len(each) + gap for each in column) - gap for column in columns]
-    widths = [max(each.shape[1] for each in column) for column in columns]
-    size = np.array([sum(widths) + gap * (len(columns) - 1), max(heights)]) / (style.DPI * SHARPNESS)
-    figure = Figure(figsize=tuple(size), dpi=style.DPI, facecolor="none")
+    width = sum(card.shape[1] + gap for card in cards) - gap
+    height = max(len(card) for card in cards)
+    figure = Figure(
+        figsize=(width / style.DPI / SHARPNESS, height / style.DPI / SHARPNESS), dpi=style.DPI, facecolor="none"
+    )
     left = 0
-    for column, width in zip(columns, widths, strict=True):
-        top = max(heights)
-        for each in column:
-            figure.figimage(each, left, top - len(each), origin="upper")
-            top -= len(each) + gap
-        left += width + gap
+    for card in cards:
+        figure.figimage(card, left, height - len(card), origin="upper")
+        left += card.shape[1] + gap
     return figure

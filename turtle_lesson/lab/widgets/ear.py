@@ -52,4 +52,5 @@ class Ear:
 
         node = self._station.node
         quality = QoSProfile(depth=KEPT, reliability=ReliabilityPolicy.BEST_EFFORT)
-        return node.create_subscription(message_type, topic, with_time(node, hear), quality)
+        bare = self._station.clock is None  # on a robot, where it may be images: never made into Python objects
+        return node.create_subscription(message_type, topic, with_time(node, hear), quality, raw=bare)

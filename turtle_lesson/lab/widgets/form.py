@@ -12,6 +12,7 @@ from .form_fields import FieldError, Group, Rows, Single, find_part
 from .live_widget import LiveWidget, script, styles
 from .message_types import find_class
 from .outlet import Outlet, let_time_go_on
+from .pace import Pace
 from .station import Station
 from .typed_line import call_line, publish_line
 from .typed_names import did_you_mean, enumerated, is_hidden
@@ -33,7 +34,7 @@ class Form(LiveWidget):
     kind = traitlets.Unicode().tag(sync=True)
     """"topic" or "service"."""
     type_name = traitlets.Unicode().tag(sync=True)
-    tree = traitlets.List().tag(sync=True)
+    tree = traitlets.List(traitlets.Dict()).tag(sync=True)
     """The fields: what there is to draw."""
     values = traitlets.Dict().tag(sync=True)
     """What stands in each field, by its path."""
@@ -63,7 +64,8 @@ class Form(LiveWidget):
         self._outlet = Outlet(station, full, message_class, type_name)
         self._caller = Caller(station, message_class, full)
         self._timer: Any = None
-        self._repeated: Any = None
+        self._last: Any = None
+        self._looks = Pace(3)
         super().__init__(station, name=full, kind=kind, type_name=type_name)
         self._bring_up_to_date(fields_too=True)
         self.tick()
@@ -106,7 +108,7 @@ class Form(LiveWidget):
         if rate is not None:
             self.rate = _within("rate", rate, 0.01, FASTEST)
             if self._timer is not None:
-                self._publish_again_and_again(self._repeated)
+                self._publish_again_and_again()
         if timeout is not None:
             self.timeout = _within("waiting time", timeout, 0.1, LONGEST)
         self._bring_up_to_date()
@@ -121,18 +123,21 @@ class Form(LiveWidget):
 
     def do_publish(self) -> None:
         """Publish once."""
-        self._publish(self._sound(), f"Published on {self.name}.")
+        self._publish(self._sound().build(self._time))
+        self.words = f"Published on {self.name}."
         let_time_go_on(self.station)
 
     def do_repeat(self) -> None:
         """Publish at the rate, until `stop`. What is edited meanwhile is published as soon as it is sound."""
-        self._publish_again_and_again(self._sound())
+        self._publish(self._sound().build(self._time))
+        self._publish_again_and_again()
         let_time_go_on(self.station)
 
     def do_stop(self) -> None:
         """Publish no more; wait for no answer any more."""
         if self._timer is not None:
             self._drop_timer()
+            self._bring_up_to_date()
             self.words = f"Stopped after {count(self.published, 'message')} on {self.name}."
         elif self._caller.asking:
             self._caller.give_up()
@@ -147,26 +152,23 @@ class Form(LiveWidget):
         if self._caller.asking:
             let_time_go_on(self.station)
 
-    def _publish_again_and_again(self, whole: Group) -> None:
+    def _publish_again_and_again(self) -> None:
         self._drop_timer()
-        self._repeated = whole
         self._timer = self.station.node.create_timer(1 / self.rate, self._hop)
-        self._publish(whole, f"Publishes on {self.name}, {self.rate:g} times a second of robot time.")
+        self.words = f"Publishes on {self.name}, {self.rate:g} times a second of robot time."
+        self._bring_up_to_date()
 
     def _hop(self) -> None:
         self.station.loop.now_or_soon(self._repeat)
 
     def _repeat(self) -> None:
-        if self._timer is None or self.station.ended:
-            return
-        if not self.errors:
-            self._repeated = self._whole
-        self._publish(self._repeated)
+        if self._timer is not None and not self.station.ended:  # or it was stopped while this was on its way
+            self._publish(self._last if self.errors else self._whole.build(self._time))
 
-    def _publish(self, whole: Group, words: str = "") -> None:
-        self._outlet.publish(whole.build(self._time))
+    def _publish(self, message: Any) -> None:
+        self._last = message
+        self._outlet.publish(message)
         self.published += 1
-        self.words = words or self.words
 
     def _answered(self, words: str, answer: str) -> None:
         self.answer, self.words = answer, words
@@ -187,19 +189,19 @@ class Form(LiveWidget):
         self._caller.look()
         self._outlet.flush()
         self.running = self._timer is not None or self._caller.asking
-        self.unheard = self._outlet.why_unheard() if self.kind == "topic" else self._caller.why_unheard()
+        if self._looks.due():
+            self.unheard = self._outlet.why_unheard() if self.kind == "topic" else self._caller.why_unheard()
 
     def closed(self) -> None:
-        """The last view is gone: publish no more."""
+        """The last view is gone: publish no more, ask no more."""
         if not self.station.ended:
-            self._drop_timer()
-            self._outlet.close()
-            self._caller.close()
+            self.left()
 
-    def close(self) -> None:
-        """Publish no more, and go."""
-        self.closed()
-        super().close()
+    def left(self) -> None:
+        """Publish no more, ask no more."""
+        self._drop_timer()
+        self._outlet.close()
+        self._caller.close()
 
     def _drop_timer(self) -> None:
         if self._timer is not None:
@@ -222,7 +224,7 @@ class Form(LiveWidget):
         values = self._whole.changed() or {}
         if self.kind == "service":
             return call_line(self.name, self.type_name, values)
-        return publish_line(self.name, self.type_name, values, None)
+        return publish_line(self.name, self.type_name, values, None if self._timer is None else self.rate)
 
     def _has_now(self) -> bool:
         return "'now': True" in repr(self.tree)

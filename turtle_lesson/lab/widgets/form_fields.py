@@ -33,7 +33,7 @@ class Single:
 
     def __init__(self, name: str, path: str, kind: Kind, value: Any, constants: dict[str, Any]) -> None:
         self.name, self.path, self.kind = name, path, kind
-        self.default = plain(value)
+        self.default = plain(value, kind)
         self.text: str | bool = self.default if isinstance(self.default, bool) else _shown(self.default)
         self.constants = {each: found for each, found in constants.items() if self._fits(found)}
 
@@ -157,6 +157,7 @@ class Rows:
     def __init__(self, name: str, path: str, kind: Kind, values: Any, constants: dict[str, Any]) -> None:
         self.name, self.path, self.kind, self._constants = name, path, kind, constants
         self._empty = _empty_of(kind)
+        values = values.tolist() if hasattr(values, "tolist") else values  # numpy's numbers are not Python's
         self.rows = [self._row(number, value) for number, value in enumerate(values)]
         self.default = [row.value() for row in self.rows]
 

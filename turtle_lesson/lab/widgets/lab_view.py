@@ -1,4 +1,4 @@
-"""The goal pad and the dashboard: one widget, with few panels or with many."""
+"""The goal pad, and what the dashboard has in common with it: panels on one running system."""
 
 from __future__ import annotations
 
@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 import traitlets
 
 from ..path import plot_path
-from ..words import angle, count, point
+from ..words import angle, number, point
 from .live_widget import script, styles
 from .panel_clock import ClockPanel
+from .panel_editor import EditorPanel
 from .panel_goals import GoalsPanel
 from .panel_map import MapPanel
 
@@ -18,33 +19,44 @@ if TYPE_CHECKING:
     from .station import Station
 
 
-GOAL_PAD = ["clock", "map", "goals"]
-SCRIPTS = ("clock", "map", "goals", "signs", "status", "log", "scan", "rates", "lights", "dashboard", "lab_view")
+GOAL_PAD = ["clock", "map", "goals", "editor"]
+SCRIPTS = ("clock", "map", "goals", "editor", "signs", "status", "log", "scan", "rates", "lights")
+LAYOUTS = ("dashboard", "goal_pad", "lab_view")
+STYLES = ("base", "dashboard", "lab_view", "map", "clock", "goals", "editor")
 
 
-class LabView(GoalsPanel, MapPanel, ClockPanel):
+class LabView(GoalsPanel, EditorPanel, MapPanel, ClockPanel):
     """Panels on one running system, all drawn from the same state.
 
     Each kind of panel is a class of its own, with its traits, its `tick` and its orders, and a file of its own in `js`.
     """
 
+    title = traitlets.Unicode("Goal pad").tag(sync=True)
     panels = traitlets.List(traitlets.Unicode()).tag(sync=True)
 
     def __init__(self, station: Station, panels: list[str]) -> None:
-        self._esm = script("dom", *SCRIPTS)
-        self._css = styles("base", "lab_view")
+        self._esm = script("dom", *SCRIPTS, *LAYOUTS)
+        self._css = styles(*STYLES)
         super().__init__(station, panels=panels)
         self.tick()
 
     def text(self) -> str:
-        """Where the turtle is, and what became of the last goal."""
-        poses = self.station.recorder.poses.array()
-        if not len(poses):
-            return "Goal pad: no pose heard yet."
-        x, y, theta = (poses[-1][name] for name in ("x", "y", "theta"))
-        sent = count(len(self.desk.goals), "goal")
-        return f"Goal pad: the turtle is at {point(x, y)} m facing {angle(theta)}; {sent} sent."
+        """Where the turtle is, what became of the goals, and how many obstacles there are."""
+        sentences = [
+            f"{self.title} at {number(self.station.now)} s of robot time: {self._place()}.",
+            self.goals_in_words(),
+            self.obstacles_in_words(),
+        ]
+        return " ".join(sentences)
 
     def picture(self) -> Picture | None:
         """The map with the path so far."""
-        return plot_path(self.station.recorder)
+        goals = [(goal.x, goal.y, goal.theta) for goal in self.desk.goals if goal.state in ("on its way", "reached")]
+        return plot_path(self.station.recorder, goal=goals[-1:] or None)
+
+    def _place(self) -> str:
+        poses = self.station.recorder.poses.newest(1)
+        if not len(poses):
+            return "no pose heard yet"
+        x, y, theta = (poses[0][name] for name in ("x", "y", "theta"))
+        return f"the turtle is at {point(x, y)} m facing {angle(theta)}"

@@ -41,12 +41,14 @@ class LiveWidget(anywidget.AnyWidget):
     """The world that it showed is gone."""
 
     RATE: ClassVar[float] = 30.0
+    is_made = False
 
     def __init__(self, station: Station, **traits: Any) -> None:
         self.station = station
         super().__init__(**traits)
         self._views = Views(station.loop, 1 / self.RATE, self._tick, self.opened, self.closed)
         self.on_msg(station.loop.hopping(self._order))
+        self.is_made = True
 
     # -- for the widgets ---------------------------------------------------------------------------------------------
 
@@ -58,6 +60,9 @@ class LiveWidget(anywidget.AnyWidget):
 
     def closed(self) -> None:
         """The last view was closed: stop listening."""
+
+    def left(self) -> None:
+        """The widget is taken away for good, while its world goes on: let go of publishers, clients and the like."""
 
     def text(self) -> str:
         """The state in one exact sentence or two: what print shows and nbval compares."""
@@ -82,6 +87,8 @@ class LiveWidget(anywidget.AnyWidget):
 
     def _order(self, widget: object, content: Any, buffers: object) -> None:
         """Carry out what a view asks for. What it cannot understand it says in `words`: nothing from outside may break it."""
+        if self.station.ended:
+            self.ended = True  # a view that was opened after the end has to be told
         if not isinstance(content, dict) or self.station.ended:
             return
         order = dict(content)
@@ -106,8 +113,12 @@ class LiveWidget(anywidget.AnyWidget):
         self._tick()
 
     def close(self) -> None:
-        """Take the widget away: its views close, and it listens no more."""
+        """Take the widget away: its views close, it listens no more, and lets go of what it has."""
+        if not self.is_made:  # traitlets' __del__ closes what was refused while it was made, too
+            return
         self._views.clear()
+        if not self.station.ended:
+            self.left()
         super().close()
 
     def __repr__(self) -> str:

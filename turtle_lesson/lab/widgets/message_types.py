@@ -11,6 +11,8 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 INTEGERS = {f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)}
 FLOATS = {"float", "double"}
 NUMBERS = INTEGERS | FLOATS | {"octet", "char"}
@@ -112,14 +114,18 @@ def find_class(type_name: str) -> Any:
         ) from None
 
 
-def plain(value: Any) -> Any:
-    """A message, or a field's value, as YAML and JSON have it: dictionaries, lists, numbers, text."""
+def plain(value: Any, kind: Kind | None = None) -> Any:
+    """A message, or a field's value, as YAML and JSON have it: dictionaries, lists, numbers, text.
+
+    A float32 is written with the digits that it has: 1.9, not 1.899999976158142.
+    """
     if hasattr(value, "get_fields_and_field_types"):
-        return {name: plain(getattr(value, name)) for name in kinds_of(value)}
-    if isinstance(value, (bool, int, float, str)):
+        return {name: plain(getattr(value, name), each) for name, each in kinds_of(value).items()}
+    if isinstance(value, float):
+        return float(str(np.float32(value))) if kind is not None and kind.base == "float" else value
+    if isinstance(value, (bool, int, str)):
         return value
     if isinstance(value, (bytes, bytearray)):
         return value[0] if len(value) == 1 else list(value)
-    if hasattr(value, "tolist"):  # numpy's and array's
-        return value.tolist()
-    return [plain(each) for each in value]
+    numbers = value.tolist() if hasattr(value, "tolist") else value  # numpy's arrays and those of the array module
+    return [plain(each, kind) for each in numbers]

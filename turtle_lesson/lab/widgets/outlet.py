@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import Any
 
 from ..words import listed
@@ -68,7 +69,8 @@ class Outlet:
     def _is_ready(self, since: float) -> bool:
         if not self.listeners() or self._station.now - since >= PATIENCE:
             return True
-        return self._publisher.get_subscription_count() > 0
+        own = len(self._node.get_subscriptions_info_by_topic(self.topic)) - len(self._others(self.topic))
+        return self._publisher.get_subscription_count() > own  # the recorder's, which is found at once
 
     def _quality(self) -> Any:
         """Reliable; and latched where a listener wants to be told of what was said before it came."""
@@ -84,7 +86,8 @@ class Outlet:
 def let_time_go_on(station: Station) -> None:
     """Start robot time if it stands still and can be turned: who acts wants to see what comes of it."""
     if station.clock is not None and not station.clock.playing:
-        station.clock.play(station.clock.rate)
+        with suppress(RuntimeError):  # a plain script has no event loop; there time is run by hand
+            station.clock.play(station.clock.rate)
 
 
 def in_a_moment(station: Station, future: Any) -> None:

@@ -56,7 +56,7 @@ def _light(name: str, kind: str, amount: int, by: str = "") -> dict[str, Any]:
         state, words = "present", f"from {by}" if by else "present"
     else:
         state = "several"
-        words = f"from {by}: calls reach either" if by else f"{amount} nodes of this name"
+        words = f"offered {amount} times" if by else f"{amount} nodes of this name"
     return {"name": name, "kind": kind, "state": state, "words": words}
 
 

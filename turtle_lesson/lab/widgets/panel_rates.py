@@ -72,6 +72,8 @@ class RatesPanel(LiveWidget):
             state = verdict(hertz, expected)
             if topic == recorder.command_topic and state == "silent":
                 state = "at rest"  # nobody drives: no command is due
+            elif state == "silent" and self.station.now < PAUSE:
+                state = "just begun"
             rows.append(_row(topic, hertz, expected, state))
         return rows
 

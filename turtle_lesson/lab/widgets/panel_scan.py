@@ -12,6 +12,7 @@ from ..recording import SCAN_TOPIC
 from ..words import number
 from .live_widget import LiveWidget
 from .pace import Pace
+from .silence import why_silent
 
 LATE = 1.5
 """Seconds without a scan after which the panel says so."""
@@ -37,7 +38,8 @@ class ScanPanel(LiveWidget):
         scan = recorder.last_scan
         if scan is None:
             if self._scan_note_pace.due():
-                self.scan_words = {"beam": -1, "nearest": "", "count": "", "note": recorder.why_silent(SCAN_TOPIC)}
+                note = why_silent(self.station, SCAN_TOPIC)
+                self.scan_words = {"beam": -1, "nearest": "", "count": "", "note": note}
             return
         age = self.station.now - float(recorder.seconds(recorder.scans.newest(1)["stamp"][0]))
         note = f"No scan for {age:.0f} s." if age > LATE else ""

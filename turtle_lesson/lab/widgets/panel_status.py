@@ -11,6 +11,7 @@ from ..recording import NANOSECONDS, STATUS_TOPIC
 from .live_widget import LiveWidget
 from .pace import Pace
 from .packing import pack
+from .silence import why_silent
 
 WINDOW = 30.0
 """Seconds of robot time that the curves show."""
@@ -50,7 +51,7 @@ class StatusPanel(LiveWidget):
             age = now - float(recorder.seconds(stamp))
             self.status_note = f"No status for {age:.0f} s." if age > LATE else ""
         elif self._status_note_pace.due():
-            self.status_note = recorder.why_silent(STATUS_TOPIC)
+            self.status_note = why_silent(self.station, STATUS_TOPIC)
 
 
 def _window(rows: np.ndarray, now: int) -> np.ndarray:

@@ -2,28 +2,26 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any
 
 import traitlets
 
 from ...ros.core.virtual_time import real_monotonic
-from ..beams import read_beams
-from ..words import angle, count, listed, number, point
+from ..words import point
 from . import scene_parts as parts
 from .goals import Goal, goals_from
 from .live_widget import LiveWidget, script, styles
 from .scene_commands import viewer_bundle
 from .scene_picture import draw_scene
 from .scene_trail import Trail
+from .scene_words import brief, describe, newest_pose
 
 if TYPE_CHECKING:
     from ..picture import Picture
-    from ..recording import Obstacle, Recording
     from .scene_page import ScenePage
     from .station import Station
 
-SCRIPTS = ("dom", "scene_theme", "scene_stage", "scene_camera", "scene_view")
+SCRIPTS = ("dom", "scene_theme", "scene_quality", "scene_stage", "scene_camera", "scene_view")
 TRAIL_PERIOD = 0.1
 """The trail is sent again at most so often, in seconds; what the turtle stands on, nobody sees."""
 DESCRIPTION_PERIOD = 1.0
@@ -96,6 +94,11 @@ class Scene(LiveWidget):
 
     # -- bringing it up to date ----------------------------------------------------------------------------------------
 
+    def redraw(self) -> None:
+        """Bring everything up to date, also what usually waits a little."""
+        self._due.clear()
+        self.tick()
+
     def tick(self) -> None:
         """Send the parts that have changed."""
         super().tick()
@@ -105,7 +108,7 @@ class Scene(LiveWidget):
         self._draw_obstacles()
         self._draw_goal()
         if self._is_due("description", DESCRIPTION_PERIOD):
-            self.description = self.text()
+            self.description = brief(self.station.recorder, self._current_goal())
 
     def _draw_turtle(self) -> None:
         pose = newest_pose(self.station.recorder)
@@ -136,7 +139,7 @@ class Scene(LiveWidget):
 
     def _draw_goal(self) -> None:
         goal = self._current_goal()
-        if self._is_new("goal", None if goal is None else (goal.x, goal.y, goal.theta)):
+        if self._is_new("goal", None if goal is None else (goal.x, goal.y, goal.theta, goal.state)):
             self.goal = parts.goal(goal)
         if goal is not None and self._is_new("news", (goal.sent, goal.state)):
             self.words = f"Goal {point(goal.x, goal.y)} m: {goal.state}."
@@ -159,42 +162,3 @@ class Scene(LiveWidget):
             return False
         self._due[name] = now + period
         return True
-
-
-def newest_pose(recorder: Recording, until: int | None = None) -> tuple[float, float, float] | None:
-    """The newest pose (m, m, rad), of those not later than `until` (ns); None where none was heard."""
-    poses = recorder.poses.newest(1 if until is None else 256)
-    if until is not None and len(poses) and poses["stamp"][0] <= until:
-        poses = poses[poses["stamp"] <= until]
-    if not len(poses):
-        return None
-    place = tuple(float(poses[-1][name]) for name in ("x", "y", "theta"))
-    return place if all(map(math.isfinite, place)) else None  # type: ignore[return-value]
-
-
-def describe(recorder: Recording, goal: Goal | None) -> str:
-    """A scene in one sentence: turtle, obstacles, laser and goal."""
-    pose = newest_pose(recorder)
-    if pose is None:
-        return "no pose heard yet."
-    x, y, theta = pose
-    around = [*_standing(list(recorder.obstacles.values())), *_seen(recorder.last_scan)]
-    if goal is not None:
-        away = number(math.hypot(goal.x - x, goal.y - y))
-        around.append(f"the goal at {point(goal.x, goal.y)} m is {away} m away")
-    rest = f"; {listed(around)}" if around else ""
-    return f"the turtle is at {point(x, y)} m facing {angle(theta)}{rest}."
-
-
-def _standing(obstacles: list[Obstacle]) -> list[str]:
-    if not obstacles:
-        return []
-    places = ", ".join(f"{each.shape} at {point(each.x, each.y)} m" for each in obstacles)
-    return [f"{count(len(obstacles), 'obstacle')} ({places})"]
-
-
-def _seen(scan: Any) -> list[str]:
-    if scan is None:
-        return []
-    beams = read_beams(scan)
-    return [f"{int(beams.sees.sum())} of the laser's {count(len(beams), 'beam')} see something"]

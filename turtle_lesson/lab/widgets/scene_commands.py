@@ -9,19 +9,13 @@ from __future__ import annotations
 import gzip
 from collections.abc import Iterable
 from functools import cache
-from pathlib import Path
 from typing import Any
 
-import meshcat
 import numpy as np
 import umsgpack
-from meshcat import geometry
-from meshcat.commands import Delete, SetObject, SetProperty, SetTransform
-from meshcat.path import Path as ScenePath
 
 from .scene_mesh import Mesh
-
-VIEWER = Path(meshcat.__file__).with_name("viewer") / "dist"
+from .scene_meshcat import VIEWER, Delete, ScenePath, SetObject, SetProperty, SetTransform, geometry
 
 
 @cache
@@ -38,15 +32,17 @@ def packed(command: Any) -> bytes:
     return umsgpack.packb(command.lower())
 
 
-def show(path: str, mesh: Mesh, **look: Any) -> bytes:
+def show(path: str, mesh: Mesh, lit: bool = True, **look: Any) -> bytes:
     """Show a mesh at a path such as "lab/turtle/body", in the colours of its triangles.
 
     `look` says how three.js draws it: `opacity=0.3`, `depthWrite=False`, … With `color=0x0072b2` it has that one colour.
+    What is not `lit` looks the same in light and shade.
     """
     colours = None if "color" in look else np.round(np.repeat(mesh.colours, 3, axis=0), 4)
     corners = np.round(mesh.corners.reshape(-1, 3), 4)
     shape = geometry.TriangularMeshGeometry(corners, np.arange(len(corners)).reshape(-1, 3), colours)
-    return _show(path, shape, geometry.MeshLambertMaterial(vertexColors=colours is not None, **look))
+    material = geometry.MeshLambertMaterial if lit else geometry.MeshBasicMaterial
+    return _show(path, shape, material(vertexColors=colours is not None, **look))
 
 
 def show_shape(path: str, shape: Any, **look: Any) -> bytes:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -57,7 +58,7 @@ def polygon(points: ArrayLike, colour: str) -> Mesh:
 def loft(rings: Sequence[ArrayLike], colour: str) -> Mesh:
     """The skin between rings of equally many points, from the lowest to the highest."""
     pieces = []
-    for below, above in zip(rings[:-1], rings[1:], strict=True):
+    for below, above in pairwise(rings):
         low, high = np.asarray(below, float), np.asarray(above, float)
         low_next, high_next = np.roll(low, -1, axis=0), np.roll(high, -1, axis=0)
         pieces += [np.stack([low, low_next, high_next], axis=1), np.stack([low, high_next, high], axis=1)]

@@ -5,11 +5,9 @@ All lies below "lab", where the lower left corner of the world is (0, 0); the vi
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
 
 import numpy as np
-from meshcat import geometry
 
 from ..beams import read_beams
 from ..recording import Obstacle
@@ -19,6 +17,7 @@ from . import scene_world as world
 from .goals import Goal
 from .scene_commands import cast_no_shadow, light, put, remove, show, show_line, show_shape, tell
 from .scene_mesh import placed, rgb
+from .scene_meshcat import geometry
 
 TURTLE = "lab/turtle"
 SUN = (-5.0, -7.0, 14.0)
@@ -53,19 +52,18 @@ def trail(path: str, pieces: Sequence[np.ndarray]) -> list[bytes]:
     mesh = world.ribbon(pieces)
     if not len(mesh):
         return [remove(path)]
-    return [show(path, mesh, color=_number(world.TRAIL)), cast_no_shadow(path)]
+    return [show(path, mesh, lit=False, color=_number(world.TRAIL)), cast_no_shadow(path)]
 
 
 def scan(message: object, x: float, y: float, theta: float) -> list[bytes]:
     """What the laser saw, from where the turtle was just then."""
-    free, marks = world.fan(read_beams(message))
-    there = put("lab/scan", placed(x, y, 0.0, theta))
+    free, marks = world.fan(read_beams(message), x, y, theta)
     look = {"opacity": 0.2, "depthWrite": False}
     drawn = [("lab/scan/free", free, world.FREE, look), ("lab/scan/hits", marks, world.HIT, {"opacity": 0.85})]
-    commands = [there]
+    commands = []
     for path, mesh, colour, material in drawn:
         if len(mesh):
-            commands += [show(path, mesh, color=_number(colour), **material), cast_no_shadow(path)]
+            commands += [show(path, mesh, lit=False, color=_number(colour), **material), cast_no_shadow(path)]
         else:
             commands.append(remove(path))
     return commands
@@ -102,13 +100,12 @@ def goal(current: Goal | None) -> list[bytes]:
     """The flag at the goal, or none."""
     if current is None:
         return [remove("lab/goal")]
-    return [show("lab/goal", world.goal_mesh(current.x, current.y, current.theta))]
+    return [
+        show("lab/goal/mark", world.goal_mark(current.x, current.y, current.theta)),
+        cast_no_shadow("lab/goal/mark"),
+        show("lab/goal/flag", world.goal_flag(current.x, current.y, current.state == "reached")),
+    ]
 
 
 def _number(colour: str) -> int:
     return sum(round(255 * part) << shift for part, shift in zip(rgb(colour), (16, 8, 0), strict=True))
-
-
-def is_place(*numbers: float) -> bool:
-    """Whether these are numbers that something can be placed at."""
-    return all(map(math.isfinite, numbers))

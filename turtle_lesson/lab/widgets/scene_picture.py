@@ -13,8 +13,9 @@ from ..picture import Picture
 from ..track import WORLD
 from . import scene_turtle as turtle
 from . import scene_world as world
-from .scene_mesh import Mesh, placed
+from .scene_mesh import Mesh, joined, placed
 from .scene_trail import Trail
+from .scene_words import brief, describe, newest_pose
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -29,21 +30,19 @@ LIGHT = np.array([-0.35, -0.45, 0.82])
 
 def draw_scene(recording: Recording, goal: Goal | None) -> Picture:
     """Return the scene as it is now, with its text."""
-    from .scene import describe, newest_pose
-
     text = f"3-D scene: {describe(recording, goal)}"
     pose = newest_pose(recording)
     if pose is None:
         return Picture(text)
     with style.applied():
-        figure = style.card(6.4, 4.9)
-        axes = style.axes_at(figure, 0.15, 0.15, 6.1, 4.35)
+        figure = style.card(6.4, 4.7)
+        axes = style.axes_at(figure, 0.15, 0.15, 6.1, 4.0)
         axes.set(aspect="equal")
         axes.set_axis_off()
         _draw_floor(axes, recording)
         _draw_things(axes, recording, goal, pose)
         axes.autoscale_view(tight=True)
-        style.heading(figure, "The world in three dimensions", text.split(": ", 1)[1].split(";")[0].rstrip("."))
+        style.heading(figure, "The world in three dimensions", brief(recording, goal, beams=False).rstrip("."))
     return Picture(text, figure)
 
 
@@ -58,26 +57,26 @@ def _draw_floor(axes: Axes, recording: Recording) -> None:
 
 def _draw_things(axes: Axes, recording: Recording, goal: Goal | None, pose: tuple[float, float, float]) -> None:
     """What stands there, the farthest first."""
-    things = [*world.walls(), *map(world.obstacle_mesh, recording.obstacles.values())]
-    things.append(turtle.whole().moved(placed(pose[0], pose[1], 0.0, pose[2])))
+    things = [[each] for each in (*world.walls(), *map(world.obstacle_mesh, recording.obstacles.values()))]
+    there = placed(pose[0], pose[1], 0.0, pose[2])
+    facing_us = math.cos(pose[2] - AROUND) > 0
+    things.append([piece.moved(there) for piece in turtle.layers(head_in_front=facing_us)])
     if goal is not None:
-        things.append(world.goal_mesh(goal.x, goal.y, goal.theta))
-    things.sort(key=_distance, reverse=True)
-    for layer, thing in enumerate(things):
-        _draw(axes, thing, layer=10 + layer)
+        _draw(axes, world.goal_mark(goal.x, goal.y, goal.theta), layer=6, lit=False)
+        things.append([world.goal_flag(goal.x, goal.y, goal.state == "reached")])
+    things.sort(key=lambda pieces: _distance(joined(pieces)), reverse=True)
+    for layer, piece in enumerate(piece for pieces in things for piece in pieces):
+        _draw(axes, piece, layer=10 + layer)
     if recording.last_scan is not None:
         _draw_laser(axes, recording)
 
 
 def _draw_laser(axes: Axes, recording: Recording) -> None:
-    from .scene import newest_pose
-
     there = newest_pose(recording, until=int(recording.scans.newest(1)["stamp"][0]))
     if there is not None:
-        free, marks = world.fan(read_beams(recording.last_scan))
-        where = placed(there[0], there[1], 0.0, there[2])
-        _draw(axes, free.moved(where), layer=4, lit=False, alpha=0.22)
-        _draw(axes, marks.moved(where), layer=5, lit=False, alpha=0.8)
+        free, marks = world.fan(read_beams(recording.last_scan), *there)
+        _draw(axes, free, layer=4, lit=False, alpha=0.22)
+        _draw(axes, marks, layer=5, lit=False, alpha=0.8)
 
 
 def _draw(axes: Axes, mesh: Mesh, layer: float, lit: bool = True, **look: Any) -> None:
@@ -113,4 +112,4 @@ def _brightness(mesh: Mesh) -> np.ndarray:
     normals = np.cross(mesh.corners[:, 1] - mesh.corners[:, 0], mesh.corners[:, 2] - mesh.corners[:, 0])
     lengths = np.linalg.norm(normals, axis=1)
     facing = (normals @ LIGHT) / np.where(lengths > 0, lengths, 1.0)
-    return (0.66 + 0.36 * np.maximum(facing, 0.0))[:, None]
+    return (0.72 + 0.31 * np.maximum(facing, 0.0))[:, None]

@@ -24,7 +24,7 @@ HIPS = ((0.17, 0.16), (-0.19, 0.15))
 
 def body() -> Mesh:
     """All of it but the legs."""
-    return joined([_rim(), _shell(), _head(), _tail()]).moved(placed(size=LENGTH))
+    return joined([_rim(), _seams(), _plates(), _head(), _tail()]).moved(placed(size=LENGTH))
 
 
 def legs() -> dict[str, tuple[tuple[float, float], Mesh]]:
@@ -38,9 +38,12 @@ def legs() -> dict[str, tuple[tuple[float, float], Mesh]]:
     return made
 
 
-def whole() -> Mesh:
-    """The turtle standing still."""
-    return joined([body(), *(leg.moved(placed(x, y)) for (x, y), leg in legs().values())])
+def layers(head_in_front: bool) -> list[Mesh]:
+    """The turtle standing still, as pieces of which each hides what comes before it, for one who looks from above."""
+    standing = joined([_tail(), *(leg.moved(placed(x, y, size=1 / LENGTH)) for (x, y), leg in legs().values())])
+    order = [_rim(), _seams(), _plates()]
+    pieces = [standing, *order, _head()] if head_in_front else [standing, _head(), *order]
+    return [piece.moved(placed(size=LENGTH)) for piece in pieces]
 
 
 def _leg(shape: tuple[float, ...], hip: tuple[float, float]) -> Mesh:
@@ -61,13 +64,17 @@ def _rim() -> Mesh:
     return joined([loft(belt, RIM), polygon(belt[0][::-1], SKIN)])
 
 
-def _shell() -> Mesh:
-    """A dome of plates: six around a hexagon, with pale seams between them."""
-    radii = (1.12, 0.98, 0.56)
-    dome = [_ring_of_shell(radius, 12, -0.012) for radius in radii]
-    seams = joined([loft(dome, SEAM), polygon(dome[-1], SEAM)])
+def _seams() -> Mesh:
+    """A pale dome just below the plates: it is seen between them."""
+    dome = [_ring_of_shell(radius, 12, -0.013) for radius in (1.12, 0.98, 0.56)]
+    dome[2][1::2] = (dome[2][0::2] + np.roll(dome[2][0::2], -1, axis=0)) / 2  # a hexagon, as the plates have it
+    return joined([loft(dome, SEAM), polygon(dome[-1], SEAM)])
+
+
+def _plates() -> Mesh:
+    """The shell: six plates around a hexagon."""
     crest = polygon(_shrunk(_ring_of_shell(0.56, 6)), CREST)
-    return joined([seams, crest, *(_plate(number) for number in range(6))])
+    return joined([crest, *(_plate(number) for number in range(6))])
 
 
 def _plate(number: int) -> Mesh:

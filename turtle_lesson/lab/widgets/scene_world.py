@@ -25,8 +25,8 @@ OBSTACLE_HEIGHT = 0.5
 """As the markers on /world/obstacles have it; the turtle's own world is flat."""
 BEAM_HEIGHT = 0.12
 """Where the laser's fan lies, m: the turtle carries its laser below the shell's edge."""
-
-Point = tuple[float, float]
+SAME = 0.12
+"""Neighbouring beams whose ranges differ by less than this part hit the same thing."""
 
 
 def floor() -> Mesh:
@@ -94,38 +94,64 @@ def _quads(points: np.ndarray, half: float) -> np.ndarray:
     return np.stack([back - across, front - across, front + across, back + across], axis=1)
 
 
-def fan(beams: Beams) -> tuple[Mesh, Mesh]:
-    """What the laser sees, from where it stands: the space that is free, and a mark where a beam hits something."""
+def fan(beams: Beams, x: float, y: float, theta: float) -> tuple[Mesh, Mesh]:
+    """What the laser saw from a place: the space that is free, as far as there is a floor, and a mark for each hit."""
     reach = reach_of(beams)
     ends = np.where(beams.sees, np.minimum(beams.ranges, reach), reach)
-    flat = np.column_stack([ends * np.cos(beams.angles), ends * np.sin(beams.angles)])
+    turns = beams.angles + theta
+    far = _to_edge(x, y, turns, ends)
+    flat = np.column_stack([x + far * np.cos(turns), y + far * np.sin(turns)])
     rim = np.column_stack([flat, np.full(len(flat), BEAM_HEIGHT)])
-    middle = np.tile([0.0, 0.0, BEAM_HEIGHT], (max(len(rim) - 1, 0), 1))
+    middle = np.tile([x, y, BEAM_HEIGHT], (max(len(rim) - 1, 0), 1))
     free = triangles(np.stack([middle, rim[:-1], rim[1:]], axis=1), FREE)
-    return free, _marks(beams, ends)
+    return free, _marks(beams, ends).moved(placed(x, y, 0.0, theta))
 
 
-def _marks(beams: Beams, ends: np.ndarray, low: float = 0.03, high: float = 0.21) -> Mesh:
-    """An upright mark where a beam hits something, as wide as the beam is there."""
-    turns, far = beams.angles[beams.sees], ends[beams.sees] - 0.015
+def _to_edge(x: float, y: float, turns: np.ndarray, ends: np.ndarray) -> np.ndarray:
+    """How far each beam goes before it ends, or leaves the world."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ways = [
+            np.maximum(-place / along, (WORLD - place) / along)
+            for place, along in ((x, np.cos(turns)), (y, np.sin(turns)))
+        ]
+    return np.maximum(np.fmin(np.fmin(*ways), ends), 0.0)
+
+
+def _marks(beams: Beams, ends: np.ndarray, low: float = 0.03, high: float = 0.2) -> Mesh:
+    """An upright band along what the beams hit: joined where neighbours hit the same thing, a short piece elsewhere."""
     half = abs(beams.angles[1] - beams.angles[0]) / 2 if len(beams) > 1 else 0.01
-    left, right = (
-        np.column_stack([far * np.cos(turns + side), far * np.sin(turns + side), np.zeros(len(far))])
-        for side in (half, -half)
-    )
-    lift_low, lift_high = np.array([0, 0, low]), np.array([0, 0, high])
-    corners = [right + lift_low, right + lift_high, left + lift_high, right + lift_low, left + lift_high, left + lift_low]
+    seen = np.flatnonzero(beams.sees)
+    bands = []
+    for number, beam in enumerate(seen):
+        after = seen[number + 1] if number + 1 < len(seen) else -1
+        far, turn = ends[beam] - 0.02, beams.angles[beam]
+        if after == beam + 1 and abs(ends[after] - ends[beam]) < SAME * max(1.0, ends[beam]):
+            bands.append((far, turn, ends[after] - 0.02, beams.angles[after]))
+        else:
+            bands.append((far, turn - half, far, turn + half))
+    if not bands:
+        return joined([])
+    first_far, first_turn, last_far, last_turn = np.array(bands).T
+    right = np.column_stack([first_far * np.cos(first_turn), first_far * np.sin(first_turn)])
+    left = np.column_stack([last_far * np.cos(last_turn), last_far * np.sin(last_turn)])
+    ends_up = [(right, low), (left, low), (left, high), (right, low), (left, high), (right, high)]
+    corners = [np.column_stack([flat, np.full(len(flat), height)]) for flat, height in ends_up]
     return triangles(np.stack(corners, axis=1), HIT)
 
 
-def goal_mesh(x: float, y: float, theta: float | None) -> Mesh:
-    """A flag, the ring within which the goal counts as reached, and a pointer for the heading."""
+def goal_mark(x: float, y: float, theta: float) -> Mesh:
+    """On the floor, the ring within which a goal counts as reached, and a pointer for the heading."""
     inner, outer = (ring((0, 0, 0.018), radius, radius, 32) for radius in (TOLERANCE - 0.035, TOLERANCE))
-    parts = [loft([outer, inner], style.VERMILLION), _pole(), _pennant()]
-    if theta is not None:
-        arrow = [(TOLERANCE + 0.05, -0.13, 0.018), (TOLERANCE + 0.3, 0, 0.018), (TOLERANCE + 0.05, 0.13, 0.018)]
-        parts.append(polygon(arrow, style.VERMILLION).moved(placed(turn=theta)))
-    return joined(parts).moved(placed(x, y))
+    arrow = [(TOLERANCE + 0.05, -0.13, 0.018), (TOLERANCE + 0.3, 0, 0.018), (TOLERANCE + 0.05, 0.13, 0.018)]
+    return joined([loft([outer, inner], style.VERMILLION), polygon(arrow, style.VERMILLION)]).moved(
+        placed(x, y, 0.0, theta)
+    )
+
+
+def goal_flag(x: float, y: float, reached: bool) -> Mesh:
+    """The flag in the middle of the ring; beside it when the turtle stands there."""
+    aside = (0.6 if y < WORLD - 0.8 else -0.6) if reached else 0.0
+    return joined([_pole(), _pennant()]).moved(placed(x, y + aside))
 
 
 def _pole() -> Mesh:

@@ -1,7 +1,7 @@
 """Where a widget stands: a hidden node in a running system, what it has heard, and the clock if it can be turned.
 
 The widgets see nothing else of the system. In the classroom the station is the lab's node in the simulated world; on a
-robot it is a node of the real rclpy (see `robot`).
+robot it is a node of the real rclpy (see robot_station.py).
 """
 
 from __future__ import annotations

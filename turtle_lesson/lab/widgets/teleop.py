@@ -11,6 +11,7 @@ from ...ros.core.virtual_time import real_monotonic
 from ..words import number
 from .live_widget import LiveWidget, script, styles
 from .outlet import Outlet, let_time_go_on
+from .pace import Pace
 from .station import Station
 
 TYPE = "geometry_msgs/msg/Twist"
@@ -52,7 +53,8 @@ class Teleop(LiveWidget):
         self._message = Twist
         self._outlet = Outlet(station, name, Twist, TYPE)
         self._timer: Any = None
-        self._last_sign = self._last_look = -math.inf
+        self._last_sign = -math.inf
+        self._looks = Pace(2)
         super().__init__(station, topic=name, unheard=self._outlet.why_unheard())
 
     # -- orders ------------------------------------------------------------------------------------------------------
@@ -68,7 +70,7 @@ class Teleop(LiveWidget):
             self.words = f"Driving on {self.topic}."
             self._timer = self.station.node.create_timer(PERIOD, self._hop)
         if begun or (changed and not any(place.values())):
-            self._send()
+            self._publish()
         if begun:
             let_time_go_on(self.station)
 
@@ -96,23 +98,18 @@ class Teleop(LiveWidget):
         """Stop if nobody says any more that the stick is held, and look who listens."""
         self._watch()
         self._outlet.flush()
-        if real_monotonic() - self._last_look > 0.5:
-            self._last_look = real_monotonic()
+        if self._looks.due():
             self.unheard = self._outlet.why_unheard()
 
     def closed(self) -> None:
         """The last view is gone: stop, and leave the topic."""
-        self._close()
-
-    def close(self) -> None:
-        """Stop, leave the topic, and go."""
-        self._close()
-        super().close()
-
-    def _close(self) -> None:
         if not self.station.ended:
-            self.do_release()
-            self._outlet.close()
+            self.left()
+
+    def left(self) -> None:
+        """Stop, and leave the topic."""
+        self.do_release()
+        self._outlet.close()
 
     def _hop(self) -> None:
         self.station.loop.now_or_soon(self._beat)
@@ -120,7 +117,7 @@ class Teleop(LiveWidget):
     def _beat(self) -> None:
         self._watch()
         if self._timer is not None and not self.station.ended:
-            self._send()
+            self._publish()
 
     def _watch(self) -> None:
         if self._timer is not None and real_monotonic() - self._last_sign > SIGN_OF_LIFE:
@@ -132,9 +129,9 @@ class Teleop(LiveWidget):
             self._timer = None
         self.stick = {"forward": 0.0, "turn": 0.0, "held": False}
         self.words = words
-        self._send()
+        self._publish()
 
-    def _send(self) -> None:
+    def _publish(self) -> None:
         message = self._message()
         message.linear.x = self.stick["forward"] * self.limits["forward"]
         message.angular.z = self.stick["turn"] * self.limits["turn"]
@@ -146,11 +143,15 @@ class Teleop(LiveWidget):
     def text(self) -> str:
         """Where it drives, how fast at most, and what it sent last."""
         most = f"at most {number(self.limits['forward'])} m/s and {number(self.limits['turn'])} rad/s"
-        last = f"last sent {in_words(**self.sent)}" if self.sent["count"] else "nothing sent yet"
+        last = (
+            f"last sent {in_words(self.sent['linear'], self.sent['angular'])}"
+            if self.sent["count"]
+            else "nothing sent yet"
+        )
         return f"Teleop on {self.topic}, {most}: {last}. {self._outlet.why_unheard()}".strip()
 
 
-def in_words(linear: float, angular: float, count: int = 0) -> str:
+def in_words(linear: float, angular: float) -> str:
     """A velocity: "1.00 m/s forward and 0.50 rad/s to the left"."""
     if not linear and not angular:
         return "zeros (stop)"

@@ -21,6 +21,11 @@ def _yaml(values: dict[str, Any]) -> str:
     """Values as one word of a shell: in double quotes as in ROS's own examples, unless a sign there has a meaning."""
     import yaml
 
-    text = yaml.safe_dump(values, default_flow_style=True, width=float("inf"), sort_keys=False, allow_unicode=True)
-    text = text.strip()
+    def dumped(allow_unicode: bool) -> str:
+        options: dict[str, Any] = {"default_flow_style": True, "width": float("inf"), "sort_keys": False}
+        return yaml.safe_dump(values, allow_unicode=allow_unicode, **options).strip()
+
+    text = dumped(allow_unicode=True)
+    if yaml.safe_load(text) != values:  # some rare signs, such as U+0085, come back as blanks if they are not escaped
+        text = dumped(allow_unicode=False)
     return shlex.quote(text) if set(text) & set('"$`\\!') else f'"{text}"'

@@ -11,6 +11,7 @@ from .topic import Reader, Topic, Writer
 
 if TYPE_CHECKING:
     from ..core import Process, Simulation
+    from ..trace import Trace
 
 
 class NodeEntry:
@@ -50,6 +51,7 @@ class Graph:
     def __init__(self, simulation: Simulation) -> None:
         self.simulation = simulation
         self.nodes: list[NodeEntry] = []
+        self.trace: Trace | None = None
         self._topics: dict[str, Topic] = {}
         self._servers: dict[str, list[ServerEnd]] = {}
         self._clients: dict[str, list[ClientEnd]] = {}
@@ -92,6 +94,8 @@ class Graph:
         """A node's new publisher."""
         writer = Writer(node, self.topic(name), quality)
         node.writers.append(writer)
+        if self.trace is not None:
+            writer.note = self.trace.publisher(node, name)
         writer.topic.add_writer(writer, type_name)
         self._changed()
         return writer
@@ -130,6 +134,7 @@ class Graph:
     def add_client(self, node: NodeEntry, name: str, type_name: str) -> ClientEnd:
         """A node's new client."""
         client = ClientEnd(node, name, type_name, self.simulation)
+        client.trace = self.trace
         node.clients.append(client)
         self._clients.setdefault(name, []).append(client)
         self._changed()

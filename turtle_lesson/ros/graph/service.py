@@ -10,6 +10,7 @@ from .topic import latency_of, nobody
 
 if TYPE_CHECKING:
     from ..core import Simulation
+    from ..trace import Call, Trace
     from .graph import NodeEntry
 
 
@@ -19,6 +20,7 @@ class Request(NamedTuple):
     client: ClientEnd
     number: int
     message: Any
+    call: Call | None = None
 
 
 class ServerEnd:
@@ -33,6 +35,8 @@ class ServerEnd:
 
     def receive(self, request: Request) -> None:
         """A request arrives."""
+        if request.call is not None:
+            request.client.trace.received(request.call, self.node)  # type: ignore[union-attr]
         self.queue.append(request)
         self.wake()
 
@@ -49,20 +53,29 @@ class ClientEnd:
         self.simulation = simulation
         self.latency = latency_of(name)
         self._sent = 0
+        self.trace: Trace | None = None
+        self._calls: dict[int, Call] = {}
 
     def ask(self, servers: list[ServerEnd], message: Any) -> int:
         """Send a request to the servers; returns its number, by which the answer will be known."""
         self._sent += 1
         arrival = self.simulation.now + self.latency
+        call = None
+        if self.trace is not None:
+            call = self._calls[self._sent] = self.trace.asked(self, message._wire_copy())
         for server in servers:
-            self.simulation.at(arrival, server.receive, Request(self, self._sent, message._wire_copy()))
+            self.simulation.at(arrival, server.receive, Request(self, self._sent, message._wire_copy(), call))
         return self._sent
 
     def reply(self, number: int, message: Any) -> None:
         """Send an answer back to this client."""
         arrival = self.simulation.now + self.latency
+        if number in self._calls and self.trace is not None:
+            self.trace.answered(self._calls[number], message._wire_copy())
         self.simulation.at(arrival, self._receive, (number, message._wire_copy()))
 
     def _receive(self, answer: tuple[int, Any]) -> None:
+        if (call := self._calls.pop(answer[0], None)) is not None and self.trace is not None:
+            self.trace.told(call)
         self.queue.append(answer)
         self.wake()

@@ -66,6 +66,8 @@ class Writer:
         self.quality = quality
         self.readers: tuple[Reader, ...] = ()
         self.on_mismatch: Callable[[str], None] | None = None
+        self.note: Callable[[int], object] | None = None
+        """Told the time (ns) of each message, where a trace is kept."""
         self._kept: deque[tuple[int, Any]] | None = deque(maxlen=quality.depth) if quality.latched else None
         self._simulation = topic.simulation
         self._latency = topic.latency
@@ -73,6 +75,8 @@ class Writer:
     def write(self, message: Any) -> None:
         """Send a message: a copy, rounded to the wire's precision, to every matched reader."""
         simulation = self._simulation
+        if self.note is not None:
+            self.note(simulation.now)
         if self._kept is not None:
             self._kept.append((simulation.now, message._wire_copy()))
         if self.readers:

@@ -59,11 +59,19 @@ function sharpCanvas(attributes, draw) {
   });
   const sizes = new ResizeObserver(repaint);
   sizes.observe(canvas);
-  return { canvas, repaint, close: () => sizes.disconnect() };
+  const themes = new MutationObserver(repaint);
+  themes.observe(document.body, { attributes: true, attributeFilter: ["class", "data-jp-theme-name"] });
+  return { canvas, repaint, close: () => (sizes.disconnect(), themes.disconnect()) };
 }
 
 /** The colours of the style sheet, which follow the page's theme. */
 function colours(node) {
   const style = getComputedStyle(node);
   return new Proxy({}, { get: (_, name) => style.getPropertyValue(`--tl-${name}`).trim() });
+}
+
+/** Keep keys from becoming Jupyter's shortcuts, which would take even Enter on a button and arrows on a slider.
+ * Lumino asks the focused element itself for this attribute, not those around it. */
+function keepKeys(root) {
+  root.addEventListener("focusin", (event) => event.target.setAttribute("data-lm-suppress-shortcuts", "true"));
 }

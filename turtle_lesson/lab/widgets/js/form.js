@@ -61,7 +61,7 @@ const isSound = (model) => !Object.keys(model.get("errors")).length;
 
 function publishing(model, order) {
   const once = button("Publish once", () => order("publish"), { class: "tl-button tl-main" });
-  const repeat = button("", () => order(model.get("running") ? "stop" : "repeat"));
+  const repeat = button("", () => order(model.get("running") ? "stop" : "repeat"), { class: "tl-button tl-repeat" });
   const rate = amount("rate", model, order, { min: 0.01, max: 100 });
   const count = element("small");
   const reset = button("Reset", () => order("reset"), { title: "Put the defaults into all fields" });
@@ -129,4 +129,4 @@ function terminalLine(model) {
   return { panel, watch: { line: show, remark: show } };
 }
 
-export default { render: (context) => mount(context, "form", "Message form", formPanel) };
+export default { render: (context) => mount(context, "form", `Form for ${context.model.get("name")}`, formPanel) };

@@ -33,7 +33,7 @@ function formTime(part, made, depth) {
 function formRows(part, made, depth) {
   const plain = part.parts.every((each) => !["group", "time", "rows"].includes(each.control));
   const rows = part.parts.map((each, row) =>
-    element("div", { class: "tl-row" }, formPart(each, made, depth + 1), part.fixed ? null : removal(part, row, made)),
+    element("div", { class: "tl-element" }, formPart(each, made, depth + 1), part.fixed ? null : removal(part, row, made)),
   );
   const add = button("Add a row", () => made.order("add", { path: part.path }), {
     "data-path": `${part.path} add`, disabled: !!part.full, "aria-label": `Add a row to ${part.name}`,
@@ -61,7 +61,7 @@ function formField(part, made) {
   input.addEventListener("input", send);
   made.inputs[part.path] = input;
   made.errors[part.path] = error;
-  const label = element("label", { for: id }, part.name, " ", element("small", {}, part.type));
+  const label = element("label", { for: id }, ...breakable(part.name), " ", element("small", {}, part.type));
   const choice = part.options.length ? constants(part, input, send) : null;
   const side = element("span", { class: "tl-side" }, element("small", { id: help }, part.help), error);
   return element("div", { class: "tl-field" }, label, element("span", { class: "tl-entry" }, input, choice), side);

@@ -4,6 +4,7 @@ const PANELS = {
   clock: clockPanel,
   map: mapPanel,
   goals: goalsPanel,
+  editor: editorPanel,
   status: statusPanel,
   log: logPanel,
   scan: scanPanel,
@@ -15,21 +16,29 @@ function render({ model, el }) {
   const { order, close } = connect(model);
   const spoken = element("div", { class: "tl-words", role: "status", "aria-live": "polite" });
   const speak = () => (spoken.textContent = model.get("words"));
+  const ended = element("p", { class: "tl-ended", hidden: true }, "This world has ended. Run the cell again to see the new one.");
   const names = model.get("panels");
-  const panels = names.map((name) => PANELS[name](model, order));
-  const shown = names.includes("status")
-    ? [dashboard(Object.fromEntries(names.map((name, at) => [name, panels[at]])))]
-    : panels.map(({ panel }) => panel);
-  const root = element("div", { class: "tl-root" }, ...shown, spoken);
+  const box = makeToolbox();
+  const panels = names.map((name) => PANELS[name](model, order, box));
+  const layout = names.includes("status") ? dashboard : goalPad;
+  const shown = layout(Object.fromEntries(names.map((name, at) => [name, panels[at]])));
+  const root = element("div", { class: "tl-root", role: "region", "aria-label": model.get("title") }, shown, ended, spoken);
+  keepKeys(root);
   el.append(root);
+  box.changed();
 
-  const watched = [["words", speak]];
+  const showEnd = () => {
+    ended.hidden = !model.get("ended");
+    shown.inert = model.get("ended");
+  };
+  const watched = [["words", speak], ["ended", showEnd]];
   for (const { watch } of panels) watched.push(...Object.entries(watch));
   for (const [name, show] of watched) model.on(`change:${name}`, show), show();
   return () => {
     for (const [name, show] of watched) model.off(`change:${name}`, show);
     for (const panel of panels) panel.close?.();
     close();
+    root.remove();
   };
 }
 

@@ -41,7 +41,9 @@ function logPanel(model, order) {
     setTimeout(() => (copy.textContent = "Copy"), 1500);
   };
   const soon = atRepaint(show); // both pieces change together, and are looked at together
-  return { title: "Log", tools, panel, watch: { log_old: soon, log_new: soon, log_least: showLeast } };
+  const sizes = new ResizeObserver(() => follows && toEnd());
+  sizes.observe(list);
+  return { title: "Log", tools, panel, close: () => sizes.disconnect(), watch: { log_old: soon, log_new: soon, log_least: showLeast } };
 }
 
 function logItem([, seconds, level, name, text]) {

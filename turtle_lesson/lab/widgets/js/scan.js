@@ -8,7 +8,10 @@ function scanPanel(model) {
 
   function draw(context, width, height, colour) {
     const [angle, step, reach, ...ranges] = floats(model.get("scan"));
-    if (!ranges.length) return;
+    if (!ranges.length) {
+      fitScan(context, width, height, false);
+      return drawRings(context, 10, context.scanSize, false, colour);
+    }
     const beams = ranges.map((range, at) => ({ range, turn: angle + at * step }));
     const whole = beams.some(({ turn }) => Math.abs(turn) > 1.75);
     fitScan(context, width, height, whole);
@@ -41,7 +44,7 @@ function drawScan(context, beams, reach, nearest, whole, colour) {
   context.fillStyle = colour.free;
   context.fill(free);
   drawRings(context, reach, size, whole, colour);
-  context.fillStyle = colour.hit;
+  context.fillStyle = colour.laser;
   for (const beam of beams.filter(sees)) dot(context, at(beam.turn, beam.range), 1.7);
   if (beams[nearest]) {
     context.strokeStyle = colour.ink;

@@ -7,6 +7,7 @@ function mount({ model, el }, name, label, build) {
   const ended = element("p", { class: "tl-note", hidden: true }, "This world has ended. Run the cell again to see the new one.");
   const built = build(model, order);
   const root = element("section", { class: `tl-root tl-small tl-${name}`, "aria-label": label }, built.panel, ended, words);
+  keepKeys(root);
   el.append(root);
 
   const showEnd = () => {
@@ -30,3 +31,6 @@ function button(word, onclick, attributes = {}) {
 
 /** A name for an element that a label or a description points to. */
 const freshId = () => `tl-${Math.random().toString(36).slice(2)}`;
+
+/** A name that may go on in the next line after an underscore or a slash. */
+const breakable = (name) => name.split(/(?<=[_/])/).flatMap((part, at) => (at ? [element("wbr"), part] : [part]));

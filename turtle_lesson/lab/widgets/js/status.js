@@ -3,6 +3,7 @@
 const STATUS_WINDOW = 30;
 const STATUS_COLUMNS = 6; // age, x, y, heading, speed, battery
 const STATUS_EDGE = 4; // pixels left free above and below a curve
+const STATUS_RIGHT = 34; // and beside it, for the highest and the lowest value
 
 const STRIPS = [
   { name: "x", unit: "m", column: 1, least: 2 },
@@ -16,7 +17,8 @@ function statusPanel(model) {
   const strips = STRIPS.map((strip) => makeStrip(model, strip));
   const note = element("p", { class: "tl-note", role: "note" });
   const axis = element("div", { class: "tl-strip-axis", "aria-hidden": "true" });
-  for (const text of ["30 s ago", "20", "10", "now"]) axis.append(element("span", {}, text));
+  for (const text of ["30 s ago", "20 s", "10 s", "now"]) axis.append(element("span", {}, text));
+  axis.style.marginRight = `${STATUS_RIGHT}px`;
   const panel = element("div", { class: "tl-status" }, ...strips.flatMap(({ parts }) => parts), axis, note);
 
   const show = () => {
@@ -63,7 +65,7 @@ function stripRange({ range, least, from }, points) {
 
 function drawStrip(context, width, height, colour, strip, points) {
   const [low, high] = stripRange(strip, points);
-  const right = width - 34; // the names of the lowest and highest value stand to the right of it
+  const right = width - STATUS_RIGHT;
   const acrossOf = (age) => right * (1 - age / STATUS_WINDOW);
   const upOf = (value) => height - STATUS_EDGE - ((value - low) / (high - low)) * (height - 2 * STATUS_EDGE);
   context.strokeStyle = colour.line;

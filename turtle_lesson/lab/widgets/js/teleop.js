@@ -18,10 +18,10 @@ function teleopPanel(model, order) {
       role: "application",
       "aria-label": "Stick. Hold the arrow keys or W, A, S, D to drive; space stops.",
     },
-    element("span", { class: "tl-way tl-up", "aria-hidden": "true" }, "▲"),
-    element("span", { class: "tl-way tl-down", "aria-hidden": "true" }, "▼"),
-    element("span", { class: "tl-way tl-left", "aria-hidden": "true" }, "↺"),
-    element("span", { class: "tl-way tl-right", "aria-hidden": "true" }, "↻"),
+    element("span", { class: "tl-arrow tl-up", "aria-hidden": "true" }, "▲"),
+    element("span", { class: "tl-arrow tl-down", "aria-hidden": "true" }, "▼"),
+    element("span", { class: "tl-arrow tl-left", "aria-hidden": "true" }, "↺"),
+    element("span", { class: "tl-arrow tl-right", "aria-hidden": "true" }, "↻"),
     knob,
   );
   const hand = stickHand(order, (place) => put(place));
@@ -144,7 +144,7 @@ function followKeys(pad, hand, order) {
 function speedRow(name, unit, model, order) {
   const title = { forward: "Forward", turn: "Turn to the left" }[name];
   const value = element("output", { class: "tl-value" });
-  const bar = element("div", { class: "tl-bar", "aria-hidden": "true" }, element("i"));
+  const bar = element("div", { class: "tl-speedbar", "aria-hidden": "true" }, element("i"));
   const limit = element("output");
   const slider = element("input", {
     type: "range", min: 0.1, max: 5, step: 0.1, "aria-label": `Highest speed: ${title.toLowerCase()}, ${unit}`,
@@ -172,4 +172,4 @@ function speedRow(name, unit, model, order) {
   return { row, show, showLimit };
 }
 
-export default { render: (context) => mount(context, "teleop", "Teleop", teleopPanel) };
+export default { render: (context) => mount(context, "teleop", `Teleop on ${context.model.get("topic")}`, teleopPanel) };

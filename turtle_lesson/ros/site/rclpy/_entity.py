@@ -14,6 +14,8 @@ from .callback_groups import CallbackGroup
 from .exceptions import refuse_destroyed
 
 if TYPE_CHECKING:
+    from turtle_lesson.ros.trace import Callback
+
     from .executors import Executor
     from .node import Node
 
@@ -24,6 +26,8 @@ class Entity:
     """Base class. `_kind` decides the order in a cycle; `_number` is the order of creation."""
 
     _kind = GUARD
+    _traced: Callback | None = None
+    """Where its runs are noted, if the world keeps a trace of them."""
 
     def __init__(self, callback: Callable[..., Any] | None, callback_group: CallbackGroup | None) -> None:
         self.callback: Any = callback

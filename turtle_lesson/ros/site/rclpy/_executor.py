@@ -24,6 +24,7 @@ from ._executor_errors import (
     TimeoutException,
 )
 from ._mistakes import explain_call, no_node
+from ._tracing import trace_entity
 from .context import Context
 from .exceptions import refuse_destroyed
 from .task import Future, Task, at_once
@@ -40,10 +41,13 @@ class Executor:
     """Base class: waits, chooses and runs. Subclasses may override `spin_once`, which `spin` calls."""
 
     __module__ = "rclpy.executors"
+    _runs_in = "_execute"
+    """The method that runs a callback: a world that keeps a trace puts another in its place."""
 
     def __init__(self, *, context: Context | None = None) -> None:
         self._context = get_default_context() if context is None else context
         self._simulation = current_world().sim
+        self._trace = current_world().trace
         self._process = current_process()
         self._nodes: list[Node] = []
         self._nodes_seen = 0
@@ -87,6 +91,8 @@ class Executor:
     def _adopt(self, entity: Entity, node: Node) -> None:
         entity._executor = self
         entity._turn = (node._ros_place, entity._kind, entity._number)
+        if self._trace is not None:
+            trace_entity(entity, node, self, self._trace)
         if entity._has_work():
             entity._signal()
 

@@ -20,6 +20,7 @@ class MultiThreadedExecutor(Executor):
     """
 
     __module__ = "rclpy.executors"
+    _runs_in = "_execute_here"
 
     def __init__(self, num_threads: int | None = None, *, context: Context | None = None) -> None:
         super().__init__(context=context)

@@ -121,6 +121,8 @@ class Future:
 class Task(Future):
     """A function or coroutine to be run by an executor, step by step; calling the task does one step."""
 
+    _traced = None
+
     def __init__(
         self,
         handler: Callable[..., Any] | Any,

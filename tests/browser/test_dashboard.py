@@ -1,0 +1,95 @@
+"""The dashboard in JupyterLab: the page with nothing but it, its log, and two windows that stay in step."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+import pytest
+from playwright.sync_api import Browser, Page, expect
+
+NOTEBOOK = "notebooks/lab.ipynb"
+EXECUTE = "command => window.jupyterapp.commands.execute(command)"
+READY = "window.jupyterapp.shell.currentWidget?.sessionContext?.session?.kernel?.status === 'idle'"
+
+
+def open_page(page: Page, lab: str) -> None:
+    """Open the notebook alone, and wait until its kernel is there."""
+    page.goto(f"{lab}/doc/tree/{NOTEBOOK}?reset")
+    page.wait_for_selector(".jp-Notebook .jp-Cell")
+    page.wait_for_function(READY)
+
+
+@pytest.fixture(scope="module")
+def window(browser: Browser, lab: str) -> Iterator[Page]:
+    """A window in which the page was run: five seconds of robot time, and then it stands still."""
+    page = browser.new_page(viewport={"width": 1600, "height": 1000})
+    page.set_default_timeout(60_000)
+    open_page(page, lab)
+    page.evaluate(EXECUTE, "notebook:run-all-cells")
+    page.wait_for_selector(".tl-dashboard")
+    yield page
+    page.close()
+
+
+def test_its_picture_stands_there_until_it_is_run(page: Page, lab: str) -> None:
+    open_page(page, lab)
+    expect(page.locator(".jp-OutputArea img").first).to_be_visible()
+    assert page.locator(".tl-dashboard").count() == 0
+
+
+def test_everything_is_there_and_as_expected(window: Page) -> None:
+    headings = window.locator(".tl-dashboard h3:visible")
+    expect(headings).to_have_text(["Map", "Goals", "Status", "Log", "Scan", "Topics", "Nodes and services"])
+    expect(window.locator(".tl-light-present")).to_have_count(5)
+    expect(window.locator(".tl-state", has_text="as expected")).to_have_count(3)
+    expect(window.locator(".tl-scan-nearest")).to_have_text(re.compile(r"Nearest: \d+\.\d\d m, "))
+
+
+def test_status_and_log_run_when_time_does(window: Page) -> None:
+    battery = window.locator(".tl-strip-value").last
+    before = battery.inner_text()
+    window.get_by_role("button", name="Play").click()
+    expect(battery).not_to_have_text(before)
+    expect(window.locator(".tl-log-line").first).to_contain_text("Starting turtlesim")
+    window.get_by_role("button", name="Pause").click()
+
+
+def test_two_windows_are_in_step(window: Page, browser: Browser, lab: str) -> None:
+    other = browser.new_page(viewport={"width": 900, "height": 1000})
+    other.set_default_timeout(60_000)
+    open_page(other, lab)
+    other.evaluate("() => { window.jupyterapp.shell.currentWidget.content.activeCellIndex = 2 }")
+    other.evaluate(EXECUTE, "notebook:run-cell")
+    other.wait_for_selector(".tl-dashboard")
+
+    window.locator(".tl-log-tools select").select_option("WARN")
+    expect(other.locator(".tl-log-tools select")).to_have_value("WARN")
+    expect(other.locator(".tl-log-line:visible")).to_have_count(0)
+    other.locator(".tl-log-tools select").select_option("INFO")
+    expect(window.locator(".tl-log-line:visible").first).to_be_visible()
+    texts = ".tl-log-text"
+    assert other.locator(texts).all_inner_texts() == window.locator(texts).all_inner_texts()
+    other.close()
+
+
+def test_a_reader_who_scrolls_up_is_left_alone(window: Page) -> None:
+    log, newest = window.locator(".tl-log"), window.get_by_role("button", name="Newest")
+    log.evaluate("list => { list.style.flex = 'none'; list.style.height = '60px' }")
+    log.evaluate("list => { list.scrollTop = 0 }")
+    expect(newest).to_be_visible()
+    window.get_by_role("button", name="Send", exact=True).click()  # which makes a new line
+    expect(window.locator(".tl-log-line").last).to_contain_text("Goal")
+    assert log.evaluate("list => list.scrollTop") == 0
+    newest.click()
+    expect(newest).to_be_hidden()
+    assert log.evaluate("list => list.scrollHeight - list.scrollTop - list.clientHeight") < 8
+
+
+def test_it_fits_into_a_small_window(window: Page) -> None:
+    for width in (800, 1600):
+        window.set_viewport_size({"width": width, "height": 1000})
+        spill = "root => root.scrollWidth - root.clientWidth"
+        assert window.locator(".tl-root").evaluate(spill) <= 0
+        for card in window.locator(".tl-card:visible").all():
+            assert card.evaluate(spill) <= 1

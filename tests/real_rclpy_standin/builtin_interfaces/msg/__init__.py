@@ -1,0 +1,3 @@
+from standin_messages import message
+
+Time = message("builtin_interfaces/msg/Time", sec="int32", nanosec="uint32")

@@ -1,0 +1,387 @@
+"""Forms for messages and requests: their fields, what they send, and the same as a line for the terminal."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from turtle_lesson import Lesson, start
+from turtle_lesson.lab.widgets.form_fields import FieldError, Group, Rows, Single, find_part
+from turtle_lesson.lab.widgets.message_types import (
+    Kind,
+    constants_of,
+    find_class,
+    kinds_of,
+    limits_of,
+    plain,
+    read_kind,
+)
+from turtle_lesson.lab.widgets.typed_line import publish_line
+
+
+@pytest.fixture
+def lesson() -> Lesson:
+    lesson = start()
+    lesson.launch("robot_controller", "start_system.launch.py")
+    lesson.run(1)
+    return lesson
+
+
+def order(widget: Any, name: str, /, **content: Any) -> None:
+    widget._order(widget, {"do": name, "view": "v", **content}, [])
+
+
+def group(type_name: str) -> Group:
+    return Group("", "", find_class(type_name))
+
+
+def put(whole: Group, path: str, text: Any) -> Single:
+    part = find_part(whole, path)
+    assert isinstance(part, Single)
+    part.set(text)
+    return part
+
+
+def rows(whole: Group, path: str) -> Rows:
+    part = find_part(whole, path)
+    assert isinstance(part, Rows)
+    return part
+
+
+def message(whole: Group) -> Any:
+    from builtin_interfaces.msg import Time
+
+    return whole.build(lambda: Time(sec=7))
+
+
+# -- types -----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "written"),
+    [
+        ("double", Kind("double"), "float64"),
+        ("sequence<float>", Kind("float", "unbounded"), "float32[]"),
+        ("sequence<geometry_msgs/Point, 3>", Kind("geometry_msgs/Point", "bounded", 3), "geometry_msgs/Point[<=3]"),
+        ("double[36]", Kind("double", "fixed", 36), "float64[36]"),
+        ("string<10>", Kind("string", longest=10), "string<=10"),
+        ("sequence<string<10>, 5>", Kind("string", "bounded", 5, 10), "string<=10[<=5]"),
+        ("sequence<string<10>>", Kind("string", "unbounded", 0, 10), "string<=10[]"),
+        ("boolean", Kind("boolean"), "bool"),
+    ],
+)
+def test_kinds_are_read_as_ros_writes_them(text: str, kind: Kind, written: str) -> None:
+    assert read_kind(text) == kind
+    assert str(kind) == written
+
+
+def test_limits_of_whole_numbers() -> None:
+    assert [limits_of(each) for each in ("int8", "uint16", "octet")] == [(-128, 127), (0, 65535), (0, 255)]
+    assert limits_of("int64") == (-(2**63), 2**63 - 1)
+
+
+def test_constants_and_empty_messages() -> None:
+    assert constants_of(find_class("rcl_interfaces/msg/Log"))["WARN"] == 30
+    assert kinds_of(find_class("std_msgs/msg/Empty")) == {}
+    with pytest.raises(ValueError, match="colcon build --packages-select nowhere"):
+        find_class("nowhere/msg/Nothing")
+
+
+@pytest.mark.parametrize(
+    "type_name",
+    [
+        "sensor_msgs/msg/BatteryState",
+        "visualization_msgs/msg/MarkerArray",
+        "geometry_msgs/msg/PoseWithCovarianceStamped",
+        "std_msgs/msg/ByteMultiArray",
+        "rcl_interfaces/msg/Log",
+        "rcl_interfaces/msg/ParameterEvent",
+        "std_msgs/msg/Empty",
+    ],
+)
+def test_an_untouched_form_makes_the_default_message(type_name: str) -> None:
+    whole = group(type_name)
+    made = message(whole)
+    if hasattr(made, "header"):
+        assert made.header.stamp.sec == 7
+        made.header.stamp.sec = 0
+    assert made == find_class(type_name)()
+    assert whole.changed() is None
+
+
+# -- fields ----------------------------------------------------------------------------------------------------------
+
+
+def test_fields_of_all_kinds() -> None:
+    whole = group("visualization_msgs/msg/Marker")
+    put(whole, "type", "SPHERE")
+    put(whole, "id", " 12 ")
+    put(whole, "scale/x", "−1e-3")
+    put(whole, "text", "Grüße: {a}")
+    put(whole, "frame_locked", True)
+    rows(whole, "points").add()
+    rows(whole, "points").add()
+    put(whole, "points/1/y", "2")
+    made = message(whole)
+    assert (made.type, made.id, made.scale.x, made.text, made.frame_locked) == (2, 12, -0.001, "Grüße: {a}", True)
+    assert [(each.x, each.y) for each in made.points] == [(0.0, 0.0), (0.0, 2.0)]
+    assert made.header.stamp.sec == 7
+    assert whole.changed()["points"] == [{}, {"y": 2.0}]
+
+
+@pytest.mark.parametrize(
+    ("type_name", "path", "text", "said"),
+    [
+        ("geometry_msgs/msg/Point", "x", "", "a number such as 1.5 is missing"),
+        ("geometry_msgs/msg/Point", "x", "1,5", "write a point, not a comma"),
+        ("std_msgs/msg/Float32", "data", "1e39", "goes up to 3.4e38"),
+        ("std_msgs/msg/Int8", "data", "128", "from −128 to 127 fits here, not 128"),
+        ("std_msgs/msg/UInt8", "data", "-1", "from 0 to 255 fits here, not −1"),
+        ("std_msgs/msg/Int32", "data", "1.0", 'a whole number such as 3 is wanted, got "1.0"'),
+        ("std_msgs/msg/Byte", "data", "256", "from 0 to 255"),
+    ],
+)
+def test_what_cannot_be_sent_is_said_in_words(type_name: str, path: str, text: str, said: str) -> None:
+    field = put(group(type_name), path, text)
+    with pytest.raises(FieldError) as raised:
+        field.value()
+    assert said in str(raised.value)
+
+
+@pytest.mark.parametrize("text", [5, None, True, ["a"]])
+def test_a_field_takes_text_alone(text: Any) -> None:
+    with pytest.raises(ValueError, match="takes a text"):
+        put(group("geometry_msgs/msg/Point"), "x", text)
+    with pytest.raises(ValueError, match="true or false"):
+        put(group("std_msgs/msg/Bool"), "data", "yes")
+
+
+def test_rows_come_and_go_and_keep_what_stands_in_them() -> None:
+    whole = group("geometry_msgs/msg/Polygon")
+    points = rows(whole, "points")
+    for number in range(3):
+        points.add()
+        put(whole, f"points/{number}/x", str(number))
+    points.remove(1)
+    assert [each.x for each in message(whole).points] == [0.0, 2.0]
+    assert [single.path for single in points.singles()][3:] == ["points/1/x", "points/1/y", "points/1/z"]
+    with pytest.raises(ValueError, match="no row 2"):
+        points.remove(2)
+
+
+def test_fixed_and_bounded_arrays() -> None:
+    covariance = rows(group("geometry_msgs/msg/PoseWithCovariance"), "covariance")
+    assert len(covariance.rows) == 36 and covariance.why_full == "always 36"
+    with pytest.raises(ValueError, match="always 36"):
+        covariance.add()
+    with pytest.raises(ValueError, match="no row"):
+        covariance.remove(0)
+    bounded = Rows("sizes", "sizes", Kind("double", "bounded", 3), [], {})
+    for _ in range(3):
+        bounded.add()
+    assert bounded.why_full == "at most 3" and bounded.value() == [0.0, 0.0, 0.0]
+    with pytest.raises(ValueError, match="takes no more rows: at most 3"):
+        bounded.add()
+    assert Single("name", "name", Kind("string", longest=3), "", {}).state()["help"] == "at most 3 characters"
+
+
+def test_constants_belong_to_the_field_that_their_name_begins_with() -> None:
+    whole = group("sensor_msgs/msg/BatteryState")
+    status = find_part(whole, "power_supply_status").state()["options"]
+    assert ["POWER_SUPPLY_STATUS_CHARGING", "1"] in status
+    assert all(name.startswith("POWER_SUPPLY_STATUS_") for name, _ in status)
+    assert find_part(whole, "voltage").state()["options"] == []
+
+
+def test_a_time_can_be_the_moment_of_sending_or_not() -> None:
+    whole = group("sensor_msgs/msg/LaserScan")
+    stamp = find_part(whole, "header/stamp")
+    assert isinstance(stamp, Group) and stamp.now
+    stamp.now = False
+    put(whole, "header/stamp/sec", "3")
+    assert message(whole).header.stamp.sec == 3
+    assert whole.changed() == {"header": {"stamp": {"sec": 3}}}
+
+
+# -- the line for the terminal ---------------------------------------------------------------------------------------
+
+
+def test_the_line_holds_what_differs_from_the_default() -> None:
+    whole = group("geometry_msgs/msg/Twist")
+    assert publish_line("/t", "p/msg/T", whole.changed() or {}, None) == 'ros2 topic pub --once /t p/msg/T "{}"'
+    put(whole, "linear/x", "1.5")
+    line = 'ros2 topic pub --rate 10 /t p/msg/T "{linear: {x: 1.5}}"'
+    assert publish_line("/t", "p/msg/T", whole.changed() or {}, 10.0) == line
+
+
+@given(st.text(max_size=40))
+def test_any_text_survives_the_shell_and_yaml(text: str) -> None:
+    from turtle_lesson.ros.command.values import read_yaml
+    from turtle_lesson.ros.command.words import Word, tokens
+
+    whole = group("std_msgs/msg/String")
+    put(whole, "data", text)
+    words = list(tokens(publish_line("/t", "std_msgs/msg/String", whole.changed() or {}, None)))
+    assert all(isinstance(word, Word) for word in words)
+    last = words[-1]
+    assert isinstance(last, Word)
+    assert read_yaml(last.text) == ({"data": text} if text else {})
+
+
+# -- the widget ------------------------------------------------------------------------------------------------------
+
+
+def test_it_publishes_once_and_moves_the_turtle(lesson: Lesson) -> None:
+    widget = lesson.form("/turtle1/cmd_vel")
+    order(widget, "edit", path="linear/x", text="1.0")
+    order(widget, "publish")
+    lesson.run(2)
+    assert lesson._recording.poses.array()["x"][-1] == pytest.approx(6.55, abs=0.05)
+    assert widget.published == 1 and widget.words == "Published on /turtle1/cmd_vel."
+
+
+def test_it_publishes_at_a_rate_of_robot_time_until_it_is_stopped(lesson: Lesson) -> None:
+    widget = lesson.form("/turtle1/cmd_vel")
+    order(widget, "options", rate=4)
+    order(widget, "repeat")
+    assert "--rate 4 " in widget.line
+    lesson.run(1.1)
+    order(widget, "stop")
+    lesson.run(1)
+    assert widget.published == 5
+    assert widget.words == "Stopped after 5 messages on /turtle1/cmd_vel." and "--once" in widget.line
+
+
+def test_while_a_field_is_wrong_the_last_sound_message_goes_on(lesson: Lesson) -> None:
+    widget = lesson.form("/turtle1/cmd_vel")
+    order(widget, "edit", path="linear/x", text="1.0")
+    order(widget, "repeat")
+    order(widget, "edit", path="linear/x", text="1.0x")
+    lesson.run(1.05)
+    assert widget.published == 11 and lesson._recording.commands.array()["forward"][-1] == 1.0
+
+
+def test_nothing_wrong_is_sent(lesson: Lesson) -> None:
+    widget = lesson.form("/turtle1/cmd_vel")
+    order(widget, "edit", path="linear/x", text="fast")
+    assert widget.errors == {"linear/x": 'a number such as 1.5 is wanted, got "fast"'} and widget.line == ""
+    order(widget, "publish")
+    assert widget.words.startswith("Not sent: linear/x: ") and widget.published == 0
+    order(widget, "reset")
+    assert widget.errors == {}
+
+
+def test_it_calls_a_service_and_shows_the_answer(lesson: Lesson) -> None:
+    widget = lesson.form("/navigate_to")
+    for name, text in (("x", "7"), ("y", "6")):
+        order(widget, "edit", path=name, text=text)
+    assert widget.line == 'ros2 service call /navigate_to robot_controller/srv/NavigateTo "{x: 7.0, y: 6.0}"'
+    order(widget, "call")
+    assert widget.running
+    order(widget, "call")
+    assert "has not answered the last question yet" in widget.words
+    lesson.run(10)
+    assert widget.answer.startswith("success: true\ntime_taken: ")
+    assert widget.words.startswith("/navigate_to answered after ") and not widget.running
+
+
+def test_no_answer_within_the_time_and_nobody_there(lesson: Lesson) -> None:
+    widget = lesson.form("/navigate_to")
+    order(widget, "options", timeout=0.5)
+    order(widget, "edit", path="x", text="9")
+    order(widget, "call")
+    lesson.run(0.6)
+    widget.tick()
+    assert widget.words == "No answer from /navigate_to within 0.5 s of robot time." and not widget.running
+    for handle in lesson._launched.values():
+        handle.stop()
+    lesson.run(1)
+    order(widget, "call")
+    assert widget.words == "Not asked: Nobody offers /navigate_to now."
+
+
+def test_one_can_stop_waiting(lesson: Lesson) -> None:
+    widget = lesson.form("/navigate_to")
+    order(widget, "call")
+    order(widget, "stop")
+    lesson.run(5)
+    assert widget.answer == "" and "Waits for /navigate_to no more" in widget.words
+
+
+def test_a_form_can_be_for_any_topic_and_service_that_is_there(lesson: Lesson) -> None:
+    node = lesson._recording.node
+    for name, _ in (*node.get_topic_names_and_types(), *node.get_service_names_and_types()):
+        assert lesson.form(name).line.startswith(("ros2 topic pub --once ", "ros2 service call "))
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("/navigate", 'Did you mean "/navigate_to"?'),
+        ("turtle1/cmdvel", 'Did you mean "/turtle1/cmd_vel"?'),
+        ("/zzz", "There are: /clear, /kill"),
+        ("", "a topic or a service such as"),
+        (None, "a topic or a service such as"),
+    ],
+)
+def test_unknown_names(lesson: Lesson, name: Any, said: str) -> None:
+    with pytest.raises(ValueError) as raised:
+        lesson.form(name)
+    assert said in str(raised.value)
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        {"do": "edit", "path": "nowhere", "text": "1"},
+        {"do": "edit", "path": "linear", "text": "1"},
+        {"do": "edit", "path": "linear/x", "text": 1},
+        {"do": "add", "path": "linear"},
+        {"do": "remove", "path": "linear/x", "row": 0},
+        {"do": "now", "path": "linear", "on": True},
+        {"do": "options", "rate": "fast"},
+        {"do": "options", "rate": 0},
+        {"do": "_publish", "message": None},
+        {"do": 7},
+    ],
+)
+def test_nonsense_from_outside_is_said_in_words(lesson: Lesson, content: dict[str, Any]) -> None:
+    widget = lesson.form("/turtle1/cmd_vel")
+    widget._order(widget, {"view": "v", **content}, [])
+    assert widget.words and widget.published == 0
+
+
+def test_its_text_is_exact_and_showing_it_is_not_seen(lesson: Lesson) -> None:
+    widget = lesson.form("/turtle1/cmd_vel")
+    kept = lesson._recording.node.count_publishers("/turtle1/cmd_vel")
+    assert kept == 1
+    assert repr(widget) == (
+        "Form for messages on /turtle1/cmd_vel (geometry_msgs/msg/Twist): "
+        'ros2 topic pub --once /turtle1/cmd_vel geometry_msgs/msg/Twist "{}"'
+    )
+
+
+def test_it_stops_when_its_last_view_closes() -> None:
+    async def page() -> int:
+        lesson = start()
+        widget = lesson.form("/turtle1/cmd_vel")
+        order(widget, "open")
+        order(widget, "repeat")
+        await asyncio.sleep(0.2)
+        order(widget, "close")
+        lesson.pause()
+        published = widget.published
+        lesson.run(2)
+        return widget.published - published
+
+    assert asyncio.run(page()) == 0
+
+
+def test_a_float32_is_shown_with_its_own_digits() -> None:
+    from robot_controller.srv import NavigateTo
+
+    assert plain(NavigateTo.Response(success=True, time_taken=1.9)) == {"success": True, "time_taken": 1.9}

@@ -1,0 +1,208 @@
+"""Live plots from strings: how topic and field are found, what is drawn, and what is said of what is not there."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import Any
+
+import numpy as np
+import pytest
+
+from turtle_lesson import Lesson, start
+from turtle_lesson.lab.widgets.curve import mistyped, split, steps_of
+from turtle_lesson.lab.widgets.live_plot import figure, thinned
+
+
+@pytest.fixture
+def lesson() -> Lesson:
+    lesson = start()
+    lesson.launch("robot_controller", "start_system.launch.py")
+    lesson.run(1)
+    return lesson
+
+
+def order(widget: Any, name: str, /, **content: Any) -> None:
+    widget._order(widget, {"do": name, "view": "v", **content}, [])
+
+
+def drawn(widget: Any) -> list[np.ndarray]:
+    """The points of each curve, as the browser gets them."""
+    numbers = np.frombuffer(widget.points, "<f4")
+    curves, at = [], 0
+    while at < len(numbers):
+        end = at + 1 + 2 * int(numbers[at])
+        curves.append(numbers[at + 1 : end].reshape(-1, 2))
+        at = end
+    return curves
+
+
+def test_the_string_is_split_at_the_longest_topic() -> None:
+    topics = ["/a", "/a/b", "/ab"]
+    assert split("/a/b/c/d", topics) == ("/a/b", "/c/d")
+    assert split("/a/x", topics) == ("/a", "/x")
+    assert split("/ab[3]", topics) == ("/ab", "[3]")
+    assert split("/abc/x", topics) == ("", "")
+    assert steps_of("/linear/x") == steps_of(".linear.x") == ["linear", "x"]
+    assert steps_of("/poses[2]/position/x") == ["poses", 2, "position", "x"]
+
+
+def test_curves_from_all_kinds_of_strings(lesson: Lesson) -> None:
+    asked = ["/robot/status/battery", "/turtle1/pose/x", "/obstacles/ranges[90]", "/turtle1/cmd_vel/linear/x"]
+    widget = lesson.live_plot(*asked, "/turtle1/pose.theta")
+    order_goal(lesson)
+    lesson.run(4)
+    widget.tick()
+    names = [curve["name"] for curve in widget.curves]
+    assert names == ["battery", "x", "ranges[90]", "linear/x", "theta"]
+    assert [curve["note"] for curve in widget.curves] == [""] * 5
+    assert all(len(points) > 5 for points in drawn(widget))
+    assert np.all(np.diff(drawn(widget)[1][:, 0]) >= 0)
+
+
+def order_goal(lesson: Lesson) -> None:
+    form = lesson.form("/navigate_to")
+    order(form, "edit", path="x", text="8")
+    order(form, "edit", path="y", text="8")
+    order(form, "call")
+
+
+def test_its_text_is_exact(lesson: Lesson) -> None:
+    widget = lesson.live_plot("/turtle1/pose/x")
+    lesson.run(2)
+    assert repr(widget) == (
+        "Live plot of the last 30 s at 3.00 s of robot time. "
+        "/turtle1/pose/x: 125 messages, last 5.54, from 5.54 to 5.54."
+    )
+    assert "30 s at 3.00 s" in widget.text() and widget.picture().figure is not None
+    lesson.live_plot("/turtle1/pose/x", seconds=0.5)
+    assert "image/png" in widget._repr_mimebundle_()[0]
+
+
+def test_only_the_last_seconds_are_drawn(lesson: Lesson) -> None:
+    widget = lesson.live_plot("/turtle1/pose/x", seconds=1.0)
+    lesson.run(5)
+    times, _ = widget.window(widget._curves[0])
+    assert times[0] >= 5.0 and len(times) in (62, 63)
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        ("/turtle1/pos/x", 'Did you mean "/turtle1/pose"? The topics: /obstacles, /parameter_events'),
+        ("/turtle1/pose", "say which field of /turtle1/pose to draw: /turtle1/pose/x, /turtle1/pose/y"),
+        ("/turtle1/pose/thata", 'has no field "thata". Did you mean "theta"? Its fields: x, y, theta'),
+        ("/turtle1/cmd_vel/linear", "is no number but a geometry_msgs/Vector3: try /turtle1/cmd_vel/linear/x"),
+        ("/turtle1/cmd_vel/linear/w", 'geometry_msgs/Vector3 has no field "w"'),
+        ("/obstacles/ranges", "is an array (float32[]): say which element, such as /obstacles/ranges[0]"),
+        ("/obstacles/header/frame_id", "is no number but a string"),
+        ("/turtle1/pose/x/y", "a number without fields"),
+        ("/turtle1/pose/[x]", "is no way to a field"),
+        ("/rosout/msg", "is no number but a string"),
+        ("", "such as"),
+        (7, "such as"),
+    ],
+)
+def test_mistakes_are_explained(lesson: Lesson, asked: Any, said: str) -> None:
+    with pytest.raises(ValueError) as raised:
+        lesson.live_plot(asked)
+    assert said in str(raised.value)
+
+
+def test_how_many_and_how_long(lesson: Lesson) -> None:
+    with pytest.raises(ValueError, match="name a topic and a field"):
+        lesson.live_plot()
+    with pytest.raises(ValueError, match="8 at most"):
+        lesson.live_plot(*(f"/obstacles/ranges[{number}]" for number in range(9)))
+    with pytest.raises(ValueError, match=r"try seconds=30\.0"):
+        lesson.live_plot("/turtle1/pose/x", seconds=-1)
+
+
+def test_a_topic_that_is_not_there_yet_is_waited_for() -> None:
+    lesson = start()
+    widget = lesson.live_plot("/robot/status/battery", "/turtle2/pose/x")
+    lesson.run(1)
+    widget.tick()
+    assert widget.curves[0]["note"].startswith("There is no such topic yet; now there are /parameter_events")
+    lesson.launch("robot_controller", "start_system.launch.py")
+    order(lesson.form("/spawn"), "call")
+    lesson.run(3)
+    widget.tick()
+    assert [curve["note"] for curve in widget.curves] == ["", ""]
+    assert "/robot/status/battery: 2" in widget.text()
+
+
+def test_a_topic_that_comes_with_another_type_is_explained(lesson: Lesson) -> None:
+    lesson = start()
+    widget = lesson.live_plot("/robot/status/bettery")
+    lesson.launch("robot_controller", "start_system.launch.py")
+    lesson.run(2)
+    widget.tick()
+    assert 'no field "bettery". Did you mean "battery"?' in widget.curves[0]["note"]
+
+
+def test_what_is_a_slip_and_what_is_yet_to_come() -> None:
+    topics = ["/turtle1/pose", "/world/obstacles", "/rosout"]
+    to_come = ["/robot/status", "/obstacles"]
+    assert mistyped("/turtle1/psoe/x", topics, to_come) == "/turtle1/pose"
+    assert mistyped("/Turtle1/Pose/x", topics, to_come) == "/turtle1/pose"
+    assert mistyped("/turtle2/pose/x", topics, to_come) == ""
+    assert mistyped("/obstacles/ranges[0]", topics, to_come) == ""
+    assert mistyped("/robot/status/battery", topics, to_come) == ""
+    assert mistyped("/something/else", topics, to_come) == ""
+
+
+def test_a_message_of_one_number_needs_no_field(lesson: Lesson) -> None:
+    import rclpy
+    from std_msgs.msg import Float64
+
+    def main() -> None:
+        rclpy.init()
+        node = rclpy.create_node("thermometer")
+        publisher = node.create_publisher(Float64, "/temperature", 10)
+        node.create_timer(0.1, lambda: publisher.publish(Float64(data=21.5)))
+        rclpy.spin(node)
+
+    lesson._world.spawn(main, name="thermometer")
+    lesson.run(1)
+    widget = lesson.live_plot("/temperature")
+    lesson.run(1)
+    assert "last 21.50" in widget.text()
+
+
+def test_an_array_that_is_too_short_leaves_a_gap(lesson: Lesson) -> None:
+    widget = lesson.live_plot("/obstacles/ranges[5000]")
+    lesson.run(1)
+    assert widget.text().endswith("/obstacles/ranges[5000]: 5 messages, last not a number.")
+    assert widget.picture().figure is None
+
+
+def test_it_stops_listening_with_its_last_view_and_begins_again_with_the_next() -> None:
+    async def page() -> tuple[int, int, int]:
+        lesson = start()
+        node = lesson._recording.node
+        lesson.run(2)
+        before = len(list(node.subscriptions))
+        widget = lesson.live_plot("/turtle1/color_sensor/r")
+        order(widget, "open")
+        listening = len(list(node.subscriptions)) - before
+        order(widget, "close")
+        deaf = len(list(node.subscriptions)) - before
+        order(widget, "open")
+        again = len(list(node.subscriptions)) - before
+        widget.close()
+        return listening, deaf, again
+
+    assert asyncio.run(page()) == (1, 0, 1)
+
+
+def test_lowest_and_highest_survive_when_points_are_left_out() -> None:
+    times = np.linspace(0, 30, 3001)
+    values = np.sin(times)
+    values[1234] = 9.0
+    kept_times, kept = thinned(times, values, 0.1)
+    assert len(kept) <= 603 and kept.max() == 9.0 and kept_times[-1] == 30.0
+    assert np.all(np.diff(kept_times) > 0)
+
+
+def test_figures_of_any_size() -> None:
+    assert [figure(each) for each in (5.544, 0.0, -0.00123, 1.25e9)] == ["5.54", "0.00", "-0.00123", "1.25e+09"]

@@ -1,0 +1,164 @@
+"""Driving by hand: a held stick publishes, one that is let go or falls silent stops."""
+
+from __future__ import annotations
+
+import asyncio
+import math
+from typing import Any
+
+import pytest
+
+from turtle_lesson import Lesson, start
+from turtle_lesson.lab.widgets import teleop as module
+from turtle_lesson.lab.widgets.teleop import Teleop, in_words
+
+
+@pytest.fixture
+def lesson() -> Lesson:
+    return start()
+
+
+@pytest.fixture
+def hand(monkeypatch: pytest.MonkeyPatch) -> dict[str, float]:
+    """The real time that the dead man's switch sees."""
+    clock = {"now": 0.0}
+    monkeypatch.setattr(module, "real_monotonic", lambda: clock["now"])
+    return clock
+
+
+def order(widget: Any, name: str, /, **content: Any) -> None:
+    widget._order(widget, {"do": name, "view": "v", **content}, [])
+
+
+def listen(lesson: Lesson, topic: str = "/turtle1/cmd_vel") -> list[tuple[float, float, float]]:
+    """Robot time, forward and turn of each Twist from now on."""
+    import rclpy
+    from geometry_msgs.msg import Twist
+
+    heard: list[tuple[float, float, float]] = []
+
+    def main() -> None:
+        rclpy.init()
+        node = rclpy.create_node("ear")
+        node.create_subscription(
+            Twist, topic, lambda m: heard.append((round(lesson.now, 2), m.linear.x, m.angular.z)), 10
+        )
+        rclpy.spin(node)
+
+    lesson._world.spawn(main, name="ear")
+    lesson._world.sim.settle()
+    return heard
+
+
+def test_a_held_stick_publishes_ten_times_a_second_and_zeros_when_it_is_let_go(lesson: Lesson, hand: Any) -> None:
+    heard = listen(lesson)
+    widget = lesson.teleop()
+    order(widget, "drive", forward=1.0, turn=0.5)
+    lesson.run(0.45)
+    order(widget, "release")
+    lesson.run(0.5)
+    assert heard == [(at, 2.0, 1.0) for at in (0.0, 0.1, 0.2, 0.3, 0.4)] + [(0.45, 0.0, 0.0)]
+    assert widget.words == "Stopped."
+    assert lesson._recording.poses.array()["x"][-1] > 6.0
+
+
+def test_a_stick_that_falls_silent_is_let_go(lesson: Lesson, hand: dict[str, float]) -> None:
+    widget = lesson.teleop()
+    order(widget, "drive", forward=1.0, turn=0.0)
+    hand["now"] = 0.29
+    widget.tick()
+    assert widget.stick["held"]
+    hand["now"] = 0.31
+    widget.tick()
+    assert not widget.stick["held"] and widget.sent["linear"] == 0.0
+    assert widget.words == "Stopped: the stick said nothing for 0.3 s."
+
+
+def test_it_also_stops_while_a_cell_computes_and_only_robot_time_passes(lesson: Lesson, hand: dict[str, float]) -> None:
+    widget = lesson.teleop()
+    order(widget, "drive", forward=1.0, turn=0.0)
+    hand["now"] = 5.0
+    lesson.run(3)
+    assert widget.sent == {"linear": 0.0, "angular": 0.0, "count": 2}
+
+
+def test_it_stops_when_its_last_view_closes(lesson: Lesson, hand: Any) -> None:
+    widget = lesson.teleop()
+    order(widget, "open")
+    order(widget, "drive", forward=1.0, turn=0.0)
+    order(widget, "close")
+    assert not widget.stick["held"] and widget.sent["linear"] == 0.0
+    assert not [each for each in lesson._recording.node.publishers if each.topic_name == "/turtle1/cmd_vel"]
+
+
+def test_looking_at_it_changes_nothing(lesson: Lesson) -> None:
+    before = lesson._recording.node.count_publishers("/turtle1/cmd_vel")
+    widget = lesson.teleop()
+    order(widget, "open")
+    lesson.run(1)
+    assert lesson._recording.node.count_publishers("/turtle1/cmd_vel") == before
+    assert repr(widget) == "Teleop on /turtle1/cmd_vel, at most 2.00 m/s and 2.00 rad/s: nothing sent yet."
+
+
+def test_it_says_when_nobody_listens_and_who_does_elsewhere(lesson: Lesson) -> None:
+    said = "Nobody listens on /turtle9/cmd_vel. Somebody does on /turtle1/cmd_vel."
+    assert lesson.teleop("/turtle9/cmd_vel").unheard == said
+    assert lesson.teleop().unheard == ""
+    listen(lesson, "/turtle9/cmd_vel")
+    widget = lesson.teleop("/turtle9/cmd_vel")
+    widget._looks._next = -1.0
+    widget.tick()
+    assert widget.unheard == ""
+
+
+def test_whoever_listens_for_another_type_is_named(lesson: Lesson) -> None:
+    assert lesson.teleop("/rosout").unheard == "Nobody listens on /rosout. Somebody does on /turtle1/cmd_vel."
+    events = "rcl_interfaces/msg/ParameterEvent, not for geometry_msgs/msg/Twist."
+    assert lesson.teleop("/parameter_events").unheard in (
+        "Nobody listens on /parameter_events. Somebody does on /turtle1/cmd_vel.",
+        f"Whoever listens on /parameter_events listens for {events}",
+    )
+
+
+def test_highest_speeds(lesson: Lesson, hand: Any) -> None:
+    widget = lesson.teleop()
+    order(widget, "limits", forward=0.5)
+    order(widget, "drive", forward=-7.0, turn=0.0)
+    assert widget.sent["linear"] == -0.5
+    order(widget, "limits", forward=0)
+    assert widget.words == "The highest speed (forward) must be above 0 and at most 10."
+    order(widget, "limits", sideways=1.0)
+    assert "forward or turn" in widget.words and widget.limits == {"forward": 0.5, "turn": 2.0}
+
+
+@pytest.mark.parametrize("nonsense", ["fast", None, True, math.nan])
+def test_nonsense_from_outside_moves_nothing(lesson: Lesson, nonsense: Any) -> None:
+    widget = lesson.teleop()
+    order(widget, "drive", forward=nonsense, turn=0.0)
+    assert "must be a number from -1 to 1" in widget.words
+    assert widget.sent["count"] == 0 and not widget.stick["held"]
+
+
+@pytest.mark.parametrize("topic", ["", None, "not a topic", "/1st"])
+def test_a_topic_must_be_a_name(lesson: Lesson, topic: Any) -> None:
+    with pytest.raises(Exception, match="topic"):
+        lesson.teleop(topic)
+
+
+def test_driving_starts_time() -> None:
+    async def page() -> float:
+        lesson = start()
+        widget = lesson.teleop()
+        assert isinstance(widget, Teleop)
+        order(widget, "drive", forward=1.0, turn=0.0)
+        await asyncio.sleep(0.2)
+        lesson.pause()
+        return lesson.now
+
+    assert 0.05 < asyncio.run(page()) < 1.0
+
+
+def test_velocities_in_words() -> None:
+    assert in_words(0.0, 0.0) == "zeros (stop)"
+    assert in_words(-1.0, 0.0) == "1.00 m/s backward"
+    assert in_words(1.0, -0.25) == "1.00 m/s forward and 0.25 rad/s to the right"

@@ -1,0 +1,86 @@
+"""Where the checks look in a world of this notebook: the lab's hidden node, and a clock that also runs the cells' nodes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+from .ros.core import NANOSECONDS
+from .ros.core.errors import SimulationError
+
+if TYPE_CHECKING:
+    from .lab.obstacle_board import ObstacleBoard
+    from .ros.world import World
+
+
+class ExamPlace:
+    """A `Place` (see lab/checks/exam.py).
+
+    A node that was made in a cell is only alive while that cell spins it. While a check looks, such nodes are spun; what
+    their callbacks raise is kept in `troubles`, and they go on.
+    """
+
+    def __init__(self, world: World, node: Any, board: ObstacleBoard) -> None:
+        self._world = world
+        self.node = node
+        self._board = board
+        self.troubles: list[str] = []
+
+    @property
+    def now(self) -> float:
+        """Robot time: seconds since the world began."""
+        return self._world.now / NANOSECONDS
+
+    @property
+    def ended(self) -> bool:
+        """Whether a newer `start()` has taken this world's place."""
+        return self._world.sim.closed
+
+    @property
+    def obstacles(self) -> tuple[Any, ...]:
+        """The obstacles in the world."""
+        return self._board.obstacles
+
+    def put(self, obstacles: Iterable[Any]) -> None:
+        """Replace them."""
+        self._board.put(obstacles)
+
+    def step(self, seconds: float) -> None:
+        """Let robot time pass. Raises nothing but KeyboardInterrupt."""
+        end = self._world.now + round(seconds * NANOSECONDS)
+        while self._world.now < end:
+            try:
+                if not self._spin_cells(end):
+                    self._world.sim.run_until(end)
+            except Exception as error:
+                self._note(error)
+                if isinstance(error, SimulationError) and self._world.now < end:
+                    return
+
+    def _note(self, error: Exception) -> None:
+        text = " ".join(str(error).split())
+        self.troubles.append(f"a callback in a cell raised {type(error).__name__}: {text}")
+
+    def _spin_cells(self, end: int) -> bool:
+        """Spin the nodes of the notebook's cells until `end` (ns); whether there are any."""
+        nodes = self._cell_nodes()
+        if not nodes:
+            return False
+        from rclpy.executors import SingleThreadedExecutor
+        from rclpy.task import Future
+
+        executor = next((node.executor for node in nodes if node.executor is not None), None)
+        executor = executor or SingleThreadedExecutor()
+        added = [node for node in nodes if node.executor is None and executor.add_node(node)]
+        try:
+            before = self._world.now
+            executor.spin_until_future_complete(Future(), (end - before) / NANOSECONDS)
+            return self._world.now > before  # an executor that was shut down lets no time pass
+        finally:
+            for node in added:
+                executor.remove_node(node)
+
+    def _cell_nodes(self) -> list[Any]:
+        """The nodes that live in the notebook itself."""
+        context = self._world.notebook.locals.get("rclpy.context")
+        return list(context._nodes) if context is not None and context.ok() else []

@@ -1,0 +1,74 @@
+'''Exercises are checked by looking at the running system, as any node could: at the graph, messages, answers, parameters.
+
+A page asks for a check by its name, `lesson.check("status_monitor")`, and shows the table that comes back. A check is a
+list of *expectations*. Each has a text and a function that looks, and becomes a row: ✓, or ✗ with the most useful next
+step, or – where it cannot be looked at, with the reason. Every ✓ together earns the check's points.
+
+**To write one**, add it to the module of its page (`page_04.py`; a new module is named in `registry.MODULES`):
+
+    @check("talker", page="01_publish_and_subscribe", points=3, limit=15)
+    def talker() -> list[Expectation]:
+        """A node that says hello twice a second."""
+        return [
+            node("/talker"),
+            publishes("/chatter", "std_msgs/msg/String", by="/talker"),
+            rate("/chatter", "std_msgs/msg/String", hz=2),
+            Expectation("it is polite", is_polite),
+        ]
+
+    def is_polite(exam: Exam) -> Seen:
+        heard = exam.hear("/chatter", "std_msgs/msg/String", seconds=2.0)
+        if not heard:
+            raise CannotLook("no message came on /chatter")
+        text = field(heard[-1].message, "data")
+        return Seen("please" in text, f'it said "{text}"', 'Set message.data to a text with "please" in it.')
+
+The docstring's first line is the title. `limit` is the most robot time (s) that it may take; 25 s of real time are the
+end in any case. What an expectation raises becomes a row of its own: CannotLook a –, anything else a ✗. So a check never
+fails itself, and never hangs.
+
+**Ready-made expectations**
+
+| module | expectations |
+|---|---|
+| `parts` | `node`, `publishes`, `subscribes`, `offers`, `parameter`, `no_errors` |
+| `streams` | `rate`, `steps`, `in_range`, `relays`, and `messages` for whatever a function judges |
+| `questions` | `answers`, `rate_follows`, `gives_up` |
+| `drives` | a drive of the navigator: `answered`, `arrived`, `facing`, `honest_time`, `stopped`, `steady_commands`, `refuses` |
+
+**What a function that looks may do** is in `exam.Exam`: `wait`, `wait_for`, `listen`, `hear`, `publish`, `ask`, `ask_soon`,
+`nodes`, `publishers`, `subscriptions`, `servers`, `obstacles`, and `once`, which remembers what several rows are about.
+All that it subscribes to and offers is taken away when the check is over, and parameters and obstacles are put back.
+
+Texts are for learners and are compared by nbval: figures with fixed decimals (`lab.words`), nothing of the machine. A row's
+`expected` is short (50 characters at most fit its column), `seen` says what was measured, the next step says what to do.
+Nodes that live in a notebook cell, and that no executor spins, are spun while a check lets time pass.
+'''
+
+from .exam import Answer, Exam, Heard, field, interface
+from .registry import PAGES, Check, Expectation, all_checks, check, checks_of, find
+from .result import METADATA, CheckResult
+from .rows import CannotLook, OutOfTime, Row, Seen
+from .runner import run
+
+__all__ = [
+    "METADATA",
+    "PAGES",
+    "Answer",
+    "CannotLook",
+    "Check",
+    "CheckResult",
+    "Exam",
+    "Expectation",
+    "Heard",
+    "OutOfTime",
+    "Row",
+    "Seen",
+    "all_checks",
+    "check",
+    "checks_of",
+    "field",
+    "find",
+    "interface",
+    "run",
+]

@@ -1,0 +1,370 @@
+"""An exam: looks at a running system through a node, lets robot time pass, and cleans up behind itself.
+
+It listens, asks, publishes and reads the graph as any node may, and reaches into nothing. What it has seen once it
+remembers (`once`), so that several expectations can be about the same drive.
+"""
+
+from __future__ import annotations
+
+import importlib
+from collections import Counter
+from collections.abc import Callable, Hashable, Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from types import TracebackType
+from typing import Any, Protocol, TypeVar
+
+from ...ros.core.virtual_time import real_monotonic
+from ..channel import with_time
+from ..recording import NANOSECONDS
+from ..system import is_hidden
+from ..words import listed
+from ..widgets.typed_names import nearest
+from .rows import CannotLook, OutOfTime
+
+T = TypeVar("T")
+
+PIECE = 0.1
+"""Robot time, s, that passes between two looks at the real clock."""
+
+MOMENT = 0.02
+"""Robot time, s, between two looks at whether something has come; after the first few looks it is a PIECE."""
+
+PATIENCE = 25.0
+"""Real time, s, after which a check gives up on a system that is too slow to be looked at."""
+
+MOST_HEARD = 500_000
+"""Messages that one ear keeps at most."""
+
+
+class Place(Protocol):
+    """Where the system is that is looked at."""
+
+    node: Any
+    """A node with a hidden name, spun while time passes."""
+
+    @property
+    def now(self) -> float:
+        """Robot time, s."""
+        ...
+
+    @property
+    def ended(self) -> bool:
+        """Whether this system is gone."""
+        ...
+
+    @property
+    def troubles(self) -> list[str]:
+        """What callbacks of the notebook's own cells have raised, in words."""
+        ...
+
+    def step(self, seconds: float) -> None:
+        """Let robot time pass."""
+        ...
+
+    @property
+    def obstacles(self) -> tuple[Any, ...]:
+        """The obstacles in the world."""
+        ...
+
+    def put(self, obstacles: Iterable[Any]) -> None:
+        """Replace them, by a message on /world/obstacles."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Heard:
+    """A message, and when it was sent (robot time, s)."""
+
+    at: float
+    message: Any
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What became of a request: the response (None if none came), and when it was asked and answered (s)."""
+
+    response: Any
+    asked: float
+    answered: float
+
+    @property
+    def seconds(self) -> float:
+        """Robot time from the request to the response."""
+        return self.answered - self.asked
+
+
+class Exam:
+    """One look at a system, for at most `limit` seconds of robot time."""
+
+    def __init__(self, place: Place, limit: float) -> None:
+        self.place = place
+        self.node = place.node
+        self._until = place.now + limit
+        self._limit = limit
+        self._began = real_monotonic()
+        self._origin = place.node.get_clock().now().nanoseconds - round(place.now * NANOSECONDS)
+        self._memory: dict[Hashable, Any] = {}
+        self._clean_up: list[Callable[[], object]] = []
+        self._troubles_before = len(place.troubles)
+        self.nodes_before: Counter[str] = Counter()
+        self.log: list[tuple[int, str, str]] = []
+        """Level, name of the logger and text of each line that was logged since the exam began."""
+
+    def __enter__(self) -> Exam:
+        self._hear_the_log()
+        self.nodes_before = self.nodes()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        for each in reversed(self._clean_up):
+            try:
+                each()
+            except Exception:  # noqa: S110  (what is gone already needs no cleaning)
+                pass
+
+    def at_the_end(self, action: Callable[[], object]) -> None:
+        """Have `action` called when the exam is over: to put back what it has changed."""
+        self._clean_up.append(action)
+
+    def once(self, key: Hashable, look: Callable[[], T]) -> T:
+        """What `look()` gives, or the CannotLook that it raises: the first time it is done, from then on remembered."""
+        if key not in self._memory:
+            try:
+                self._memory[key] = look()
+            except CannotLook as reason:
+                self._memory[key] = reason
+        found = self._memory[key]
+        if isinstance(found, CannotLook):
+            raise found
+        return found
+
+    # -- time --------------------------------------------------------------------------------------------------------
+
+    @property
+    def now(self) -> float:
+        """Robot time, s."""
+        return self.place.now
+
+    def wait(self, seconds: float) -> None:
+        """Let robot time pass. Raises OutOfTime where the check has no more of it."""
+        end = self.now + seconds
+        while self.now < end - 1e-9:
+            self._step(min(PIECE, end - self.now))
+
+    def wait_for(self, condition: Callable[[], object], timeout: float) -> bool:
+        """Let robot time pass until a condition holds, or the timeout (s) is over; whether it holds."""
+        begin, end = self.now, self.now + timeout
+        while not condition() and self.now < end - 1e-9:
+            self._step(min(MOMENT if self.now - begin < PIECE else PIECE, end - self.now))
+        return bool(condition())
+
+    def _step(self, seconds: float) -> None:
+        if self.now + seconds > self._until + 1e-9:
+            raise OutOfTime(f"the {self._limit:g} s of robot time that this check may take are over")
+        if real_monotonic() - self._began > PATIENCE:
+            raise OutOfTime(
+                f"the check had taken {PATIENCE:g} s of real time by then: does a callback compute for long, or is a "
+                "timer's period tiny?"
+            )
+        self.place.step(seconds)
+
+    # -- the graph ---------------------------------------------------------------------------------------------------
+
+    def nodes(self) -> Counter[str]:
+        """How many visible nodes there are of each full name."""
+        names = (f"{space.rstrip('/')}/{name}" for name, space in self.node.get_node_names_and_namespaces())
+        return Counter(name for name in sorted(names) if not is_hidden(name))
+
+    def publishers(self, topic: str) -> list[tuple[str, str]]:
+        """Full name of the node and type of each publisher that others have on a topic."""
+        return self._others(self.node.get_publishers_info_by_topic(topic))
+
+    def subscriptions(self, topic: str) -> list[tuple[str, str]]:
+        """Full name of the node and type of each subscription that others have on a topic."""
+        return self._others(self.node.get_subscriptions_info_by_topic(topic))
+
+    def servers(self, service: str) -> list[tuple[str, str]]:
+        """Full name of the node and type of each service of a name."""
+        from rclpy.node import NodeNameNonExistentError
+
+        found: list[tuple[str, str]] = []
+        for name, amount in self.nodes().items():
+            namespace, _, base = name.rpartition("/")
+            try:
+                offers = self.node.get_service_names_and_types_by_node(base, namespace or "/")
+            except NodeNameNonExistentError:
+                continue
+            # nodes of one name look the same from outside, so each may be one that offers it
+            found += [(name, kind) for offered, kinds in offers if offered == service for kind in kinds] * amount
+        return found
+
+    def topics(self) -> list[str]:
+        """The names of all topics that are published, hidden ones left out."""
+        names = [name for name, _ in self.node.get_topic_names_and_types() if not is_hidden(name)]
+        return [name for name in names if self.publishers(name)]
+
+    def services(self) -> list[str]:
+        """The names of all services."""
+        return [name for name, _ in self.node.get_service_names_and_types() if not is_hidden(name)]
+
+    def _others(self, ends: Any) -> list[tuple[str, str]]:
+        me = (self.node.get_name(), self.node.get_namespace())
+        return sorted(
+            (f"{end.node_namespace.rstrip('/')}/{end.node_name}", end.topic_type)
+            for end in ends
+            if (end.node_name, end.node_namespace) != me
+        )
+
+    # -- listening ---------------------------------------------------------------------------------------------------
+
+    def listen(self, topic: str, type_name: str) -> list[Heard]:
+        """Begin to listen, if it was not done before; returns the list that fills itself.
+
+        Raises CannotLook where nobody publishes the topic as this type.
+        """
+        return self.once(("listen", topic, type_name), lambda: self._listen(topic, type_name))
+
+    def hear(self, topic: str, type_name: str, seconds: float) -> list[Heard]:
+        """What is sent on a topic within the next seconds of robot time."""
+        heard = self.listen(topic, type_name)
+        before = len(heard)
+        self.wait(seconds)
+        return heard[before:]
+
+    def _listen(self, topic: str, type_name: str) -> list[Heard]:
+        types = sorted({kind for _, kind in self.publishers(topic)})
+        if not types:
+            raise CannotLook(f"nobody publishes {topic}{self.like(topic, self.topics())}")
+        if type_name not in types:
+            raise CannotLook(f"{topic} is published as {listed(types)}, not as {type_name}")
+        message_class = interface(type_name)
+        heard: list[Heard] = []
+
+        def hear(message: Any, info: Any) -> None:
+            if len(heard) < MOST_HEARD:
+                heard.append(Heard((info["source_timestamp"] - self._origin) / NANOSECONDS, message))
+
+        self.subscribe(message_class, topic, with_time(self.node, hear))
+        return heard
+
+    def subscribe(self, message_class: Any, topic: str, callback: Callable[..., None]) -> None:
+        """Call `callback` with each message until the exam is over; best effort, which hears every publisher."""
+        from rclpy.qos import QoSProfile, ReliabilityPolicy
+
+        quality = QoSProfile(depth=1000, reliability=ReliabilityPolicy.BEST_EFFORT)
+        subscription = self.node.create_subscription(message_class, topic, callback, quality)
+        self._clean_up.append(lambda: self.node.destroy_subscription(subscription))
+
+    def _hear_the_log(self) -> None:
+        from rcl_interfaces.msg import Log
+
+        def hear(line: Any) -> None:
+            level = line.level[0] if isinstance(line.level, bytes) else int(line.level)
+            self.log.append((level, line.name, line.msg))
+
+        self.subscribe(Log, "/rosout", hear)
+
+    def troubles(self) -> list[str]:
+        """What callbacks in the notebook's own cells have raised since the exam began."""
+        return self.place.troubles[self._troubles_before :]
+
+    # -- acting ------------------------------------------------------------------------------------------------------
+
+    def publish(self, topic: str, type_name: str, **fields: Any) -> None:
+        """Publish one message; nested fields as `linear__x=1.0`."""
+        publisher = self.once(("publisher", topic, type_name), lambda: self._publisher(topic, type_name))
+        publisher.publish(filled(interface(type_name)(), fields, type_name))
+
+    def _publisher(self, topic: str, type_name: str) -> Any:
+        publisher = self.node.create_publisher(interface(type_name), topic, 10)
+        self._clean_up.append(lambda: self.node.destroy_publisher(publisher))
+        self.wait(0.05)  # so that those who listen have found it
+        return publisher
+
+    @contextmanager
+    def obstacles(self, *added: Any) -> Iterator[None]:
+        """Within this block these obstacles stand in the world, too; after it, what stood there before."""
+        before = self.place.obstacles
+        self.place.put([*before, *added])
+        try:
+            yield
+        finally:
+            self.place.put(before)
+
+    def ask(self, service: str, type_name: str, timeout: float, **fields: Any) -> Answer:
+        """Call a service, and let robot time pass until it answers or the timeout (s) is over.
+
+        Raises CannotLook where nobody offers it as this type.
+        """
+        answer = self.ask_soon(service, type_name, **fields)
+        self.wait_for(answer, timeout)
+        return answer() or Answer(None, self.now, self.now)
+
+    def ask_soon(self, service: str, type_name: str, **fields: Any) -> Callable[[], Answer | None]:
+        """Call a service without waiting; returns a function that gives the answer once it has come."""
+        client = self.once(("client", service, type_name), lambda: self._client(service, type_name))
+        request = filled(interface(type_name).Request(), fields, type_name)
+        asked, answered = self.now, []
+        future = client.call_async(request)
+        future.add_done_callback(lambda _: answered.append(self.now))
+
+        def look() -> Answer | None:
+            return Answer(future.result(), asked, answered[0]) if answered else None
+
+        return look
+
+    def _client(self, service: str, type_name: str) -> Any:
+        types = sorted({kind for _, kind in self.servers(service)})
+        if not types:
+            raise CannotLook(f"nobody offers the service {service}{self.like(service, self.services())}")
+        if type_name not in types:
+            raise CannotLook(f"{service} is offered as {listed(types)}, not as {type_name}")
+        client = self.node.create_client(interface(type_name), service)
+        self._clean_up.append(lambda: self.node.destroy_client(client))
+        return client
+
+    # -- words -------------------------------------------------------------------------------------------------------
+
+    def like(self, name: str, known: list[str]) -> str:
+        """", but somebody does /robot/staus": a name that is nearly the one that was looked for."""
+        found = nearest(name, [each for each in known if each != name], cutoff=0.75)
+        return f", but there is {found}" if found else ""
+
+
+def interface(type_name: str) -> Any:
+    """The class of a type such as "std_msgs/msg/String". Raises CannotLook where it cannot be imported."""
+    package, kind, name = type_name.split("/")
+    try:
+        return getattr(importlib.import_module(f"{package}.{kind}"), name)
+    except Exception as error:  # a package that was built badly can raise anything
+        reason = " ".join(str(error).split())[:160]
+        raise CannotLook(f"the type {type_name} cannot be imported here ({reason})") from None
+
+
+def filled(message: Any, fields: dict[str, Any], type_name: str) -> Any:
+    """The message with its fields set. Raises CannotLook for a field that it does not have."""
+    for path, value in fields.items():
+        *way, last = path.split("__")
+        target = message
+        try:
+            for part in way:
+                target = getattr(target, part)
+            setattr(target, last, value)
+        except (AttributeError, AssertionError, TypeError) as error:
+            reason = " ".join(str(error).split())[:120]
+            raise CannotLook(f"{type_name} cannot hold {path.replace('__', '.')} = {value!r} ({reason})") from None
+    return message
+
+
+def field(message: Any, path: str) -> Any:
+    """What a message has in a field such as "linear.x". Raises CannotLook where there is none."""
+    value = message
+    for part in path.split("."):
+        try:
+            value = getattr(value, part)
+        except AttributeError:
+            raise CannotLook(f"{type(message).__name__} has no field {path}") from None
+    return value

@@ -1,0 +1,78 @@
+"""Page 02: a service that answers, and a package that is built with interfaces of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from .exam import Exam, interface
+from .parts import node, offers
+from .questions import answers
+from .registry import Expectation, check
+from .rows import CannotLook, Seen
+
+PAGE = "02_services_and_interfaces"
+ADD = "example_interfaces/srv/AddTwoInts"
+
+STATUS = {name: "float" for name in ("x", "y", "theta", "vel_x", "vel_y", "battery")}
+GOAL = {name: "float" for name in ("x", "y", "theta")}
+RESULT = {"success": "boolean", "time_taken": "float"}
+"""Fields and types of the lesson's interfaces, as ROS names them: float32 is "float", bool "boolean"."""
+
+
+@check("adder", page=PAGE, points=3, limit=15)
+def adder() -> list[Expectation]:
+    """A service that adds."""
+    step = "response.sum = request.a + request.b, then return response."
+    return [
+        node("/adder"),
+        offers("/add_two_ints", ADD, by="/adder"),
+        *(
+            answers("/add_two_ints", ADD, {"a": a, "b": b}, lambda it, sum=a + b: it.sum == sum, _sum_in_words(a, b), step)
+            for a, b in ((2, 3), (-40, 7))
+        ),
+    ]
+
+
+@check("interfaces", page=PAGE, points=4, limit=5)
+def interfaces() -> list[Expectation]:
+    """The package robot_controller is built and sourced, with its message and its service."""
+    return [
+        has_fields("robot_controller/msg/TurtleStatus", STATUS),
+        has_fields("robot_controller/srv/NavigateTo", GOAL, "request", lambda kind: kind.Request),
+        has_fields("robot_controller/srv/NavigateTo", RESULT, "response", lambda kind: kind.Response),
+    ]
+
+
+def _sum_in_words(a: int, b: int) -> str:
+    return f"{a} + {b} is {a + b}".replace("-", "−")
+
+
+def has_fields(
+    type_name: str, fields: dict[str, str], part: str = "", choose: Callable[[Any], Any] = lambda kind: kind
+) -> Expectation:
+    """An interface that can be imported and has exactly these fields, in this order."""
+    what = f"{type_name}{f' ({part})' if part else ''}"
+
+    def look(exam: Exam) -> Seen:
+        package = type_name.split("/")[0]
+        try:
+            found = dict(choose(interface(type_name)).get_fields_and_field_types())
+        except CannotLook as reason:
+            step = (
+                f"colcon build --packages-select {package}, then source install/setup.bash; CMakeLists.txt has to name "
+                "the file in rosidl_generate_interfaces."
+            )
+            return Seen(False, str(reason), step)
+        step = f"The fields are {_in_words(fields)}, in this order: change the file and build again."
+        good = list(found.items()) == list(fields.items())
+        return Seen(good, "it has" if good else f"it has {_in_words(found)}", step)
+
+    return Expectation(f"{what.split('/')[-1]}: {' '.join(fields)}", look)
+
+
+_AS_TYPED = {"float": "float32", "double": "float64", "boolean": "bool"}
+
+
+def _in_words(fields: dict[str, str]) -> str:
+    return ", ".join(f"{_AS_TYPED.get(kind, kind)} {name}" for name, kind in fields.items()) or "no field"

@@ -1,0 +1,182 @@
+"""Expectations about what is there: nodes, publishers, subscriptions, services, parameters, and a log without errors."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..words import count, listed
+from .exam import Answer, Exam
+from .registry import Expectation
+from .rows import CannotLook, Seen
+
+TOO_MANY = "Stop the one too many: Ctrl-C in a terminal; in a notebook run the set-up cell again, then each cell once."
+ANSWER_TIME = 1.0
+"""Robot time, s, within which a node should say what parameters it has."""
+
+
+def node(name: str, start: str = "") -> Expectation:
+    """One node of this full name, and not two. `start` is the command that starts it."""
+
+    def look(exam: Exam) -> Seen:
+        found = exam.nodes()
+        amount = found[name]
+        if amount == 1:
+            return Seen(True, "it is there")
+        if amount > 1:
+            return Seen(False, f"{amount} nodes of this name: messages come {amount}-fold", TOO_MANY)
+        others = [each for each in found if each != "/turtlesim"]
+        seen = f"it is not there; there is {listed(others)}" if others else "it is not there"
+        begin = f"Start it: {start}." if start else "Start it."
+        return Seen(False, seen, f"{begin} If it ended by itself, its error stands in the output above.")
+
+    return Expectation(f"one node {name}", look)
+
+
+def publishes(topic: str, type_name: str, by: str = "") -> Expectation:
+    """A topic that is published as this type: by this node, where one is named, and by nobody else."""
+    who = f"{by} publishes" if by else "somebody publishes"
+    step = f"create_publisher({type_name.split('/')[-1]}, {topic!r}, 10) in the node's __init__; compare every letter."
+    return Expectation(
+        f"{who} {topic}",
+        lambda exam: _ends(exam, topic, type_name, by, exam.publishers(topic), exam.topics(), step),
+    )
+
+
+def subscribes(topic: str, type_name: str, by: str = "") -> Expectation:
+    """A topic that is subscribed to as this type, by this node where one is named."""
+    who = f"{by} listens to" if by else "somebody listens to"
+    step = f"create_subscription({type_name.split('/')[-1]}, {topic!r}, self.on_message, 10) in the node's __init__."
+
+    def look(exam: Exam) -> Seen:
+        ends = [end for end in exam.subscriptions(topic) if not by or end[0] == by]
+        return _ends(exam, topic, type_name, by, ends, [], step)
+
+    return Expectation(f"{who} {topic}", look)
+
+
+def offers(service: str, type_name: str, by: str = "") -> Expectation:
+    """A service of this type: offered once, by this node where one is named."""
+    who = f"{by} offers" if by else "somebody offers"
+    step = f"create_service({type_name.split('/')[-1]}, {service!r}, self.on_request) in the node's __init__."
+    return Expectation(
+        f"{who} {service}",
+        lambda exam: _ends(exam, service, type_name, by, exam.servers(service), exam.services(), step),
+    )
+
+
+def _ends(
+    exam: Exam, name: str, type_name: str, by: str, ends: list[tuple[str, str]], known: list[str], step: str
+) -> Seen:
+    if not ends and by and by not in exam.nodes():
+        raise CannotLook(f"there is no node {by}")
+    if not ends:
+        return Seen(False, f"nobody does{exam.like(name, known)}", step)
+    types = sorted({kind for _, kind in ends})
+    who = [owner for owner, _ in ends]
+    if types != [type_name]:
+        return Seen(False, f"{listed(sorted(set(who)))} does, as {listed(types)}", f"The type should be {type_name}.")
+    if len(ends) > 1:
+        return Seen(False, f"{len(ends)} do: {listed(who)}", TOO_MANY)
+    if by and who != [by]:
+        return Seen(False, f"{who[0]} does", f"The node should be {by}: super().__init__({by.split('/')[-1]!r}).")
+    return Seen(True, f"as {type_name}")
+
+
+# -- parameters --------------------------------------------------------------------------------------------------------
+
+
+def parameter(owner: str, name: str, value: Any = None) -> Expectation:
+    """A parameter that a node has declared; with this value, where one is given (and then of its type, too)."""
+    wanted = f"{owner} has a parameter {name}" + ("" if value is None else f" = {value!r}")
+
+    def look(exam: Exam) -> Seen:
+        found = get_parameter(exam, owner, name)
+        if found is None:
+            step = f"declare_parameter({name!r}, {value!r}) in the node's __init__."
+            return Seen(False, "it is not declared", step if value is not None else f"declare_parameter({name!r}, …).")
+        if value is not None and (type(found) is not type(value) or found != value):
+            return Seen(False, f"it is {found!r}", f"It should be {value!r}: look at the launch file, or its default.")
+        return Seen(True, f"it is {found!r}")
+
+    return Expectation(wanted, look)
+
+
+def get_parameter(exam: Exam, owner: str, name: str) -> Any:
+    """The value of a node's parameter, None if it has none. Raises CannotLook where the node does not answer."""
+    from ..widgets.parameter_values import to_python
+
+    if owner not in exam.nodes():
+        raise CannotLook(f"there is no node {owner}")
+    names = _answer(exam, owner, exam.ask(*_of(owner, "list"), ANSWER_TIME)).result.names
+    if name not in names:
+        return None
+    values = _answer(exam, owner, exam.ask(*_of(owner, "get"), ANSWER_TIME, names=[name])).values
+    return to_python(values[0]) if values else None
+
+
+def set_parameter(exam: Exam, owner: str, name: str, value: Any) -> str:
+    """Set a parameter; returns why the node refused, or "". It is put back when the exam is over."""
+    before = get_parameter(exam, owner, name)
+    if before is None:
+        raise CannotLook(f"{owner} has not declared a parameter {name}")
+    reason = _set(exam, owner, name, value)
+    if not reason:
+        exam.at_the_end(lambda: _put_back(exam, owner, name, before))
+    return reason
+
+
+def _set(exam: Exam, owner: str, name: str, value: Any) -> str:
+    from rclpy.parameter import Parameter
+
+    message = Parameter(name, value=value).to_parameter_msg()
+    results = _answer(exam, owner, exam.ask(*_of(owner, "set"), ANSWER_TIME, parameters=[message])).results
+    if results and results[0].successful:
+        return ""
+    return (results[0].reason if results else "") or "it gave no reason"
+
+
+def _put_back(exam: Exam, owner: str, name: str, value: Any) -> None:
+    from rclpy.parameter import Parameter
+
+    exam.ask_soon(*_of(owner, "set"), parameters=[Parameter(name, value=value).to_parameter_msg()])
+    for _ in range(5):
+        exam.place.step(0.01)  # also where the time of the check is over
+
+
+def _of(owner: str, what: str) -> tuple[str, str]:
+    return f"{owner}/{what}_parameters", f"rcl_interfaces/srv/{what.capitalize()}Parameters"
+
+
+def _answer(exam: Exam, owner: str, answer: Answer) -> Any:
+    if answer.response is None:
+        raise CannotLook(f"{owner} does not answer: is it busy, or not spun?")
+    return answer.response
+
+
+# -- the log -----------------------------------------------------------------------------------------------------------
+
+ERROR = 40
+"""The level from which on a line of the log is an error (rcl_interfaces/msg/Log)."""
+
+
+def no_errors() -> Expectation:
+    """Nothing that goes wrong while the check looks: no error in the log, no callback that raises, no node that ends."""
+
+    def look(exam: Exam) -> Seen:
+        if set(exam.nodes_before) <= {"/turtlesim"}:
+            raise CannotLook("no node was there that could go wrong")
+        wrong = [f"{name}: {text}" for level, name, text in exam.log if level >= ERROR] + exam.troubles()
+        gone = sorted(exam.nodes_before - exam.nodes())
+        if gone:
+            wrong.append(f"{listed(gone)} ended")
+        if not wrong:
+            return Seen(True, "none")
+        more = f" (and {count(len(wrong) - 1, 'more', 'more')})" if len(wrong) > 1 else ""
+        return Seen(False, _short(wrong[0]) + more, "Read the error from its last line up: it names the line.")
+
+    return Expectation("no error meanwhile", look)
+
+
+def _short(text: str) -> str:
+    plain = " ".join(text.split())
+    return plain if len(plain) <= 160 else f"{plain[:159]}…"

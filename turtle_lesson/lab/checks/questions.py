@@ -1,0 +1,69 @@
+"""Expectations about asking: a service that gives the right answer in time, a parameter that changes what a node does."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from ..words import number
+from .exam import Exam
+from .parts import set_parameter
+from .registry import Expectation
+from .rows import CannotLook, Seen
+from .streams import judge_rate
+
+
+def answers(
+    service: str,
+    type_name: str,
+    request: dict[str, Any],
+    right: Callable[[Any], bool],
+    expected: str,
+    next_step: str = "",
+    timeout: float = 2.0,
+) -> Expectation:
+    """A service answers a request rightly within the timeout (s). `expected` says both in words: "2 + 3 is 5"."""
+
+    def look(exam: Exam) -> Seen:
+        answer = exam.ask(service, type_name, timeout, **request)
+        if answer.response is None:
+            return Seen(False, f"no answer within {timeout:g} s", "Does its callback end, with `return response`?")
+        seen = f"{answer.response}"
+        return Seen(bool(right(answer.response)), seen if len(seen) <= 120 else f"{seen[:119]}…", next_step)
+
+    return Expectation(expected, look)
+
+
+def rate_follows(owner: str, parameter: str, value: int | float, topic: str, type_name: str) -> Expectation:
+    """A rate (Hz) that is really read from a parameter: set it, and the messages come at that rate."""
+
+    def look(exam: Exam) -> Seen:
+        exam.listen(topic, type_name)
+        reason = set_parameter(exam, owner, parameter, value)
+        if reason:
+            return Seen(False, f"it refused: {reason}", f"{value!r} should be allowed for {parameter}.")
+        exam.wait(1.0)  # one interval may still be of the old rate
+        heard = exam.hear(topic, type_name, max(1.0, 10.0 / value))
+        good, seen, _ = judge_rate(heard, value, 0.1 / value)
+        step = f"Read it when it is used: self.get_parameter({parameter!r}).value, and set the timer's period anew."
+        return Seen(good, f"then {seen}", step)
+
+    return Expectation(f"{parameter} set to {value!r}: {topic} at {value:g} Hz", look)
+
+
+def gives_up(owner: str, parameter: str, seconds: float, ask: Callable[[Exam], Any]) -> Expectation:
+    """A timeout (s) that is really read: a request that needs longer is answered with success False by then."""
+
+    def look(exam: Exam) -> Seen:
+        reason = set_parameter(exam, owner, parameter, seconds)
+        if reason:
+            return Seen(False, f"it refused: {reason}", f"{seconds!r} should be allowed for {parameter}.")
+        answer = ask(exam)
+        if answer.response is None:
+            raise CannotLook("no answer came")
+        good = not answer.response.success and answer.seconds <= seconds + 0.5
+        seen = f"success is {answer.response.success} after {number(answer.seconds)} s"
+        step = f"Compare the time since the start with self.get_parameter({parameter!r}).value at each step."
+        return Seen(good, seen, step)
+
+    return Expectation(f"{parameter} set to {seconds!r}: gives up on a far goal", look)

@@ -1,0 +1,110 @@
+"""The checks that there are, by name."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ..widgets.typed_names import did_you_mean, enumerated
+from .rows import Seen
+
+if TYPE_CHECKING:
+    from .exam import Exam
+
+PAGES = (
+    "00_welcome",
+    "01_publish_and_subscribe",
+    "02_services_and_interfaces",
+    "03_navigator",
+    "04_status_monitor",
+    "05_obstacle_detector",
+    "06_parameters_and_launch",
+    "07_command_line",
+    "08_executors",
+    "09_debugging_lab",
+    "10_test_and_validate",
+    "11_to_a_real_robot",
+)
+"""The lesson's pages, in their order."""
+
+MODULES = tuple(f"page_{number:02}" for number in (1, 2, 3, 4, 5, 6, 8, 9, 10, 11))
+"""The modules beside this one that define checks; a page's own is read when a check is first asked for."""
+
+
+@dataclass(frozen=True)
+class Expectation:
+    """One thing that should be so: in words, and how to look. `look` may raise CannotLook, or anything else."""
+
+    expected: str
+    look: Callable[[Exam], Seen]
+
+
+@dataclass(frozen=True)
+class Check:
+    """A named list of expectations, worth some points, that may take so much robot time (s)."""
+
+    name: str
+    title: str
+    page: str
+    points: int
+    limit: float
+    make: Callable[[], Iterable[Expectation]]
+
+    @property
+    def expectations(self) -> tuple[Expectation, ...]:
+        """What it expects, made anew."""
+        return tuple(self.make())
+
+
+_checks: dict[str, Check] = {}
+
+
+Maker = Callable[[], Iterable[Expectation]]
+
+
+def check(name: str, *, page: str, points: int, limit: float) -> Callable[[Maker], Check]:
+    """Decorator that makes a check of a function which returns its expectations; its docstring is the title.
+
+    Args:
+        name: what `lesson.check` is given.
+        page: one of `PAGES`.
+        points: what it is worth, if every expectation is met.
+        limit: robot time, in s, that it may take at most; what is not looked at by then is marked with –.
+    """
+    if page not in PAGES:
+        raise ValueError(f"there is no page {page!r}. {did_you_mean(page, PAGES)}".strip())
+
+    def register(function: Maker) -> Check:
+        title = (function.__doc__ or "").strip().splitlines()[0]
+        made = Check(name, title, page, points, limit, function)
+        _checks[name] = made
+        return made
+
+    return register
+
+
+def all_checks() -> list[Check]:
+    """All checks: by page, and on a page in the order in which its module has them."""
+    for module in MODULES:
+        importlib.import_module(f"{__package__}.{module}")
+    return sorted(_checks.values(), key=lambda each: PAGES.index(each.page))
+
+
+def checks_of(page: str) -> list[Check]:
+    """The checks of a page."""
+    return [each for each in all_checks() if each.page == page]
+
+
+def find(name: object) -> Check:
+    """The check of a name. Raises ValueError, which says which one may be meant."""
+    known = {each.name: each for each in all_checks()}
+    if isinstance(name, str) and name in known:
+        return known[name]
+    hint = did_you_mean(name, known) if isinstance(name, str) else ""
+    raise ValueError(f"there is no check {name!r}. {hint or f'There are {_listed(known.values())}.'}")
+
+
+def _listed(checks: Iterable[Check]) -> str:
+    return enumerated(each.name for each in checks)

@@ -1,0 +1,129 @@
+"""Expectations about messages: how often they come, what is in them, and whether one answers another."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from ..words import count, number
+from .exam import Exam, Heard, field
+from .registry import Expectation
+from .rows import CannotLook, Seen
+
+Judge = Callable[[list[Heard]], Seen]
+
+
+def rate(topic: str, type_name: str, hz: float, within: float = 0.010, seconds: float = 3.0) -> Expectation:
+    """Messages at a rate: every interval (s) between two of them is 1/hz, give or take `within`."""
+
+    def look(exam: Exam) -> Seen:
+        return judge_rate(exam.hear(topic, type_name, seconds), hz, within, len(exam.publishers(topic)))
+
+    milliseconds = f"{number(1000 / hz, 0)} ms ± {number(1000 * within, 0)} ms"
+    return Expectation(f"{topic}: a message every {milliseconds}", look)
+
+
+def judge_rate(heard: Sequence[Heard], hz: float, within: float, publishers: int = 1) -> Seen:
+    """Whether these messages come at a rate, and what to do if not."""
+    gaps = [after.at - before.at for before, after in itertools.pairwise(heard)]
+    if not gaps:
+        step = f"Is the timer there, and does its callback publish? create_timer({1 / hz:g}, self.on_timer)."
+        return Seen(False, f"{count(len(heard), 'message')} in that time", step)
+    low, high = min(gaps), max(gaps)
+    mean = math.fsum(gaps) / len(gaps)
+    seen = f"every {number(1000 * mean, 1)} ms ({number(1 / mean, 1) if mean else 'infinite'} Hz)"
+    if round(high - low, 4):
+        seen += f", from {number(1000 * low, 1)} to {number(1000 * high, 1)} ms"
+    good = abs(low - 1 / hz) <= within + 1e-9 and abs(high - 1 / hz) <= within + 1e-9
+    if publishers > 1:
+        return Seen(False, f"{seen}, from {publishers} publishers", "Only one should publish here: stop the other.")
+    return Seen(good, seen, _how_to_pace(mean, hz, high - low > within))
+
+
+def _how_to_pace(mean: float, hz: float, uneven: bool) -> str:
+    if uneven:
+        return "Something holds the timer's callback up: it should do a little and return, without time.sleep."
+    return f"The timer's period is in seconds: create_timer({1 / hz:g}, …) for {hz:g} Hz."
+
+
+def messages(topic: str, type_name: str, expected: str, judge: Judge, seconds: float = 2.0) -> Expectation:
+    """Whatever a function judges of the messages that come in some seconds (at least one, or nobody looks)."""
+
+    def look(exam: Exam) -> Seen:
+        return judge(some(exam, topic, type_name, seconds))
+
+    return Expectation(expected, look)
+
+
+def some(exam: Exam, topic: str, type_name: str, seconds: float) -> list[Heard]:
+    """The messages of some seconds. Raises CannotLook where none comes."""
+    heard = exam.hear(topic, type_name, seconds)
+    if not heard:
+        raise CannotLook(f"no message came on {topic} in {number(seconds, 1)} s")
+    return heard
+
+
+def in_range(
+    topic: str, type_name: str, path: str, low: float, high: float, seconds: float = 2.0, next_step: str = ""
+) -> Expectation:
+    """A field such as "battery" stays within limits, both included, in every message."""
+
+    def judge(heard: list[Heard]) -> Seen:
+        values = [field(each.message, path) for each in heard]
+        bad = [value for value in values if not low <= value <= high]
+        if bad:
+            return Seen(False, f"{number(float(bad[0]), 3)}", next_step)
+        return Seen(True, f"from {number(float(min(values)))} to {number(float(max(values)))}")
+
+    return messages(topic, type_name, f"{topic}: {path} from {low:g} to {high:g}", judge, seconds)
+
+
+def steps(
+    topic: str, type_name: str, path: str, step: float, seconds: float = 3.0, within: float = 1e-4
+) -> Expectation:
+    """A field changes by the same amount from each message to the next."""
+
+    def judge(heard: list[Heard]) -> Seen:
+        values = [float(field(each.message, path)) for each in heard]
+        changes = [after - before for before, after in itertools.pairwise(values)]
+        if not changes:
+            raise CannotLook(f"one message of {topic} shows no change")
+        wrong = [change for change in changes if abs(change - step) > within]
+        if not wrong:
+            return Seen(True, f"from {values[0]:g} to {values[-1]:g} in {count(len(values), 'message')}")
+        seen = f"a change of {wrong[0]:g}"
+        return Seen(False, seen, f"Change it by {step:g} in the timer's callback, once for each message.")
+
+    return messages(topic, type_name, f"{topic}: {path} changes by {step:g} a message", judge, seconds)
+
+
+def relays(
+    heard_on: str,
+    heard_type: str,
+    said_on: str,
+    said_type: str,
+    pairs: Sequence[tuple[dict[str, Any], Callable[[Any], bool], str]],
+    next_step: str = "",
+    timeout: float = 1.0,
+) -> Expectation:
+    """Each message that is put on one topic is answered on another within the timeout (s).
+
+    `pairs`: the fields to send, whether a message is the right answer, and both in words ("21 → 42").
+    """
+    said = ", ".join(words for _, _, words in pairs)
+
+    def look(exam: Exam) -> Seen:
+        if not exam.subscriptions(heard_on):
+            raise CannotLook(f"nobody listens to {heard_on}")
+        for fields, right, words in pairs:
+            answers = exam.listen(said_on, said_type)
+            before = len(answers)
+            exam.publish(heard_on, heard_type, **fields)
+            if not exam.wait_for(lambda start=before: any(right(each.message) for each in answers[start:]), timeout):
+                came = count(len(answers) - before, "other message")
+                return Seen(False, f"{words}: not within {timeout:g} s; {came} came", next_step)
+        return Seen(True, f"{said}")
+
+    return Expectation(f"{heard_on} is answered on {said_on}", look)

@@ -1,0 +1,265 @@
+"""Predictions: a reader's guess before something is run, and afterwards guess and outcome side by side.
+
+Guesses live as long as the kernel. They are in no file, so that a page says the same whenever it is run from its top.
+"""
+
+from __future__ import annotations
+
+import html
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from numbers import Real
+from typing import TYPE_CHECKING, Any, Protocol
+
+from .track import WORLD
+from .words import listed, number
+
+if TYPE_CHECKING:
+    from .widgets.prediction import PredictionWidget
+
+NO_GUESS = "no guess yet"
+
+
+class Kind(Protocol):
+    """What is guessed: it reads values, says them in words, and compares two."""
+
+    name: str
+
+    def read(self, value: Any) -> Any:
+        """The value as it is kept. Raises ValueError, in words, for what it cannot be."""
+        ...
+
+    def shown(self, value: Any) -> str:
+        """A value in words."""
+        ...
+
+    def compared(self, guess: Any, value: Any) -> str:
+        """How near a guess was."""
+        ...
+
+
+@dataclass(frozen=True)
+class Choice:
+    """One of several texts."""
+
+    choices: tuple[str, ...]
+    name: str = "choice"
+
+    def read(self, value: Any) -> str:
+        """One of the texts, letter by letter."""
+        if value not in self.choices:
+            raise ValueError(f"{value!r} is not among the choices: {listed([repr(each) for each in self.choices])}.")
+        return value
+
+    def shown(self, value: Any) -> str:
+        """The text."""
+        return str(value)
+
+    def compared(self, guess: Any, value: Any) -> str:
+        """Right, or not."""
+        return "That is it." if guess == value else "It came out differently: why?"
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number with a unit."""
+
+    unit: str
+    name: str = "number"
+
+    def read(self, value: Any) -> float:
+        """A finite number; what was typed may have a decimal comma and a true minus sign."""
+        if isinstance(value, str):
+            value = _typed(value)
+        if isinstance(value, bool) or not isinstance(value, Real) or not math.isfinite(value):
+            raise ValueError(f"A number{f' in {self.unit}' if self.unit else ''} is asked for, got {value!r}.")
+        return float(value)
+
+    def shown(self, value: Any) -> str:
+        """The number, with at most three decimals, and its unit."""
+        text = number(value, 3).rstrip("0").rstrip(".")
+        return f"{text} {self.unit}".rstrip()
+
+    def compared(self, guess: Any, value: Any) -> str:
+        """The difference, and its share of the true value."""
+        off = abs(guess - value)
+        if self.shown(guess) == self.shown(value):
+            return "That is it."
+        share = f", {number(100 * off / abs(value), 0)} %" if value else ""
+        return f"{self.shown(off)} off{share}."
+
+
+@dataclass(frozen=True)
+class Point:
+    """A place on the turtle's map, m."""
+
+    name: str = "point"
+
+    def read(self, value: Any) -> tuple[float, float]:
+        """Two finite numbers, the first two of a longer tuple, or what has x and y."""
+        if hasattr(value, "x") and hasattr(value, "y"):
+            value = (value.x, value.y)
+        try:
+            x, y = (float(each) for each in tuple(value)[:2])
+        except (TypeError, ValueError):
+            raise ValueError(f"A point is two numbers in metres, such as (8, 3), got {value!r}.") from None
+        if not (math.isfinite(x) and math.isfinite(y)):
+            raise ValueError(f"A point is two finite numbers in metres, got {value!r}.")
+        return x, y
+
+    def shown(self, value: Any) -> str:
+        """Both, with their unit."""
+        x, y = value
+        return f"({number(x)}, {number(y)}) m"
+
+    def compared(self, guess: Any, value: Any) -> str:
+        """How far apart they are."""
+        return f"{number(math.dist(guess, value))} m off."
+
+
+def _typed(text: str) -> Any:
+    try:
+        return float(text.strip().replace("−", "-").replace(",", "."))
+    except ValueError:
+        return text
+
+
+def kind_of(choices: Sequence[str], unit: str | None, on_map: bool) -> Kind:
+    """What is guessed. Raises ValueError unless just one of the three is given."""
+    if [bool(choices), unit is not None, on_map].count(True) != 1:
+        raise ValueError(
+            'give just one of choices=["…", "…"], unit="m" (a number; "" for none) and on_map=True (a point), so that '
+            "a guess can be recorded"
+        )
+    if choices:
+        return Choice(tuple(map(str, choices)))
+    return Point() if on_map else Number(str(unit))
+
+
+@dataclass
+class Question:
+    """A question, the guess (None as long as there is none) and the outcome (None until it is told)."""
+
+    name: str
+    question: str
+    kind: Kind
+    guess: Any = None
+    outcome: Any = None
+
+    @property
+    def open(self) -> bool:
+        """Whether the outcome is not known yet, so that a guess is one."""
+        return self.outcome is None
+
+    def answer(self, guess: Any) -> None:
+        """Record a guess. Raises ValueError for what it cannot be, and when the outcome is known."""
+        if not self.open:
+            raise ValueError("The outcome is known by now. Run the cell of the question again to guess anew.")
+        self.guess = self.kind.read(guess)
+
+    def text(self) -> str:
+        """Question and guess in a sentence."""
+        guess = f"your guess: {self.kind.shown(self.guess)}" if self.guess is not None else NO_GUESS
+        options = f" ({' / '.join(self.kind.choices)})" if isinstance(self.kind, Choice) else ""
+        return f"{self.question}{options} – {guess}."
+
+
+_questions: dict[str, Question] = {}
+
+
+def ask(name: str, question: str, kind: Kind, guess: Any = None) -> Asked:
+    """Put a question, or show it again. One whose outcome is known, or whose words have changed, begins anew."""
+    found = _questions.get(name)
+    if found is None or not found.open or (found.question, found.kind) != (question, kind):
+        found = _questions[name] = Question(name, question, kind)
+    if guess is not None:
+        found.answer(guess)
+    return Asked(found)
+
+
+def tell(name: str, value: Any) -> Outcome:
+    """Say what came of it. Raises ValueError for a name that was never asked, and for a value that is none."""
+    if name not in _questions:
+        from .widgets.typed_names import did_you_mean, enumerated
+
+        hint = did_you_mean(str(name), _questions) or f"Asked were: {enumerated(_questions)}."
+        raise ValueError(f"nothing was asked under the name {name!r}. {hint} Run the cell with lesson.predict first.")
+    found = _questions[name]
+    found.outcome = found.kind.read(value)
+    return Outcome(found)
+
+
+class Asked:
+    """What `lesson.predict` gives: in a notebook a small widget, everywhere a sentence."""
+
+    def __init__(self, question: Question) -> None:
+        self.question = question
+        self._widget: PredictionWidget | None = None
+
+    def __repr__(self) -> str:
+        return self.question.text()
+
+    @property
+    def widget(self) -> PredictionWidget:
+        """The widget on which the guess is given."""
+        if self._widget is None:
+            from .widgets.prediction import PredictionWidget
+
+            self._widget = PredictionWidget(self.question)
+        return self._widget
+
+    def _repr_mimebundle_(self, **options: Any) -> Any:
+        return self.widget._repr_mimebundle_(**options)
+
+
+class Outcome:
+    """Guess and outcome side by side."""
+
+    def __init__(self, question: Question) -> None:
+        kind = question.kind
+        self.title = question.question
+        self.guess = kind.shown(question.guess) if question.guess is not None else NO_GUESS
+        self.outcome = kind.shown(question.outcome)
+        self.verdict = kind.compared(question.guess, question.outcome) if question.guess is not None else ""
+        self._points = (question.guess, question.outcome) if isinstance(kind, Point) else None
+
+    def __repr__(self) -> str:
+        return "\n".join(
+            filter(None, [self.title, f"  your guess: {self.guess}", f"  outcome:    {self.outcome}", self.verdict and f"  {self.verdict}"])
+        )
+
+    def _repr_html_(self) -> str:
+        cell = 'style="text-align: left; vertical-align: top; white-space: normal"'
+        cells = "".join(f"<td {cell}><strong>{html.escape(each)}</strong></td>" for each in (self.guess, self.outcome))
+        picture = _map(*self._points) if self._points else ""
+        return (
+            f"<p>{html.escape(self.title)}</p><table><thead><tr><th {cell}>your guess</th><th {cell}>outcome</th></tr></thead>"
+            f"<tbody><tr>{cells}</tr></tbody></table>{picture}<p>{html.escape(self.verdict)}</p>"
+        )
+
+
+SIDE = 220
+"""Pixels of the little map."""
+
+
+def _map(guess: tuple[float, float] | None, outcome: tuple[float, float]) -> str:
+    """The world with a ring where the guess was and a disc where it ended, in the page's own colours."""
+
+    def place(point: tuple[float, float]) -> tuple[str, str]:
+        x, y = (max(0.0, min(WORLD, each)) * SIDE / WORLD for each in point)
+        return number(x, 1), number(SIDE - y, 1)
+
+    x, y = place(outcome)
+    marks = f'<circle cx="{x}" cy="{y}" r="6" fill="currentColor"/>'
+    if guess is not None:
+        gx, gy = place(guess)
+        marks += (
+            f'<circle cx="{gx}" cy="{gy}" r="8" fill="none" stroke="#d55e00" stroke-width="3"/>'
+            f'<line x1="{gx}" y1="{gy}" x2="{x}" y2="{y}" stroke="currentColor" stroke-dasharray="4 4" opacity="0.6"/>'
+        )
+    label = "Map: a ring for your guess, a disc for the outcome" if guess is not None else "Map: a disc for the outcome"
+    return (
+        f'<svg role="img" aria-label="{label}" width="{SIDE}" height="{SIDE}" viewBox="-2 -2 {SIDE + 4} {SIDE + 4}">'
+        f'<rect width="{SIDE}" height="{SIDE}" fill="none" stroke="currentColor" opacity="0.6"/>{marks}</svg>'
+    )

@@ -1,0 +1,178 @@
+"""The points of a learner over all pages, in one small file beside the notebooks. No account, no network.
+
+What was earned once stays. The file is read anew before each change, so that two notebooks at once lose nothing; one that
+cannot be read is kept under another name, and said so.
+"""
+
+from __future__ import annotations
+
+import html
+import json
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from .checks.registry import Check
+from .checks.result import CheckResult
+from .words import count
+
+FILE = ".turtle_lesson_progress.json"
+VARIABLE = "TURTLE_LESSON_PROGRESS"
+"""Environment variable: another file, or "off" to keep points only as long as the kernel lives (for tests of pages)."""
+
+FORMAT = 1
+BAR = 20
+
+
+class ProgressFile:
+    """Best points for each check, kept in a file; in memory alone where `path` is None."""
+
+    def __init__(self, path: Path | None) -> None:
+        self.path = path
+        self._points: dict[str, int] = {}
+        self.remark = ""
+        """What went wrong with the file, as a sentence; "" if nothing did."""
+
+    def note(self, result: CheckResult) -> None:
+        """Keep what a check has earned, if it is more than before."""
+        if result.earned > self.points().get(result.name, 0):
+            self._points[result.name] = result.earned
+            self._write()
+
+    def points(self) -> dict[str, int]:
+        """Earned points by the name of the check."""
+        for name, points in self._read().items():
+            self._points[name] = max(points, self._points.get(name, 0))
+        return dict(self._points)
+
+    def _read(self) -> dict[str, int]:
+        if self.path is None or not self.path.is_file():
+            return {}
+        try:
+            return _points_in(json.loads(self.path.read_text(encoding="utf-8")))
+        except OSError as error:
+            self.remark = f"{self.path.name} cannot be read ({error.strerror}); points are only kept until the kernel ends."
+        except (ValueError, RecursionError):
+            self._set_aside()
+        return {}
+
+    def _set_aside(self) -> None:
+        assert self.path is not None
+        aside = unused(self.path.with_name(f"{self.path.name}.broken"))
+        try:
+            self.path.rename(aside)
+            self.remark = f"{self.path.name} was damaged. It is kept as {aside.name}, and a new one was begun."
+        except OSError:
+            self.remark = f"{self.path.name} is damaged and cannot be replaced."
+
+    def _write(self) -> None:
+        if self.path is None:
+            return
+        content = {"format": FORMAT, "points": dict(sorted(self._points.items()))}
+        beside = self.path.with_name(f"{self.path.name}.{os.getpid()}")
+        try:
+            beside.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
+            beside.replace(self.path)
+        except OSError as error:
+            beside.unlink(missing_ok=True)
+            self.remark = f"{self.path.name} cannot be written ({error.strerror}); points are only kept until the kernel ends."
+
+
+def _points_in(content: Any) -> dict[str, int]:
+    points = content["points"] if isinstance(content, dict) and content.get("format") == FORMAT else None
+    if not isinstance(points, dict) or not all(type(each) is int and each >= 0 for each in points.values()):
+        raise ValueError("not a file of points")
+    return points
+
+
+def unused(path: Path) -> Path:
+    """The first of path-1, path-2, … that is not there yet."""
+    number = 1
+    while (found := path.with_name(f"{path.name}-{number}")).exists():
+        number += 1
+    return found
+
+
+def progress_file(folder: Path) -> ProgressFile:
+    """The file of a folder of notebooks, or what the environment says instead."""
+    said = os.environ.get(VARIABLE, "")
+    if said.lower() == "off":
+        return ProgressFile(None)
+    return ProgressFile(Path(said) if said else folder / FILE)
+
+
+# -- shown -------------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class PageScore:
+    """One page: points earned and to be had, and the checks that are still open."""
+
+    page: str
+    earned: int
+    points: int
+    open: tuple[str, ...]
+
+
+class Progress:
+    """Points over all pages, as a table."""
+
+    def __init__(self, checks: Iterable[Check], earned: dict[str, int], remark: str = "") -> None:
+        self.remark = remark
+        by_page: dict[str, list[Check]] = {}
+        for each in checks:
+            by_page.setdefault(each.page, []).append(each)
+        self.pages = [_score(page, of_page, earned) for page, of_page in by_page.items()]
+
+    @property
+    def earned(self) -> int:
+        """Points earned."""
+        return sum(each.earned for each in self.pages)
+
+    @property
+    def points(self) -> int:
+        """Points to be had."""
+        return sum(each.points for each in self.pages)
+
+    @property
+    def headline(self) -> str:
+        """All in one line."""
+        return f"{self.earned} of {count(self.points, 'point')}."
+
+    def __repr__(self) -> str:
+        wide = max((len(each.page) for each in self.pages), default=0)
+        lines = [
+            f"  {each.page.ljust(wide)}  {_bar(each)}  {each.earned:2} of {each.points:2}  {_open(each)}".rstrip()
+            for each in self.pages
+        ]
+        return "\n".join(filter(None, [self.headline, *lines, self.remark]))
+
+    def _repr_html_(self) -> str:
+        cell = 'style="text-align: left; white-space: nowrap"'
+        rows = "".join(
+            f"<tr><td {cell}>{each.page}</td>"
+            f'<td {cell}><meter min="0" max="{each.points}" value="{each.earned}">{each.earned} of {each.points}</meter></td>'
+            f"<td {cell}>{each.earned} of {each.points}</td><td {cell}>{html.escape(_open(each))}</td></tr>"
+            for each in self.pages
+        )
+        remark = f"<p>{html.escape(self.remark)}</p>" if self.remark else ""
+        head = f"<tr><th {cell}>page</th><th></th><th {cell}>points</th><th {cell}>open</th></tr>"
+        table = f"<table><thead>{head}</thead><tbody>{rows}</tbody></table>"
+        return f"<p><strong>{self.headline}</strong></p>{table}{remark}"
+
+
+def _score(page: str, checks: list[Check], earned: dict[str, int]) -> PageScore:
+    got = {each.name: min(earned.get(each.name, 0), each.points) for each in checks}
+    still = tuple(each.name for each in checks if got[each.name] < each.points)
+    return PageScore(page, sum(got.values()), sum(each.points for each in checks), still)
+
+
+def _bar(score: PageScore) -> str:
+    done = BAR * score.earned // score.points
+    return "█" * done + "·" * (BAR - done)
+
+
+def _open(score: PageScore) -> str:
+    return f"open: {', '.join(score.open)}" if score.open else "done"

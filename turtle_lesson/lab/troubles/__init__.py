@@ -1,0 +1,11 @@
+"""Trouble on purpose: a system that is broken by public means, a user's report of it, and whether it is mended.
+
+Each trouble is a symptom with several faults behind it; a seed chooses one. Faults are what happens on robots: a node
+that was not started, a remapping, a parameter, a quality of service, a type, a bug in a node of `robot_draft`.
+"""
+
+from .case import Case, current_expectations, open_case
+from .cases import TROUBLES
+from .model import Fault, Program, Stage, Trouble
+
+__all__ = ["TROUBLES", "Case", "Fault", "Program", "Stage", "Trouble", "current_expectations", "open_case"]

@@ -1,0 +1,61 @@
+"""A question on a page, and the guess: buttons for choices, a field for a number, a map for a point."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
+
+import traitlets
+
+from ..track import WORLD
+from .live_widget import LiveWidget, script, styles
+from .loop import Loop
+
+if TYPE_CHECKING:
+    from ..predictions import Question
+
+
+class PredictionWidget(LiveWidget):
+    """Needs no system: its station is only the notebook's loop, and never ends."""
+
+    question = traitlets.Unicode().tag(sync=True)
+    kind = traitlets.Unicode().tag(sync=True)
+    """"choice", "number" or "point"."""
+    choices = traitlets.List(traitlets.Unicode()).tag(sync=True)
+    unit = traitlets.Unicode().tag(sync=True)
+    world = traitlets.Float(WORLD).tag(sync=True)
+    """Side of the map, m."""
+    guess: Any = traitlets.Any(None, allow_none=True).tag(sync=True)
+    """The guess as it was recorded: a text, a number, [x, y], or None."""
+    open = traitlets.Bool(True).tag(sync=True)
+    """Whether a guess can still be given."""
+
+    def __init__(self, question: Question) -> None:
+        self._esm = script("dom", "small", "prediction")
+        self._css = styles("base", "small", "prediction")
+        self._asked = question
+        station: Any = SimpleNamespace(loop=Loop(), ended=False)
+        kind = question.kind
+        super().__init__(
+            station,
+            question=question.question,
+            kind=kind.name,
+            choices=list(getattr(kind, "choices", ())),
+            unit=getattr(kind, "unit", ""),
+        )
+        self.tick()
+
+    def tick(self) -> None:
+        """Show what was recorded, also by another view or by code."""
+        guess = self._asked.guess
+        self.guess = list(guess) if isinstance(guess, tuple) else guess
+        self.open = self._asked.open
+
+    def do_guess(self, value: Any) -> None:
+        """Record a guess."""
+        self._asked.answer(value)
+        self.words = f"Recorded: {self._asked.kind.shown(self._asked.guess)}. You can change it until it is run."
+
+    def text(self) -> str:
+        """The question and the guess."""
+        return self._asked.text()

@@ -1,0 +1,179 @@
+"""A node of any rclpy whose callbacks all happen in one event loop, whichever thread it is spun in."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from functools import wraps
+from typing import Any
+
+from rclpy.context import Context
+from rclpy.node import Node
+from rclpy.subscription import Subscription
+
+Action = Callable[..., object]
+Hop = Callable[..., object]
+"""Called with an action and its arguments, has the loop call that action."""
+
+LISTS = (
+    "get_node_names_and_namespaces",
+    "get_topic_names_and_types",
+    "get_service_names_and_types",
+    "get_publishers_info_by_topic",
+    "get_subscriptions_info_by_topic",
+    "get_publisher_names_and_types_by_node",
+    "get_subscriber_names_and_types_by_node",
+    "get_service_names_and_types_by_node",
+    "get_client_names_and_types_by_node",
+)
+COUNTS = ("count_publishers", "count_subscribers")
+"""What a node can be asked of the graph."""
+
+TELLS_TIMES = hasattr(Subscription, "CallbackType")
+"""Whether this rclpy gives a callback with two arguments the message's times: since Iron. Humble's only takes one."""
+
+
+class LabNode(Node):
+    """The lab's hidden node, `/_lab`: it offers no parameters and writes no log.
+
+    Nothing is called after it was destroyed, although its thread may have had it in hand already: whoever destroys and
+    creates in the loop sees what a node that is spun in the loop would show.
+    """
+
+    hears_times = True
+    """Callbacks with two arguments are told a message's time, whatever the rclpy (see lab/channel.py)."""
+
+    def __init__(self, context: Context, hop: Hop) -> None:
+        self._lab_hop = hop  # first, since a Node makes some things of its own while it is made
+        self._lab_lives: dict[Any, Life] = {}
+        super().__init__(
+            "_lab", context=context, use_global_arguments=False, enable_rosout=False, start_parameter_services=False
+        )
+
+    # -- what is made ------------------------------------------------------------------------------------------------
+
+    def create_subscription(self, msg_type: Any, topic: str, callback: Action, *more: Any, **options: Any) -> Any:
+        """As every node's, but `callback(message, info)` works everywhere; info has at least `source_timestamp` (ns)."""
+        life = Life(self._lab_hop)
+        hear = self._hearing(callback, life)
+        return self._keep(super().create_subscription(msg_type, topic, hear, *more, **options), life)
+
+    def create_timer(self, timer_period_sec: float, callback: Action, *more: Any, **options: Any) -> Any:
+        """As every node's. Ticks for which the loop had no time are left out, as an executor leaves them out."""
+        life = Life(self._lab_hop)
+        return self._keep(super().create_timer(timer_period_sec, _beating(callback, life), *more, **options), life)
+
+    def create_client(self, srv_type: Any, srv_name: str, *more: Any, **options: Any) -> Any:
+        """As every node's; its futures, too, call back in the loop."""
+        life = Life(self._lab_hop)
+        client: Any = super().create_client(srv_type, srv_name, *more, **options)
+        client.call_async = _asking(client.call_async, life)
+        return self._keep(client, life)
+
+    # -- what is taken away ------------------------------------------------------------------------------------------
+
+    def destroy_subscription(self, subscription: Any) -> bool:
+        """As every node's."""
+        self._end(subscription)
+        return super().destroy_subscription(subscription)
+
+    def destroy_timer(self, timer: Any) -> bool:
+        """As every node's."""
+        self._end(timer)
+        return super().destroy_timer(timer)
+
+    def destroy_client(self, client: Any) -> bool:
+        """As every node's."""
+        self._end(client)
+        return super().destroy_client(client)
+
+    def destroy_node(self) -> None:
+        """As every node's. Who asks about the graph afterwards, such as an old widget that is shown again, finds nobody."""
+        super().destroy_node()
+        for name in LISTS:
+            setattr(self, name, _no_list)
+        for name in COUNTS:
+            setattr(self, name, _none)
+
+    # -- the machinery -----------------------------------------------------------------------------------------------
+
+    def _keep(self, entity: Any, life: Life) -> Any:
+        self._lab_lives[entity] = life
+        return entity
+
+    def _end(self, entity: Any) -> None:
+        life = self._lab_lives.pop(entity, None)
+        if life is not None:
+            life.over = True
+
+    def _hearing(self, callback: Action, life: Life) -> Action:
+        """A callback that takes as many arguments as this rclpy looks for."""
+        if _takes_one(callback):
+            return lambda message: life.hop(callback, message)
+        if TELLS_TIMES:
+            return lambda message, info: life.hop(callback, message, info)
+        clock = self.get_clock()  # read here, in the spinning thread: the loop may be busy for long
+        return lambda message: life.hop(callback, message, {"source_timestamp": clock.now().nanoseconds})
+
+
+class Life:
+    """The life of a subscription, a timer or a client: what it calls back hops to the loop, until it is over."""
+
+    def __init__(self, hop: Hop) -> None:
+        self._hop = hop
+        self.over = False
+
+    def hop(self, action: Action, *arguments: Any, **keywords: Any) -> None:
+        """Have the loop call the action, unless all is over by then."""
+        self._hop(self._call, action, arguments, keywords)
+
+    def _call(self, action: Action, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> None:
+        if not self.over:
+            action(*arguments, **keywords)
+
+
+def _no_list(*arguments: Any, **options: Any) -> list[Any]:
+    return []
+
+
+def _none(*arguments: Any, **options: Any) -> int:
+    return 0
+
+
+def _takes_one(callback: Action) -> bool:
+    """Whether a callback can be called with a message alone: rclpy's own question."""
+    try:
+        inspect.signature(callback).bind(object())
+    except TypeError:
+        return False
+    return True
+
+
+def _beating(callback: Action, life: Life) -> Action:
+    """`wraps`, since newer rclpy looks whether the callback wants a TimerInfo, which it passes by keyword."""
+    waiting = False
+
+    @wraps(callback)
+    def beat(**info: Any) -> None:
+        nonlocal waiting
+        if not waiting:
+            waiting = True
+            life.hop(call, **info)
+
+    def call(**info: Any) -> None:
+        nonlocal waiting
+        waiting = False
+        callback(**info)
+
+    return beat
+
+
+def _asking(ask: Callable[..., Any], life: Life) -> Callable[..., Any]:
+    @wraps(ask)
+    def call_async(*request: Any, **options: Any) -> Any:
+        future = ask(*request, **options)
+        add = future.add_done_callback
+        future.add_done_callback = lambda action: add(lambda done: life.hop(action, done))
+        return future
+
+    return call_async
