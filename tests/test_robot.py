@@ -176,3 +176,14 @@ def test_where_a_real_ros_is_sourced_start_points_to_connect():
     program = "import turtle_lesson; turtle_lesson.start()"
     run = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, timeout=60)
     assert "a real ROS 2 is sourced here" in run.stderr and "turtle_lesson.connect()" in run.stderr
+
+
+@pytest.mark.parametrize(("path", "found"), [((HERE.parent,), "True"), ((STANDIN, HERE.parent), "False")])
+def test_the_simulated_commands_are_left_out_where_there_are_real_ones(path, found):
+    program = (
+        "from IPython.core.interactiveshell import InteractiveShell; shell = InteractiveShell.instance(); "
+        "shell.run_line_magic('load_ext', 'turtle_lesson'); print('ros2' in shell.magics_manager.magics['line'])"
+    )
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(map(str, path))}
+    run = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, timeout=60)
+    assert run.stdout.strip() == found, run.stderr

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import sys
+from typing import TYPE_CHECKING, Any
 
-from .sourced import HERE
+from .ros.core import NANOSECONDS
 
 if TYPE_CHECKING:
+    from .lab.checks import CheckResult
     from .lab.graph import GraphPicture
     from .lab.picture import Picture
-    from .lab.checks import CheckResult
+    from .lab.prompts import Prompt
     from .lab.recorder import Recorder
     from .lab.troubles import Case
     from .ros.trace import Trace
     from .ros.world import World
-
-FINISHED = HERE / "robot_controller"
 
 
 class Insight:
@@ -29,9 +29,6 @@ class Insight:
 
     def check(self, name: str) -> CheckResult:
         """Look at the running system: see `Desk.check`."""
-        raise NotImplementedError
-
-    def _install_finished(self) -> None:
         raise NotImplementedError
 
     @property
@@ -72,7 +69,56 @@ class Insight:
             name: one of `turtle_lesson.lab.troubles.TROUBLES`, such as "turtle stands still".
         """
         from .lab.troubles import open_case
+        from .lesson import FINISHED, _install
         from .stage import WorldStage
 
-        stage = WorldStage(self._world, self._install_finished, FINISHED)
+        stage = WorldStage(self._world, lambda: _install(self._world, FINISHED), FINISHED)
         return open_case(stage, seed, name, lambda: self.check("trouble"))
+
+    def prompt_for(self, kind: str, *, code: Any = None, lines: int = 12) -> Prompt:
+        """A text to copy into any chat with an assistant: specification, code, error, graph and log. Nothing is sent.
+
+        Args:
+            kind: "debugging" or "code review".
+            code: what it is about: the path of a file or folder, a class, a function, a node, a text, or a list of these.
+                Unless told, the learner's own package robot_controller, if there is one.
+            lines: how many of the log's last lines.
+
+        The error is the last one of this notebook, and of each program that ended with one.
+        """
+        from .lab.code_of import code_of
+        from .lab.graph import plot_graph
+        from .lab.prompts import compose
+
+        texts = code_of(self._own_package() if code is None else code)
+        graph = plot_graph(self._recording.node).text
+        log = [_log_line(*line) for line in list(self._trace.log)[-lines:]] if lines > 0 else []
+        return compose(kind, texts, self._errors(), graph, log, self._trace.now / NANOSECONDS)
+
+    def _own_package(self) -> list[Any]:
+        """The folder of the learner's robot_controller; nothing while there is only the finished one, or none."""
+        from .lesson import FINISHED
+
+        if "robot_controller" not in self._world.packages:
+            return []
+        source = self._world.packages.get("robot_controller").source
+        return [source] if source is not None and source.resolve() != FINISHED else []
+
+    def _errors(self) -> str:
+        """The notebook's last error, and those that ended programs, as Python prints them."""
+        from .ros.core.tracebacks import format_error
+
+        ended = [(each.name, each.error) for each in self._world.processes if each.error is not None]
+        texts = [f"The program {name} ended with:\n{format_error(error)}" for name, error in ended]
+        last = getattr(sys, "last_value", None)
+        if isinstance(last, Exception) and all(last is not error for _, error in ended):
+            texts.append(format_error(last))
+        return "\n".join(texts)
+
+
+def _log_line(time: int, level: int, name: str, text: str) -> str:
+    """One line of the log as the terminal shows it, with seconds of robot time."""
+    from .lab.words import number
+
+    word = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}.get(level, str(level))
+    return f"[{word}] [{number(time / NANOSECONDS, 3)}] [{name}]: {text}"

@@ -17,7 +17,7 @@ from .ros.core import EPOCH, NANOSECONDS
 from .ros.interfaces.registry import registry
 from .ros.workspace.package import Package, read_source_package
 from .ros.workspace.source import make_importable
-from .ros.world import World, open_world
+from .ros.world import World, open_world, wall_time
 from .shelf import Shelf
 from .sourced import HERE, real_ros
 
@@ -111,7 +111,7 @@ def _install(world: World, folder: Path) -> None:
         registry.add(package.name, folder, package.interfaces)
 
 
-class Lesson(Insight, Shelf, Desk):
+class Lesson(Shelf, Desk, Insight):
     """A running world, and what a page does with it. Times are in seconds of robot time."""
 
     def __init__(self, world: World, *, simulator: bool = True) -> None:
@@ -246,7 +246,8 @@ class Lesson(Insight, Shelf, Desk):
     def _board(self) -> ObstacleBoard:
         from .lab.obstacle_board import ObstacleBoard
 
-        return ObstacleBoard(self._recording)
+        # not by the node's clock: in a simulated world a look at that takes time
+        return ObstacleBoard(self._recording, lambda: wall_time(self._world))
 
     def _make_exam_place(self) -> ExamPlace:
         from .exam_place import ExamPlace

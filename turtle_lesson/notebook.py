@@ -6,15 +6,20 @@ from types import TracebackType
 from typing import Any
 
 from .ros.core.tracebacks import shorten
+from .sourced import real_ros
 
 
 def prepare(shell: Any) -> None:
-    """Have errors in cells shown without the frames of the simulated ROS 2, and `ros2 …` understood in cells."""
-    from .ros.command import magics
+    """Have errors in cells shown without the frames of the simulated ROS 2, and `ros2 …` understood in cells.
 
+    Where a real ROS 2 is sourced, its own commands are to be used: `!ros2 …`.
+    """
     shell.register_magic_function(solution, "cell")
     shell.set_custom_exc((Exception, KeyboardInterrupt), _show)
-    magics.install(shell)
+    if not real_ros():
+        from .ros.command import magics
+
+        magics.install(shell)
 
 
 def solution(line: str, cell: str) -> None:

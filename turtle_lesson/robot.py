@@ -43,7 +43,7 @@ def _check_real_ros() -> None:
     if real_ros() in ("", "nowhere"):
         raise RuntimeError(
             "there is no real ROS 2 here to connect to, only the simulated one. In a terminal: source "
-            "/opt/ros/humble/setup.bash (or that of your release), and start Jupyter from there. In the simulated world "
+            "/opt/ros/jazzy/setup.bash (or that of your release), and start Jupyter from there. In the simulated world "
             "the same widgets are to be had from: from turtle_lesson import start; lesson = start()"
         )
 

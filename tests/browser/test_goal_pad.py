@@ -225,8 +225,10 @@ def test_fifty_clicks_lose_none(pad: Pad) -> None:
     }"""
     pad.map.evaluate(clicks)
     expect(pad.states).to_have_count(50)
-    expect(pad.states.last).to_have_text("reached")
-    assert Counter(pad.states.all_inner_texts()) == {"reached": 1, "busy": 49}
+    expect(pad.states.filter(has_text="on its way")).to_have_count(0)
+    states = Counter(pad.states.all_inner_texts())
+    assert states["reached"] >= 1
+    assert states["reached"] + states["busy"] == 50
     assert [goal["number"] for goal in pad.ask("pad.goals")] == list(range(1, 51))
 
 

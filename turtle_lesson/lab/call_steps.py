@@ -30,13 +30,24 @@ class Step:
 
 
 def step_of(trace: Any, call: Any) -> Step:
+    """What the trace tells of a call: of those that a server received at one instant, the first was served first."""
+    same = [each for each in trace.calls if _received(each) == _received(call)]
+    place = same.index(call)
     for callback in trace.callbacks:
         if (callback.process, callback.node, callback.source) != (call.process, call.server, call.service):
             continue
-        for ready, began, ended in [*callback.ended, *((*run, None) for run in callback.open)]:
-            if ready == call.received:
-                return Step(call, callback.name, began, ended, _waited(trace, callback, began, ended or trace.now))
+        runs = [*callback.ended, *((*run, None) for run in callback.open)]
+        mine = sorted(
+            ((began, ended) for ready, began, ended in runs if ready == call.received), key=lambda run: run[0]
+        )
+        if place < len(mine):
+            began, ended = mine[place]
+            return Step(call, callback.name, began, ended, _waited(trace, callback, began, ended or trace.now))
     return Step(call, "", None, None, {})
+
+
+def _received(call: Any) -> tuple[Any, ...]:
+    return call.process, call.server, call.service, call.received
 
 
 def _waited(trace: Any, server: Any, began: int, ended: int) -> dict[str, tuple[int, int]]:

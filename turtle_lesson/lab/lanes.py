@@ -78,9 +78,7 @@ def window_of(now: int, since: float | None, until: float | None) -> Window:
 
 def _time(name: str, seconds: Any) -> int:
     if isinstance(seconds, bool) or not isinstance(seconds, Real) or not math.isfinite(seconds) or seconds < 0:
-        raise ValueError(
-            f"{name} must be a time in seconds since the lesson's start, got {seconds!r}: try {name}=10.0"
-        )
+        raise ValueError(f"{name} must be a time in seconds since the lesson's start, got {seconds!r}: try {name}=10.0")
     return round(float(seconds) * NANOSECONDS)
 
 
@@ -94,7 +92,9 @@ def lanes_of(
     Raises TypeError for what is no name, ValueError for one that is unknown, with the names that are perhaps meant.
     """
     nodes = list(dict.fromkeys(callback.node for callback in trace.callbacks))
-    topics = {topic for topic, _ in trace.published} | {each for each in known_topics if not is_hidden(each) and each not in EVERYWHERE}
+    topics = {topic for topic, _ in trace.published} | {
+        each for each in known_topics if not is_hidden(each) and each not in EVERYWHERE
+    }
     lanes: list[Lane] = []
     here = set(alive)
     for name in names or nodes:
@@ -176,7 +176,9 @@ def _callback_lanes(trace: Any, node: str, function: str, window: Window, alive:
         runs = np.concatenate([callback.runs(trace.now) for callback in callbacks])
         shown = runs[(runs["ended"] >= window.begin) & (runs["ready"] <= window.end)]
         waiting = _waiting(callbacks, trace.now, window) if alive else NOTHING
-        if len(shown) or len(waiting) or function or callbacks[0].kind != "service":  # a node has many services that nobody calls
+        if (
+            len(shown) or len(waiting) or function or callbacks[0].kind != "service"
+        ):  # a node has many services that nobody calls
             lanes.append(_callback_lane(name, called_by, callbacks, shown, waiting, window))
     return lanes
 
@@ -212,7 +214,8 @@ def _callback_lane(
     if going_on := sum(len(callback.open) for callback in callbacks):
         text += f"; {going_on} goes on" if going_on == 1 else f"; {going_on} go on"
     if len(waiting):
-        text += f"; {len(waiting)} {'waits' if len(waiting) == 1 else 'wait'} now, the first since {number(waiting[0, 0] / NANOSECONDS)} s"
+        first = number(waiting[0, 0] / NANOSECONDS)
+        text += f"; {len(waiting)} {'waits' if len(waiting) == 1 else 'wait'} now, the first since {first} s"
     bars = np.column_stack([began, runs["ended"]])[long].clip(window.begin, window.end)
     waits = np.column_stack([runs["ready"], began])[late]
     waits = np.concatenate([waits, waiting]).clip(window.begin, window.end)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from ..turtlesim.obstacles import WORLDS, Box, Circle, to_marker_array
@@ -24,8 +24,10 @@ class ObstacleBoard:
     the clock is paused it takes for ever: until it is heard, what was put up last counts.
     """
 
-    def __init__(self, recorder: Recorder) -> None:
+    def __init__(self, recorder: Recorder, now: Callable[[], int] | None = None) -> None:
+        """`now` tells the time, in ns since 1970, for whoever has a way to tell it without the node's clock."""
         self._recorder = recorder
+        self._now = now or (lambda: recorder.node.get_clock().now().nanoseconds)
         self._publisher: Any = None
         self._put: tuple[Obstacle, ...] = ()
         self._expected: dict[tuple[str, int], recording.Obstacle] = {}
@@ -38,7 +40,7 @@ class ObstacleBoard:
         if heard == self._expected:
             self._deadline = None
             return self._put
-        if self._deadline is not None and self._now().nanoseconds < self._deadline:
+        if self._deadline is not None and self._now() < self._deadline:
             return self._put
         return tuple(map(_heard, heard.values()))
 
@@ -47,12 +49,14 @@ class ObstacleBoard:
 
         Raises ValueError for a world that there is not, TypeError for what is no obstacle.
         """
+        from rclpy.time import Time
+
         self._put = _checked(obstacles)
         now = self._now()
-        message = to_marker_array(self._put, now.to_msg())
+        message = to_marker_array(self._put, Time(nanoseconds=now).to_msg())
         self._expected = {}
         apply(message, self._expected)
-        self._deadline = now.nanoseconds + PATIENCE
+        self._deadline = now + PATIENCE
         self._publish(message)
 
     def _publish(self, message: Any) -> None:
@@ -63,9 +67,6 @@ class ObstacleBoard:
             latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
             self._publisher = self._recorder.node.create_publisher(MarkerArray, OBSTACLE_TOPIC, latched)
         self._publisher.publish(message)
-
-    def _now(self) -> Any:
-        return self._recorder.node.get_clock().now()
 
 
 def _checked(obstacles: Iterable[Obstacle] | str) -> tuple[Obstacle, ...]:

@@ -24,7 +24,10 @@ NO_GUESS = "no guess yet"
 class Kind(Protocol):
     """What is guessed: it reads values, says them in words, and compares two."""
 
-    name: str
+    @property
+    def name(self) -> str:
+        """ "choice", "number" or "point"."""
+        ...
 
     def read(self, value: Any) -> Any:
         """The value as it is kept. Raises ValueError, in words, for what it cannot be."""
@@ -226,7 +229,15 @@ class Outcome:
 
     def __repr__(self) -> str:
         return "\n".join(
-            filter(None, [self.title, f"  your guess: {self.guess}", f"  outcome:    {self.outcome}", self.verdict and f"  {self.verdict}"])
+            filter(
+                None,
+                [
+                    self.title,
+                    f"  your guess: {self.guess}",
+                    f"  outcome:    {self.outcome}",
+                    self.verdict and f"  {self.verdict}",
+                ],
+            )
         )
 
     def _repr_html_(self) -> str:

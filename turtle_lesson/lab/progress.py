@@ -53,7 +53,9 @@ class ProgressFile:
         try:
             return _points_in(json.loads(self.path.read_text(encoding="utf-8")))
         except OSError as error:
-            self.remark = f"{self.path.name} cannot be read ({error.strerror}); points are only kept until the kernel ends."
+            self.remark = (
+                f"{self.path.name} cannot be read ({error.strerror}); points are only kept until the kernel ends."
+            )
         except (ValueError, RecursionError):
             self._set_aside()
         return {}
@@ -77,11 +79,13 @@ class ProgressFile:
             beside.replace(self.path)
         except OSError as error:
             beside.unlink(missing_ok=True)
-            self.remark = f"{self.path.name} cannot be written ({error.strerror}); points are only kept until the kernel ends."
+            self.remark = (
+                f"{self.path.name} cannot be written ({error.strerror}); points are only kept until the kernel ends."
+            )
 
 
 def _points_in(content: Any) -> dict[str, int]:
-    points = content["points"] if isinstance(content, dict) and content.get("format") == FORMAT else None
+    points = content.get("points") if isinstance(content, dict) and content.get("format") == FORMAT else None
     if not isinstance(points, dict) or not all(type(each) is int and each >= 0 for each in points.values()):
         raise ValueError("not a file of points")
     return points

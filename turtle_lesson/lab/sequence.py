@@ -18,9 +18,7 @@ MOST = 8
 """How many calls one diagram shows, the newest."""
 
 
-def plot_sequence(
-    trace: Any, *services: str, since: float | None = None, until: float | None = None
-) -> GraphPicture:
+def plot_sequence(trace: Any, *services: str, since: float | None = None, until: float | None = None) -> GraphPicture:
     """Return the newest calls of some services (of all but the parameters' if none is named) as a diagram and in words.
 
     `since` and `until` are in seconds since the lesson's start: when a call was asked.

@@ -21,8 +21,7 @@ def sequence_diagram(steps: Sequence[Step], title: str, description: str) -> str
     letters = {name: f"p{number}" for number, name in enumerate(names)}
     lines = [SETTINGS, "sequenceDiagram", f"accTitle: {_plain(title)}", f"accDescr: {_plain(description)}"]
     lines += [f"participant {letters[name]} as {_escaped(name)}" for name in names]
-    for time, _, line in sorted(_events(steps, letters), key=lambda event: event[:2]):
-        lines.append(line)
+    lines += [line for _, _, line in sorted(_events(steps, letters))]
     return "\n".join([*lines, ""])
 
 
@@ -45,7 +44,7 @@ def _events(steps: Sequence[Step], letters: dict[str, str]) -> list[Event]:
             events.append((call.asked, f"Note over {server}: {_label('waits: no callback has begun yet')}"))
             continue
         events.append((step.began, f"activate {server}"))
-        events.append((step.began, f"Note right of {server}: {_label(_begin(step))}"))
+        events.append((step.began, f"Note over {server}: {_label(_begin(step))}"))
         events += _end(step, caller, server)
     return [(time, order, line) for order, (time, line) in enumerate(events)]
 
@@ -59,11 +58,11 @@ def _end(step: Step, caller: str, server: str) -> list[tuple[int, str]]:
     call = step.call
     end = call.answered if call.answered is not None else 2**62
     events = [
-        (end, f"Note right of {server}: {_label(f'{name} waits {times}, at most {after(0, longest)}')}")
+        (end, f"Note over {server}: {_label(f'{name} waits {times}, at most {after(0, longest)}')}")
         for name, (times, longest) in waits_of(step)
     ]
     if call.answered is None:
-        return [*events, (end, f"Note right of {server}: {_label('no answer yet')}"), (end, f"deactivate {server}")]
+        return [*events, (end, f"Note over {server}: {_label('no answer yet')}"), (end, f"deactivate {server}")]
     answer = f"{clock(call.answered)}: answer after {after(call.asked, call.answered)}<br/>{fields(call.response)}"
     return [*events, (end, f"{server}-->>{caller}: {_label(answer)}"), (end, f"deactivate {server}")]
 

@@ -27,9 +27,7 @@ MOST = 24
 DARK_ORANGE = "#a86f00"
 
 
-def plot_timeline(
-    trace: Any, node: Any, *rows: str, since: float | None = None, until: float | None = None
-) -> Picture:
+def plot_timeline(trace: Any, node: Any, *rows: str, since: float | None = None, until: float | None = None) -> Picture:
     """Return what happened from `since` to `until` (s since the lesson's start), in a lane for each topic and callback.
 
     Args:
@@ -80,7 +78,9 @@ def _draw(lanes: list[Lane], window: Window) -> Figure:
 def _draw_lane(axes: Axes, place: int, lane: Lane) -> None:
     axes.axhline(place, color=style.LINE, linewidth=0.8, zorder=0.5)
     for begin, end in lane.waits / NANOSECONDS:
-        axes.plot([begin, end], [place, place], color=style.VERMILLION, linewidth=1.6, linestyle=(0, (1.2, 1.2)), zorder=2)
+        axes.plot(
+            [begin, end], [place, place], color=style.VERMILLION, linewidth=1.6, linestyle=(0, (1.2, 1.2)), zorder=2
+        )
         axes.plot([begin], [place], color=style.VERMILLION, marker="o", markersize=3.0, zorder=2)
     if len(lane.bars):
         _draw_bars(axes, place, lane)

@@ -134,7 +134,9 @@ def answered(name: str, choose: Any, success: bool = True) -> Expectation:
         it = drive(exam, name, choose)
         goal = f"goal {point(*it.goal[:2])}"
         if it.answer.response is None:
-            step = "Does the callback end with `return response`? Does it wait for a pose that it cannot hear meanwhile?"
+            step = (
+                "Does the callback end with `return response`? Does it wait for a pose that it cannot hear meanwhile?"
+            )
             return Seen(False, f"{goal}: no answer in {LONGEST:g} s", step)
         seen = f"{goal}: success is {it.response.success} after {number(it.answer.seconds)} s"
         step = "Judge it at the end, by where the turtle is then; and give it time enough (goal_timeout)."
@@ -237,6 +239,8 @@ def refuses(what: str, x: float, y: float, theta: float = 0.0) -> Expectation:
             seen = "the turtle moved"
         else:
             return Seen(True, "refused at once")
-        return Seen(False, seen, "Look at the request first: math.isfinite(…), and 0 ≤ x, y ≤ 11.09; else return response.")
+        return Seen(
+            False, seen, "Look at the request first: math.isfinite(…), and 0 ≤ x, y ≤ 11.09; else return response."
+        )
 
     return Expectation(f"refuses {what}", look)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import importlib
 from collections import Counter
 from collections.abc import Callable, Hashable, Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from types import TracebackType
 from typing import Any, Protocol, TypeVar
@@ -18,8 +18,8 @@ from ...ros.core.virtual_time import real_monotonic
 from ..channel import with_time
 from ..recording import NANOSECONDS
 from ..system import is_hidden
-from ..words import listed
 from ..widgets.typed_names import nearest
+from ..words import listed
 from .rows import CannotLook, OutOfTime
 
 T = TypeVar("T")
@@ -120,10 +120,8 @@ class Exam:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         for each in reversed(self._clean_up):
-            try:
+            with suppress(Exception):  # what is gone already needs no cleaning
                 each()
-            except Exception:  # noqa: S110  (what is gone already needs no cleaning)
-                pass
 
     def at_the_end(self, action: Callable[[], object]) -> None:
         """Have `action` called when the exam is over: to put back what it has changed."""
@@ -329,7 +327,7 @@ class Exam:
     # -- words -------------------------------------------------------------------------------------------------------
 
     def like(self, name: str, known: list[str]) -> str:
-        """", but somebody does /robot/staus": a name that is nearly the one that was looked for."""
+        """ ", but somebody does /robot/staus": a name that is nearly the one that was looked for."""
         found = nearest(name, [each for each in known if each != name], cutoff=0.75)
         return f", but there is {found}" if found else ""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .parts import node, publishes, subscribes
+from .parts import no_errors, node, publishes, subscribes
 from .registry import Expectation, check
 from .streams import rate, relays, steps
 
@@ -18,6 +18,7 @@ def counter() -> list[Expectation]:
         publishes("/count", NUMBER, by="/counter"),
         rate("/count", NUMBER, hz=2, seconds=4.0),
         steps("/count", NUMBER, "data", 1),
+        no_errors(),
     ]
 
 
@@ -34,4 +35,5 @@ def doubler() -> list[Expectation]:
         subscribes("/count", NUMBER, by="/doubler"),
         publishes("/doubled", NUMBER, by="/doubler"),
         relays("/count", NUMBER, "/doubled", NUMBER, pairs, step),
+        no_errors(),
     ]

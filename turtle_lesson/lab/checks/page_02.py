@@ -14,8 +14,8 @@ from .rows import CannotLook, Seen
 PAGE = "02_services_and_interfaces"
 ADD = "example_interfaces/srv/AddTwoInts"
 
-STATUS = {name: "float" for name in ("x", "y", "theta", "vel_x", "vel_y", "battery")}
-GOAL = {name: "float" for name in ("x", "y", "theta")}
+STATUS = dict.fromkeys(("x", "y", "theta", "vel_x", "vel_y", "battery"), "float")
+GOAL = dict.fromkeys(("x", "y", "theta"), "float")
 RESULT = {"success": "boolean", "time_taken": "float"}
 """Fields and types of the lesson's interfaces, as ROS names them: float32 is "float", bool "boolean"."""
 
@@ -23,15 +23,18 @@ RESULT = {"success": "boolean", "time_taken": "float"}
 @check("adder", page=PAGE, points=3, limit=15)
 def adder() -> list[Expectation]:
     """A service that adds."""
-    step = "response.sum = request.a + request.b, then return response."
     return [
         node("/adder"),
         offers("/add_two_ints", ADD, by="/adder"),
-        *(
-            answers("/add_two_ints", ADD, {"a": a, "b": b}, lambda it, sum=a + b: it.sum == sum, _sum_in_words(a, b), step)
-            for a, b in ((2, 3), (-40, 7))
-        ),
+        _adds(2, 3),
+        _adds(-40, 7),
     ]
+
+
+def _adds(a: int, b: int) -> Expectation:
+    words = f"{a} + {b} is {a + b}".replace("-", "−")
+    step = "response.sum = request.a + request.b, then return response."
+    return answers("/add_two_ints", ADD, {"a": a, "b": b}, lambda response: response.sum == a + b, words, step)
 
 
 @check("interfaces", page=PAGE, points=4, limit=5)
@@ -42,10 +45,6 @@ def interfaces() -> list[Expectation]:
         has_fields("robot_controller/srv/NavigateTo", GOAL, "request", lambda kind: kind.Request),
         has_fields("robot_controller/srv/NavigateTo", RESULT, "response", lambda kind: kind.Response),
     ]
-
-
-def _sum_in_words(a: int, b: int) -> str:
-    return f"{a} + {b} is {a + b}".replace("-", "−")
 
 
 def has_fields(

@@ -43,6 +43,7 @@ def simple_navigator() -> list[Expectation]:
         answered(NEAR_GOAL, two_metres_away, success=False),
         steady_commands(NEAR_GOAL, two_metres_away),
         stopped(NEAR_GOAL, two_metres_away),
+        no_errors(),
     ]
 
 

@@ -126,12 +126,12 @@ def _falls(heard: list[Heard]) -> Seen:
     if len(charges) < 2:
         raise CannotLook("one message shows no change")
     wrong = [
-        after - before
-        for before, after in itertools.pairwise(charges)
-        if abs(max(0.0, before - DROP) - after) > 1e-3
+        after - before for before, after in itertools.pairwise(charges) if abs(max(0.0, before - DROP) - after) > 1e-3
     ]
     if wrong:
-        return Seen(False, f"a change of {number(wrong[0], 3)}", "self.battery = max(0.0, self.battery - 0.1), once a message.")
+        return Seen(
+            False, f"a change of {number(wrong[0], 3)}", "self.battery = max(0.0, self.battery - 0.1), once a message."
+        )
     return Seen(True, f"from {number(charges[0], 1)} to {number(charges[-1], 1)}")
 
 

@@ -6,7 +6,7 @@ from ..words import listed, number
 from . import page_03, page_04, page_05
 from .drives import NAVIGATE, NAVIGATE_TYPE, far_away, where
 from .exam import Answer, Exam
-from .parts import get_parameter, no_errors, node, offers, parameter, publishes
+from .parts import get_parameter, no_errors, node, parameter, publishes
 from .questions import gives_up, rate_follows
 from .registry import Expectation, check
 from .rows import CannotLook, Seen

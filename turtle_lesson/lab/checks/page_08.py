@@ -62,7 +62,11 @@ def _work(exam: Exam) -> tuple[float | None, list[Heard], bool]:
     exam.wait_for(answer, LONGEST)
     done = answer()
     ended = done.answered if done else exam.now
-    return done.seconds if done else None, [beat for beat in beats[first - 1 :] if began - 0.2 <= beat.at <= ended], responsive
+    return (
+        done.seconds if done else None,
+        [beat for beat in beats[first - 1 :] if began - 0.2 <= beat.at <= ended],
+        responsive,
+    )
 
 
 def _works(exam: Exam) -> Seen:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -60,10 +61,8 @@ def _work(exam: Exam) -> Shift:
         (page_04.STATUS, page_04.STATUS_TYPE, "statuses"),
         (page_05.SCAN, page_05.SCAN_TYPE, "scans"),
     ):
-        try:
+        with suppress(CannotLook):
             setattr(done, heard, exam.listen(topic, kind))
-        except CannotLook:
-            pass
     end = exam.now + 60 * MINUTES
     while exam.now < end:
         goal = GOALS[len(done.drives) % len(GOALS)]

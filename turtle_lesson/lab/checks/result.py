@@ -113,9 +113,7 @@ def _html_row(row: Row) -> str:
     next_step = f"<br><em>→ {html.escape(row.next_step)}</em>" if row.next_step else ""
     mark = f'<span role="img" aria-label="{IN_WORDS[row.mark]}"><strong>{row.mark}</strong></span>'
     seen = f"{html.escape(row.seen)}{next_step}"
-    return (
-        f"<tr><td {_CELL}>{mark}</td><td {_CELL}>{html.escape(row.expected)}</td><td {_CELL}>{seen}</td></tr>"
-    )
+    return f"<tr><td {_CELL}>{mark}</td><td {_CELL}>{html.escape(row.expected)}</td><td {_CELL}>{seen}</td></tr>"
 
 
 def _wrapped(text: str, first: str, other: str) -> list[str]:

@@ -112,18 +112,21 @@ def relays(
 
     `pairs`: the fields to send, whether a message is the right answer, and both in words ("21 → 42").
     """
-    said = ", ".join(words for _, _, words in pairs)
 
     def look(exam: Exam) -> Seen:
         if not exam.subscriptions(heard_on):
             raise CannotLook(f"nobody listens to {heard_on}")
+        answers = exam.listen(said_on, said_type)
         for fields, right, words in pairs:
-            answers = exam.listen(said_on, said_type)
             before = len(answers)
             exam.publish(heard_on, heard_type, **fields)
-            if not exam.wait_for(lambda start=before: any(right(each.message) for each in answers[start:]), timeout):
+            if not exam.wait_for(_any_since(answers, before, right), timeout):
                 came = count(len(answers) - before, "other message")
                 return Seen(False, f"{words}: not within {timeout:g} s; {came} came", next_step)
-        return Seen(True, f"{said}")
+        return Seen(True, ", ".join(words for _, _, words in pairs))
 
     return Expectation(f"{heard_on} is answered on {said_on}", look)
+
+
+def _any_since(answers: list[Heard], before: int, right: Callable[[Any], bool]) -> Callable[[], bool]:
+    return lambda: any(right(each.message) for each in answers[before:])

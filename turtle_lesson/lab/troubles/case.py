@@ -74,9 +74,7 @@ class Case:
 _current: tuple[Case, Stage] | None = None
 
 
-def open_case(
-    stage: Stage, seed: int | None, name: str | None, check: Callable[[], CheckResult]
-) -> Case:
+def open_case(stage: Stage, seed: int | None, name: str | None, check: Callable[[], CheckResult]) -> Case:
     """Put a trouble into a world and return its case.
 
     Args:

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 from ..checks import CannotLook, Exam, Expectation, Seen, interface
-from ..checks.drives import NAVIGATE, NAVIGATE_TYPE, POSE, POSE_TYPE, answered, arrived, where
+from ..checks.drives import NAVIGATE, NAVIGATE_TYPE, NEAR, POSE, POSE_TYPE, drive, where
 from ..checks.parts import node, publishes
 from ..checks.streams import rate
 from ..words import number, point
@@ -28,41 +27,78 @@ def importable(type_name: str) -> Expectation:
     return Expectation(f"the type {type_name}", look)
 
 
+def advised(expectation: Expectation, step: str) -> Expectation:
+    """The same expectation with another next step: here something is to be found, not written."""
+
+    def look(exam: Exam) -> Seen:
+        return expectation.look(exam)._replace(next_step=step)
+
+    return Expectation(expectation.expected, look)
+
+
+def there(name: str, command: str) -> Expectation:
+    """One node of this name; `command` starts it."""
+    step = f"ros2 node list shows who is there. Too few: {command}. Too many: jobs, and the pids that a launch tells; kill."
+    return advised(node(name), step)
+
+
 def status_as_specified() -> list[Expectation]:
     """The status: one monitor, the right topic and type, ten messages a second."""
-    monitor = node("/status_monitor", "ros2 run robot_controller status_monitor")
-    return [monitor, publishes(STATUS, STATUS_TYPE, by="/status_monitor"), rate(STATUS, STATUS_TYPE, 10.0)]
+    published = publishes(STATUS, STATUS_TYPE, by="/status_monitor")
+    paced = rate(STATUS, STATUS_TYPE, 10.0)
+    return [
+        there("/status_monitor", "ros2 run robot_controller status_monitor"),
+        advised(
+            published, f"ros2 topic info {STATUS} --verbose; ros2 node info /status_monitor: what does it publish?"
+        ),
+        advised(paced, f"ros2 topic hz {STATUS}; who publishes it, from which callback, and at a rate set by what?"),
+    ]
 
 
 def drives(*goals: tuple[float, float]) -> list[Expectation]:
     """The navigator drives the turtle to each of these places, and says so."""
-    rows: list[Expectation] = [node("/navigator", "ros2 run robot_controller navigator"), answers_at_all()]
-    for x, y in goals:
-        name = f"goal {point(x, y)}"
-        rows += [answered(name, _to(x, y)), arrived(name, _to(x, y))]
-    return rows
+    navigator = there("/navigator", "ros2 run robot_controller navigator")
+    return [navigator, answers_at_all(), *(reaches(x, y) for x, y in goals)]
 
 
-def _to(x: float, y: float) -> Callable[[object], tuple[float, float, float]]:
-    return lambda pose: (x, y, 0.0)
+def reaches(x: float, y: float) -> Expectation:
+    """A goal is answered with success, and the turtle is there."""
+
+    def look(exam: Exam) -> Seen:
+        if not exam.once(("answers",), lambda: _answers(exam)).good:
+            raise CannotLook(f"{NAVIGATE} does not answer")
+        it = drive(exam, f"to {x} {y}", lambda pose: (x, y, 0.0))
+        if it.answer.response is None:
+            return Seen(False, f"no answer in {it.answer.seconds:g} s", 'lesson.plot_timeline("/navigator")')
+        success, end = bool(it.response.success), it.end()
+        seen = f"success is {success} after {number(it.answer.seconds)} s, at {point(end.x, end.y)}"
+        step = (
+            "During a call: ros2 topic echo /turtle1/cmd_vel. Do commands come, how large, how often, who hears them?"
+        )
+        return Seen(success and it.distance() <= NEAR, seen, step)
+
+    return Expectation(f"the goal {point(x, y)} is reached", look)
 
 
 def answers_at_all() -> Expectation:
-    """A goal outside of the world is answered, whether the turtle can move or not."""
+    """Asked to go where the turtle is, the navigator answers, whether the turtle can move or not."""
+    return Expectation(f"{NAVIGATE} answers", lambda exam: exam.once(("answers",), lambda: _answers(exam)))
 
-    def look(exam: Exam) -> Seen:
-        if not exam.servers(NAVIGATE):
-            step = "ros2 node list, ros2 service list: is its node there, and does it offer another name?"
-            return Seen(False, f"nobody offers it{exam.like(NAVIGATE, exam.services())}", step)
-        here = exam.once(("here",), lambda: where(exam)) if exam.publishers(POSE) else None
-        x, y = (here.x, here.y) if here is not None else (5.5, 5.5)
-        answer = exam.ask(NAVIGATE, NAVIGATE_TYPE, 30.0, x=x, y=y, theta=0.0)
-        if answer.response is None:
-            step = 'lesson.plot_timeline("/navigator"): which callback holds the thread? lesson.plot_sequence().'
-            return Seen(False, "no answer in 30 s", step)
-        return Seen(True, f"after {number(answer.seconds)} s")
 
-    return Expectation(f"{NAVIGATE} answers", look)
+def _answers(exam: Exam) -> Seen:
+    if not exam.servers(NAVIGATE):
+        step = "ros2 node list, ros2 service list: is its node there, and does it offer another name?"
+        return Seen(False, f"nobody offers it{exam.like(NAVIGATE, exam.services())}", step)
+    try:
+        here = where(exam)
+        x, y, theta = here.x, here.y, here.theta
+    except CannotLook:
+        x, y, theta = 5.5, 5.5, 0.0
+    answer = exam.ask(NAVIGATE, NAVIGATE_TYPE, 30.0, x=x, y=y, theta=theta)
+    if answer.response is None:
+        step = 'lesson.plot_timeline("/navigator"): which callback holds the thread? lesson.plot_sequence().'
+        return Seen(False, "no answer in 30 s", step)
+    return Seen(True, f"after {number(answer.seconds)} s")
 
 
 def status_follows() -> Expectation:

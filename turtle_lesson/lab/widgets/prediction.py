@@ -27,7 +27,7 @@ class PredictionWidget(LiveWidget):
     """Side of the map, m."""
     guess: Any = traitlets.Any(None, allow_none=True).tag(sync=True)
     """The guess as it was recorded: a text, a number, [x, y], or None."""
-    open = traitlets.Bool(True).tag(sync=True)
+    is_open = traitlets.Bool(True).tag(sync=True)
     """Whether a guess can still be given."""
 
     def __init__(self, question: Question) -> None:
@@ -49,7 +49,7 @@ class PredictionWidget(LiveWidget):
         """Show what was recorded, also by another view or by code."""
         guess = self._asked.guess
         self.guess = list(guess) if isinstance(guess, tuple) else guess
-        self.open = self._asked.open
+        self.is_open = self._asked.open
 
     def do_guess(self, value: Any) -> None:
         """Record a guess."""

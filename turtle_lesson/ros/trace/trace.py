@@ -18,6 +18,8 @@ MESSAGES = 50_000
 
 CALLS = 1_000
 
+LINES = 500
+
 PLUMBING = frozenset({"/rosout", "/parameter_events"})
 
 
@@ -30,6 +32,8 @@ class Trace:
         """By topic and node (full names), when each message was published (ns)."""
         self.callbacks: list[Callback] = []
         self.calls: deque[Call] = deque(maxlen=CALLS)
+        self.log: deque[tuple[int, int, str, str]] = deque(maxlen=LINES)
+        """Time (ns), level (10, 20 … as in /rosout), logger and text of the newest lines that nodes have logged."""
 
     @property
     def now(self) -> int:

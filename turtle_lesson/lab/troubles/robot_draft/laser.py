@@ -34,6 +34,8 @@ def main() -> None:
         rclpy.spin(Laser())
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
+    finally:
+        rclpy.try_shutdown()
 
 
 if __name__ == "__main__":

@@ -22,7 +22,7 @@ class Navigator(Node):
         self.period = self.declare_parameter("command_period", 0.1).value
         self.short_way = self.declare_parameter("short_way", False).value
         self.pose = Pose()
-        self.goal = None
+        self.goal: NavigateTo.Request | None = None
         self.since_command = 0.0
         self.driven = 0.0
         self.done = Future()
@@ -44,17 +44,18 @@ class Navigator(Node):
 
     def on_timer(self) -> None:
         """Steer, if there is a goal and a command is due."""
-        if self.goal is None:
+        goal = self.goal
+        if goal is None:
             return
         self.driven += 0.1
         self.since_command += 0.1
         if self.since_command >= self.get_parameter("command_period").value:
             self.since_command = 0.0
-            self.steer()
+            self.steer(goal)
 
-    def steer(self) -> None:
+    def steer(self, goal: NavigateTo.Request) -> None:
         """Send the next command; stop at the goal or when patience is over."""
-        dx, dy = self.goal.x - self.pose.x, self.goal.y - self.pose.y
+        dx, dy = goal.x - self.pose.x, goal.y - self.pose.y
         distance = math.hypot(dx, dy)
         if distance < 0.15 or self.driven > PATIENCE:
             self.commands.publish(Twist())
@@ -77,6 +78,8 @@ def main() -> None:
         rclpy.spin(Navigator())
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
+    finally:
+        rclpy.try_shutdown()
 
 
 if __name__ == "__main__":

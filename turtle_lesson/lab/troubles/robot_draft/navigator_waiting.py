@@ -41,6 +41,8 @@ def main() -> None:
         rclpy.spin(Navigator())
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
+    finally:
+        rclpy.try_shutdown()
 
 
 if __name__ == "__main__":

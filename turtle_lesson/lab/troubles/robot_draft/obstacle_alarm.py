@@ -32,6 +32,8 @@ def main() -> None:
         rclpy.spin(ObstacleAlarm())
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
+    finally:
+        rclpy.try_shutdown()
 
 
 if __name__ == "__main__":

@@ -28,6 +28,8 @@ def main() -> None:
         rclpy.spin(StatusText())
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
+    finally:
+        rclpy.try_shutdown()
 
 
 if __name__ == "__main__":

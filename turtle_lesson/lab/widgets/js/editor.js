@@ -39,6 +39,7 @@ function editorPanel(model, order, box) {
     list.replaceChildren(...obstacles.map((each, number) => obstacleLine(each, number, desk)));
     if (!obstacles.length) list.append(element("li", { class: "tl-note" }, "No obstacles."));
     if (at >= 0) list.querySelectorAll("button")[Math.min(at, obstacles.length - 1)]?.focus();
+    showSelectedLine(list, desk.number);
     remove.disabled = !desk.selected;
     showObstacleFields(fields, desk);
   };
@@ -141,6 +142,13 @@ function obstacleLine({ shape, x, y }, number, desk) {
   const choose = editorButton(`${number + 1}. ${shape} at (${figure(x)}, ${figure(y)}) m`, () => desk.select(number));
   choose.setAttribute("aria-pressed", String(number === desk.number));
   return element("li", {}, choose);
+}
+
+/** Scroll the list, and not the page, to a line that was just selected. */
+function showSelectedLine(list, number) {
+  const line = list.children[number];
+  if (line && list.dataset.selected !== String(number)) list.scrollTop = line.offsetTop - list.offsetTop - list.clientHeight / 2;
+  list.dataset.selected = number;
 }
 
 /** Fields for the numbers of the selected obstacle. They are made anew only when another kind or one is selected. */

@@ -9,11 +9,11 @@ function predictionPanel(model, order) {
   const closed = element("p", { class: "tl-note" }, "The outcome is known. Run this cell again to guess anew.");
   const show = () => {
     way.show(model.get("guess"));
-    body.disabled = !model.get("open");
-    closed.hidden = model.get("open");
+    body.disabled = !model.get("is_open");
+    closed.hidden = model.get("is_open");
   };
   const panel = element("div", { class: "tl-prediction" }, body, closed);
-  return { panel, watch: { guess: show, open: show }, close: way.close };
+  return { panel, watch: { guess: show, is_asking: show }, close: way.close };
 }
 
 function choiceGuess(model, send) {
@@ -55,7 +55,7 @@ function pointGuess(model, send, id) {
   canvas.addEventListener("click", (event) => {
     const frame = canvas.getBoundingClientRect();
     move(((event.clientX - frame.left) / frame.width) * world, (1 - (event.clientY - frame.top) / frame.height) * world);
-    if (model.get("open")) send(at);
+    if (model.get("is_open")) send(at);
   });
   canvas.addEventListener("keydown", (event) => {
     if (step[event.key]) {

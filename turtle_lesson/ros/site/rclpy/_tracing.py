@@ -14,6 +14,7 @@ from turtle_lesson.ros.trace import Callback, Trace
 from turtle_lesson.ros.trace.trace import PLUMBING
 
 from ._entity import SERVICE, SUBSCRIPTION, TIMER
+from .parameter_service import ParameterService
 
 if TYPE_CHECKING:
     from .executors import Executor
@@ -32,6 +33,8 @@ def trace_entity(entity: Any, node: Node, executor: Executor, trace: Trace) -> N
         _begin_to_trace(executor)
     if entity._traced is not None:
         return  # it has been traced in another executor
+    if type(getattr(entity.callback, "__self__", None)) is ParameterService:
+        name = source.rpartition("/")[2]
     entry = node._ros_entry
     period = entity._period if kind == "timer" else 0
     entity._traced = Callback(entry.full_name, name, kind, source, period, entry.process.pid, entity._is_async)

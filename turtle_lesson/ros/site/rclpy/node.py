@@ -476,14 +476,15 @@ class Node(NodeGraph, NodeParameters):
         from rcl_interfaces.msg import Log
 
         publisher = self.create_publisher(Log, "/rosout", ROSOUT)
-        writer = publisher._writer
-        assert writer is not None
+        trace = self._ros_graph.trace
 
         def publish(message: str, severity: LoggingSeverity, frame: FrameType) -> None:
             log = Log(level=int(severity), name=self._ros_logger.name, msg=message)
             log.stamp.sec, log.stamp.nanosec = divmod(EPOCH + self._ros_simulation.now, NANOSECONDS)
             log.file, log.function, log.line = frame.f_code.co_filename, frame.f_code.co_name, frame.f_lineno
             publisher.publish(log)
+            if trace is not None:
+                trace.log.append((self._ros_simulation.now, int(severity), log.name, message))
 
         publish_rosout(self._ros_logger.name, publish)
         return publisher

@@ -1,0 +1,143 @@
+"""A JupyterLab and its pages, as Playwright sees them: what browser tests and the live lab's benchmark share."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import socket
+import subprocess
+import sys
+import time
+import urllib.request
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from playwright.sync_api import Page
+
+NAMES = ("chromium", "chromium-browser", "google-chrome", "chrome")
+FLAGS = [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+"""What a headless Chromium is started with."""
+
+NOTEBOOK = "window.jupyterapp.shell.currentWidget"
+KERNEL = f"{NOTEBOOK}?.sessionContext?.session?.kernel"
+
+
+def find_chromium() -> str | None:
+    """The path of a Chromium, if there is one on this machine."""
+    return next(filter(None, map(shutil.which, NAMES)), None)
+
+
+def free_port() -> int:
+    """A port of this machine that nobody uses."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+@contextmanager
+def jupyterlab(folder: Path) -> Iterator[str]:
+    """The address of a JupyterLab that serves `folder` on this machine only, with nobody's settings."""
+    home = folder / "home"
+    home.mkdir()
+    port = free_port()
+    options = {
+        "ServerApp.ip": "127.0.0.1",
+        "ServerApp.port": port,
+        "ServerApp.port_retries": 0,
+        "ServerApp.root_dir": str(folder),
+        "IdentityProvider.token": "",
+        "ServerApp.allow_root": True,
+        "LabApp.expose_app_in_browser": True,
+        "LabApp.check_for_updates_class": "jupyterlab.NeverCheckForUpdate",
+    }
+    words = [f"--{name}={value}" for name, value in options.items()]
+    places = {name: str(home) for name in ("HOME", "JUPYTER_CONFIG_DIR", "JUPYTER_DATA_DIR")}
+    with (folder / "server.log").open("w") as log:
+        command = [sys.executable, "-m", "jupyterlab", "--no-browser", *words]
+        server = subprocess.Popen(command, env={**os.environ, **places}, stdout=log, stderr=log)
+    address = f"http://127.0.0.1:{port}"
+    try:
+        wait_until_it_answers(f"{address}/api/status", server, folder / "server.log")
+        yield address
+    finally:
+        server.terminate()
+        server.wait(20)
+
+
+def wait_until_it_answers(address: str, server: subprocess.Popen[bytes], log: Path, seconds: float = 90) -> None:
+    """Wait for a server. Raises RuntimeError, with the end of its log, if it ends or takes too long."""
+    deadline = time.monotonic() + seconds
+    while time.monotonic() < deadline and server.poll() is None:
+        try:
+            with urllib.request.urlopen(address, timeout=5):
+                return
+        except OSError:
+            time.sleep(0.2)
+    raise RuntimeError(f"{address} does not answer:\n{log.read_text()[-3000:]}")
+
+
+# -- notebooks -------------------------------------------------------------------------------------------------------
+
+
+def write_notebook(page: Page, lab: str, name: str, cells: Sequence[str]) -> None:
+    """Put a notebook with these cells where the server finds it."""
+    empty: dict[str, Any] = {"cell_type": "code", "metadata": {}, "outputs": [], "execution_count": None}
+    kernel = {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"}
+    notebook = {
+        "cells": [{**empty, "id": f"c{at}", "source": cell} for at, cell in enumerate(cells)],
+        "metadata": {"kernelspec": kernel},
+        "nbformat": 4,
+        "nbformat_minor": 5,
+    }
+    page.goto(f"{lab}/lab?reset")
+    page.wait_for_function("window.jupyterapp?.serviceManager?.contents")
+    save = "([name, model]) => window.jupyterapp.serviceManager.contents.save(name, model).then(() => true)"
+    assert page.evaluate(save, [name, {"type": "notebook", "format": "json", "content": notebook}])
+
+
+def open_notebook(page: Page, lab: str, name: str) -> None:
+    """Open a notebook alone, and wait until its kernel is there."""
+    page.goto(f"{lab}/doc/tree/{name}?reset")
+    page.wait_for_selector(".jp-Notebook .jp-Cell")
+    page.wait_for_function(f"{KERNEL}?.status === 'idle'")
+
+
+def execute(page: Page, command: str, arguments: dict[str, Any] | None = None) -> None:
+    """Carry out a command of JupyterLab, as its menus do."""
+    call = "([command, arguments]) => window.jupyterapp.commands.execute(command, arguments).then(() => null)"
+    page.evaluate(call, [command, arguments or {}])
+
+
+def python(page: Page, code: str) -> str:
+    """Run code in the notebook's kernel, and return what it printed, or its traceback."""
+    ask = f"""async code => {{
+      const answer = {KERNEL}.requestExecute({{ code, silent: false, store_history: false }});
+      let said = '';
+      answer.onIOPub = ({{ content }}) => (said += content.text ?? (content.traceback ?? []).join('\\n'));
+      await answer.done;
+      return said;
+    }}"""
+    return page.evaluate(ask, code)
+
+
+def value(page: Page, expression: str) -> Any:
+    """What a Python expression is in the notebook's kernel."""
+    said = python(page, f"print(repr({expression}))")
+    assert "Traceback" not in said, said
+    return eval(said)
+
+
+def choose_theme(page: Page, theme: str) -> None:
+    """Show JupyterLab's pages "Light" or "Dark"."""
+    execute(page, "apputils:change-theme", {"theme": f"JupyterLab {theme}"})
+    page.wait_for_function("theme => document.body.dataset.jpThemeName === theme", arg=f"JupyterLab {theme}")

@@ -1,0 +1,75 @@
+"""Learners' copies of a page, made by hand: finished, half-finished, broken and never-ending."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import nbformat
+
+PAGE = "01_publish_and_subscribe"
+SET_UP = "%load_ext turtle_lesson\nfrom turtle_lesson import start\nlesson = start(seed=0)\nimport rclpy\nrclpy.init()"
+COUNTER = """from std_msgs.msg import Int32
+counter = rclpy.create_node("counter")
+publisher = counter.create_publisher(Int32, "/count", 10)
+number = 0
+def count():
+    global number
+    number += 1
+    publisher.publish(Int32(data=number))
+timer = counter.create_timer(PERIOD, count)"""
+DOUBLER = """from std_msgs.msg import Int32
+doubler = rclpy.create_node("doubler")
+doubled = doubler.create_publisher(Int32, "/doubled", 10)
+def on_count(message):
+    doubled.publish(Int32(data=2 * message.data))
+subscription = doubler.create_subscription(Int32, "/count", on_count, 10)"""
+RIGHT, TOO_SLOW = COUNTER.replace("PERIOD", "0.5"), COUNTER.replace("PERIOD", "1.0")
+STUB = "# your node"
+ENDLESS = "while True:\n    pass"
+DEAF = "while True:\n    try:\n        while True:\n            pass\n    except KeyboardInterrupt:\n        pass"
+
+
+def copy(counter: str, doubler: str, *more: str) -> Any:
+    """A copy of the page with these answers in it, and perhaps more cells in front of them."""
+    sources = [SET_UP, *more, counter, 'lesson.check("counter")', doubler, 'lesson.check("doubler")']
+    cells = [nbformat.v4.new_code_cell(source) for source in sources]
+    for cell in cells:
+        if "lesson.check" in cell.source:
+            cell.metadata["tags"] = ["check"]
+    solution = nbformat.v4.new_code_cell(f"%%solution counter\n{RIGHT}", metadata={"tags": ["solution"]})
+    notebook = nbformat.v4.new_notebook(cells=[*cells[:-2], solution, *cells[-2:]])
+    notebook.metadata["turtle_lesson"] = {"page": PAGE}
+    return notebook
+
+
+def write(folder: Path, name: str, notebook: Any) -> Path:
+    path = folder / f"{name}.ipynb"
+    nbformat.write(notebook, path)
+    return path
+
+
+def a_class(folder: Path) -> dict[str, tuple[int, str]]:
+    """Twenty copies in a folder; returns, by name, the points and what is said of a copy that is not run to its end."""
+    expected: dict[str, tuple[int, str]] = {}
+
+    def hand_in(name: str, points: int, notebook: Any, problem: str = "") -> None:
+        write(folder, name, notebook)
+        expected[name] = (points, problem)
+
+    for number in range(6):
+        hand_in(f"finished_{number}", 6, copy(RIGHT, DOUBLER))
+    for number in range(4):
+        hand_in(f"half_{number}", 3, copy(RIGHT, STUB))
+    hand_in("slow", 3, copy(TOO_SLOW, DOUBLER))
+    hand_in("nothing", 0, copy(STUB, STUB))
+    hand_in("typing_error", 3, copy("def (:", DOUBLER))
+    hand_in("error_first", 6, copy(RIGHT, DOUBLER, "1 / 0"))
+    hand_in("endless_cell", 6, copy(RIGHT, DOUBLER, ENDLESS))
+    hand_in("deaf_cell", 0, copy(RIGHT, DOUBLER, DEAF), "was stopped")
+    hand_in("dies", 0, copy(RIGHT, DOUBLER, "import os; os._exit(3)"), "kernel died")
+    hand_in("flood", 6, copy(RIGHT, DOUBLER, "while True:\n    print('x' * 1000)"))
+    (folder / "no_notebook.ipynb").write_text("this is no JSON")
+    (folder / "binary.ipynb").write_bytes(bytes(range(256)))
+    expected |= {"no_notebook": (0, "no notebook"), "binary": (0, "no notebook")}
+    return expected

@@ -1,0 +1,367 @@
+"""The checks: each is met by a finished answer, by nothing less, and none fails itself, whatever the system is like."""
+
+from __future__ import annotations
+
+import shutil
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from turtle_lesson import Lesson, start
+from turtle_lesson.lab.checks import CheckResult, all_checks, exam
+from turtle_lesson.lab.checks.registry import PAGES, check
+from turtle_lesson.lesson import FINISHED
+
+# isort: split
+# Importing turtle_lesson made this one importable.
+import rclpy
+from test_simple_stage import in_our_words
+
+NAMES = [each.name for each in all_checks()]
+OF_THE_SYSTEM = ["interfaces", "simple_navigator", "navigator", "status_monitor", "scan", "parameters", "launch", "system"]
+"""What the finished package meets; `ray_cast` does, too, where it looks at the world."""
+
+
+def marks(result: CheckResult) -> str:
+    return "".join(row.mark for row in result.rows)
+
+
+def row(result: CheckResult, expected: str) -> Any:
+    return next(each for each in result.rows if expected in each.expected)
+
+
+Make = Callable[[], Any]
+
+
+def program(lesson: Lesson, make: Make) -> None:
+    """Start a program that makes a node and spins it, as a process of its own."""
+
+    def main() -> None:
+        rclpy.init()
+        rclpy.spin(make())
+
+    lesson._world.spawn(main, name=make.__name__)
+    lesson.run(0.2)
+
+
+@pytest.fixture
+def system() -> Iterator[Lesson]:
+    """The finished package, launched."""
+    lesson = start()
+    lesson.launch("robot_controller", "start_system.launch.py", source="world")
+    lesson.run(1)
+    yield lesson
+
+
+# -- in general --------------------------------------------------------------------------------------------------------
+
+
+def test_names_and_points() -> None:
+    assert len(NAMES) == len(set(NAMES))
+    for each in all_checks():
+        assert each.page in PAGES
+        assert 1 <= each.points <= 10
+        assert each.title
+        assert each.limit > 0
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_no_check_is_met_by_an_empty_world(name: str) -> None:
+    result = start(package=None, simulator=False).check(name)
+    assert not result.passed
+    assert "✗" in marks(result) + "✗" * (name == "trouble" or name == "parameters")
+    assert result.earned == 0
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_no_check_but_the_interfaces_is_met_by_the_simulator_alone(name: str) -> None:
+    assert start().check(name).passed == (name == "interfaces")
+
+
+@pytest.mark.parametrize("name", [*OF_THE_SYSTEM, "ray_cast"])
+def test_the_finished_package_meets_them_twice(system: Lesson, name: str) -> None:
+    first, again = system.check(name), system.check(name)
+    assert first.passed, first
+    assert again.passed, again
+    assert first.earned == first.points
+
+
+def test_the_simple_stage_meets_what_it_should_and_no_more(tmp_path: Path) -> None:
+    met = {}
+    for name in [*OF_THE_SYSTEM, "ray_cast"]:
+        lesson = start(package=in_our_words(tmp_path / name))
+        lesson.launch("robot_controller", "start_system.launch.py")
+        lesson.run(1)
+        met[name] = lesson.check(name)
+    assert [name for name, result in met.items() if result.passed] == ["interfaces", "simple_navigator"]
+    assert row(met["status_monitor"], "follow the turtle").mark == "✗"
+    assert row(met["status_monitor"], "battery falls").mark == "✓"
+    assert row(met["scan"], "every beam").seen == "180 readings, and the angles ask for 181"
+    assert row(met["navigator"], "within 0.2 m").mark == "✗"
+    assert row(met["parameters"], "publish_rate").seen == "it is not declared"
+
+
+def test_a_check_leaves_the_system_as_it_was(system: Lesson) -> None:
+    node = system._recording.node
+    system.place()
+    system.run(2)  # the recorder listens to the obstacles by then
+    before = (len(list(node.subscriptions)), len(list(node.clients)), len(list(node.publishers)))
+    for name in ("parameters", "ray_cast", "status_monitor"):
+        system.check(name)
+    system.run(2)
+    assert (len(list(node.subscriptions)), len(list(node.clients)), len(list(node.publishers))) == before
+    assert system.obstacles == ()
+    assert row(system.check("launch"), "publish_rate = 10").good
+    assert row(system.check("launch"), "goal_timeout = 5.0").good
+
+
+def test_the_same_world_gives_the_same_table() -> None:
+    def table() -> str:
+        lesson = start(seed=3)
+        lesson.launch("robot_controller", "start_system.launch.py")
+        return repr(lesson.check("navigator"))
+
+    assert table() == table()
+
+
+def test_only_errors_are_printed(system: Lesson, capsys: pytest.CaptureFixture[str]) -> None:
+    capsys.readouterr()
+    system.check("navigator")
+    assert capsys.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize("name", ["statsu_monitor", "Navigator", "", None, 3, ["launch"]])
+def test_an_unknown_name_is_explained(system: Lesson, name: Any) -> None:
+    said = {"statsu_monitor": 'Did you mean "status_monitor"', "Navigator": 'Did you mean "navigator"'}
+    with pytest.raises(ValueError, match=said.get(str(name), "There are counter, ")):
+        system.check(name)
+
+
+def test_a_page_that_is_not_there_is_refused() -> None:
+    with pytest.raises(ValueError, match='Did you mean "03_navigator"'):
+        check("x", page="03_navigater", points=1, limit=1)
+
+
+def test_the_text_is_a_table(system: Lesson) -> None:
+    text = repr(system.check("ray_cast"))
+    assert text == (
+        "✓ ray_cast: 4 of 4 expectations met, 5 of 5 points. A scan that sees what stands around the turtle.\n"
+        "  ✓ one node /obstacle_detector              it is there\n"
+        "  ✓ /obstacle_detector publishes /obstacles  as sensor_msgs/msg/LaserScan\n"
+        "  ✓ an obstacle put there is measured        1.20 m at 0.70 rad (40.0°); without it 7.24 m\n"
+        "  ✓ taken away, it is gone                   7.24 m again, as before\n"
+        "2.8 s of robot time went by."
+    )
+
+
+def test_in_a_notebook_it_is_html_and_carries_its_figures(system: Lesson) -> None:
+    system.check("launch")
+    lesson = start()
+    result = lesson.check("status_monitor")
+    data, metadata = result._repr_mimebundle_()
+    assert data["text/plain"] == repr(result)
+    assert data["text/html"].count("<tr>") == len(result.rows) + 1
+    assert "→ Start it: ros2 run" in data["text/html"]
+    assert 'aria-label="not looked at"' in data["text/html"]
+    figures = metadata["turtle_lesson_check"]
+    assert (figures["name"], figures["earned"], figures["points"]) == ("status_monitor", 0, 5)
+    assert max(map(len, repr(result).splitlines())) <= 100
+
+
+# -- broken systems ----------------------------------------------------------------------------------------------------
+
+
+def nothing_else(lesson: Lesson) -> None:
+    """Every check can look at this system."""
+    for name in NAMES:
+        assert not lesson.check(name).passed or name == "interfaces"
+
+
+def test_a_wrong_type_and_two_of_one_name() -> None:
+    def status_monitor() -> Any:
+        from std_msgs.msg import String
+
+        node = rclpy.create_node("status_monitor")
+        publisher = node.create_publisher(String, "/robot/status", 10)
+        node.create_timer(0.1, lambda: publisher.publish(String(data="fine")))
+        return node
+
+    lesson = start()
+    program(lesson, status_monitor)
+    result = lesson.check("status_monitor")
+    assert marks(result) == "✓✗–––––✓"
+    assert row(result, "publishes").seen == "/status_monitor does, as std_msgs/msg/String"
+    program(lesson, status_monitor)
+    assert row(lesson.check("status_monitor"), "one node").seen == "2 nodes of this name: messages come 2-fold"
+    nothing_else(lesson)
+
+
+def test_a_callback_that_raises(capsys: pytest.CaptureFixture[str]) -> None:
+    def status_monitor() -> Any:
+        from robot_controller.msg import TurtleStatus
+
+        node = rclpy.create_node("status_monitor")
+        publisher = node.create_publisher(TurtleStatus, "/robot/status", 10)
+        sent: list[int] = []
+
+        def publish() -> None:
+            publisher.publish(TurtleStatus(battery=100.0))
+            sent.append(1)
+            if len(sent) > 20:
+                raise ValueError("no more")
+
+        node.create_timer(0.1, publish)
+        return node
+
+    lesson = start()
+    program(lesson, status_monitor)
+    result = lesson.check("status_monitor")
+    assert row(result, "no error").seen == "/status_monitor ended"
+    assert "ValueError: no more" in capsys.readouterr().out
+    nothing_else(lesson)
+
+
+def test_a_service_that_never_answers() -> None:
+    def navigator() -> Any:
+        from geometry_msgs.msg import Twist
+        from robot_controller.srv import NavigateTo
+
+        node = rclpy.create_node("navigator")
+        node.create_publisher(Twist, "/turtle1/cmd_vel", 10)
+
+        def never(request: Any, response: Any) -> Any:
+            while True:
+                time.sleep(0.5)
+
+        node.create_service(NavigateTo, "/navigate_to", never)
+        return node
+
+    lesson = start()
+    program(lesson, navigator)
+    result = lesson.check("navigator")
+    assert "no answer in 90 s" in row(result, "2 m away: success").seen
+    assert row(result, "time_taken").seen == "not looked at, because the turtle never moved"
+    assert "does not answer" in row(lesson.check("parameters"), "goal_timeout").seen
+    nothing_else(lesson)
+
+
+def test_a_service_that_answers_nonsense() -> None:
+    def navigator() -> Any:
+        from robot_controller.srv import NavigateTo
+
+        node = rclpy.create_node("navigator")
+        node.create_service(NavigateTo, "/navigate_to", lambda request, response: None)
+        return node
+
+    lesson = start()
+    program(lesson, navigator)
+    nothing_else(lesson)
+
+
+def test_an_interface_package_with_other_fields(tmp_path: Path) -> None:
+    package = tmp_path / "robot_controller"
+    shutil.copytree(FINISHED, package)
+    (package / "msg" / "TurtleStatus.msg").write_text("string x\nfloat32 speed\n")
+    (package / "srv" / "NavigateTo.srv").write_text("float64 x\n---\nbool ok\n")
+
+    def status_monitor() -> Any:
+        from robot_controller.msg import TurtleStatus
+
+        node = rclpy.create_node("status_monitor")
+        publisher = node.create_publisher(TurtleStatus, "/robot/status", 10)
+        node.create_timer(0.1, lambda: publisher.publish(TurtleStatus(x="far", speed=1.0)))
+        return node
+
+    def navigator() -> Any:
+        from robot_controller.srv import NavigateTo
+
+        node = rclpy.create_node("navigator")
+        node.create_service(NavigateTo, "/navigate_to", lambda request, response: response)
+        return node
+
+    lesson = start(package=package)
+    program(lesson, status_monitor)
+    program(lesson, navigator)
+    result = lesson.check("status_monitor")
+    assert row(result, "battery falls").seen == "not looked at, because TurtleStatus has no field battery"
+    assert row(result, "follow the turtle").mark in "✗–"
+    assert "string x, float32 speed" in row(lesson.check("interfaces"), "TurtleStatus").seen
+    assert "cannot hold" in row(lesson.check("navigator"), "2 m away").seen
+    for name in NAMES:
+        assert not lesson.check(name).passed
+
+
+def test_a_package_that_is_not_built() -> None:
+    lesson = start(package=None)
+    result = lesson.check("interfaces")
+    assert marks(result) == "✗✗✗"
+    assert "No module named 'robot_controller'" in result.rows[0].seen
+    assert "colcon build" in result.rows[0].next_step
+
+
+def test_messages_that_are_no_numbers() -> None:
+    def broken() -> Any:
+        from robot_controller.msg import TurtleStatus
+        from sensor_msgs.msg import LaserScan
+
+        node = rclpy.create_node("status_monitor")
+        statuses = node.create_publisher(TurtleStatus, "/robot/status", 10)
+        scans = node.create_publisher(LaserScan, "/obstacles", 10)
+        nan = float("nan")
+
+        def publish() -> None:
+            statuses.publish(TurtleStatus(x=nan, theta=nan, battery=nan))
+            scans.publish(LaserScan(angle_increment=nan, ranges=[nan]))
+
+        node.create_timer(0.1, publish)
+        return node
+
+    lesson = start()
+    program(lesson, broken)
+    nothing_else(lesson)
+
+
+def test_a_timer_without_end_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(exam, "PATIENCE", 0.5)
+
+    def counter() -> Any:
+        from std_msgs.msg import Int32
+
+        node = rclpy.create_node("counter")
+        publisher = node.create_publisher(Int32, "/count", 10)
+        node.create_timer(0.000005, lambda: publisher.publish(Int32()))
+        return node
+
+    lesson = start()
+    lesson._world.spawn(lambda: (rclpy.init(), rclpy.spin(counter())), name="counter")
+    began = time.monotonic()
+    result = lesson.check("counter")
+    assert time.monotonic() - began < 15
+    assert "real time" in result.rows[-2].seen
+
+
+def test_a_world_that_has_ended() -> None:
+    old = start()
+    start()
+    result = old.check("counter")
+    assert result.rows[0].seen == "it was closed by a later start()"
+    assert set(marks(result)[1:]) == {"–"}
+
+
+def test_a_node_in_a_cell_lives_while_a_check_looks() -> None:
+    from std_msgs.msg import Int32
+
+    lesson = start()
+    rclpy.init()
+    node = rclpy.create_node("counter")
+    publisher = node.create_publisher(Int32, "/count", 10)
+    numbers: Any = iter(range(1, 1000))
+    node.create_timer(0.5, lambda: publisher.publish(Int32(data=next(numbers))))
+    assert lesson.check("counter").passed
+    numbers = iter("abc")
+    result = lesson.check("counter")
+    assert row(result, "no error").mark == "✗"
+    assert "a callback in a cell raised" in row(result, "no error").seen

@@ -1,0 +1,72 @@
+"""Points: kept in a small file, never lost, never a reason to fail."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from turtle_lesson.lab.checks import CheckResult, Row, all_checks
+from turtle_lesson.lab.progress import FILE, VARIABLE, Progress, ProgressFile, progress_file
+
+
+def result(name: str, passed: bool = True, points: int = 3) -> CheckResult:
+    return CheckResult(name, "A title", "01_publish_and_subscribe", points, (Row("✓" if passed else "✗", "a", "b"),), 0.0)
+
+
+def test_points_survive_a_restart_and_a_later_failure(tmp_path: Path) -> None:
+    ProgressFile(tmp_path / FILE).note(result("counter"))
+    later = ProgressFile(tmp_path / FILE)
+    later.note(result("counter", passed=False))
+    assert later.points() == {"counter": 3}
+    assert json.loads((tmp_path / FILE).read_text()) == {"format": 1, "points": {"counter": 3}}
+
+
+def test_two_notebooks_at_once_lose_nothing(tmp_path: Path) -> None:
+    one, other = ProgressFile(tmp_path / FILE), ProgressFile(tmp_path / FILE)
+    one.note(result("counter"))
+    other.note(result("doubler"))
+    one.note(result("adder"))
+    assert ProgressFile(tmp_path / FILE).points() == {"counter": 3, "doubler": 3, "adder": 3}
+
+
+@pytest.mark.parametrize("damage", ["", "{", "[]", '{"format": 1}', '{"format": 1, "points": {"a": "b"}}', '{"format": 2, "points": {}}'])
+def test_a_damaged_file_is_kept_aside_and_said(tmp_path: Path, damage: str) -> None:
+    (tmp_path / FILE).write_text(damage)
+    file = ProgressFile(tmp_path / FILE)
+    file.note(result("counter"))
+    assert file.points() == {"counter": 3}
+    assert (tmp_path / f"{FILE}.broken-1").read_text() == damage
+    assert "was damaged" in file.remark
+    assert "was damaged" in repr(Progress(all_checks(), file.points(), file.remark))
+
+
+def test_bytes_that_are_no_text_are_kept_aside_too(tmp_path: Path) -> None:
+    (tmp_path / FILE).write_bytes(b"\xff\xfe\x00")
+    assert ProgressFile(tmp_path / FILE).points() == {}
+    assert (tmp_path / f"{FILE}.broken-1").exists()
+
+
+def test_where_nothing_can_be_written_points_live_on_in_memory(tmp_path: Path) -> None:
+    file = ProgressFile(tmp_path / "not there" / FILE)
+    file.note(result("counter"))
+    assert file.points() == {"counter": 3}
+    assert "cannot be written" in file.remark
+
+
+def test_the_environment_says_where(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert progress_file(tmp_path).path is None, "tests keep no points"
+    monkeypatch.setenv(VARIABLE, str(tmp_path / "mine.json"))
+    assert progress_file(tmp_path).path == tmp_path / "mine.json"
+    monkeypatch.delenv(VARIABLE)
+    assert progress_file(tmp_path).path == tmp_path / FILE
+
+
+def test_the_table_shows_what_is_open() -> None:
+    shown = Progress(all_checks(), {"counter": 3, "doubler": 3, "adder": 3, "a check of old": 7})
+    lines = repr(shown).splitlines()
+    assert lines[0] == f"9 of {sum(check.points for check in all_checks())} points."
+    assert lines[1] == "  01_publish_and_subscribe    ████████████████████   6 of  6  done"
+    assert lines[2] == "  02_services_and_interfaces  ████████············   3 of  7  open: interfaces"
+    assert "<meter" in shown._repr_html_()

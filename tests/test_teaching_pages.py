@@ -1,0 +1,106 @@
+"""`turtle-lesson reset` and `student`: nothing of a learner's is ever lost."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import nbformat
+import pytest
+import teaching_copies as copies
+
+from turtle_lesson.teaching import pages
+from turtle_lesson.teaching.main import main
+
+
+@pytest.fixture
+def checkout(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A checkout without version control, with one published page."""
+    published = tmp_path / "checkout" / "notebooks"
+    published.mkdir(parents=True)
+    copies.write(published, copies.PAGE, copies.copy(copies.STUB, copies.STUB))
+    monkeypatch.setattr(pages, "CHECKOUT", published.parent)
+    monkeypatch.setattr(pages, "PUBLISHED", published)
+    return published / f"{copies.PAGE}.ipynb"
+
+
+@pytest.fixture
+def mine(tmp_path: Path) -> Path:
+    (tmp_path / "mine").mkdir()
+    return copies.write(tmp_path / "mine", copies.PAGE, copies.copy(copies.RIGHT, copies.DOUBLER))
+
+
+def test_a_page_is_reset_and_mine_is_kept(checkout: Path, mine: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    before = mine.read_bytes()
+    assert main(["reset", str(mine)]) == 0
+    assert mine.read_bytes() == checkout.read_bytes()
+    assert mine.with_name(f"{copies.PAGE}.mine-1.ipynb").read_bytes() == before
+    assert "Yours is kept as" in capsys.readouterr().out
+    assert main(["reset", str(mine)]) == 0
+    assert "It was already." in capsys.readouterr().out
+    mine.write_text("damaged")
+    assert main(["reset", str(mine)]) == 0
+    assert mine.with_name(f"{copies.PAGE}.mine-2.ipynb").read_text() == "damaged"
+
+
+def test_a_renamed_copy_is_known_by_its_page(checkout: Path, mine: Path) -> None:
+    anna = mine.rename(mine.with_name("anna.ipynb"))
+    assert main(["reset", str(anna)]) == 0
+    assert anna.read_bytes() == checkout.read_bytes()
+
+
+def test_the_published_page_itself_needs_version_control(checkout: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["reset", str(checkout)]) == 1
+    assert "--from FOLDER" in capsys.readouterr().err
+
+
+def test_with_version_control_the_published_page_is_what_was_committed(
+    checkout: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import shutil
+    import subprocess
+
+    if shutil.which("git") is None:
+        pytest.skip("there is no git here")
+    published = checkout.read_bytes()
+    git = ["git", "-C", str(pages.CHECKOUT), "-c", "user.name=a", "-c", "user.email=a@b.example"]
+    for words in (["init", "-q"], ["add", "-f", "."], ["commit", "-q", "-m", "pages"]):
+        subprocess.run([*git, *words], check=True)
+    checkout.write_text("edited in place")
+    assert main(["reset", str(checkout)]) == 0
+    assert checkout.read_bytes() == published
+    assert checkout.with_name(f"{copies.PAGE}.mine-1.ipynb").read_text() == "edited in place"
+
+
+def test_missing_pages_are_said(checkout: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    other = copies.write(tmp_path, "something_else", nbformat.v4.new_notebook())
+    assert main(["reset", str(other)]) == 1
+    assert "is not here" in capsys.readouterr().err
+    assert main(["reset", str(other), "--from", str(tmp_path / "nowhere")]) == 1
+    assert "there is no something_else.ipynb" in capsys.readouterr().err
+    assert main(["reset", str(tmp_path / "notes.txt")]) == 1
+
+
+def test_student_leaves_the_solutions_out(mine: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["student", str(mine)]) == 0
+    assert "1 cell with a solution left out" in capsys.readouterr().out
+    written = mine.with_name(f"{copies.PAGE}.student.ipynb")
+    notebook = nbformat.read(written, as_version=4)
+    assert len(notebook.cells) == 5
+    assert not any("%%solution" in cell.source for cell in notebook.cells)
+    assert main(["student", str(mine)]) == 1
+    assert "nothing is ever overwritten" in capsys.readouterr().err
+    assert main(["student", str(mine), "--to", str(tmp_path)]) == 0
+    assert (tmp_path / mine.name).is_file()
+
+
+def test_student_of_no_notebook(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "x.ipynb").write_text("{}")
+    assert main(["student", str(tmp_path / "x.ipynb")]) == 1
+    assert "is no notebook" in capsys.readouterr().err
+
+
+def test_notebooks_are_found_once_and_hidden_ones_are_not(tmp_path: Path, mine: Path) -> None:
+    hidden = tmp_path / "mine" / ".ipynb_checkpoints"
+    hidden.mkdir()
+    copies.write(hidden, "old", nbformat.v4.new_notebook())
+    assert pages.find([tmp_path, mine]) == [mine]

@@ -1,0 +1,139 @@
+"""The console command `turtle-lesson`."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from . import junit, pages
+from .grade import TIMEOUT, grade
+from .report import as_json, in_words
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Carry out a command line; returns the exit code: 0, 1 where something could not be done, 2 for a wrong use."""
+    options = _parser().parse_args(arguments)
+    try:
+        return options.act(options)
+    except pages.PageError as error:
+        print(f"turtle-lesson {options.command}: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("stopped", file=sys.stderr)
+        return 130
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="turtle-lesson",
+        description="Learners' copies of the lesson's pages: grade them, reset them, strip solutions.",
+    )
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    _add_grade(commands)
+    _add_reset(commands)
+    _add_student(commands)
+    return parser
+
+
+def _add_grade(commands: argparse._SubParsersAction) -> None:
+    text = "Run copies of pages, each in a kernel and a folder of its own, and print the points for each check."
+    warning = "The cells of a copy are run as they are, with your rights: grade in a container what you do not trust."
+    grading = commands.add_parser("grade", help="points for each check", description=f"{text} {warning}")
+    grading.add_argument("paths", nargs="+", type=Path, metavar="PATH", help="a notebook, or a folder of notebooks")
+    grading.add_argument("--json", action="store_true", help="print JSON, with every row of every check")
+    grading.add_argument("--junit", type=Path, metavar="FILE", help="also write a JUnit report")
+    how_long = f"real time that one copy may take, s (default: {TIMEOUT:g})"
+    grading.add_argument("--timeout", type=_seconds, default=TIMEOUT, metavar="SECONDS", help=how_long)
+    jobs = min(4, os.cpu_count() or 1)
+    grading.add_argument(
+        "--jobs", type=_count, default=jobs, metavar="N", help=f"copies at once (default here: {jobs})"
+    )
+    grading.set_defaults(act=_grade)
+
+
+def _add_reset(commands: argparse._SubParsersAction) -> None:
+    text = "Put a page back into its published state. What it was is kept beside it, as NAME.mine-1.ipynb."
+    reset = commands.add_parser("reset", help="a page as it was published", description=text)
+    reset.add_argument("notebook", type=Path, metavar="NOTEBOOK")
+    where = "folder of the published pages (default: those of the checkout that this command belongs to)"
+    reset.add_argument("--from", dest="source", type=Path, metavar="FOLDER", help=where)
+    reset.set_defaults(act=_reset)
+
+
+def _add_student(commands: argparse._SubParsersAction) -> None:
+    text = "Write a page without its solutions."
+    student = commands.add_parser("student", help="a page without solutions", description=text)
+    student.add_argument("notebook", type=Path, metavar="NOTEBOOK")
+    where = "file or folder to write to (default: NAME.student.ipynb beside it)"
+    student.add_argument("--to", type=Path, metavar="PATH", help=where)
+    student.set_defaults(act=_student)
+
+
+def _seconds(text: str) -> float:
+    seconds = float(text)
+    if not 1 <= seconds <= 86_400:
+        raise argparse.ArgumentTypeError("must be from 1 to 86400 seconds")
+    return seconds
+
+
+def _count(text: str) -> int:
+    if not 1 <= int(text) <= 256:
+        raise argparse.ArgumentTypeError("must be from 1 to 256")
+    return int(text)
+
+
+def _grade(options: argparse.Namespace) -> int:
+    copies = pages.find(options.paths)
+    if not copies:
+        raise pages.PageError(f"there is no notebook in {', '.join(map(str, options.paths))}")
+    if not options.json:
+        amount = "1 notebook" if len(copies) == 1 else f"{len(copies)} notebooks"
+        print(f"Grading {amount}, at most {options.timeout:g} s each.", flush=True)
+    graded = grade(copies, options.timeout, options.jobs, told=None if options.json else _tell)
+    if options.json:
+        print(json.dumps(as_json(graded), indent=1, ensure_ascii=False))
+    else:
+        print(in_words(graded))
+    if options.junit is not None:
+        try:
+            options.junit.write_text(junit.report(graded), encoding="utf-8")
+        except OSError as error:
+            raise pages.PageError(f"{options.junit} cannot be written: {error.strerror}") from None
+    return 1 if any(copy.problem for copy in graded) else 0
+
+
+def _tell(done: int, amount: int, name: str) -> None:
+    if sys.stderr.isatty():
+        print(
+            f"\r{done} of {amount}: {name[:60]}".ljust(78),
+            end="\n" if done == amount else "",
+            file=sys.stderr,
+            flush=True,
+        )
+
+
+def _reset(options: argparse.Namespace) -> int:
+    kept = pages.reset(options.notebook, options.source)
+    print(
+        f"{options.notebook} is as it was published."
+        + (f" Yours is kept as {kept.name}." if kept else " It was already.")
+    )
+    return 0
+
+
+def _student(options: argparse.Namespace) -> int:
+    written, removed = pages.without_solutions(options.notebook, options.to)
+    print(
+        f"{written}: {removed} cells with solutions left out."
+        if removed != 1
+        else f"{written}: 1 cell with a solution left out."
+    )
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

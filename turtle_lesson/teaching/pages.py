@@ -1,0 +1,174 @@
+"""Pages as files: finding them, putting them back into their published state, and stripping solutions."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import nbformat
+
+from ..lab.checks.registry import PAGES
+
+CHECKOUT = Path(__file__).resolve().parents[2]
+"""Where the project lies, if it was installed from its checkout (as README says); the pages are in `notebooks`."""
+
+PUBLISHED = CHECKOUT / "notebooks"
+SOLUTION = "solution"
+"""Tag of the cells that hold a solution."""
+
+
+class PageError(Exception):
+    """Something that cannot be done with a page, and what to try."""
+
+
+def find(paths: Iterable[Path]) -> list[Path]:
+    """The files that are named, and the notebooks in the folders that are; each once, in order."""
+    found: dict[Path, None] = {}
+    for path in paths:
+        inside = sorted(path.rglob("*.ipynb")) if path.is_dir() else [path]
+        found |= dict.fromkeys(each for each in inside if not path.is_dir() or not _hidden(each.relative_to(path)))
+    return list(found)
+
+
+def _hidden(path: Path) -> bool:
+    return any(part.startswith(".") for part in path.parts)
+
+
+def read(path: Path) -> Any:
+    """A notebook. Raises PageError, which says why it is none."""
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except FileNotFoundError:
+        raise PageError(f"{path} is not there") from None
+    except IsADirectoryError:
+        raise PageError(f"{path} is a folder; name the notebook in it") from None
+    except OSError as error:
+        raise PageError(f"{path} cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise PageError(f"{path} is no notebook: it holds no text") from None
+    try:
+        notebook = nbformat.reads(text, as_version=4)
+        nbformat.validate(notebook)
+    except Exception as error:  # nbformat raises many kinds
+        reason = " ".join(str(error).split())[:120]
+        raise PageError(f"{path} is no notebook: {reason or type(error).__name__}") from None
+    return notebook
+
+
+def page_of(path: Path, notebook: Any = None) -> str:
+    """The lesson's page that a copy is of: what its metadata say, or else its name; "" if neither does."""
+    said = notebook.metadata.get("turtle_lesson", {}) if notebook is not None else {}
+    page = said.get("page", "") if isinstance(said, dict) else ""
+    if page in PAGES:
+        return page
+    return next((each for each in PAGES if each in path.stem), "")
+
+
+# -- reset -------------------------------------------------------------------------------------------------------------
+
+
+def reset(path: Path, source: Path | None = None) -> Path | None:
+    """Put a page back into its published state; returns where the learner's copy is kept, None if nothing had changed.
+
+    Published is what lies in `source`; without one, what the checkout's version control holds, or else what lies in the
+    checkout's `notebooks`. Raises PageError where it is found in neither.
+    """
+    if path.suffix != ".ipynb":
+        raise PageError(f"{path} is no notebook: its name should end in .ipynb")
+    published = _published(path, source)
+    if path.is_file() and path.read_bytes() == published:
+        return None
+    kept = None
+    if path.exists():
+        kept = _unused(path)
+        shutil.copy2(path, kept)
+    elif not path.parent.is_dir():
+        raise PageError(f"{path.parent} is not there")
+    path.write_bytes(published)
+    return kept
+
+
+def _unused(path: Path) -> Path:
+    """NAME.mine-1.ipynb, or the first number that is free."""
+    number = 1
+    while (found := path.with_name(f"{path.stem}.mine-{number}.ipynb")).exists():
+        number += 1
+    return found
+
+
+def _published(path: Path, source: Path | None) -> bytes:
+    name = _published_name(path)
+    if source is not None:
+        file = source / name
+        if not file.is_file():
+            raise PageError(f"there is no {name} in {source}")
+        return file.read_bytes()
+    committed = _from_git(name)
+    if committed is not None:
+        return committed
+    file = PUBLISHED / name
+    if file.is_file() and file.resolve() != path.resolve():
+        return file.read_bytes()
+    if file.is_file():
+        raise PageError(
+            f"{name} is the published page itself, and the checkout has no version control to ask for what it was. "
+            "Download the lesson once more, and name its folder of notebooks: --from FOLDER"
+        )
+    raise PageError(
+        f"the published {name} is not here (it would be in {PUBLISHED}). Run the command from the lesson's checkout, or "
+        "name a folder of published pages: --from FOLDER"
+    )
+
+
+def _published_name(path: Path) -> str:
+    """The page's own file name: that of the copy, or of the page whose name is a part of it."""
+    if (PUBLISHED / path.name).is_file():
+        return path.name
+    try:
+        page = page_of(path, read(path))
+    except PageError:  # damaged: all the more reason to reset it
+        page = page_of(path)
+    return f"{page}.ipynb" if page else path.name
+
+
+def _from_git(name: str) -> bytes | None:
+    """A page as the checkout's version control has it; None where there is no checkout, no git or no such page."""
+    if not (CHECKOUT / ".git").exists():
+        return None
+    command = ["git", "-C", str(CHECKOUT), "show", f"HEAD:notebooks/{name}"]
+    try:
+        done = subprocess.run(command, capture_output=True, timeout=30, check=False)
+    except (OSError, subprocess.TimeoutExpired):
+        return None
+    return done.stdout if done.returncode == 0 else None
+
+
+# -- student -----------------------------------------------------------------------------------------------------------
+
+
+def without_solutions(path: Path, to: Path | None = None) -> tuple[Path, int]:
+    """Write a page without the cells tagged "solution"; returns where, and how many cells that were."""
+    notebook = read(path)
+    target = _target(path, to)
+    cells = [cell for cell in notebook.cells if SOLUTION not in cell.metadata.get("tags", [])]
+    removed = len(notebook.cells) - len(cells)
+    notebook.cells = cells
+    try:
+        with target.open("x", encoding="utf-8") as file:
+            nbformat.write(notebook, file)
+    except FileExistsError:
+        raise PageError(
+            f"{target} is there already, and nothing is ever overwritten: name another one with --to"
+        ) from None
+    except OSError as error:
+        raise PageError(f"{target} cannot be written: {error.strerror}") from None
+    return target, removed
+
+
+def _target(path: Path, to: Path | None) -> Path:
+    if to is None:
+        return path.with_name(f"{path.stem}.student.ipynb")
+    return to / path.name if to.is_dir() else to
