@@ -12,7 +12,9 @@ from turtle_lesson.lab.progress import FILE, VARIABLE, Progress, ProgressFile, p
 
 
 def result(name: str, passed: bool = True, points: int = 3) -> CheckResult:
-    return CheckResult(name, "A title", "01_publish_and_subscribe", points, (Row("✓" if passed else "✗", "a", "b"),), 0.0)
+    return CheckResult(
+        name, "A title", "01_publish_and_subscribe", points, (Row("✓" if passed else "✗", "a", "b"),), 0.0
+    )
 
 
 def test_points_survive_a_restart_and_a_later_failure(tmp_path: Path) -> None:
@@ -31,7 +33,9 @@ def test_two_notebooks_at_once_lose_nothing(tmp_path: Path) -> None:
     assert ProgressFile(tmp_path / FILE).points() == {"counter": 3, "doubler": 3, "adder": 3}
 
 
-@pytest.mark.parametrize("damage", ["", "{", "[]", '{"format": 1}', '{"format": 1, "points": {"a": "b"}}', '{"format": 2, "points": {}}'])
+@pytest.mark.parametrize(
+    "damage", ["", "{", "[]", '{"format": 1}', '{"format": 1, "points": {"a": "b"}}', '{"format": 2, "points": {}}']
+)
 def test_a_damaged_file_is_kept_aside_and_said(tmp_path: Path, damage: str) -> None:
     (tmp_path / FILE).write_text(damage)
     file = ProgressFile(tmp_path / FILE)
@@ -64,9 +68,12 @@ def test_the_environment_says_where(tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
 
 def test_the_table_shows_what_is_open() -> None:
-    shown = Progress(all_checks(), {"counter": 3, "doubler": 3, "adder": 3, "a check of old": 7})
-    lines = repr(shown).splitlines()
-    assert lines[0] == f"9 of {sum(check.points for check in all_checks())} points."
-    assert lines[1] == "  01_publish_and_subscribe    ████████████████████   6 of  6  done"
-    assert lines[2] == "  02_services_and_interfaces  ████████············   3 of  7  open: interfaces"
-    assert "<meter" in shown._repr_html_()
+    names = ("counter", "doubler", "adder", "interfaces")
+    checks = [each for each in all_checks() if each.name in names]
+    shown = Progress(checks, {"counter": 3, "doubler": 3, "adder": 3, "a check of old": 7})
+    assert repr(shown) == (
+        "9 of 13 points.\n"
+        "  01_publish_and_subscribe    ████████████████████   6 of  6  done\n"
+        "  02_services_and_interfaces  ████████············   3 of  7  open: interfaces"
+    )
+    assert shown._repr_html_().count("<meter") == 2

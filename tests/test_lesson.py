@@ -50,6 +50,32 @@ def test_time_passes_only_when_it_is_run(lesson: Lesson) -> None:
     assert repr(lesson) == "<Lesson at 2.500 s of robot time>"
 
 
+def test_spinning_calls_the_callbacks_of_cells(lesson: Lesson) -> None:
+    import rclpy
+
+    lesson.spin(1)
+    assert lesson.now == pytest.approx(1.0), "without a node time passes all the same"
+    rclpy.init()
+    ticks: dict[str, int] = {"one": 0, "other": 0}
+    for name in ticks:
+
+        def tick(name: str = name) -> None:
+            ticks[name] += 1
+
+        rclpy.create_node(name).create_timer(0.5, tick)
+    one, other = list(lesson._world.notebook.locals["rclpy.context"]._nodes)
+    lesson.spin(2.2)
+    assert ticks == {"one": 4, "other": 4}
+    lesson.spin(1, one)
+    assert ticks == {"one": 6, "other": 4}
+    other.create_timer(0.1, lambda: 1 / 0)
+    for _ in range(2):  # and again, the executor of before holds no node back
+        with pytest.raises(ZeroDivisionError):
+            lesson.spin(1)
+    with pytest.raises(ValueError, match=r"try lesson\.spin\(5\)"):
+        lesson.spin(-1)
+
+
 @pytest.mark.parametrize("seconds", [-1, float("nan"), float("inf"), "5", None, True])
 def test_time_must_be_a_number_of_seconds(lesson: Lesson, seconds: Any) -> None:
     with pytest.raises(ValueError, match=r"try lesson\.run\(5\)"):

@@ -24,7 +24,9 @@ def test_a_class_of_twenty_is_graded(tmp_path: Path, capsys: pytest.CaptureFixtu
     assert time.monotonic() - began < 120
     assert code == 1  # some could not be run to their end
     graded = {Path(each["path"]).stem: each for each in json.loads(capsys.readouterr().out)["copies"]}
-    assert {name: each["earned"] for name, each in graded.items()} == {name: points for name, (points, _) in expected.items()}
+    assert {name: each["earned"] for name, each in graded.items()} == {
+        name: points for name, (points, _) in expected.items()
+    }
     for name, (_, problem) in expected.items():
         assert (problem in graded[name]["problem"]) if problem else not graded[name]["problem"], name
     assert graded["typing_error"]["errors"][0].startswith("cell 2 raised SyntaxError")
@@ -46,7 +48,9 @@ def test_the_table_says_what_was_missed() -> None:
     anna = Graded(
         Path("anna.ipynb"), copies.PAGE, [CheckScore("counter", 3, "failed", rows), CheckScore("doubler", 3, "not run")]
     )
-    ben = Graded(Path("benjamin.ipynb"), problem="is no notebook: Expecting value", errors=["cell 2 raised NameError: x"])
+    ben = Graded(
+        Path("benjamin.ipynb"), problem="is no notebook: Expecting value", errors=["cell 2 raised NameError: x"]
+    )
     assert in_words([anna, ben]).splitlines() == [
         "anna.ipynb        0 of   6 points  01_publish_and_subscribe",
         "  ✗ counter   0 of  3  /count: a message every 500 ms: every 1000.0 ms",
@@ -71,7 +75,9 @@ def test_a_folder_without_notebooks_is_said(tmp_path: Path, capsys: pytest.Captu
     assert "there is no notebook in" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("wrong", [["grade"], ["grade", "x", "--timeout", "0"], ["grade", "x", "--jobs", "no"], ["mark"], []])
+@pytest.mark.parametrize(
+    "wrong", [["grade"], ["grade", "x", "--timeout", "0"], ["grade", "x", "--jobs", "no"], ["mark"], []]
+)
 def test_a_wrong_use_is_explained(wrong: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as stop:
         main(wrong)

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from .ros.core import NANOSECONDS
-from .ros.core.errors import SimulationError
+from .ros.core.errors import SimulationError, WorldClosed
 
 if TYPE_CHECKING:
     from .lab.obstacle_board import ObstacleBoard
@@ -25,6 +25,7 @@ class ExamPlace:
         self.node = node
         self._board = board
         self.troubles: list[str] = []
+        self._executor: Any = None  # one for all steps: it keeps the coroutines that wait from one step to the next
 
     @property
     def now(self) -> float:
@@ -46,16 +47,16 @@ class ExamPlace:
         self._board.put(obstacles)
 
     def step(self, seconds: float) -> None:
-        """Let robot time pass. Raises nothing but KeyboardInterrupt."""
+        """Let robot time pass. Raises KeyboardInterrupt, and SimulationError where the world itself cannot go on."""
         end = self._world.now + round(seconds * NANOSECONDS)
         while self._world.now < end:
             try:
                 if not self._spin_cells(end):
                     self._world.sim.run_until(end)
             except Exception as error:
+                if type(error) in (SimulationError, WorldClosed):
+                    raise  # the world itself cannot go on; the other kinds are of a callback
                 self._note(error)
-                if isinstance(error, SimulationError) and self._world.now < end:
-                    return
 
     def _note(self, error: Exception) -> None:
         text = " ".join(str(error).split())
@@ -70,7 +71,8 @@ class ExamPlace:
         from rclpy.task import Future
 
         executor = next((node.executor for node in nodes if node.executor is not None), None)
-        executor = executor or SingleThreadedExecutor()
+        if executor is None:
+            executor = self._executor = self._executor or SingleThreadedExecutor()
         added = [node for node in nodes if node.executor is None and executor.add_node(node)]
         try:
             before = self._world.now

@@ -111,6 +111,13 @@ def _install(world: World, folder: Path) -> None:
         registry.add(package.name, folder, package.interfaces)
 
 
+def _check_seconds(verb: str, seconds: object) -> None:
+    if isinstance(seconds, bool) or not isinstance(seconds, (int, float)) or not 0 <= seconds <= LONGEST_RUN:
+        raise ValueError(
+            f"seconds must be a number of seconds from 0 to {LONGEST_RUN:.0e}, got {seconds!r}: try lesson.{verb}(5)"
+        )
+
+
 class Lesson(Shelf, Desk, Insight):
     """A running world, and what a page does with it. Times are in seconds of robot time."""
 
@@ -142,11 +149,29 @@ class Lesson(Shelf, Desk, Insight):
 
         An interrupt (the stop button) pauses the world; the next run goes on from there.
         """
-        if isinstance(seconds, bool) or not isinstance(seconds, (int, float)) or not 0 <= seconds <= LONGEST_RUN:
-            raise ValueError(
-                f"seconds must be a number of seconds from 0 to {LONGEST_RUN:.0e}, got {seconds!r}: try lesson.run(5)"
-            )
+        _check_seconds("run", seconds)
         self._world.sim.run_until(self._world.now + round(seconds * NANOSECONDS))
+
+    def spin(self, seconds: float, *nodes: Any) -> None:
+        """Let `seconds` of robot time pass, and have the callbacks of nodes that live in this notebook called meanwhile.
+
+        It is `rclpy.spin` with an end, on one thread: for the nodes that are named, or else for all that were made in cells.
+        """
+        from rclpy.executors import SingleThreadedExecutor
+        from rclpy.task import Future
+
+        _check_seconds("spin", seconds)
+        context = self._world.notebook.locals.get("rclpy.context")
+        if context is None or not context.ok():
+            self.run(seconds)  # no node lives in a cell
+            return
+        executor = SingleThreadedExecutor(context=context)
+        for node in nodes or list(context._nodes):
+            executor.add_node(node)
+        try:
+            executor.spin_until_future_complete(Future(), float(seconds))
+        finally:
+            executor.shutdown()
 
     def play(self, rate: float = 1.0) -> None:
         """Let robot time go on by itself, `rate` times as fast as real time, until `pause()`. Other cells work on.

@@ -14,7 +14,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from playwright.sync_api import Page
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Frame, Page
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "chrome")
 FLAGS = [
@@ -141,3 +142,12 @@ def choose_theme(page: Page, theme: str) -> None:
     """Show JupyterLab's pages "Light" or "Dark"."""
     execute(page, "apputils:change-theme", {"theme": f"JupyterLab {theme}"})
     page.wait_for_function("theme => document.body.dataset.jpThemeName === theme", arg=f"JupyterLab {theme}")
+
+
+def serious_violations(page: Page | Frame, selector: str) -> list[tuple[str, list[str]]]:
+    """What axe-core finds wrong, seriously or worse, in the elements of a selector: the rule, and where it is broken."""
+    # JupyterLab's body has no height, so axe-core takes all its texts for invisible, and would not look at their contrast
+    page.evaluate("() => (document.body.style.minHeight = '100vh')")
+    found = Axe().run(page, context=selector).response["violations"]
+    serious = [each for each in found if each["impact"] in ("serious", "critical")]
+    return [(each["id"], [node["html"][:200] for node in each["nodes"]]) for each in serious]

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from axe_playwright_python.sync_playwright import Axe
+from jupyter_pages import serious_violations
 from PIL import Image
 from playwright.sync_api import Browser, Page
 
@@ -200,9 +200,8 @@ def test_a_view_that_comes_late_or_is_moved_is_complete(page: Page) -> None:
 
 
 def test_it_is_accessible(page: Page) -> None:
-    found = Axe().run(page, context=".tl-scene").response["violations"]
-    serious = [each["id"] for each in found if each["impact"] in ("serious", "critical")]
-    assert serious == []
+    assert serious_violations(page, ".tl-scene") == []
+    assert serious_violations(inside(page), "body") == []
 
 
 def test_nothing_listens_on_a_new_port(page: Page) -> None:

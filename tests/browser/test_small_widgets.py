@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 import pytest
-from axe_playwright_python.sync_playwright import Axe
+from jupyter_pages import serious_violations
 from playwright.sync_api import Browser, Locator, Page, expect
 
 CELLS = (
@@ -178,8 +178,7 @@ def test_a_parameter_is_set_refused_and_moved_by_keys(window: Page) -> None:
 
 def test_all_of_it_can_be_used_by_all(window: Page) -> None:
     for name in ("teleop", "form", "live", "parameters"):
-        found = Axe().run(window, context=f".tl-{name}").response["violations"]
-        assert not [(each["id"], each["nodes"]) for each in found if each["impact"] in ("serious", "critical")]
+        assert serious_violations(window, f".tl-{name}") == []
 
 
 def test_nothing_is_wider_than_the_window(window: Page) -> None:

@@ -232,5 +232,5 @@ def _calls(began: np.ndarray) -> str:
 
 
 def _missed(period: int, waited: np.ndarray) -> int:
-    """How many ticks a timer left out because it could not run: whole periods that a tick had to wait."""
-    return int((waited // period).sum()) if period else 0
+    """How many ticks a timer left out because it could not run: those that were due before the one that waited began."""
+    return int(((waited - 1) // period).clip(0).sum()) if period else 0

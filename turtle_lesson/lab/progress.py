@@ -155,16 +155,18 @@ class Progress:
 
     def _repr_html_(self) -> str:
         cell = 'style="text-align: left; white-space: nowrap"'
-        rows = "".join(
-            f"<tr><td {cell}>{each.page}</td>"
-            f'<td {cell}><meter min="0" max="{each.points}" value="{each.earned}">{each.earned} of {each.points}</meter></td>'
-            f"<td {cell}>{each.earned} of {each.points}</td><td {cell}>{html.escape(_open(each))}</td></tr>"
-            for each in self.pages
-        )
+        rows = "".join(_html_row(each, cell) for each in self.pages)
         remark = f"<p>{html.escape(self.remark)}</p>" if self.remark else ""
         head = f"<tr><th {cell}>page</th><th></th><th {cell}>points</th><th {cell}>open</th></tr>"
         table = f"<table><thead>{head}</thead><tbody>{rows}</tbody></table>"
         return f"<p><strong>{self.headline}</strong></p>{table}{remark}"
+
+
+def _html_row(score: PageScore, cell: str) -> str:
+    points = f"{score.earned} of {score.points}"
+    meter = f'<meter min="0" max="{score.points}" value="{score.earned}">{points}</meter>'
+    cells = (score.page, meter, points, html.escape(", ".join(score.open) or "none"))
+    return f"<tr>{''.join(f'<td {cell}>{each}</td>' for each in cells)}</tr>"
 
 
 def _score(page: str, checks: list[Check], earned: dict[str, int]) -> PageScore:

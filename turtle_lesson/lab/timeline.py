@@ -77,11 +77,10 @@ def _draw(lanes: list[Lane], window: Window) -> Figure:
 
 def _draw_lane(axes: Axes, place: int, lane: Lane) -> None:
     axes.axhline(place, color=style.LINE, linewidth=0.8, zorder=0.5)
-    for begin, end in lane.waits / NANOSECONDS:
-        axes.plot(
-            [begin, end], [place, place], color=style.VERMILLION, linewidth=1.6, linestyle=(0, (1.2, 1.2)), zorder=2
-        )
-        axes.plot([begin], [place], color=style.VERMILLION, marker="o", markersize=3.0, zorder=2)
+    for begin, end in lane.waits / NANOSECONDS:  # beneath the bars, for it may be another run that lasts meanwhile
+        line: dict[str, Any] = {"color": style.VERMILLION, "linewidth": 1.6, "linestyle": (0, (1.2, 1.2)), "zorder": 2}
+        axes.plot([begin, end], [place + 0.37] * 2, **line)
+        axes.plot([begin], [place + 0.37], color=style.VERMILLION, marker="o", markersize=3.0, zorder=2)
     if len(lane.bars):
         _draw_bars(axes, place, lane)
     if len(lane.marks):
@@ -111,7 +110,7 @@ def _label(figure: Figure, place: int, lane: Lane, height: float) -> None:
     middle = 1 - (TOP + LANE * (place + 0.5)) / height
     left, line = 0.2 / WIDTH, 0.075 / height
     figure.text(left, middle + line, _cut(lane.name, 26), fontsize=8.8, va="center")
-    figure.text(left, middle - line, _cut(lane.about, 33), fontsize=7.4, color=style.GREY, va="center")
+    figure.text(left, middle - line, _cut(lane.about, 30), fontsize=7.4, color=style.GREY, va="center")
 
 
 def _cut(text: str, most: int) -> str:

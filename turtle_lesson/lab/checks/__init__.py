@@ -45,7 +45,8 @@ Texts are for learners and are compared by nbval: figures with fixed decimals (`
 Nodes that live in a notebook cell, and that no executor spins, are spun while a check lets time pass.
 '''
 
-from .exam import Answer, Exam, Heard, field, interface
+from .exam import Answer, Exam, Heard
+from .fields import field, interface
 from .registry import PAGES, Check, Expectation, all_checks, check, checks_of, find
 from .result import METADATA, CheckResult
 from .rows import CannotLook, OutOfTime, Row, Seen

@@ -6,7 +6,6 @@ remembers (`once`), so that several expectations can be about the same drive.
 
 from __future__ import annotations
 
-import importlib
 from collections import Counter
 from collections.abc import Callable, Hashable, Iterable, Iterator
 from contextlib import contextmanager, suppress
@@ -17,9 +16,9 @@ from typing import Any, Protocol, TypeVar
 from ...ros.core.virtual_time import real_monotonic
 from ..channel import with_time
 from ..recording import NANOSECONDS
-from ..system import is_hidden
-from ..widgets.typed_names import nearest
 from ..words import listed
+from .fields import filled, interface
+from .graph_view import GraphView
 from .rows import CannotLook, OutOfTime
 
 T = TypeVar("T")
@@ -94,15 +93,16 @@ class Answer:
         return self.answered - self.asked
 
 
-class Exam:
+class Exam(GraphView):
     """One look at a system, for at most `limit` seconds of robot time."""
 
     def __init__(self, place: Place, limit: float) -> None:
         self.place = place
         self.node = place.node
+        self.began = place.now
         self._until = place.now + limit
         self._limit = limit
-        self._began = real_monotonic()
+        self._real_begin = real_monotonic()
         self._origin = place.node.get_clock().now().nanoseconds - round(place.now * NANOSECONDS)
         self._memory: dict[Hashable, Any] = {}
         self._clean_up: list[Callable[[], object]] = []
@@ -162,59 +162,12 @@ class Exam:
     def _step(self, seconds: float) -> None:
         if self.now + seconds > self._until + 1e-9:
             raise OutOfTime(f"the {self._limit:g} s of robot time that this check may take are over")
-        if real_monotonic() - self._began > PATIENCE:
+        if real_monotonic() - self._real_begin > PATIENCE:
             raise OutOfTime(
                 f"the check had taken {PATIENCE:g} s of real time by then: does a callback compute for long, or is a "
                 "timer's period tiny?"
             )
         self.place.step(seconds)
-
-    # -- the graph ---------------------------------------------------------------------------------------------------
-
-    def nodes(self) -> Counter[str]:
-        """How many visible nodes there are of each full name."""
-        names = (f"{space.rstrip('/')}/{name}" for name, space in self.node.get_node_names_and_namespaces())
-        return Counter(name for name in sorted(names) if not is_hidden(name))
-
-    def publishers(self, topic: str) -> list[tuple[str, str]]:
-        """Full name of the node and type of each publisher that others have on a topic."""
-        return self._others(self.node.get_publishers_info_by_topic(topic))
-
-    def subscriptions(self, topic: str) -> list[tuple[str, str]]:
-        """Full name of the node and type of each subscription that others have on a topic."""
-        return self._others(self.node.get_subscriptions_info_by_topic(topic))
-
-    def servers(self, service: str) -> list[tuple[str, str]]:
-        """Full name of the node and type of each service of a name."""
-        from rclpy.node import NodeNameNonExistentError
-
-        found: list[tuple[str, str]] = []
-        for name, amount in self.nodes().items():
-            namespace, _, base = name.rpartition("/")
-            try:
-                offers = self.node.get_service_names_and_types_by_node(base, namespace or "/")
-            except NodeNameNonExistentError:
-                continue
-            # nodes of one name look the same from outside, so each may be one that offers it
-            found += [(name, kind) for offered, kinds in offers if offered == service for kind in kinds] * amount
-        return found
-
-    def topics(self) -> list[str]:
-        """The names of all topics that are published, hidden ones left out."""
-        names = [name for name, _ in self.node.get_topic_names_and_types() if not is_hidden(name)]
-        return [name for name in names if self.publishers(name)]
-
-    def services(self) -> list[str]:
-        """The names of all services."""
-        return [name for name, _ in self.node.get_service_names_and_types() if not is_hidden(name)]
-
-    def _others(self, ends: Any) -> list[tuple[str, str]]:
-        me = (self.node.get_name(), self.node.get_namespace())
-        return sorted(
-            (f"{end.node_namespace.rstrip('/')}/{end.node_name}", end.topic_type)
-            for end in ends
-            if (end.node_name, end.node_namespace) != me
-        )
 
     # -- listening ---------------------------------------------------------------------------------------------------
 
@@ -323,46 +276,3 @@ class Exam:
         client = self.node.create_client(interface(type_name), service)
         self._clean_up.append(lambda: self.node.destroy_client(client))
         return client
-
-    # -- words -------------------------------------------------------------------------------------------------------
-
-    def like(self, name: str, known: list[str]) -> str:
-        """ ", but somebody does /robot/staus": a name that is nearly the one that was looked for."""
-        found = nearest(name, [each for each in known if each != name], cutoff=0.75)
-        return f", but there is {found}" if found else ""
-
-
-def interface(type_name: str) -> Any:
-    """The class of a type such as "std_msgs/msg/String". Raises CannotLook where it cannot be imported."""
-    package, kind, name = type_name.split("/")
-    try:
-        return getattr(importlib.import_module(f"{package}.{kind}"), name)
-    except Exception as error:  # a package that was built badly can raise anything
-        reason = " ".join(str(error).split())[:160]
-        raise CannotLook(f"the type {type_name} cannot be imported here ({reason})") from None
-
-
-def filled(message: Any, fields: dict[str, Any], type_name: str) -> Any:
-    """The message with its fields set. Raises CannotLook for a field that it does not have."""
-    for path, value in fields.items():
-        *way, last = path.split("__")
-        target = message
-        try:
-            for part in way:
-                target = getattr(target, part)
-            setattr(target, last, value)
-        except (AttributeError, AssertionError, TypeError) as error:
-            reason = " ".join(str(error).split())[:120]
-            raise CannotLook(f"{type_name} cannot hold {path.replace('__', '.')} = {value!r} ({reason})") from None
-    return message
-
-
-def field(message: Any, path: str) -> Any:
-    """What a message has in a field such as "linear.x". Raises CannotLook where there is none."""
-    value = message
-    for part in path.split("."):
-        try:
-            value = getattr(value, part)
-        except AttributeError:
-            raise CannotLook(f"{type(message).__name__} has no field {path}") from None
-    return value

@@ -1,4 +1,4 @@
-"""Page 04: the status monitor."""
+"""Page 04: the status monitor, its battery, and a node that watches the battery."""
 
 from __future__ import annotations
 
@@ -8,11 +8,12 @@ from dataclasses import dataclass
 
 from ..words import number, turned
 from .drives import COMMAND_TYPE, COMMANDS, POSE, POSE_TYPE
-from .exam import Exam, Heard, field
-from .parts import no_errors, node, publishes
+from .exam import Exam, Heard
+from .fields import field
+from .parts import no_errors, node, publishes, subscribes
 from .registry import Expectation, check
 from .rows import CannotLook, Seen
-from .streams import messages, rate, some
+from .streams import messages, rate, relays, some
 
 PAGE = "04_status_monitor"
 STATUS, STATUS_TYPE = "/robot/status", "robot_controller/msg/TurtleStatus"
@@ -23,6 +24,24 @@ DROP = 0.1
 
 LATE = 0.1
 """How far a status may be behind the pose, m and rad: at 1 m/s that is 0.1 s."""
+
+
+LOW, LOW_TYPE = "/robot/battery_low", "std_msgs/msg/Bool"
+LOW_BELOW = 20.0
+"""Percent: below this a battery is low."""
+
+
+@check("battery", page=PAGE, points=3, limit=120)
+def battery() -> list[Expectation]:
+    """A status ten times a second, with a battery that runs down."""
+    return [
+        node("/status_monitor", RUN),
+        publishes(STATUS, STATUS_TYPE, by="/status_monitor"),
+        rate(STATUS, STATUS_TYPE, hz=10),
+        messages(STATUS, STATUS_TYPE, f"battery falls by {DROP:g} a message", _falls, 3.0),
+        battery_ends_at_zero(),
+        no_errors(),
+    ]
 
 
 @check("status_monitor", page=PAGE, points=5, limit=140)
@@ -36,6 +55,23 @@ def status_monitor() -> list[Expectation]:
         velocity_follows(),
         messages(STATUS, STATUS_TYPE, f"battery falls by {DROP:g} a message", _falls, 3.0),
         battery_ends_at_zero(),
+        no_errors(),
+    ]
+
+
+@check("battery_watch", page=PAGE, points=3, limit=20)
+def battery_watch() -> list[Expectation]:
+    """A node that hears the status, and says whether the battery is low."""
+    pairs = [
+        ({"battery": charge}, lambda message, low=charge < LOW_BELOW: message.data == low, f"{charge:g} → {charge < LOW_BELOW}")
+        for charge in (100.0, 19.5, 20.0, 0.0)
+    ]
+    step = f"In on_status publish Bool(data=status.battery < {LOW_BELOW:g}), once for each status."
+    return [
+        node("/battery_watch"),
+        subscribes(STATUS, STATUS_TYPE, by="/battery_watch"),
+        publishes(LOW, LOW_TYPE, by="/battery_watch"),
+        relays(STATUS, STATUS_TYPE, LOW, LOW_TYPE, pairs, step),
         no_errors(),
     ]
 

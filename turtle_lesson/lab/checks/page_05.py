@@ -9,7 +9,8 @@ from ...turtlesim.obstacles import Circle
 from ..track import WORLD
 from ..words import angle, count, number
 from .drives import where
-from .exam import Exam, Heard, field
+from .exam import Exam, Heard
+from .fields import field
 from .parts import no_errors, node, publishes
 from .registry import Expectation, check
 from .rows import CannotLook, Seen
@@ -19,6 +20,7 @@ PAGE = "05_obstacle_detector"
 SCAN, SCAN_TYPE = "/obstacles", "sensor_msgs/msg/LaserScan"
 RUN = "ros2 run robot_controller obstacle_detector"
 RADIUS = 0.3
+AHEAD, AHEAD_TYPE = "/nearest_ahead", "std_msgs/msg/Float32"
 
 
 @check("scan", page=PAGE, points=4, limit=20)
@@ -33,6 +35,20 @@ def scan() -> list[Expectation]:
         messages(SCAN, SCAN_TYPE, "a reading for every beam", _readings),
         messages(SCAN, SCAN_TYPE, "readings from 0 to 10 m", _ranges),
         no_errors(),
+    ]
+
+
+@check("nearest_ahead", page=PAGE, points=4, limit=20)
+def nearest_ahead() -> list[Expectation]:
+    """A node that says how far it is to the nearest thing ahead."""
+    wide = "Look at all beams from −30° to +30°: beam i points to angle_min + i · angle_increment."
+    return [
+        node("/lookout"),
+        publishes(AHEAD, AHEAD_TYPE, by="/lookout"),
+        _says_ahead("an obstacle straight ahead is told", 0.0, wide),
+        _says_ahead("one a little to the left, too", 20.0, wide),
+        _says_ahead("one a little to the right, too", -20.0, wide),
+        _keeps_quiet("one at the side is not", 75.0),
     ]
 
 
@@ -74,7 +90,7 @@ def _readings(heard: list[Heard]) -> Seen:
     counts = {(len(field(each.message, "ranges")), beams(each.message)) for each in heard}
     there, wanted = max(counts, key=lambda pair: abs(pair[0] - pair[1]))
     seen = f"{count(there, 'reading')}, and the angles ask for {wanted}"
-    step = "There is one beam more than there are steps: int((max − min) / increment + 0.01) + 1."
+    step = "Both ends have a beam, so there is one beam more than there are steps."
     return Seen(there == wanted, seen, step)
 
 
@@ -86,6 +102,52 @@ def _ranges(heard: list[Heard]) -> Seen:
     if bad:
         return Seen(False, f"{number(bad[0])} m", "Keep readings within range_min and range_max.")
     return Seen(True, f"from {number(min(readings))} to {number(max(readings))} m")
+
+
+# -- what is ahead -----------------------------------------------------------------------------------------------------
+
+
+def _says_ahead(expected: str, degrees: float, step: str) -> Expectation:
+    """An obstacle that the check puts in this direction is what the node tells, to 5 cm."""
+
+    def look(exam: Exam) -> Seen:
+        distance, before, during = _put_ahead(exam, degrees)
+        seen = f"{number(during)} m, with its near side at {number(distance)} m; without it {number(before)} m"
+        return Seen(abs(during - distance) <= 0.05 < before - distance, seen, step)
+
+    return Expectation(expected, look)
+
+
+def _keeps_quiet(expected: str, degrees: float) -> Expectation:
+    """An obstacle that the check puts in this direction changes nothing."""
+
+    def look(exam: Exam) -> Seen:
+        distance, before, during = _put_ahead(exam, degrees)
+        seen = (
+            f"{number(during)} m, although one is {number(distance)} m away at the side; without it {number(before)} m"
+        )
+        return Seen(abs(during - before) <= 0.05, seen, "Leave out the beams that point further aside than 30°.")
+
+    return Expectation(expected, look)
+
+
+def _put_ahead(exam: Exam, degrees: float) -> tuple[float, float, float]:
+    """Put an obstacle in a direction. The distance of its near side, and what was told before and with it (m)."""
+    pose = where(exam)
+    turn, distance = pose.theta + math.radians(degrees), 0.8
+    x, y = (start + way(turn) * (distance + RADIUS) for start, way in ((pose.x, math.cos), (pose.y, math.sin)))
+    if not all(RADIUS * 2 < each < WORLD - RADIUS * 2 for each in (x, y)):
+        raise CannotLook("the turtle stands too near to a wall: turn it to the middle first")
+    before = _told(exam)
+    with exam.obstacles(Circle(x, y, RADIUS)):
+        during = _told(exam)
+    return distance, before, during
+
+
+def _told(exam: Exam) -> float:
+    """What the node tells after a moment, m."""
+    exam.wait(0.4)
+    return float(field(some(exam, AHEAD, AHEAD_TYPE, 0.5)[-1].message, "data"))
 
 
 # -- what it sees ------------------------------------------------------------------------------------------------------

@@ -1,10 +1,13 @@
-"""Page 08: a node that goes on living while it works."""
+"""Page 08: nodes that go on living while they work, and one that asks another."""
 
 from __future__ import annotations
 
 import itertools
+import math
+from typing import Any
 
-from ..words import number
+from ..words import number, point
+from .drives import NAVIGATE, NAVIGATE_TYPE, NEAR, where
 from .exam import Exam, Heard
 from .parts import get_parameter, no_errors, node, offers, publishes
 from .registry import Expectation, check
@@ -14,12 +17,46 @@ from .streams import rate
 PAGE = "08_executors"
 WORK, WORK_TYPE = "/work", "std_srvs/srv/Trigger"
 BEAT, BEAT_TYPE = "/heartbeat", "std_msgs/msg/Int32"
+BELL, BELL_TYPE = "/bell", "std_msgs/msg/Int32"
+OVEN, OVEN_TYPE = "/oven", "std_msgs/msg/Bool"
+HOME, HOME_TYPE = "/go_home", "std_srvs/srv/Trigger"
+MIDDLE, AWAY = (5.5, 5.5), (2.0, 8.0)
 
 LEAST = 1.0
 """Robot time, s, that the work takes at least."""
 
 LONGEST = 20.0
 """Robot time, s, within which it should be done."""
+
+BAKING = 0.4
+"""Robot time, s, for which the oven is on."""
+
+
+@check("steady", page=PAGE, points=3, limit=20)
+def steady() -> list[Expectation]:
+    """A baker whose bell rings on time, whatever the oven does."""
+    return [
+        node("/baker"),
+        publishes(BELL, BELL_TYPE, by="/baker"),
+        publishes(OVEN, OVEN_TYPE, by="/baker"),
+        Expectation(f"the oven is on for {BAKING:g} s, once a second", _bakes),
+        rate(BELL, BELL_TYPE, hz=10),
+        no_errors(),
+    ]
+
+
+def _bakes(exam: Exam) -> Seen:
+    heard = exam.hear(OVEN, OVEN_TYPE, 4.2)
+    on = [each.at for each in heard if each.message.data]
+    lasted = [after.at - before.at for before, after in itertools.pairwise(heard) if before.message.data]
+    again = [after - before for before, after in itertools.pairwise(on)]
+    if not lasted or not again:
+        step = "on_bake publishes True, bakes with time.sleep(0.4), publishes False; is its node in the executor?"
+        return Seen(False, f"it was switched on {len(on)} times in 4.2 s", step)
+    odd = max(lasted, key=lambda each: abs(each - BAKING)), max(again, key=lambda each: abs(each - 1.0))
+    seen = f"on for {number(odd[0])} s, every {number(odd[1])} s"
+    step = f"Leave create_timer(1.0, …) and time.sleep({BAKING:g}) as they are: the work shall take its time."
+    return Seen(abs(odd[0] - BAKING) <= 0.011 and abs(odd[1] - 1.0) <= 0.011, seen, step)
 
 
 @check("awake", page=PAGE, points=5, limit=40)
@@ -90,3 +127,47 @@ def _answers(exam: Exam) -> Seen:
     if seconds is not None and seconds < LEAST - 0.01:
         raise CannotLook("the work is over at once")
     return Seen(responsive, "it was" if responsive else "only when the work was done", _STEP)
+
+
+@check("go_home", page=PAGE, points=5, limit=120)
+def go_home() -> list[Expectation]:
+    """A service that asks another service, and does not hang."""
+    return [
+        node("/concierge"),
+        offers(HOME, HOME_TYPE, by="/concierge"),
+        Expectation(f"{HOME} is answered with success", _answers_from_home),
+        Expectation("the turtle is in the middle by then", _is_home),
+        no_errors(),
+    ]
+
+
+def _trip(exam: Exam) -> tuple[Any, Any]:
+    """The turtle is driven away, then sent home: the answer, and its pose when that came."""
+    return exam.once("trip", lambda: _go_home(exam))
+
+
+def _go_home(exam: Exam) -> tuple[Any, Any]:
+    if not exam.servers(HOME):
+        raise CannotLook(f"nobody offers {HOME}{exam.like(HOME, exam.services())}")
+    x, y = AWAY
+    away = exam.ask(NAVIGATE, NAVIGATE_TYPE, LONGEST, x=x, y=y, theta=0.0)
+    if away.response is None or not away.response.success:
+        raise CannotLook("the navigator did not drive the turtle away from home first: is it running?")
+    answer = exam.ask(HOME, HOME_TYPE, LONGEST)
+    return answer, where(exam)
+
+
+def _answers_from_home(exam: Exam) -> Seen:
+    answer, _ = _trip(exam)
+    if answer.response is None:
+        step = "`await` the answer in an `async def`, with the client in a callback group of its own."
+        return Seen(False, f"no answer in {LONGEST:g} s", step)
+    good = answer.response.success is True
+    return Seen(good, f"success is {answer.response.success} after {number(answer.seconds)} s", "Pass on what it answers.")
+
+
+def _is_home(exam: Exam) -> Seen:
+    _, pose = _trip(exam)
+    away = math.dist((pose.x, pose.y), MIDDLE)
+    step = f"Ask {NAVIGATE} for x=5.5, y=5.5, and wait for its answer before you give yours."
+    return Seen(away <= NEAR, f"it is at {point(pose.x, pose.y)}", step)

@@ -4,10 +4,37 @@ from __future__ import annotations
 
 from .registry import Expectation, check
 
+PAGE = "09_debugging_lab"
+LIMIT = 600
 
-@check("trouble", page="09_debugging_lab", points=5, limit=600)
+
+@check("trouble", page=PAGE, points=1, limit=LIMIT)
 def trouble() -> list[Expectation]:
     """The case is closed: the system does what it should."""
     from ..troubles import current_expectations
 
     return current_expectations()
+
+
+@check("slow_case", page=PAGE, points=3, limit=LIMIT)
+def slow_case() -> list[Expectation]:
+    """The first guided case is closed: the turtle gets where it is sent."""
+    from ..troubles import expectations_of
+
+    return expectations_of("turtle stands still")
+
+
+@check("deaf_case", page=PAGE, points=3, limit=LIMIT)
+def deaf_case() -> list[Expectation]:
+    """The second guided case is closed: the alarm rings."""
+    from ..troubles import expectations_of
+
+    return expectations_of("alarm stays silent")
+
+
+@check("own_case", page=PAGE, points=5, limit=LIMIT)
+def own_case() -> list[Expectation]:
+    """A case drawn by its number is closed."""
+    from ..troubles import expectations_of
+
+    return expectations_of(None)

@@ -1,4 +1,4 @@
-"""Page 10: the whole system, by its success criteria."""
+"""Page 10: tests that can fail, and the whole system by its success criteria."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from ..words import count, number, point
 from . import page_04, page_05, page_06
 from .drives import NAVIGATE, NAVIGATE_TYPE, NEAR, Drive, drive, where
 from .exam import Exam, Heard
-from .parts import no_errors
+from .parts import no_errors, publishes, subscribes
 from .registry import Expectation, check
 from .rows import CannotLook, Seen
-from .streams import judge_rate
+from .streams import judge_rate, relays
 
 PAGE = "10_test_and_validate"
 
@@ -24,6 +24,97 @@ GOALS = ((8.0, 8.0, 1.57), (2.0, 8.0, 3.14), (2.0, 2.0, -1.57), (9.0, 2.0, 0.0),
 
 MINUTES = 5.0
 CRITERION = "five minutes of work"
+
+VERDICT_TYPE = "std_msgs/msg/Bool"
+BATTERY_VERDICT, ALIVE = "/tests/battery", "/tests/alive"
+
+
+# -- a test of one message -----------------------------------------------------------------------------------------------
+
+
+@check("battery_test", page=PAGE, points=3, limit=20)
+def battery_test() -> list[Expectation]:
+    """A test of one message: passes every percentage, and can fail."""
+    step = "Compare both ends, 0 <= status.battery <= 100, and return what comes out."
+    return [
+        subscribes(page_04.STATUS, page_04.STATUS_TYPE, by="/tester"),
+        publishes(BATTERY_VERDICT, VERDICT_TYPE, by="/tester"),
+        Expectation("0, 50 and 100 % pass", _judged(True, (0.0, 50.0, 100.0), step)),
+        Expectation("150 and -1 % fail", _judged(False, (150.0, -1.0), step)),
+        Expectation("a battery that is no number fails", _judged(False, (math.nan,), step)),
+    ]
+
+
+def _judged(verdict: bool, charges: tuple[float, ...], step: str) -> Any:
+    pairs = [({"battery": each}, _says(verdict), f"{each:g} % → {verdict}") for each in charges]
+    return relays(page_04.STATUS, page_04.STATUS_TYPE, BATTERY_VERDICT, VERDICT_TYPE, pairs, step).look
+
+
+def _says(verdict: bool) -> Any:
+    return lambda message: message.data is verdict
+
+
+# -- a test that goes on -------------------------------------------------------------------------------------------------
+
+
+@check("watchdog", page=PAGE, points=4, limit=20)
+def watchdog() -> list[Expectation]:
+    """A watchdog that notices when the status stops coming."""
+    return [
+        subscribes(page_04.STATUS, page_04.STATUS_TYPE, by="/watchdog"),
+        publishes(ALIVE, VERDICT_TYPE, by="/watchdog"),
+        Expectation("True while the status comes", _alive),
+        Expectation("False after a second of silence", _silent),
+        Expectation("True when it comes again", _alive_again),
+    ]
+
+
+def _alive(exam: Exam) -> Seen:
+    return _watched(exam)[0]
+
+
+def _silent(exam: Exam) -> Seen:
+    return _watched(exam)[1]
+
+
+def _alive_again(exam: Exam) -> Seen:
+    return _watched(exam)[2]
+
+
+def _watched(exam: Exam) -> tuple[Seen, Seen, Seen]:
+    """What the watchdog says while statuses come for a second, while none does, and while they come again."""
+    return exam.once("watched", lambda: _speak_and_hush(exam))
+
+
+def _speak_and_hush(exam: Exam) -> tuple[Seen, Seen, Seen]:
+    others = exam.publishers(page_04.STATUS)
+    if others:
+        raise CannotLook(f"{others[0][0]} publishes {page_04.STATUS}, so there is no silence: stop it first")
+    heard = exam.listen(ALIVE, VERDICT_TYPE)
+    first = _speak(exam, heard)
+    heard.clear()
+    exam.wait(1.0)
+    silent = _verdict(heard, False, "Compare the time since the last status with the limit, each time the timer ticks.")
+    return first, silent, _speak(exam, heard)
+
+
+def _speak(exam: Exam, heard: list[Heard]) -> Seen:
+    for _ in range(10):
+        heard.clear()
+        exam.publish(page_04.STATUS, page_04.STATUS_TYPE, battery=50.0)
+        exam.wait(0.1)
+    exam.wait(0.1)
+    return _verdict(heard, True, "In on_status, remember the time: self.get_clock().now().")
+
+
+def _verdict(heard: list[Heard], wanted: bool, step: str) -> Seen:
+    if not heard:
+        return Seen(False, f"nothing came on {ALIVE}", "Publish from a timer, so that silence is reported, too.")
+    said = heard[-1].message.data
+    return Seen(said is wanted, f"it says {said}", step)
+
+
+# -- the whole system ----------------------------------------------------------------------------------------------------
 
 
 @check("system", page=PAGE, points=10, limit=420)

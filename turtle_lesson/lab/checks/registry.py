@@ -29,7 +29,7 @@ PAGES = (
 )
 """The lesson's pages, in their order."""
 
-MODULES = tuple(f"page_{number:02}" for number in (1, 2, 3, 4, 5, 6, 8, 9, 10, 11))
+MODULES = tuple(f"page_{number:02}" for number in range(12))
 """The modules beside this one that define checks; a page's own is read when a check is first asked for."""
 
 

@@ -8,17 +8,23 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from ..words import count, number
-from .exam import Exam, Heard, field
+from .exam import Exam, Heard
+from .fields import field
 from .registry import Expectation
 from .rows import CannotLook, Seen
 
 Judge = Callable[[list[Heard]], Seen]
+
+CATCH_UP = 0.001
+"""Robot time, s, before a rate is measured: a timer in a cell that nobody spun for a while ticks once, late, then in step."""
 
 
 def rate(topic: str, type_name: str, hz: float, within: float = 0.010, seconds: float = 3.0) -> Expectation:
     """Messages at a rate: every interval (s) between two of them is 1/hz, give or take `within`."""
 
     def look(exam: Exam) -> Seen:
+        exam.listen(topic, type_name)
+        exam.wait(CATCH_UP)
         return judge_rate(exam.hear(topic, type_name, seconds), hz, within, len(exam.publishers(topic)))
 
     milliseconds = f"{number(1000 / hz, 0)} ms ± {number(1000 * within, 0)} ms"

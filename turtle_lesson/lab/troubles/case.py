@@ -20,6 +20,7 @@ class Case:
     Attributes:
         number: by which `lesson.trouble(number)` brings it back.
         report: what a user says.
+        trouble: the name under which it was asked for; None if it was drawn by its number.
     """
 
     def __init__(
@@ -27,6 +28,7 @@ class Case:
     ) -> None:
         self.number = number
         self.report = trouble.report
+        self.trouble = trouble.name if named else None
         self._title = f"Case {number}, {trouble.name}" if named else f"Case {number}"
         self._trouble, self._fault = trouble, fault
         self._check = check
@@ -121,6 +123,21 @@ def current_expectations() -> list[Expectation]:
     if _current is None or _current[1].ended:
         return [Expectation("a case that was opened", _no_case)]
     return _current[0]._trouble.expectations()
+
+
+def expectations_of(name: str | None) -> list[Expectation]:
+    """The same, and that the current case is this trouble; None is one that was drawn by its number alone."""
+    wanted = f'lesson.trouble(name="{name}")' if name else "lesson.trouble(a number)"
+
+    def look(exam: Exam) -> Seen:
+        if _current is None or _current[1].ended:
+            return Seen(False, "there is none in this world yet", f"Run the cell with case = {wanted} first.")
+        return Seen(_current[0].trouble == name, _current[0]._title, f"Another one is asked for: case = {wanted}")
+
+    is_it = Expectation("the case was opened", look)
+    if _current is None or _current[1].ended or _current[0].trouble != name:
+        return [is_it]
+    return [is_it, *current_expectations()]
 
 
 def _no_case(exam: Exam) -> Seen:

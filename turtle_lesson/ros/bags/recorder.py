@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
 
     from ..graph import Topic
+    from ..graph.topic import Writer
     from .writer import BagWriter
 
 NODE = "rosbag2_recorder"

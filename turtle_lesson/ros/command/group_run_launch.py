@@ -134,9 +134,8 @@ def _launch(args: Namespace) -> int:
     except LaunchError as error:
         print("\n".join(filter(None, (error.console, error.advice))))
         return 1
-    return _leave(
-        handle, " ".join(["ros2 launch", args.package_name, args.launch_file_name or "", *words]), args.seconds
-    )
+    given_words = [args.package_name, args.launch_file_name or "", *(args.launch_arguments or [])]
+    return _leave(handle, " ".join(["ros2 launch", *given_words]), args.seconds)
 
 
 def _find(args: Namespace) -> tuple[Path, list[str]]:

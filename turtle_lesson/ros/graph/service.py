@@ -70,12 +70,12 @@ class ClientEnd:
     def reply(self, number: int, message: Any) -> None:
         """Send an answer back to this client."""
         arrival = self.simulation.now + self.latency
-        if number in self._calls and self.trace is not None:
+        if self.trace is not None and number in self._calls:
             self.trace.answered(self._calls[number], message._wire_copy())
         self.simulation.at(arrival, self._receive, (number, message._wire_copy()))
 
     def _receive(self, answer: tuple[int, Any]) -> None:
-        if (call := self._calls.pop(answer[0], None)) is not None and self.trace is not None:
+        if self.trace is not None and (call := self._calls.pop(answer[0], None)) is not None:
             self.trace.told(call)
         self.queue.append(answer)
         self.wake()

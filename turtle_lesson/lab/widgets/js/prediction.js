@@ -13,7 +13,7 @@ function predictionPanel(model, order) {
     closed.hidden = model.get("is_open");
   };
   const panel = element("div", { class: "tl-prediction" }, body, closed);
-  return { panel, watch: { guess: show, is_asking: show }, close: way.close };
+  return { panel, watch: { guess: show, is_open: show }, close: way.close };
 }
 
 function choiceGuess(model, send) {
@@ -37,10 +37,12 @@ function numberGuess(model, send, id) {
   return { control: form, show };
 }
 
+const GUESS_MARGIN = 24; // pixels left of the map and below it, for the figures
+
 function pointGuess(model, send, id) {
   const world = model.get("world");
   let at = null;
-  const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+  const steps = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
   const within = (value) => Math.min(world, Math.max(0, value));
   const label = element("span", { "aria-live": "polite" });
   const move = (x, y) => {
@@ -48,20 +50,24 @@ function pointGuess(model, send, id) {
     label.textContent = `(${figure(at[0])}, ${figure(at[1])}) m`;
     repaint();
   };
+  const help = "Arrow keys move the mark, with Shift in small steps; Enter records it";
   const { canvas, repaint, close } = sharpCanvas(
-    { class: "tl-guess-map", tabindex: 0, role: "application", "aria-labelledby": id, "aria-description": "Arrow keys move the mark, Enter records it" },
-    (context, width, height, colour) => drawGuess(context, width / world, world, at, colour),
+    { class: "tl-guess-map", tabindex: 0, role: "application", "aria-labelledby": id, "aria-description": help },
+    (context, width, height, colour) => drawGuess(context, (width - GUESS_MARGIN) / world, world, at, colour),
   );
   canvas.addEventListener("click", (event) => {
+    if (!model.get("is_open")) return;
     const frame = canvas.getBoundingClientRect();
-    move(((event.clientX - frame.left) / frame.width) * world, (1 - (event.clientY - frame.top) / frame.height) * world);
-    if (model.get("is_open")) send(at);
+    const scale = (frame.width - GUESS_MARGIN) / world;
+    move((event.clientX - frame.left - GUESS_MARGIN) / scale, world - (event.clientY - frame.top) / scale);
+    send(at);
   });
   canvas.addEventListener("keydown", (event) => {
-    if (step[event.key]) {
+    if (!model.get("is_open")) return;
+    if (steps[event.key]) {
       const [x, y] = at ?? [world / 2, world / 2];
       const far = event.shiftKey ? 0.1 : 0.5;
-      move(x + step[event.key][0] * far, y + step[event.key][1] * far);
+      move(x + steps[event.key][0] * far, y + steps[event.key][1] * far);
     } else if (event.key === "Enter" && at) send(at);
     else return;
     event.preventDefault();
@@ -72,22 +78,38 @@ function pointGuess(model, send, id) {
 }
 
 function drawGuess(context, scale, world, at, colour) {
+  const side = world * scale;
+  context.translate(GUESS_MARGIN, 0);
   context.fillStyle = colour.floor;
-  context.fillRect(0, 0, world * scale, world * scale);
+  context.fillRect(0, 0, side, side);
   context.strokeStyle = colour.line;
   context.beginPath();
   for (let metre = 1; metre < world; metre++) {
-    context.moveTo(metre * scale, 0), context.lineTo(metre * scale, world * scale);
-    context.moveTo(0, metre * scale), context.lineTo(world * scale, metre * scale);
+    context.moveTo(metre * scale, 0), context.lineTo(metre * scale, side);
+    context.moveTo(0, side - metre * scale), context.lineTo(side, side - metre * scale);
   }
   context.stroke();
   context.strokeStyle = colour.wall;
   context.lineWidth = 2;
-  context.strokeRect(1, 1, world * scale - 2, world * scale - 2);
+  context.strokeRect(1, 1, side - 2, side - 2);
+  drawGuessFigures(context, scale, side, colour);
   if (!at) return;
   context.strokeStyle = colour.goal;
   context.lineWidth = 3;
-  context.beginPath(), context.arc(at[0] * scale, (world - at[1]) * scale, 8, 0, 2 * Math.PI), context.stroke();
+  context.beginPath(), context.arc(at[0] * scale, side - at[1] * scale, 8, 0, 2 * Math.PI), context.stroke();
+}
+
+function drawGuessFigures(context, scale, side, colour) {
+  context.fillStyle = colour.grey;
+  context.font = "11px system-ui, sans-serif";
+  for (let metre = 0; metre <= 10; metre += 2) {
+    context.textAlign = metre ? "center" : "left";
+    context.textBaseline = "top";
+    context.fillText(metre === 10 ? "10 m" : metre, metre * scale, side + 6);
+    context.textAlign = "right";
+    context.textBaseline = metre ? "middle" : "bottom";
+    context.fillText(metre, -6, side - metre * scale);
+  }
 }
 
 export default { render: (context) => mount(context, "prediction", "Prediction", predictionPanel) };

@@ -1,0 +1,27 @@
+"""Page 00: a first goal of the reader's own."""
+
+from __future__ import annotations
+
+import math
+
+from ..words import number, point
+from .drives import NEAR, where
+from .exam import Exam
+from .registry import Expectation, check
+from .rows import Seen
+
+PAGE = "00_welcome"
+CORNER = (2.0, 2.0)
+
+
+@check("corner", page=PAGE, points=1, limit=5)
+def corner() -> list[Expectation]:
+    """The turtle was sent to (2, 2)."""
+    return [Expectation(f"the turtle within {NEAR:g} m of {point(*CORNER)}", _in_the_corner)]
+
+
+def _in_the_corner(exam: Exam) -> Seen:
+    pose = where(exam)
+    away = math.hypot(pose.x - CORNER[0], pose.y - CORNER[1])
+    seen = f"it is at {point(pose.x, pose.y)}, {number(away)} m from there"
+    return Seen(away <= NEAR, seen, "The request wants x=2.0 and y=2.0; then client.call(it).")
