@@ -12,6 +12,7 @@ import pytest
 
 from turtle_lesson import start
 from turtle_lesson.lab.table import Table
+from turtle_lesson.lab.widgets.goals import WORLD
 from turtle_lesson.lab.widgets.trail import POINTS, SPACING, TAIL, Trail
 from turtle_lesson.lesson import Lesson
 from turtle_lesson.live import Stopwatch
@@ -331,6 +332,20 @@ def test_the_scan_is_drawn_from_where_the_turtle_was_and_vanishes_when_it_is_old
     lesson.run(2)
     pad.tick()
     assert pad.scanned_from == b""
+
+
+def test_while_it_turns_the_hits_of_every_scan_lie_on_the_walls(lesson: Lesson) -> None:
+    pad = shown(lesson)
+    pad.desk.send(2.0, 2.0, 1.5)
+    walls = np.array([[0.0], [WORLD]])
+    for _ in range(12):
+        lesson.run(0.2)
+        pad.tick()
+        (x, y, theta), (angle, step, reach, *ranges) = numbers(pad.scanned_from), numbers(pad.scan)
+        seen = np.array(ranges) < reach - 1e-3
+        turns = theta + angle + step * np.arange(len(ranges))
+        hits = np.concatenate([x + ranges * np.cos(turns) - walls, y + ranges * np.sin(turns) - walls])
+        assert np.abs(hits).min(axis=0)[seen].max() < 0.001
 
 
 def driven(places: list[tuple[float, float]], speed: float = 3.0) -> Table:

@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 import pytest
 import teaching_copies as copies
 
+from turtle_lesson.lab.checks import checks_of
 from turtle_lesson.teaching.grade import CheckScore, Graded
 from turtle_lesson.teaching.main import main
 from turtle_lesson.teaching.report import as_json, in_words
@@ -32,7 +33,8 @@ def test_a_class_of_twenty_is_graded(tmp_path: Path, capsys: pytest.CaptureFixtu
     assert graded["typing_error"]["errors"][0].startswith("cell 2 raised SyntaxError")
     assert graded["endless_cell"]["errors"] == ["cell 2 took more than 5 s, and was stopped"]
     assert {each["state"] for each in graded["dies"]["checks"]} == {"not run"}
-    assert {each["points"] for each in graded.values() if each["page"]} == {6}
+    of_the_page = sum(each.points for each in checks_of(copies.PAGE))
+    assert {each["points"] for each in graded.values() if each["page"]} == {of_the_page}
     missed = graded["slow"]["checks"][0]["rows"]
     assert any("every 1000.0 ms" in row["seen"] and row["mark"] == "✗" for row in missed)
     suites = ElementTree.parse(tmp_path / "junit.xml").getroot()

@@ -58,7 +58,7 @@ wandering = loop.create_task(wander())'''
 
 DASHBOARD = "lesson.dashboard()"
 
-PICTURE = '''import io
+PICTURE = """import io
 import ipywidgets
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -125,7 +125,7 @@ async def draw_again_and_again():
 
 button.on_click(go)
 display(button, image)
-drawing = loop.create_task(draw_again_and_again())'''
+drawing = loop.create_task(draw_again_and_again())"""
 
 METER = """
 window.meter = { frames: 0, pose: '', clicked: 0, moved: null, before: '' };
@@ -221,7 +221,9 @@ def click_times(page: Page, click: Any) -> dict[str, float]:
         moved.append(seen)
         while value(page, "desk.goals[-1].waits"):
             page.wait_for_timeout(50)
-        page.wait_for_timeout(300 + 37 * number % 100)  # it stands still by now, and clicks come at any phase of its timers
+        page.wait_for_timeout(
+            300 + 37 * number % 100
+        )  # it stands still by now, and clicks come at any phase of its timers
     return {
         "click to Python, ms": statistics.median(heard),
         "click to visible motion, ms": statistics.median(moved),

@@ -19,6 +19,9 @@ STATUS_TYPE = "robot_controller/msg/TurtleStatus"
 SCAN_TOPIC = "/obstacles"
 OBSTACLE_TOPIC = "/world/obstacles"
 
+UNDER_WAY = 1_000_000
+"""Nanoseconds that a message takes at most here. A pose sent later than this before a scan was not known to its scanner."""
+
 
 @dataclass(frozen=True, slots=True)
 class Obstacle:

@@ -63,7 +63,11 @@ def status_monitor() -> list[Expectation]:
 def battery_watch() -> list[Expectation]:
     """A node that hears the status, and says whether the battery is low."""
     pairs = [
-        ({"battery": charge}, lambda message, low=charge < LOW_BELOW: message.data == low, f"{charge:g} → {charge < LOW_BELOW}")
+        (
+            {"battery": charge},
+            lambda message, low=charge < LOW_BELOW: message.data == low,
+            f"{charge:g} → {charge < LOW_BELOW}",
+        )
         for charge in (100.0, 19.5, 20.0, 0.0)
     ]
     step = f"In on_status publish Bool(data=status.battery < {LOW_BELOW:g}), once for each status."

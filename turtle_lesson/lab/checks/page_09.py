@@ -10,7 +10,7 @@ LIMIT = 600
 
 @check("trouble", page=PAGE, points=1, limit=LIMIT)
 def trouble() -> list[Expectation]:
-    """The case is closed: the system does what it should."""
+    """A system that does again what it should."""
     from ..troubles import current_expectations
 
     return current_expectations()
@@ -18,7 +18,7 @@ def trouble() -> list[Expectation]:
 
 @check("slow_case", page=PAGE, points=3, limit=LIMIT)
 def slow_case() -> list[Expectation]:
-    """The first guided case is closed: the turtle gets where it is sent."""
+    """The first guided case: a turtle that gets where it is sent."""
     from ..troubles import expectations_of
 
     return expectations_of("turtle stands still")
@@ -26,7 +26,7 @@ def slow_case() -> list[Expectation]:
 
 @check("deaf_case", page=PAGE, points=3, limit=LIMIT)
 def deaf_case() -> list[Expectation]:
-    """The second guided case is closed: the alarm rings."""
+    """The second guided case: an alarm that rings."""
     from ..troubles import expectations_of
 
     return expectations_of("alarm stays silent")
@@ -34,7 +34,7 @@ def deaf_case() -> list[Expectation]:
 
 @check("own_case", page=PAGE, points=5, limit=LIMIT)
 def own_case() -> list[Expectation]:
-    """A case drawn by its number is closed."""
+    """A case that was drawn by its number, mended."""
     from ..troubles import expectations_of
 
     return expectations_of(None)

@@ -9,6 +9,7 @@ import traitlets
 
 from ...turtlesim.obstacles import Box
 from ..obstacle_board import Obstacle
+from ..recording import UNDER_WAY
 from .live_widget import LiveWidget
 from .packing import pack
 from .trail import Trail
@@ -60,7 +61,7 @@ class MapPanel(LiveWidget):
             self._scan_drawn = scan
             self.scan = pack([scan.angle_min, scan.angle_increment, scan.range_max, *scan.ranges])
             rows = recorder.poses.newest(2000)
-            rows = rows[rows["stamp"] <= stamp]
+            rows = rows[rows["stamp"] <= stamp - UNDER_WAY]  # or a turtle that turns would see walls beside the walls
             self.scanned_from = pack([rows[-1][name] for name in ("x", "y", "theta")]) if len(rows) else b""
 
 

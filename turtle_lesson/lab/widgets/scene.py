@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import traitlets
 
 from ...ros.core.virtual_time import real_monotonic
+from ..recording import UNDER_WAY
 from ..words import point
 from . import scene_parts as parts
 from .goals import Goal, goals_from
@@ -127,7 +128,7 @@ class Scene(LiveWidget):
         scan = recorder.last_scan
         if scan is None or self._drawn.get("scan") is scan:
             return
-        pose = newest_pose(recorder, until=int(recorder.scans.newest(1)["stamp"][0]))
+        pose = newest_pose(recorder, until=int(recorder.scans.newest(1)["stamp"][0]) - UNDER_WAY)
         if pose is not None:
             self._drawn["scan"] = scan
             self.scan = parts.scan(scan, *pose)

@@ -10,6 +10,7 @@ import numpy as np
 from .. import style
 from ..beams import read_beams
 from ..picture import Picture
+from ..recording import UNDER_WAY
 from ..track import WORLD
 from . import scene_turtle as turtle
 from . import scene_world as world
@@ -72,7 +73,7 @@ def _draw_things(axes: Axes, recording: Recording, goal: Goal | None, pose: tupl
 
 
 def _draw_laser(axes: Axes, recording: Recording) -> None:
-    there = newest_pose(recording, until=int(recording.scans.newest(1)["stamp"][0]))
+    there = newest_pose(recording, until=int(recording.scans.newest(1)["stamp"][0]) - UNDER_WAY)
     if there is not None:
         free, marks = world.fan(read_beams(recording.last_scan), *there)
         _draw(axes, free, layer=4, lit=False, alpha=0.22)
