@@ -105,10 +105,11 @@ def draw():
     poses, statuses = recorder.poses.newest(500), recorder.statuses.newest(300)
     last, scan = poses[-1], recorder.last_scan
     trail.set_data(poses["x"], poses["y"])
-    nose.set_data([last["x"], last["x"] + 0.4 * math.cos(last["theta"])], [last["y"], last["y"] + 0.4 * math.sin(last["theta"])])
+    x, y, theta = (float(last[name]) for name in ("x", "y", "theta"))
+    nose.set_data([x, x + 0.4 * math.cos(theta)], [y, y + 0.4 * math.sin(theta)])
     angles, ranges = scan.angle_min + scan.angle_increment * np.arange(len(scan.ranges)), np.array(scan.ranges)
     beams.set_data(angles, ranges)
-    hits.set_data(last["x"] + ranges * np.cos(angles + last["theta"]), last["y"] + ranges * np.sin(angles + last["theta"]))
+    hits.set_data(x + ranges * np.cos(angles + theta), y + ranges * np.sin(angles + theta))
     for name, curve in curves.items():
         curve.set_data((statuses["stamp"] - statuses["stamp"][-1]) / 1e9, statuses[name])
     if start_pose is not None and any(abs(last[name] - start_pose[name]) > 1e-4 for name in ("x", "y", "theta")):

@@ -163,7 +163,9 @@ def _answers_from_home(exam: Exam) -> Seen:
         step = "`await` the answer in an `async def`, with the client in a callback group of its own."
         return Seen(False, f"no answer in {LONGEST:g} s", step)
     good = answer.response.success is True
-    return Seen(good, f"success is {answer.response.success} after {number(answer.seconds)} s", "Pass on what it answers.")
+    return Seen(
+        good, f"success is {answer.response.success} after {number(answer.seconds)} s", "Pass on what it answers."
+    )
 
 
 def _is_home(exam: Exam) -> Seen:

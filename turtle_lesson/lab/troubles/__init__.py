@@ -8,4 +8,14 @@ from .case import Case, current_expectations, expectations_of, open_case
 from .cases import TROUBLES
 from .model import Fault, Program, Stage, Trouble
 
-__all__ = ["TROUBLES", "Case", "Fault", "Program", "Stage", "Trouble", "current_expectations", "expectations_of", "open_case"]
+__all__ = [
+    "TROUBLES",
+    "Case",
+    "Fault",
+    "Program",
+    "Stage",
+    "Trouble",
+    "current_expectations",
+    "expectations_of",
+    "open_case",
+]
