@@ -196,9 +196,8 @@ def _leave(what: Process | LaunchHandle, words: str, seconds: float | None) -> i
     if job.running:
         print(f"[{job.number}] {cut(job.words, 200)} goes on. Its Ctrl-C is: kill -INT %{job.number}")
         for twin in jobs(world).like(job):
-            print(
-                f"The same goes on as [{twin.number}]: everything in it is there twice now. To end that: kill -INT %{twin.number}"
-            )
+            twice = f"The same goes on as [{twin.number}]: everything in it is there twice now."
+            print(f"{twice} To end that: kill -INT %{twin.number}")
         return 0
     return _code_of(what)
 
