@@ -13,12 +13,12 @@ PAGES = sorted((Path(__file__).resolve().parents[1] / "notebooks").glob("*.ipynb
 
 
 def run(cells: list[Any], page: Path) -> list[Any]:
-    """Run cells in a fresh kernel; the outputs. Raises CellExecutionError if one of them fails."""
+    """Run cells in a fresh kernel; the cells with their outputs. Raises CellExecutionError if one of them fails."""
     notebook = nbformat.v4.new_notebook(cells=cells)
     NotebookClient(
         notebook, timeout=60, kernel_name="python3", resources={"metadata": {"path": str(page.parent)}}
     ).execute()
-    return [output for cell in notebook.cells for output in cell.outputs]
+    return notebook.cells
 
 
 def code_cells(page: Path) -> list[Any]:
@@ -35,7 +35,8 @@ def copy_of(cell: Any) -> Any:
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
 def test_every_cell_can_be_run_twice(page: Path) -> None:
     twice = [copy_of(cell) for cell in code_cells(page) for _ in range(2)]
-    said = "".join(output.text for output in run(twice, page) if output.get("name") == "stderr")
+    outputs = [output for cell in run(twice, page) for output in cell.outputs]
+    said = "".join(output.text for output in outputs if output.get("name") == "stderr")
     assert "Traceback" not in said
     assert "Warning" not in said  # one of Python's own; a command may well say WARNING
 
