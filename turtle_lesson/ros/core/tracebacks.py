@@ -18,8 +18,8 @@ OUR_FOLDER = str(Path(__file__).resolve().parents[2]) + os.sep
 FINISHED_FOLDER = os.path.join(OUR_FOLDER, "robot_controller", "")
 PACKAGE_FOLDER = str(Path(__file__).resolve().parents[3]) + os.sep
 LIBRARY_FOLDER = os.path.dirname(os.__file__) + os.sep
-FAR = 2
-"""A file that is more folders up than that is not in the learner's workspace: its whole path is clearer."""
+FAR = 1
+"""A file that is further up than that is not in the learner's workspace: its whole path is clearer."""
 
 _CELL = re.compile(r"ipykernel_\d+[/\\]|^<ipython-input-")
 

@@ -29,9 +29,15 @@ function figure(value, digits = 2) {
 /** Tell Python that this view is there, until it is closed; returns how to send orders, and how to end. */
 function connect(model) {
   const view = Math.random().toString(36).slice(2);
-  const order = (name, content = {}) => model.send({ ...content, do: name, view });
-  order("open");
+  const order = (name, content = {}) => {
+    try {
+      model.send({ ...content, do: name, view });
+    } catch {
+      clearInterval(heart); // the kernel is gone, and this view with it: the page's next run makes another
+    }
+  };
   const heart = setInterval(() => order("alive"), 20000);
+  order("open");
   return { order, close: () => (clearInterval(heart), order("close")) };
 }
 

@@ -7,6 +7,7 @@ from types import FrameType
 from typing import TYPE_CHECKING, Any
 
 from turtle_lesson.ros.core import EPOCH, NANOSECONDS
+from turtle_lesson.ros.core.tracebacks import shown_path
 from turtle_lesson.ros.graph import NodeEntry
 from turtle_lesson.ros.world import current_process, current_world
 
@@ -481,7 +482,8 @@ class Node(NodeGraph, NodeParameters):
         def publish(message: str, severity: LoggingSeverity, frame: FrameType) -> None:
             log = Log(level=int(severity), name=self._ros_logger.name, msg=message)
             log.stamp.sec, log.stamp.nanosec = divmod(EPOCH + self._ros_simulation.now, NANOSECONDS)
-            log.file, log.function, log.line = frame.f_code.co_filename, frame.f_code.co_name, frame.f_lineno
+            log.file = shown_path(frame.f_code.co_filename)  # the whole path would differ between machines
+            log.function, log.line = frame.f_code.co_name, frame.f_lineno
             publisher.publish(log)
             if trace is not None:
                 trace.log.append((self._ros_simulation.now, int(severity), log.name, message))
