@@ -250,7 +250,7 @@ def test_a_service_that_never_answers() -> None:
     lesson = start()
     program(lesson, navigator)
     result = lesson.check("navigator")
-    assert "no answer in 90 s" in row(result, "2 m away: success").seen
+    assert "no answer in 90 s" in row(result, "near goal: success").seen
     assert row(result, "time_taken").seen == "not looked at, because the turtle never moved"
     assert "does not answer" in row(lesson.check("parameters"), "goal_timeout").seen
     nothing_else(lesson)
@@ -297,7 +297,7 @@ def test_an_interface_package_with_other_fields(tmp_path: Path) -> None:
     assert row(result, "battery falls").seen == "not looked at, because TurtleStatus has no field battery"
     assert row(result, "follow the turtle").mark in "✗–"
     assert "string x, float32 speed" in row(lesson.check("interfaces"), "TurtleStatus").seen
-    assert "cannot hold" in row(lesson.check("navigator"), "2 m away").seen
+    assert "cannot hold" in row(lesson.check("navigator"), "near goal").seen
     for name in NAMES:
         assert not lesson.check(name).passed
 

@@ -198,17 +198,19 @@ def _callback_lane(
 ) -> Lane:
     node, began = callbacks[0].node, runs["began"]
     lasted, waited = runs["ended"] - began, began - runs["ready"]
-    within = window.holds(began)
-    long, late = lasted >= SHORT, waited >= SHORT
+    within, begun = window.holds(began), began <= window.end
+    long, late = (lasted >= SHORT) & begun, waited >= SHORT
+    inside = np.minimum(runs["ended"], window.end) - np.maximum(began, window.begin)
+    kept_waiting = waited[late & within]
     verb = "awaited" if callbacks[0].awaits else "lasted"
     text = f"{node}.{name} ({called_by}): {_calls(began[within])}"
     if long.any():
-        longest, total = (number(float(each) / NANOSECONDS) for each in (lasted.max(), lasted[long].sum()))
+        longest, total = (number(float(each) / NANOSECONDS) for each in (lasted[long].max(), inside[long].sum()))
         text += f"; it {verb} {total} s" if len(runs) == 1 else f"; {verb} at most {longest} s, {total} s in all"
-    elif len(runs):
+    elif begun.any():
         text += "; none took any robot time"
-    if late.any():
-        text += f"; {late.sum()} had to wait, at most {number(float(waited.max()) / NANOSECONDS)} s"
+    if len(kept_waiting):
+        text += f"; {len(kept_waiting)} had to wait, at most {number(float(kept_waiting.max()) / NANOSECONDS)} s"
     if missed := _missed(callbacks[0].period, waited[within]):
         text += f"; {count(missed, 'tick')} {'was' if missed == 1 else 'were'} left out"
     if going_on := sum(len(callback.open) for callback in callbacks):
@@ -220,7 +222,7 @@ def _callback_lane(
     waits = np.column_stack([runs["ready"], began])[late]
     waits = np.concatenate([waits, waiting]).clip(window.begin, window.end)
     about = f"{node.rpartition('/')[2]} · {called_by}"
-    return Lane(name, about, f"{text}.", began[within & ~long], bars, waits, callbacks[0].awaits, True)
+    return Lane(name, about, f"{text}.", began[within & (lasted < SHORT)], bars, waits, callbacks[0].awaits, True)
 
 
 def _calls(began: np.ndarray) -> str:

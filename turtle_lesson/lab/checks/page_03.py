@@ -29,7 +29,7 @@ from .rows import CannotLook, Seen
 
 PAGE = "03_navigator"
 RUN = "ros2 run robot_controller navigator"
-NEAR_GOAL, WEST = "a goal 2 m away", "a goal due west"
+NEAR_GOAL, WEST = "a near goal", "a goal due west"
 
 MOST_TURNED = 400.0
 """Degrees: at most half a turn towards the goal, half a turn to its heading, and a little for steering."""

@@ -170,7 +170,9 @@ def _falls(heard: list[Heard]) -> Seen:
     ]
     if wrong:
         return Seen(
-            False, f"a change of {number(wrong[0], 3)}", "self.battery = max(0.0, self.battery - 0.1), once a message."
+            False,
+            f"a change of {number(wrong[0], 3)}",
+            "Take 0.1 from the battery with each message: max(0.0, battery - 0.1).",
         )
     return Seen(True, f"from {number(charges[0], 1)} to {number(charges[-1], 1)}")
 

@@ -95,7 +95,8 @@ def parameter(owner: str, name: str, value: Any = None) -> Expectation:
             step = f"declare_parameter({name!r}, {value!r}) in the node's __init__."
             return Seen(False, "it is not declared", step if value is not None else f"declare_parameter({name!r}, …).")
         if value is not None and (type(found) is not type(value) or found != value):
-            return Seen(False, f"it is {found!r}", f"It should be {value!r}: look at the launch file, or its default.")
+            step = f"It should be {value!r}: ros2 param set changes it now, the launch file from the start."
+            return Seen(False, f"it is {found!r}", step)
         return Seen(True, f"it is {found!r}")
 
     return Expectation(wanted, look)

@@ -50,8 +50,8 @@ def judge_rate(heard: Sequence[Heard], hz: float, within: float, publishers: int
 
 def _how_to_pace(mean: float, hz: float, uneven: bool) -> str:
     if uneven:
-        return "Something holds the timer's callback up: it should do a little and return, without time.sleep."
-    return f"The timer's period is in seconds: create_timer({1 / hz:g}, …) for {hz:g} Hz."
+        return "Something holds the timer's callback up. Make that short, or give it a callback group and a thread of its own."
+    return f"create_timer({1 / hz:g}, …) is {hz:g} Hz; where a parameter sets the rate, ros2 param set changes it."
 
 
 def messages(topic: str, type_name: str, expected: str, judge: Judge, seconds: float = 2.0) -> Expectation:
