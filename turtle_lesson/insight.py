@@ -5,10 +5,10 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING, Any
 
+from .desk import Desk
 from .ros.core import NANOSECONDS
 
 if TYPE_CHECKING:
-    from .lab.checks import CheckResult
     from .lab.graph import GraphPicture
     from .lab.picture import Picture
     from .lab.prompts import Prompt
@@ -18,17 +18,13 @@ if TYPE_CHECKING:
     from .ros.world import World
 
 
-class Insight:
+class Insight(Desk):
     """What a `Lesson` tells about its world from the world's trace and graph."""
 
     _world: World
 
     @property
     def _recording(self) -> Recorder:
-        raise NotImplementedError
-
-    def check(self, name: str) -> CheckResult:
-        """Look at the running system: see `Desk.check`."""
         raise NotImplementedError
 
     @property

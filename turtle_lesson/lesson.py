@@ -7,7 +7,6 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .desk import Desk
 from .insight import Insight
 from .live import Player
 from .ros.command.driving import set_player
@@ -118,7 +117,7 @@ def _check_seconds(verb: str, seconds: object) -> None:
         )
 
 
-class Lesson(Shelf, Desk, Insight):
+class Lesson(Shelf, Insight):
     """A running world, and what a page does with it. Times are in seconds of robot time."""
 
     def __init__(self, world: World, *, simulator: bool = True) -> None:

@@ -126,14 +126,6 @@ def problems() -> list[str]:
     return []
 
 
-def new_window(browser: Browser, problems: list[str], width: int = 1280) -> Page:
-    page = browser.new_page(viewport={"width": width, "height": 1000})
-    page.set_default_timeout(30_000)
-    page.on("pageerror", lambda error: problems.append(str(error)))
-    page.on("console", lambda message: problems.append(message.text) if message.type == "error" else None)
-    return page
-
-
 @pytest.fixture(scope="module")
 def window(browser: Browser, lab: str, problems: list[str]) -> Iterator[Page]:
     """A window in which all cells were run."""

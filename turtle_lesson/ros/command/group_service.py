@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 import time
 from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING, Any
@@ -26,7 +25,8 @@ from .common import (
     stretch_of,
     suggest,
 )
-from .types import service_class, unknown_type
+from .named import print_names, print_types, unknown
+from .types import service_class
 from .values import populate, read_yaml
 
 if TYPE_CHECKING:
@@ -58,23 +58,16 @@ def list_services(args: Namespace) -> None:
         print(f"{name} [{', '.join(types)}]" if args.show_types else name)
 
 
-def unknown_service(name: str, known: dict[str, list[str]]) -> CommandError:
-    """What is said of a service that does not exist."""
-    return CommandError(f"Unknown service '{name}'", suggest(name, known))
-
-
 def _type_arguments(parser: ArgumentParser) -> None:
     add_node_arguments(parser)
     parser.add_argument("service_name", help="Full name of the service, such as /spawn")
 
 
 def type_of(args: Namespace) -> None:
-    """`ros2 service type`. For an unknown service the real one says nothing, and ends with exit code 1."""
+    """`ros2 service type`."""
     with direct_node(args) as node:
         known = services(node, include_hidden=True)
-    if args.service_name not in known:
-        raise unknown_service(args.service_name, known)
-    print(*known[args.service_name], sep="\n")
+    print_types("service", args.service_name, known)
 
 
 def _find_arguments(parser: ArgumentParser) -> None:
@@ -88,13 +81,7 @@ def find(args: Namespace) -> None:
     """`ros2 service find`."""
     with direct_node(args) as node:
         known = services(node, args.include_hidden_services)
-    found = [name for name, types in known.items() if args.service_type in types]
-    if args.count_services:
-        print(len(found))
-    elif found:
-        print(*found, sep="\n")
-    elif about := unknown_type(args.service_type, "srv"):
-        print(about, file=sys.stderr)
+    print_names(args.service_type, "srv", known, count=args.count_services)
 
 
 def info(args: Namespace) -> None:
@@ -103,7 +90,7 @@ def info(args: Namespace) -> None:
         known = services(node, include_hidden=True)
         name = args.service_name
         if name not in known:
-            raise unknown_service(name, known)
+            raise unknown("service", name, known)
         types = known[name]
         print(f"Type: {types[0] if len(types) == 1 else types}")
         print(f"Clients count: {node.count_clients(name) - _clients_of_the_classroom(node, name)}")

@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-import sys
 from argparse import ArgumentParser, Namespace
 
 from . import topic_echo, topic_pub, topic_rates
 from .common import (
     Command,
-    CommandError,
     Verb,
     add_node_arguments,
     direct_node,
     publishers,
     subscriptions,
-    suggest,
     topics,
 )
-from .types import unknown_type
+from .named import print_names, print_types, unknown
 
 
 def _list_arguments(parser: ArgumentParser) -> None:
@@ -65,7 +62,7 @@ def info(args: Namespace) -> None:
     with direct_node(args) as node:
         name, known = args.topic_name, topics(node, include_hidden=True)
         if name not in known:
-            raise unknown_topic(name, known)
+            raise unknown("topic", name, known)
         types = known[name]
         end = "\n\n" if args.verbose else "\n"
         print(f"Type: {types[0] if len(types) == 1 else types}", end=end)
@@ -75,23 +72,16 @@ def info(args: Namespace) -> None:
                 print(describe_endpoint(each), end="\n\n")
 
 
-def unknown_topic(name: str, known: dict[str, list[str]]) -> CommandError:
-    """What is said of a topic that does not exist."""
-    return CommandError(f"Unknown topic '{name}'", suggest(name, known))
-
-
 def _type_arguments(parser: ArgumentParser) -> None:
     add_node_arguments(parser)
     parser.add_argument("topic_name", help="Full name of the topic, such as /turtle1/pose")
 
 
 def type_of(args: Namespace) -> None:
-    """`ros2 topic type`. For an unknown topic the real one says nothing, and ends with exit code 1."""
+    """`ros2 topic type`."""
     with direct_node(args) as node:
         known = topics(node, include_hidden=True)
-    if args.topic_name not in known:
-        raise unknown_topic(args.topic_name, known)
-    print(*known[args.topic_name], sep="\n")
+    print_types("topic", args.topic_name, known)
 
 
 def _find_arguments(parser: ArgumentParser) -> None:
@@ -105,13 +95,7 @@ def find(args: Namespace) -> None:
     """`ros2 topic find`."""
     with direct_node(args) as node:
         known = topics(node, args.include_hidden_topics)
-    found = [name for name, types in known.items() if args.topic_type in types]
-    if args.count_topics:
-        print(len(found))
-    elif found:
-        print(*found, sep="\n")
-    elif about := unknown_type(args.topic_type, "msg"):
-        print(about, file=sys.stderr)
+    print_names(args.topic_type, "msg", known, count=args.count_topics)
 
 
 VERBS: dict[str, Verb] = {
