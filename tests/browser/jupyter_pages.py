@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from axe_playwright_python.sync_playwright import Axe
-from playwright.sync_api import Frame, Page
+from playwright.sync_api import Browser, Frame, Page
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "chrome")
 FLAGS = [
@@ -87,7 +87,16 @@ def wait_until_it_answers(address: str, server: subprocess.Popen[bytes], log: Pa
     raise RuntimeError(f"{address} does not answer:\n{log.read_text()[-3000:]}")
 
 
-# -- notebooks -------------------------------------------------------------------------------------------------------
+# -- windows and notebooks -----------------------------------------------------------------------------------------------
+
+
+def new_window(browser: Browser, problems: list[str], width: int = 1280) -> Page:
+    """A window of its own; what the browser complains of there is added to `problems`."""
+    page = browser.new_page(viewport={"width": width, "height": 1000})
+    page.set_default_timeout(30_000)
+    page.on("pageerror", lambda error: problems.append(str(error)))
+    page.on("console", lambda message: problems.append(message.text) if message.type == "error" else None)
+    return page
 
 
 def write_notebook(page: Page, lab: str, name: str, cells: Sequence[str]) -> None:

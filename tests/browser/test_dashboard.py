@@ -6,18 +6,10 @@ import re
 from collections.abc import Iterator
 
 import pytest
+from jupyter_pages import execute, open_notebook
 from playwright.sync_api import Browser, Page, expect
 
 NOTEBOOK = "notebooks/lab.ipynb"
-EXECUTE = "command => window.jupyterapp.commands.execute(command)"
-READY = "window.jupyterapp.shell.currentWidget?.sessionContext?.session?.kernel?.status === 'idle'"
-
-
-def open_page(page: Page, lab: str) -> None:
-    """Open the notebook alone, and wait until its kernel is there."""
-    page.goto(f"{lab}/doc/tree/{NOTEBOOK}?reset")
-    page.wait_for_selector(".jp-Notebook .jp-Cell")
-    page.wait_for_function(READY)
 
 
 @pytest.fixture(scope="module")
@@ -25,15 +17,15 @@ def window(browser: Browser, lab: str) -> Iterator[Page]:
     """A window in which the page was run: five seconds of robot time, and then it stands still."""
     page = browser.new_page(viewport={"width": 1600, "height": 1000})
     page.set_default_timeout(60_000)
-    open_page(page, lab)
-    page.evaluate(EXECUTE, "notebook:run-all-cells")
+    open_notebook(page, lab, NOTEBOOK)
+    execute(page, "notebook:run-all-cells")
     page.wait_for_selector(".tl-dashboard")
     yield page
     page.close()
 
 
 def test_its_picture_stands_there_until_it_is_run(page: Page, lab: str) -> None:
-    open_page(page, lab)
+    open_notebook(page, lab, NOTEBOOK)
     expect(page.locator(".jp-OutputArea img").first).to_be_visible()
     assert page.locator(".tl-dashboard").count() == 0
 
@@ -58,9 +50,9 @@ def test_status_and_log_run_when_time_does(window: Page) -> None:
 def test_two_windows_are_in_step(window: Page, browser: Browser, lab: str) -> None:
     other = browser.new_page(viewport={"width": 900, "height": 1000})
     other.set_default_timeout(60_000)
-    open_page(other, lab)
+    open_notebook(other, lab, NOTEBOOK)
     other.evaluate("() => { window.jupyterapp.shell.currentWidget.content.activeCellIndex = 2 }")
-    other.evaluate(EXECUTE, "notebook:run-cell")
+    execute(other, "notebook:run-cell")
     other.wait_for_selector(".tl-dashboard")
 
     window.locator(".tl-log-tools select").select_option("WARN")

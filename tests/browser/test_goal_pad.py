@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from jupyter_pages import serious_violations
+from jupyter_pages import execute, new_window, open_notebook, python, serious_violations, value, write_notebook
 from playwright.sync_api import Browser, Locator, Page, expect
 
 CELLS = (
@@ -26,15 +26,7 @@ pad._carry_out = lambda *order: (threads.add(threading.current_thread() is threa
 pad""",
     "",
 )
-EXECUTE = "command => window.jupyterapp.commands.execute(command)"
-KERNEL = "window.jupyterapp.shell.currentWidget?.sessionContext?.session?.kernel"
-ASK = f"""async code => {{
-  const answer = {KERNEL}.requestExecute({{ code, silent: false, store_history: false }});
-  let said = '';
-  answer.onIOPub = ({{ content }}) => (said += content.text ?? (content.traceback ?? []).join('\\n'));
-  await answer.done;
-  return said;
-}}"""
+NAME = "goals.ipynb"
 EDGES = {"left": 26, "right": 10, "top": 10}
 WORLD = 11.088889
 
@@ -50,10 +42,10 @@ class Pad:
 
     def ask(self, code: str) -> Any:
         """What this Python expression is in the kernel."""
-        return eval(self.page.evaluate(ASK, f"print(repr({code}))"))
+        return value(self.page, code)
 
     def do(self, code: str) -> None:
-        assert "Traceback" not in self.page.evaluate(ASK, code)
+        assert "Traceback" not in python(self.page, code)
 
     def at(self, x: float, y: float) -> tuple[float, float]:
         box = self.map.bounding_box()
@@ -84,26 +76,6 @@ class Pad:
         self.page.get_by_label("Speed of robot time").select_option(speed)
 
 
-def write_page(page: Page, lab: str, name: str) -> None:
-    """Put a notebook with these cells where the server finds it."""
-    cells = [
-        {"cell_type": "code", "id": f"c{at}", "source": cell, "metadata": {}, "outputs": [], "execution_count": None}
-        for at, cell in enumerate(CELLS)
-    ]
-    kernel = {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"}
-    notebook = {"cells": cells, "metadata": {"kernelspec": kernel}, "nbformat": 4, "nbformat_minor": 5}
-    page.goto(f"{lab}/lab?reset")
-    page.wait_for_function("window.jupyterapp?.serviceManager?.contents")
-    save = "([name, model]) => window.jupyterapp.serviceManager.contents.save(name, model).then(() => true)"
-    assert page.evaluate(save, [name, {"type": "notebook", "format": "json", "content": notebook}])
-
-
-def open_page(page: Page, lab: str) -> None:
-    page.goto(f"{lab}/doc/tree/goals.ipynb?reset")
-    page.wait_for_selector(".jp-Notebook .jp-Cell")
-    page.wait_for_function(f"{KERNEL}?.status === 'idle'")
-
-
 @pytest.fixture(scope="module")
 def problems() -> list[str]:
     """What the browser complained of."""
@@ -113,13 +85,10 @@ def problems() -> list[str]:
 @pytest.fixture(scope="module")
 def window(browser: Browser, lab: str, problems: list[str]) -> Iterator[Page]:
     """A window in which the cells were run."""
-    page = browser.new_page(viewport={"width": 1280, "height": 1000})
-    page.set_default_timeout(30_000)
-    page.on("pageerror", lambda error: problems.append(str(error)))
-    page.on("console", lambda message: problems.append(message.text) if message.type == "error" else None)
-    write_page(page, lab, "goals.ipynb")
-    open_page(page, lab)
-    page.evaluate(EXECUTE, "notebook:run-all-cells")
+    page = new_window(browser, problems)
+    write_notebook(page, lab, NAME, CELLS)
+    open_notebook(page, lab, NAME)
+    execute(page, "notebook:run-all-cells")
     page.wait_for_selector(".tl-map")
     yield page
     page.close()
@@ -189,8 +158,8 @@ def test_keys_on_the_map_do_the_same(pad: Pad) -> None:
 
 
 def test_fields_and_a_button_do_the_same(pad: Pad) -> None:
-    for name, value in (("x m", "2"), ("y m", "2.5"), ("heading °", "180")):
-        pad.page.locator(".tl-goal-form").get_by_label(name).fill(value)
+    for name, typed in (("x m", "2"), ("y m", "2.5"), ("heading °", "180")):
+        pad.page.locator(".tl-goal-form").get_by_label(name).fill(typed)
     pad.button("Send").click()
     expect(pad.states).to_have_text(["reached"])
     goal = pad.ask("pad.goals[0]")
@@ -288,12 +257,12 @@ def test_obstacles_are_changed_by_numbers_and_keys(pad: Pad) -> None:
 def test_two_windows_are_in_step(pad: Pad, browser: Browser, lab: str) -> None:
     page = browser.new_page(viewport={"width": 800, "height": 1000})
     page.set_default_timeout(30_000)
-    open_page(page, lab)
+    open_notebook(page, lab, NAME)
     page.evaluate("() => { window.jupyterapp.shell.currentWidget.content.activeCellIndex = 2 }")
     page.evaluate(
         "() => { window.jupyterapp.shell.currentWidget.content.activeCell.model.sharedModel.setSource('pad') }"
     )
-    page.evaluate(EXECUTE, "notebook:run-cell")
+    execute(page, "notebook:run-cell")
     page.wait_for_selector(".tl-map")
     other = Pad(page)
     expect(page.get_by_label("Speed of robot time")).to_have_value("10")

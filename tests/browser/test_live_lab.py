@@ -11,7 +11,16 @@ import sys
 from collections.abc import Iterator
 
 import pytest
-from jupyter_pages import choose_theme, execute, open_notebook, python, serious_violations, value, write_notebook
+from jupyter_pages import (
+    choose_theme,
+    execute,
+    new_window,
+    open_notebook,
+    python,
+    serious_violations,
+    value,
+    write_notebook,
+)
 from playwright.sync_api import Browser, Locator, Page, expect
 
 WATCHES = '''

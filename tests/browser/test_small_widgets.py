@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 import pytest
-from jupyter_pages import serious_violations
+from jupyter_pages import execute, new_window, open_notebook, serious_violations, write_notebook
 from playwright.sync_api import Browser, Locator, Page, expect
 
 CELLS = (
@@ -22,22 +22,7 @@ lesson.run(1)""",
     'lesson.parameters("/navigator")',
     "lesson.teleop()",
 )
-EXECUTE = "command => window.jupyterapp.commands.execute(command)"
-READY = "window.jupyterapp.shell.currentWidget?.sessionContext?.session?.kernel?.status === 'idle'"
-
-
-def write_page(page: Page, lab: str, name: str) -> None:
-    """Put a notebook with these cells where the server finds it."""
-    cells = [
-        {"cell_type": "code", "id": f"c{at}", "source": cell, "metadata": {}, "outputs": [], "execution_count": None}
-        for at, cell in enumerate(CELLS)
-    ]
-    kernel = {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"}
-    notebook = {"cells": cells, "metadata": {"kernelspec": kernel}, "nbformat": 4, "nbformat_minor": 5}
-    page.goto(f"{lab}/lab?reset")
-    page.wait_for_function("window.jupyterapp?.serviceManager?.contents")
-    save = "([name, model]) => window.jupyterapp.serviceManager.contents.save(name, model).then(() => true)"
-    assert page.evaluate(save, [name, {"type": "notebook", "format": "json", "content": notebook}])
+NAME = "small.ipynb"
 
 
 @pytest.fixture(scope="module")
@@ -49,15 +34,10 @@ def problems() -> list[str]:
 @pytest.fixture(scope="module")
 def window(browser: Browser, lab: str, problems: list[str]) -> Iterator[Page]:
     """A window in which all cells were run."""
-    page = browser.new_page(viewport={"width": 1280, "height": 1000})
-    page.set_default_timeout(30_000)
-    page.on("pageerror", lambda error: problems.append(str(error)))
-    page.on("console", lambda message: problems.append(message.text) if message.type == "error" else None)
-    write_page(page, lab, "small.ipynb")
-    page.goto(f"{lab}/doc/tree/small.ipynb?reset")
-    page.wait_for_selector(".jp-Notebook .jp-Cell")
-    page.wait_for_function(READY)
-    page.evaluate(EXECUTE, "notebook:run-all-cells")
+    page = new_window(browser, problems)
+    write_notebook(page, lab, NAME, CELLS)
+    open_notebook(page, lab, NAME)
+    execute(page, "notebook:run-all-cells")
     page.wait_for_selector(".tl-parameters", state="attached")
     expect(page.locator(".tl-teleop")).to_have_count(2)
     yield page
@@ -190,7 +170,7 @@ def test_nothing_is_wider_than_the_window(window: Page) -> None:
 
 def test_a_world_that_ended_is_said_to_have(window: Page) -> None:
     window.evaluate("() => { window.jupyterapp.shell.currentWidget.content.activeCellIndex = 0 }")
-    window.evaluate(EXECUTE, "notebook:run-cell")
+    execute(window, "notebook:run-cell")
     for name in ("teleop", "form", "live", "parameters"):
         expect(window.locator(f".tl-{name}").first).to_contain_text("This world has ended.")
 
