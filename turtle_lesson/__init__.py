@@ -10,8 +10,11 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .ros.core import virtual_random, virtual_time
-from .ros.interfaces import finder
+from .uninterrupted import uninterrupted
+
+with uninterrupted():
+    from .ros.core import virtual_random, virtual_time
+    from .ros.interfaces import finder
 
 if TYPE_CHECKING:
     from .lesson import Lesson, start
@@ -34,21 +37,25 @@ def _make_importable() -> None:
 
 def load_ipython_extension(shell: Any) -> None:
     """What `%load_ext turtle_lesson` does: errors are shown from the learner's point of view, commands are understood."""
-    from .notebook import prepare
+    with uninterrupted():
+        from .notebook import prepare
 
-    prepare(shell)
+        prepare(shell)
 
 
 def __getattr__(name: str) -> Any:
     if name in {"Lesson", "start"}:
-        from . import lesson
+        with uninterrupted():
+            from . import lesson
 
         return getattr(lesson, name)
     if name in {"Robot", "connect"}:
-        from . import robot
+        with uninterrupted():
+            from . import robot
 
         return getattr(robot, name)
     raise AttributeError(f"module 'turtle_lesson' has no attribute {name!r}")
 
 
-_make_importable()
+with uninterrupted():
+    _make_importable()

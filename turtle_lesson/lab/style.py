@@ -10,7 +10,10 @@ from __future__ import annotations
 import logging
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import cache
 from typing import TYPE_CHECKING, Any
+
+from ..uninterrupted import uninterrupted
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -69,13 +72,27 @@ SETTINGS: Any = {
 @contextmanager
 def applied() -> Iterator[None]:
     """Within this block, matplotlib draws in our style; the learner's own settings come back afterwards."""
+    with _matplotlib().rc_context(SETTINGS):
+        yield
+
+
+@cache
+def _matplotlib() -> Any:
+    """The whole of matplotlib that pictures need, imported in one go that nothing interrupts."""
     # When matplotlib starts for the first time ever, it lists the machine's fonts, and says so if that takes
     # long: a remark that has no place below a learner's cell.
     logging.getLogger("matplotlib.font_manager").setLevel(logging.ERROR)
-    import matplotlib
-
-    with matplotlib.rc_context(SETTINGS):
-        yield
+    with uninterrupted():
+        import matplotlib
+        import matplotlib.backends.backend_agg
+        import matplotlib.collections
+        import matplotlib.figure
+        import matplotlib.font_manager
+        import matplotlib.lines
+        import matplotlib.patches
+        import matplotlib.ticker
+        import PIL.Image
+    return matplotlib
 
 
 def card(width: float, height: float) -> Figure:

@@ -3,3 +3,8 @@
 Every widget knows the system through its `Station` alone: a hidden node, topics, services, parameters, the graph, and a
 clock where there is one to turn. All that a widget does happens in the notebook's own event loop (see `loop`).
 """
+
+from ...uninterrupted import uninterrupted
+
+with uninterrupted():
+    import anywidget  # noqa: F401

@@ -9,7 +9,9 @@ from __future__ import annotations
 import warnings
 from pathlib import Path
 
-with warnings.catch_warnings():
+from ...uninterrupted import uninterrupted
+
+with uninterrupted(), warnings.catch_warnings():
     warnings.simplefilter("ignore", DeprecationWarning)
     import meshcat
     from meshcat import geometry

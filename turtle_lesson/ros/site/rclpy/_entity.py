@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from .executors import Executor
     from .node import Node
 
-TIMER, SUBSCRIPTION, GUARD, CLIENT, SERVICE = range(5)
+WAITABLE, TIMER, SUBSCRIPTION, GUARD, CLIENT, SERVICE = range(-1, 5)
 
 
 class Entity:
@@ -72,10 +72,48 @@ class Entity:
         """Never be called again."""
         self._destroyed = True
         self._executor = None
+        if self._node is not None and self in self._node._ros_waiting_entities:
+            self._node._ros_waiting_entities.remove(self)
         if self.callback_group is not None:
             self.callback_group.entities.discard(self)
 
     @property
-    def handle(self) -> Any:
-        """The entity stands for itself: there is no C object beneath it."""
+    def handle(self) -> Handle:
+        """What stands for the C object of the real one."""
+        return Handle(self)
+
+    def __enter__(self) -> Any:
         return self
+
+    def __exit__(self, *error: object) -> None:
+        self.destroy()
+
+
+class Handle:
+    """An entity, seen as the C object that the real rclpy keeps beneath it: it can be held with `with`, and compared.
+
+    Nothing of the C interface is here but `pointer`; whatever else is asked for is looked up in the entity.
+    """
+
+    def __init__(self, entity: Entity) -> None:
+        self._entity = entity
+
+    @property
+    def pointer(self) -> int:
+        """A number that no other entity has."""
+        return id(self._entity)
+
+    def __enter__(self) -> None:
+        self._entity._check_alive()
+
+    def __exit__(self, *error: object) -> None:
+        """Let go."""
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Handle) and self._entity is other._entity
+
+    def __hash__(self) -> int:
+        return hash(self._entity)
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._entity, name)

@@ -16,7 +16,7 @@ from turtle_lesson.ros.world import current_process, current_world
 
 from ._blocking import drive, drives_the_simulation, in_a_plain_cell, spin_live
 from ._deadlock import main_may_go_on, why_never_done
-from ._entity import SERVICE, Entity
+from ._entity import SERVICE, WAITABLE, Entity
 from ._executor_errors import (
     ConditionReachedException,
     ExternalShutdownException,
@@ -90,7 +90,7 @@ class Executor:
 
     def _adopt(self, entity: Entity, node: Node) -> None:
         entity._executor = self
-        entity._turn = (node._ros_place, entity._kind, entity._number)
+        entity._turn = (0 if entity._kind == WAITABLE else node._ros_place, entity._kind, entity._number)
         if self._trace is not None:
             trace_entity(entity, node, self, self._trace)
         if entity._has_work():

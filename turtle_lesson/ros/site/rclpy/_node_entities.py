@@ -1,0 +1,272 @@
+"""The part of a node that makes publishers, subscriptions, timers, services and the like, and takes them away."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from . import type_support
+from ._missing import refuse_unbuilt
+from ._node_graph import NodeGraph
+from ._qos_events import QoSEvents, mismatch_text, unenforced_text
+from ._waitables import WaitableEntity
+from .callback_groups import CallbackGroup, ReentrantCallbackGroup
+from .client import Client
+from .exceptions import RCLError, refuse_destroyed
+from .guard_condition import GuardCondition
+from .publisher import Publisher
+from .qos import QoSProfile, checked_profile, qos_profile_services_default
+from .service import Service
+from .subscription import Subscription
+from .timer import Rate, Timer, period_ns
+
+if TYPE_CHECKING:
+    from turtle_lesson.ros.core import Simulation
+
+    from ._entity import Entity
+    from .clock import Clock, ROSClock
+    from .context import Context
+    from .executors import Executor
+    from .impl.rcutils_logger import RcutilsLogger
+    from .waitable import Waitable
+
+
+class NodeEntities(NodeGraph):
+    """Mixed into Node."""
+
+    _ros_clock: ROSClock
+    _ros_context: Context
+    _ros_default_callback_group: CallbackGroup
+    _ros_destroyed: bool
+    _ros_events: QoSEvents | None
+    _ros_executor: Executor | None
+    _ros_logger: RcutilsLogger
+    _ros_made: int
+    _ros_publishers: list[Publisher]
+    _ros_rate_group: CallbackGroup | None
+    _ros_simulation: Simulation
+    _ros_waiting_entities: list[Entity]
+
+    # -- making things ---------------------------------------------------------------------------------------------
+
+    def _ros_check_alive(self) -> None:
+        if self._ros_destroyed:
+            refuse_destroyed(self._ros_simulation)
+
+    def _ros_keep(self, entity: Any) -> Any:
+        self._ros_made += 1
+        entity._number, entity._node = self._ros_made, self
+        self._ros_waiting_entities.append(entity)
+        if self._ros_executor is not None:
+            self._ros_executor._adopt(entity, self)  # type: ignore[arg-type]
+        return entity
+
+    def create_publisher(
+        self,
+        msg_type: Any,
+        topic: str,
+        qos_profile: QoSProfile | int,
+        *,
+        callback_group: CallbackGroup | None = None,
+        event_callbacks: Any = None,
+        qos_overriding_options: Any = None,
+        publisher_class: type[Publisher] = Publisher,
+    ) -> Publisher:
+        """Publish messages of a type on a topic. `qos_profile`: a QoSProfile, or how many to keep for late takers.
+
+        Raises InvalidTopicNameException, AttributeError or RuntimeError (no message type), TypeError, ValueError.
+        """
+        self._ros_check_alive()
+        refuse_unbuilt(event_callbacks=event_callbacks, qos_overriding_options=qos_overriding_options)
+        profile = checked_profile(qos_profile)
+        full_name = self._ros_full_name_of(topic)
+        type_support.check_is_valid_msg_type(msg_type)
+        self._ros_check_one_type("publisher", full_name, msg_type)
+        kind = msg_type if isinstance(msg_type, type) else type(msg_type)
+        writer = self._ros_graph.add_writer(self._ros_entry, full_name, kind._TYPE_NAME, profile.quality())  # type: ignore[attr-defined]
+        writer.profile = profile  # type: ignore[attr-defined]
+        writer.on_mismatch = lambda policy: self._ros_warn(mismatch_text(topic, policy, publishes=True))
+        publisher = publisher_class(writer, kind, topic, profile, self._ros_logger.name)
+        self._ros_publishers.append(publisher)
+        self._ros_say_unenforced("publisher", topic, profile)
+        return publisher
+
+    def create_subscription(
+        self,
+        msg_type: Any,
+        topic: str,
+        callback: Callable[..., Any],
+        qos_profile: QoSProfile | int,
+        *,
+        callback_group: CallbackGroup | None = None,
+        event_callbacks: Any = None,
+        qos_overriding_options: Any = None,
+        raw: bool = False,
+    ) -> Subscription:
+        """Have `callback(message)` called for each message of a topic; the queue keeps `qos_profile` of them.
+
+        Raises InvalidTopicNameException, AttributeError or RuntimeError (no message type), TypeError, ValueError.
+        """
+        self._ros_check_alive()
+        refuse_unbuilt(event_callbacks=event_callbacks, qos_overriding_options=qos_overriding_options)
+        profile = checked_profile(qos_profile)
+        full_name = self._ros_full_name_of(topic)
+        type_support.check_is_valid_msg_type(msg_type)
+        self._ros_check_one_type("subscription", full_name, msg_type)
+        reader = self._ros_graph.add_reader(self._ros_entry, full_name, msg_type._TYPE_NAME, profile.quality())
+        reader.profile = profile  # type: ignore[attr-defined]
+        reader.on_mismatch = lambda policy: self._ros_warn(mismatch_text(topic, policy, publishes=False))
+        group = callback_group or self._ros_default_callback_group
+        self._ros_say_unenforced("subscription", topic, profile)
+        return self._ros_keep(
+            Subscription(reader, msg_type, topic, callback, group, profile, raw, self._ros_logger.name)
+        )
+
+    def _ros_check_one_type(self, what: str, full_name: str, msg_type: Any) -> None:
+        """Within one process ROS refuses a second type on a topic; between processes it only never connects."""
+        topic = self._ros_graph.topic(full_name)
+        ends: list[tuple[Any, str]] = [*topic.writers, *topic.readers]
+        for end, type_name in ends:
+            if end.node.process is self._ros_entry.process and type_name != msg_type._TYPE_NAME:
+                raise RCLError(
+                    f"Failed to create {what}: failed to create topic [rt{full_name}] because it's already in use in this "
+                    f"context with a different message type: it is {type_name}, asked for was {msg_type._TYPE_NAME}"
+                )
+
+    def _ros_say_unenforced(self, what: str, topic: str, profile: QoSProfile) -> None:
+        if text := unenforced_text(what, topic, profile):
+            self._ros_logger.warning(text)
+
+    def _ros_warn(self, text: str) -> None:
+        """Log a warning when the node is spun."""
+        if self._ros_destroyed:
+            return
+        if self._ros_events is None:
+            self._ros_events = self._ros_keep(QoSEvents(self._ros_logger, self._ros_default_callback_group))
+        self._ros_events.add(text)
+
+    def create_timer(
+        self,
+        timer_period_sec: float,
+        callback: Callable[..., Any],
+        callback_group: CallbackGroup | None = None,
+        clock: Clock | None = None,
+        autostart: bool = True,
+    ) -> Timer:
+        """Have `callback()` called every `timer_period_sec` seconds, for the first time after one period."""
+        self._ros_check_alive()
+        period = period_ns(timer_period_sec)
+        group = callback_group or self._ros_default_callback_group
+        return self._ros_keep(Timer(callback, group, period, clock or self._ros_clock, autostart=autostart))
+
+    def create_service(
+        self,
+        srv_type: Any,
+        srv_name: str,
+        callback: Callable[[Any, Any], Any],
+        *,
+        qos_profile: QoSProfile = qos_profile_services_default,
+        callback_group: CallbackGroup | None = None,
+    ) -> Service:
+        """Offer a service: `callback(request, response)` fills the response in and returns it.
+
+        Raises InvalidServiceNameException, AttributeError or RuntimeError (no service type).
+        """
+        self._ros_check_alive()
+        full_name = self._ros_full_name_of(srv_name, is_service=True)
+        type_support.check_is_valid_srv_type(srv_type)
+        server = self._ros_graph.add_server(self._ros_entry, full_name, srv_type._TYPE_NAME)
+        group = callback_group or self._ros_default_callback_group
+        return self._ros_keep(Service(server, srv_type, srv_name, callback, group, qos_profile))
+
+    def create_client(
+        self,
+        srv_type: Any,
+        srv_name: str,
+        *,
+        qos_profile: QoSProfile = qos_profile_services_default,
+        callback_group: CallbackGroup | None = None,
+    ) -> Client:
+        """Make a client of a service. Raises InvalidServiceNameException, AttributeError or RuntimeError."""
+        self._ros_check_alive()
+        full_name = self._ros_full_name_of(srv_name, is_service=True)
+        type_support.check_is_valid_srv_type(srv_type)
+        end = self._ros_graph.add_client(self._ros_entry, full_name, srv_type._TYPE_NAME)
+        group = callback_group or self._ros_default_callback_group
+        client = Client(self, end, srv_type, srv_name, qos_profile, group)  # type: ignore[arg-type]
+        return self._ros_keep(client)
+
+    def create_guard_condition(
+        self, callback: Callable[[], Any], callback_group: CallbackGroup | None = None
+    ) -> GuardCondition:
+        """Have `callback()` called whenever the guard condition is triggered."""
+        self._ros_check_alive()
+        group = callback_group or self._ros_default_callback_group
+        return self._ros_keep(GuardCondition(callback, group, context=self._ros_context))
+
+    def create_rate(self, frequency: float, clock: Clock | None = None) -> Rate:
+        """Something to sleep by, `frequency` times a second."""
+        if frequency <= 0:
+            raise ValueError("frequency must be > 0")
+        if self._ros_rate_group is None:
+            self._ros_rate_group = ReentrantCallbackGroup()
+        timer = self.create_timer(1.0 / frequency, _nothing, self._ros_rate_group, clock)
+        return Rate(timer, context=self._ros_context)
+
+    def add_waitable(self, waitable: Waitable) -> None:
+        """Have the node's executor wait for something of one's own, too."""
+        self._ros_check_alive()
+        self._ros_keep(WaitableEntity(waitable))
+
+    # -- taking things away ----------------------------------------------------------------------------------------
+
+    def _ros_destroy(self, entity: Any) -> bool:
+        if entity not in self._ros_waiting_entities:
+            return False
+        self._ros_waiting_entities.remove(entity)
+        entity.destroy()
+        return True
+
+    def destroy_publisher(self, publisher: Publisher) -> bool:
+        """Stop publishing; False if it is not this node's."""
+        if publisher not in self._ros_publishers:
+            return False
+        self._ros_publishers.remove(publisher)
+        publisher.destroy()
+        return True
+
+    def destroy_subscription(self, subscription: Subscription) -> bool:
+        """Stop hearing; False if it is not this node's."""
+        return self._ros_destroy(subscription)
+
+    def destroy_client(self, client: Client) -> bool:
+        """Take a client away; False if it is not this node's."""
+        return self._ros_destroy(client)
+
+    def destroy_service(self, service: Service) -> bool:
+        """Take a service away; False if it is not this node's."""
+        return self._ros_destroy(service)
+
+    def destroy_timer(self, timer: Timer) -> bool:
+        """Take a timer away; False if it is not this node's."""
+        return self._ros_destroy(timer)
+
+    def destroy_guard_condition(self, guard: GuardCondition) -> bool:
+        """Take a guard condition away; False if it is not this node's."""
+        return self._ros_destroy(guard)
+
+    def remove_waitable(self, waitable: Waitable) -> None:
+        """No longer wait for a waitable. Raises ValueError if it is not this node's."""
+        for entity in list(self._ros_waiting_entities):
+            if isinstance(entity, WaitableEntity) and entity.waitable is waitable:
+                self._ros_destroy(entity)
+                return
+        raise ValueError(f"{waitable!r} was never added to this node with add_waitable")
+
+    def destroy_rate(self, rate: Rate) -> bool:
+        """Take a rate away; False if it is not this node's."""
+        return self._ros_destroy(rate._timer)
+
+
+def _nothing() -> None:
+    """The callback of a rate's timer."""

@@ -1,0 +1,70 @@
+"""The part of a node that tells everybody: what it logs, on /rosout, and what becomes of parameters, on /parameter_events."""
+
+from __future__ import annotations
+
+from types import FrameType
+from typing import TYPE_CHECKING, Any
+
+from turtle_lesson.ros.core import EPOCH, NANOSECONDS
+from turtle_lesson.ros.core.tracebacks import shown_path
+
+from ._qos_events import SIM_TIME
+from .impl.logging_severity import LoggingSeverity
+from .impl.rcutils_logger import RcutilsLogger, publish_rosout
+from .qos import DurabilityPolicy, QoSProfile, qos_profile_parameter_events
+
+if TYPE_CHECKING:
+    from turtle_lesson.ros.core import Simulation
+    from turtle_lesson.ros.graph import Graph, NodeEntry
+
+    from .publisher import Publisher
+
+ROSOUT = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+class NodeNews:
+    """Mixed into Node."""
+
+    _ros_entry: NodeEntry
+    _ros_event_publisher: Publisher
+    _ros_graph: Graph
+    _ros_logger: RcutilsLogger
+    _ros_simulation: Simulation
+
+    if TYPE_CHECKING:
+
+        def create_publisher(self, msg_type: Any, topic: str, qos_profile: QoSProfile | int) -> Publisher: ...
+
+    def _ros_publish_rosout(self) -> Publisher:
+        """Publish on /rosout what the logger prints."""
+        from rcl_interfaces.msg import Log
+
+        publisher = self.create_publisher(Log, "/rosout", ROSOUT)
+        trace = self._ros_graph.trace
+
+        def publish(message: str, severity: LoggingSeverity, frame: FrameType) -> None:
+            log = Log(level=int(severity), name=self._ros_logger.name, msg=message)
+            log.stamp.sec, log.stamp.nanosec = divmod(EPOCH + self._ros_simulation.now, NANOSECONDS)
+            log.file = shown_path(frame.f_code.co_filename)  # the whole path would differ between machines
+            log.function, log.line = frame.f_code.co_name, frame.f_lineno
+            publisher.publish(log)
+            if trace is not None:
+                trace.log.append((self._ros_simulation.now, int(severity), log.name, message))
+
+        publish_rosout(self._ros_logger.name, publish)
+        return publisher
+
+    def _ros_publish_parameter_events(self) -> Publisher:
+        """Publish on /parameter_events what becomes of the parameters."""
+        from rcl_interfaces.msg import ParameterEvent
+
+        return self.create_publisher(ParameterEvent, "/parameter_events", qos_profile_parameter_events)
+
+    def _ros_tell_parameter_events(self, news: dict[str, list[Any]]) -> None:
+        if any(each.name == "use_sim_time" and each.value.bool_value for kind in news.values() for each in kind):
+            self._ros_logger.warning(SIM_TIME)
+        event = self._ros_event_publisher.msg_type(node=self._ros_entry.full_name)
+        event.stamp.sec, event.stamp.nanosec = divmod(EPOCH + self._ros_simulation.now, NANOSECONDS)
+        for kind, parameters in news.items():
+            setattr(event, f"{kind}_parameters", parameters)
+        self._ros_event_publisher.publish(event)
