@@ -367,14 +367,3 @@ def test_policies_that_do_nothing_here_are_named_once(run: Run, capsys: Capture)
     first, second = capsys.readouterr().err.splitlines()
     assert "[n]: The publisher of 'x' asks for a lifespan of 1 s and a deadline of 0.1 s. This classroom" in first
     assert "[n]: The subscription of 'y' asks for a deadline of 2 s. This classroom does not enforce that yet" in second
-
-
-def test_simulated_time_is_said_to_be_there_already(run: Run, capsys: Capture) -> None:
-    def program(found: list[Any]) -> None:
-        rclpy.init(args=["--ros-args", "-p", "use_sim_time:=true"])
-        rclpy.create_node("n")
-
-    run(program)
-    (line,) = capsys.readouterr().err.splitlines()
-    assert "[WARN]" in line
-    assert "use_sim_time is true, but this classroom has only one clock, which is simulated already" in line

@@ -1,10 +1,10 @@
-"""Page 00: a first goal of the reader's own."""
+"""Page 00: a first command and a first goal of the reader's own."""
 
 from __future__ import annotations
 
 import math
 
-from ..words import number, point
+from ..words import angle, number, point, turned
 from .drives import NEAR, where
 from .exam import Exam
 from .registry import Expectation, check
@@ -12,6 +12,21 @@ from .rows import Seen
 
 PAGE = "00_welcome"
 CORNER = (2.0, 2.0)
+UP = math.pi / 2
+LITTLE = 0.1
+"""How far from up the turtle may face, rad."""
+
+
+@check("face_up", page=PAGE, points=1, limit=5)
+def face_up() -> list[Expectation]:
+    """The turtle was turned to face up."""
+    return [Expectation(f"the turtle facing up, within {LITTLE:g} rad", _facing_up)]
+
+
+def _facing_up(exam: Exam) -> Seen:
+    heading = where(exam).theta
+    step = "Set angular.z to a quarter turn, 1.57, and publish it once; a negative one turns back to the right."
+    return Seen(abs(turned(heading - UP)) <= LITTLE, f"its heading is {angle(heading)}", step)
 
 
 @check("corner", page=PAGE, points=1, limit=5)

@@ -133,8 +133,8 @@ class ServiceDefinition:
 
     @property
     def full_name(self) -> str:
-        """Name as ROS writes it, e.g. `turtlesim/srv/Spawn`."""
-        return f"{self.package}/srv/{self.name}"
+        """Name as ROS writes it, e.g. `turtlesim/srv/Spawn`; those behind an action are `…/action/X_SendGoal`."""
+        return f"{self.package}/{self.folder}/{self.name}"
 
     def parts(self) -> tuple[MessageDefinition, ...]:
         """Request and response."""

@@ -1,6 +1,7 @@
 """What `SLOT_TYPES` of a message class holds: its fields' types as small objects.
 
-Names and attributes are those of `rosidl_parser.definition`, so that code written for it can look at ours.
+Names, attributes and what is a kind of what are those of `rosidl_parser.definition`, so that code written for it can
+look at ours (`rosidl_parser` itself, in `ros/site`, is these classes).
 """
 
 from __future__ import annotations
@@ -18,8 +19,14 @@ class AbstractType:
     __slots__ = ()
 
 
+class AbstractNestableType(AbstractType):
+    """Any type that the elements of an array or sequence may have."""
+
+    __slots__ = ()
+
+
 @dataclass(frozen=True, slots=True)
-class BasicType(AbstractType):
+class BasicType(AbstractNestableType):
     """A number, a boolean or a byte, by its IDL name: `double`, `int32`, `boolean`, `octet`, ..."""
 
     typename: str
@@ -29,24 +36,54 @@ class BasicType(AbstractType):
 
 
 @dataclass(frozen=True, slots=True)
-class NamespacedType(AbstractType):
+class NamedType(AbstractNestableType):
+    """A type known by its bare name; our definitions have none, programs may ask."""
+
+    name: str
+
+    def __str__(self) -> str:
+        return self.name
+
+
+@dataclass(frozen=True, slots=True)
+class NamespacedType(AbstractNestableType):
     """A message: `NamespacedType(['geometry_msgs', 'msg'], 'Vector3')`."""
 
     namespaces: list[str]
     name: str
 
+    def namespaced_name(self) -> tuple[str, ...]:
+        """`('geometry_msgs', 'msg', 'Vector3')`."""
+        return (*self.namespaces, self.name)
+
     def __str__(self) -> str:
         return f"{self.namespaces[0]}/{self.name}"
 
 
-class AbstractGenericString(AbstractType):
+class AbstractGenericString(AbstractNestableType):
     """Any string."""
+
+    __slots__ = ()
+
+    def has_maximum_size(self) -> bool:
+        """Whether its length is bounded."""
+        return hasattr(self, "maximum_size")
+
+
+class AbstractString(AbstractGenericString):
+    """Any string of 8-bit characters (UTF-8)."""
+
+    __slots__ = ()
+
+
+class AbstractWString(AbstractGenericString):
+    """Any string of 16-bit characters (UTF-16)."""
 
     __slots__ = ()
 
 
 @dataclass(frozen=True, slots=True)
-class UnboundedString(AbstractGenericString):
+class UnboundedString(AbstractString):
     """A string of any length."""
 
     def __str__(self) -> str:
@@ -54,7 +91,7 @@ class UnboundedString(AbstractGenericString):
 
 
 @dataclass(frozen=True, slots=True)
-class BoundedString(AbstractGenericString):
+class BoundedString(AbstractString):
     """A string of at most `maximum_size` characters."""
 
     maximum_size: int
@@ -64,7 +101,7 @@ class BoundedString(AbstractGenericString):
 
 
 @dataclass(frozen=True, slots=True)
-class UnboundedWString(AbstractGenericString):
+class UnboundedWString(AbstractWString):
     """A wide string of any length."""
 
     def __str__(self) -> str:
@@ -72,7 +109,7 @@ class UnboundedWString(AbstractGenericString):
 
 
 @dataclass(frozen=True, slots=True)
-class BoundedWString(AbstractGenericString):
+class BoundedWString(AbstractWString):
     """A wide string of at most `maximum_size` characters."""
 
     maximum_size: int
@@ -85,7 +122,11 @@ class BoundedWString(AbstractGenericString):
 class AbstractNestedType(AbstractType):
     """Several values of one type."""
 
-    value_type: AbstractType
+    value_type: AbstractNestableType
+
+    def has_maximum_size(self) -> bool:
+        """Whether there is a largest number of values."""
+        return hasattr(self, "maximum_size") or hasattr(self, "size")
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,7 +171,7 @@ def slot_type(type_: FieldType) -> AbstractType:
     return Array(element, type_.size) if type_.is_fixed else BoundedSequence(element, type_.size)
 
 
-def _element(type_: FieldType) -> AbstractType:
+def _element(type_: FieldType) -> AbstractNestableType:
     if type_.package is not None:
         return NamespacedType([type_.package, type_.folder], type_.base)
     bound = type_.string_bound

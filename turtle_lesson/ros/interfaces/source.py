@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from turtle_lesson.ros.interfaces.kinds import Kind, class_variable, literal
-from turtle_lesson.ros.interfaces.model import Constant, Definition, MessageDefinition
+from turtle_lesson.ros.interfaces.model import Constant, Definition, MessageDefinition, ServiceDefinition
 from turtle_lesson.ros.interfaces.slot_types import slot_type
 
 Lines = list[str]
@@ -30,7 +30,7 @@ def message_source(definition: MessageDefinition, kinds: tuple[Kind, ...]) -> st
 def wrapper_source(definition: Definition, parts: dict[str, str]) -> str:
     """Class of a service or an action: it holds the classes of its parts and cannot be instantiated."""
     name = definition.name
-    what = "Service" if definition.folder == "srv" else "Action"
+    what = "Service" if isinstance(definition, ServiceDefinition) else "Action"
     return "\n".join(
         [
             f"class Metaclass_{name}(type):",

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ._entity import CLIENT
+from ._entity import CLIENT, WAITABLE
 from ._mistakes import did_you_mean
 from ._notebook import is_notebook
 
@@ -23,10 +24,23 @@ if TYPE_CHECKING:
     from .client import Client
     from .task import Future, Task
 
-IN_A_CALLBACK = (
-    "Make the callback `async def` and write `await client.call_async(request)`, with the client in a callback group of "
-    "its own; or spin with a MultiThreadedExecutor, the client in another callback group than this callback."
-)
+
+@dataclass(frozen=True)
+class Words:
+    """What a client, and the one who answers it, are called in these texts."""
+
+    client: str = "client"
+    server: str = "service"
+    ask: str = "client.call_async(request)"
+    make: str = "create_client"
+
+
+def in_a_callback(words: Words) -> str:
+    """What to do instead of a synchronous call in a callback."""
+    return (
+        f"Make the callback `async def` and write `await {words.ask}`, with the {words.client} in a callback group of "
+        f"its own; or spin with a MultiThreadedExecutor, the {words.client} in another callback group than this callback."
+    )
 
 
 def callbacks_around() -> list[Any]:
@@ -95,18 +109,19 @@ def _why_nobody_serves(client: Client) -> str:
 
 def _why_not_taken(client: Client, strand: Strand, drives: bool) -> str:
     """Why nobody would take the answer."""
+    words = client._words
     if keeps_taken(client.callback_group):
         return (
-            "this callback waits for it and so keeps its callback group, and the client that would take the answer is in "
-            f"the same group. {IN_A_CALLBACK}"
+            f"this callback waits for it and so keeps its callback group, and the {words.client} that would take the "
+            f"answer is in the same group. {in_a_callback(words)}"
         )
     if drives or client._taken_elsewhere(strand) or (client._executor is None and main_may_go_on(strand)):
         return ""
     if callbacks_around():
-        return f"the thread that would take the answer is the one that waits here. {IN_A_CALLBACK}"
+        return f"the thread that would take the answer is the one that waits here. {in_a_callback(words)}"
     return (
         f"nobody spins {client._of_node!r} meanwhile, so nobody takes the answer. Write instead: "
-        "future = client.call_async(request), then rclpy.spin_until_future_complete(node, future)."
+        f"future = {words.ask}, then rclpy.spin_until_future_complete(node, future)."
     )
 
 
@@ -123,15 +138,16 @@ def _why_not_served(client: Client, servers: list[ServerEnd], strand: Strand, dr
         spun = by_this_call or (main_may_go_on(strand) if executor is None else executor._spun_by_another(strand))
         if spun and not keeps_taken(service.callback_group):
             return ""
-    place = "notebook" if is_notebook(strand.process) else "process"
+    words, place = client._words, "notebook" if is_notebook(strand.process) else "process"
     if drives or not callbacks_around():
         return (
-            f"the service's node is in this {place}, too, and nobody spins it meanwhile. Add both nodes to one executor: "
-            "executor.add_node(…), future = client.call_async(request), executor.spin_until_future_complete(future)."
+            f"the {words.server}'s node is in this {place}, too, and nobody spins it meanwhile. Add both nodes to one "
+            f"executor: executor.add_node(…), future = {words.ask}, executor.spin_until_future_complete(future)."
         )
     return (
-        "the service is offered by this very process, and cannot be called while this callback waits, because they share "
-        "a thread or a callback group. Give the service a callback group of its own, and use a MultiThreadedExecutor."
+        f"the {words.server} is offered by this very process, and cannot be called while this callback waits, because they "
+        f"share a thread or a callback group. Give the {words.server} a callback group of its own, and use a "
+        "MultiThreadedExecutor."
     )
 
 
@@ -144,9 +160,9 @@ def why_never_done(future: Future, executor: Executor, strand: Strand) -> str:
         return ""
     return (
         f"this callback spins until {client.service_name} has answered, which can never be: the callback keeps its "
-        "callback group meanwhile, and the client that would take the answer is in the same group. Make the callback "
-        "`async def` and await call_async, with the client in a callback group of its own; or go on in "
-        "future.add_done_callback(…)."
+        f"callback group meanwhile, and the {client._words.client} that would take the answer is in the same group. Make "
+        f"the callback `async def` and await {client._words.ask}, with the {client._words.client} in a callback group of "
+        "its own; or go on in future.add_done_callback(…)."
     )
 
 
@@ -159,10 +175,11 @@ def why_never_awaited(future: Future, task: Task, strand: Strand | None) -> str:
         return ""
     if _somebody_may_complete(future, executor, lambda group: group is entity.callback_group):
         return ""
+    words = client._words
     return (
         f"this coroutine waits for an answer of {client.srv_name}, but can never get it: it keeps its callback "
-        "group taken while it waits, and the client is in the same group. Give the client a group of its own: "
-        "create_client(…, callback_group=MutuallyExclusiveCallbackGroup())"
+        f"group taken while it waits, and the {words.client} is in the same group. Give the {words.client} a group of its "
+        f"own: {words.make}(…, callback_group=MutuallyExclusiveCallbackGroup())"
     )
 
 
@@ -178,6 +195,6 @@ def _may_act(entity: Any, taken: Callable[[Any], bool]) -> bool:
     """Whether a callback of the program's own may be called by an entity, although these groups are taken."""
     if entity._executor is None or taken(entity.callback_group):
         return False
-    if entity._kind == CLIENT:
-        return bool(entity._waiting)
+    if entity._kind in (CLIENT, WAITABLE):
+        return bool(getattr(entity, "_waiting", True))  # who knows what a waitable of the program's own does
     return not (getattr(entity.callback, "__module__", None) or "").startswith("rclpy.")

@@ -90,12 +90,12 @@ class Entity:
 
 
 class Handle:
-    """An entity, seen as the C object that the real rclpy keeps beneath it: it can be held with `with`, and compared.
+    """An entity, node or clock, seen as the C object beneath it of the real rclpy: held with `with`, and compared.
 
     Nothing of the C interface is here but `pointer`; whatever else is asked for is looked up in the entity.
     """
 
-    def __init__(self, entity: Entity) -> None:
+    def __init__(self, entity: Any) -> None:
         self._entity = entity
 
     @property
@@ -104,7 +104,9 @@ class Handle:
         return id(self._entity)
 
     def __enter__(self) -> None:
-        self._entity._check_alive()
+        check = getattr(self._entity, "_check_alive", None)
+        if check is not None:
+            check()
 
     def __exit__(self, *error: object) -> None:
         """Let go."""

@@ -210,7 +210,8 @@ class NodeEntities(NodeGraph):
             raise ValueError("frequency must be > 0")
         if self._ros_rate_group is None:
             self._ros_rate_group = ReentrantCallbackGroup()
-        timer = self.create_timer(1.0 / frequency, _nothing, self._ros_rate_group, clock)
+        callback: Any = None  # the rate brings its own
+        timer = self.create_timer(1.0 / frequency, callback, self._ros_rate_group, clock)
         return Rate(timer, context=self._ros_context)
 
     def add_waitable(self, waitable: Waitable) -> None:
@@ -265,8 +266,5 @@ class NodeEntities(NodeGraph):
 
     def destroy_rate(self, rate: Rate) -> bool:
         """Take a rate away; False if it is not this node's."""
+        rate.destroy()
         return self._ros_destroy(rate._timer)
-
-
-def _nothing() -> None:
-    """The callback of a rate's timer."""

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 from turtle_lesson.ros.core import EPOCH, NANOSECONDS
 from turtle_lesson.ros.core.tracebacks import shown_path
 
-from ._qos_events import SIM_TIME
 from .impl.logging_severity import LoggingSeverity
 from .impl.rcutils_logger import RcutilsLogger, publish_rosout
 from .qos import DurabilityPolicy, QoSProfile, qos_profile_parameter_events
@@ -17,6 +16,7 @@ if TYPE_CHECKING:
     from turtle_lesson.ros.core import Simulation
     from turtle_lesson.ros.graph import Graph, NodeEntry
 
+    from .clock import ROSClock
     from .publisher import Publisher
 
 ROSOUT = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -25,6 +25,7 @@ ROSOUT = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 class NodeNews:
     """Mixed into Node."""
 
+    _ros_clock: ROSClock
     _ros_entry: NodeEntry
     _ros_event_publisher: Publisher
     _ros_graph: Graph
@@ -61,10 +62,8 @@ class NodeNews:
         return self.create_publisher(ParameterEvent, "/parameter_events", qos_profile_parameter_events)
 
     def _ros_tell_parameter_events(self, news: dict[str, list[Any]]) -> None:
-        if any(each.name == "use_sim_time" and each.value.bool_value for kind in news.values() for each in kind):
-            self._ros_logger.warning(SIM_TIME)
         event = self._ros_event_publisher.msg_type(node=self._ros_entry.full_name)
-        event.stamp.sec, event.stamp.nanosec = divmod(EPOCH + self._ros_simulation.now, NANOSECONDS)
+        event.stamp.sec, event.stamp.nanosec = divmod(self._ros_clock._now(), NANOSECONDS)
         for kind, parameters in news.items():
             setattr(event, f"{kind}_parameters", parameters)
         self._ros_event_publisher.publish(event)

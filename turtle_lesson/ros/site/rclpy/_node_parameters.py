@@ -77,6 +77,13 @@ class NodeParameters:
         if reason:
             raise exceptions.InvalidParameterValueException(parameter.name, parameter.value, reason)
 
+    def _ros_declare_overrides(self) -> None:
+        """Declare what the parameter overrides name, as the real one does before it declares anything else."""
+        from rcl_interfaces.msg import ParameterDescriptor
+
+        found = [(name, each.value, ParameterDescriptor()) for name, each in self._ros_overrides.items()]
+        self.declare_parameters("", found, ignore_override=True)
+
     def undeclare_parameter(self, name: str) -> None:
         """Forget a parameter. Raises ParameterNotDeclaredException or ParameterImmutableException."""
         self._ros_check_declared(name)

@@ -15,6 +15,8 @@ from turtle_lesson.ros.trace.trace import PLUMBING
 
 from ._entity import SERVICE, SUBSCRIPTION, TIMER
 from .parameter_service import ParameterService
+from .time_source import TimeSource
+from .timer import Rate
 
 if TYPE_CHECKING:
     from .executors import Executor
@@ -27,7 +29,7 @@ KINDS = {TIMER: "timer", SUBSCRIPTION: "subscription", SERVICE: "service"}
 def trace_entity(entity: Any, node: Node, executor: Executor, trace: Trace) -> None:
     """Give what a node waits for its place in the trace, unless it is ROS's own."""
     kind, source, name = KINDS.get(entity._kind), _source(entity), name_of(entity.callback)
-    if kind is None or node._ros_entry.hidden or source in PLUMBING or name in NOT_A_CALLBACK:
+    if kind is None or node._ros_entry.hidden or source in PLUMBING or _is_ours(entity.callback):
         return
     if executor._runs_in not in vars(executor):
         _begin_to_trace(executor)
@@ -112,8 +114,9 @@ def _note_arrivals(entity: Any, trace: Trace) -> None:
     end.wake = arrive
 
 
-NOT_A_CALLBACK = frozenset({"NoneType", "_nothing"})
-"""What rclpy's own waitables and the timers of rates have for one."""
+def _is_ours(callback: Any) -> bool:
+    """Whether this is no callback of the program's: none at all, or that of a rate or of the node's time source."""
+    return callback is None or isinstance(getattr(callback, "__self__", None), (Rate, TimeSource))
 
 
 def name_of(function: Callable[..., Any] | None) -> str:

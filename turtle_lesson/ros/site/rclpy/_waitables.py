@@ -44,7 +44,11 @@ class WaitSet:
     def get_ready_entities(self, entity_type: str) -> list[int]:
         """The `pointer`s of what is ready, of one kind."""
         ready = self._ready_of(entity_type)
-        return [entity.handle.pointer for entity, is_ready in zip(self.entities[entity_type], ready, strict=True) if is_ready]
+        return [
+            entity.handle.pointer
+            for entity, is_ready in zip(self.entities[entity_type], ready, strict=True)
+            if is_ready
+        ]
 
     def _ready_of(self, entity_type: str) -> list[bool]:
         if entity_type not in self.entities:

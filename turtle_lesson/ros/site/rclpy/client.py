@@ -8,7 +8,7 @@ from turtle_lesson.ros.core import NANOSECONDS, NeverWakes, running_strand
 from turtle_lesson.ros.graph import ClientEnd
 
 from ._blocking import drives_the_simulation
-from ._deadlock import why_never_answered
+from ._deadlock import Words, why_never_answered
 from ._entity import CLIENT, Entity
 from ._mistakes import shown
 from ._notebook import is_notebook
@@ -17,6 +17,8 @@ from .qos import QoSProfile
 from .task import Future, at_once
 
 if TYPE_CHECKING:
+    from turtle_lesson.ros.core import Strand
+
     from .node import Node
 
 POLL = 250_000_000  # how often, in ns, the real one looks whether a service has appeared (client.py)
@@ -26,6 +28,7 @@ class Client(Entity):
     """Made by `Node.create_client`."""
 
     _kind = CLIENT
+    _words = Words()
 
     def __init__(
         self,
@@ -103,7 +106,10 @@ class Client(Entity):
         self._check_request(request)
         if timeout_sec is None and (problem := why_never_answered(self, strand)):
             raise NeverWakes(f"this call of {self._end.name} can never be answered: {problem}")
-        future = self.call_async(request)
+        return self._answer_to(self.call_async(request), strand, timeout_sec)
+
+    def _answer_to(self, future: Future, strand: Strand, timeout_sec: float | None = None) -> Any:
+        """Wait for the result of a future that `call_async` returned; None after the timeout (s)."""
         try:
             if is_notebook(strand.process) and not self._taken_elsewhere(strand):
                 self._spin_for(future, timeout_sec)

@@ -1,32 +1,66 @@
-"""Clocks. All of them show virtual time: system and ROS time since 1970, steady time since the world's start."""
+"""Clocks. All of them show virtual time: system and ROS time since 1970, steady time since the world's start.
+
+A ROS clock that is told to (by the parameter use_sim_time of its node) follows the topic /clock instead.
+"""
 
 from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 from turtle_lesson.ros.core import EPOCH
 from turtle_lesson.ros.world import current_world
 
+from ._alarm import Alarm
 from ._blocking import drives_the_simulation
+from ._entity import Handle
+from ._time_jumps import ClockChange, JumpHandle, JumpThreshold, TimeJump
 from .clock_type import ClockType
+from .context import Context
 from .duration import Duration
+from .exceptions import NotInitializedException
 from .time import Time
+from .utilities import get_default_context
 
-__all__ = ["Clock", "ClockType", "ROSClock"]
+if TYPE_CHECKING:
+    from turtle_lesson.ros.core import Simulation
+
+    from .time_source import TimeSource
+    from .timer import Timer
+
+__all__ = ["Clock", "ClockChange", "ClockType", "JumpHandle", "JumpThreshold", "ROSClock", "TimeJump"]
 
 
 class Clock:
-    """A clock of one kind; looking at it costs a microsecond of virtual time."""
+    """A clock of one kind; looking at it costs a microsecond of virtual time.
 
-    def __init__(self, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> None:
+    `Clock(clock_type=ClockType.ROS_TIME)` is a `ROSClock`.
+    """
+
+    _clock_type: ClockType
+    _origin: int
+    _simulation: Simulation
+    _jump_handles: list[JumpHandle]
+
+    def __new__(cls, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> Clock:
         if not isinstance(clock_type, ClockType):
             raise TypeError("Clock type must be a ClockType enum")
-        self._clock_type = clock_type
-        self._origin = 0 if clock_type == ClockType.STEADY_TIME else EPOCH
-        self._simulation = current_world().sim
+        clock = super().__new__(ROSClock if clock_type is ClockType.ROS_TIME else cls)
+        clock._clock_type = clock_type
+        clock._origin = 0 if clock_type == ClockType.STEADY_TIME else EPOCH
+        clock._simulation = current_world().sim
+        clock._jump_handles = []
+        return clock
 
     @property
     def clock_type(self) -> ClockType:
         """Which kind of clock this is."""
         return self._clock_type
+
+    @property
+    def handle(self) -> Handle:
+        """What stands for the C object of the real one."""
+        return Handle(self)
 
     def __repr__(self) -> str:
         return f"Clock(clock_type={self._clock_type.name})"
@@ -35,28 +69,140 @@ class Clock:
         """The time now."""
         return Time(nanoseconds=self._origin + self._simulation.read_clock(), clock_type=self._clock_type)
 
-    @drives_the_simulation
-    def sleep_until(self, until: Time, context: object = None) -> bool:
-        """Hold up the caller until a time on this clock; True when it has come."""
-        if until.clock_type != self._clock_type:
-            raise ValueError("until's clock type does not match this clock's type")
-        self._simulation.sleep_until(max(self._simulation.now, until.nanoseconds - self._origin))
-        return True
+    def _now(self) -> int:
+        """The time now (ns), for whom looking at it costs nothing."""
+        return self._origin + self._simulation.now
+
+    def _when(self, time: int) -> int | None:
+        """When, in the simulation's time, this clock shows a time (ns); None if that cannot be known."""
+        return time - self._origin
+
+    def create_jump_callback(
+        self,
+        threshold: JumpThreshold,
+        *,
+        pre_callback: Callable[[], object] | None = None,
+        post_callback: Callable[[TimeJump], object] | None = None,
+    ) -> JumpHandle:
+        """Have functions called right before and after a jump: `pre_callback()` and `post_callback(time_jump)`.
+
+        Raises ValueError if neither is given, or one is no function.
+        """
+        return JumpHandle(clock=self, threshold=threshold, pre_callback=pre_callback, post_callback=post_callback)
 
     @drives_the_simulation
-    def sleep_for(self, rel_time: Duration, context: object = None) -> bool:
-        """Hold up the caller for a duration; True when it is over."""
-        self._simulation.sleep_until(self._simulation.now + max(0, rel_time.nanoseconds))
-        return True
+    def sleep_until(self, until: Time, context: Context | None = None) -> bool:
+        """Hold up the caller until a time on this clock; True when it has come.
+
+        False if the context was shut down meanwhile, or ROS time began or ended to follow /clock. Raises ValueError
+        for a time of another kind of clock, NotInitializedException without a context that is up.
+        """
+        context = get_default_context() if context is None else context
+        if not context.ok():
+            raise NotInitializedException()
+        if until.clock_type != self._clock_type:
+            raise ValueError("until's clock type does not match this clock's type")
+        changed = False
+        alarm = Alarm(context)
+
+        def on_jump(jump: TimeJump) -> None:
+            nonlocal changed
+            changed = changed or jump.clock_change != ClockChange.ROS_TIME_NO_CHANGE
+            if changed or self._now() >= until.nanoseconds:
+                alarm.ring()
+
+        every_jump = JumpThreshold(min_forward=Duration(nanoseconds=1), min_backward=None)
+        with self.create_jump_callback(every_jump, post_callback=on_jump):
+            self._sleep(alarm, until)
+        return context.ok() and not changed and self._now() >= until.nanoseconds
+
+    def _sleep(self, alarm: Alarm, until: Time) -> None:
+        alarm.wait(self._when(until.nanoseconds))
+
+    @drives_the_simulation
+    def sleep_for(self, rel_time: Duration, context: Context | None = None) -> bool:
+        """Hold up the caller for a duration on this clock; True when it is over, False as for `sleep_until`."""
+        return self.sleep_until(Time(nanoseconds=self._now(), clock_type=self._clock_type) + rel_time, context)
+
+
+class _Followed:
+    """The time that was last heard of on /clock, in ns. A timer looks at its `now` in place of the simulation's."""
+
+    def __init__(self) -> None:
+        self.now = 0
 
 
 class ROSClock(Clock):
     """The clock of nodes."""
 
-    def __init__(self) -> None:
-        super().__init__(clock_type=ClockType.ROS_TIME)
+    _followed: _Followed
+    _is_active: bool
+    _timers: list[Timer]
+    _source: TimeSource | None
+
+    def __new__(cls) -> ROSClock:
+        clock: Any = super().__new__(Clock, clock_type=ClockType.ROS_TIME)
+        return clock
+
+    def __init__(self, **_: Any) -> None:
+        self._followed = _Followed()
+        self._is_active = False
+        self._timers = []
+        self._source = None
 
     @property
     def ros_time_is_active(self) -> bool:
-        """Whether a `/clock` topic rules this clock; here virtual time does."""
-        return False
+        """Whether a `/clock` topic rules this clock."""
+        return self._is_active
+
+    def now(self) -> Time:
+        """The time now. Under the rule of /clock it stands still between two messages, and is 0 before the first."""
+        if not self._is_active:
+            return super().now()
+        self._simulation.read_clock()
+        return Time(nanoseconds=self._followed.now, clock_type=self._clock_type)
+
+    def _now(self) -> int:
+        return self._followed.now if self._is_active else super()._now()
+
+    def _when(self, time: int) -> int | None:
+        return None if self._is_active and self._followed.now < time else super()._when(time)
+
+    def _sleep(self, alarm: Alarm, until: Time) -> None:
+        deadline = self._when(until.nanoseconds)
+        if self._is_active and self._now() >= until.nanoseconds:
+            return
+        if deadline is None and self._source is not None:
+            self._source.check_it_may_hear(alarm.strand)
+        alarm.wait(deadline)
+
+    def _set_ros_time_is_active(self, enabled: bool) -> None:
+        """Begin or end to follow /clock; a TimeSource does it."""
+        if self._is_active == enabled:
+            return
+        change = ClockChange.ROS_TIME_ACTIVATED if enabled else ClockChange.ROS_TIME_DEACTIVATED
+        jump, before = TimeJump(change, Duration()), self._now()
+        for handle in list(self._jump_handles):
+            handle.before(jump)
+        self._is_active = enabled
+        for timer in self._timers:
+            timer._follow(self._followed if enabled else None, before)
+        for handle in list(self._jump_handles):
+            handle.after(jump)
+
+    def set_ros_time_override(self, time: Time) -> None:
+        """Set the time that this clock shows while it is ruled by /clock. Raises TypeError for what is no Time."""
+        if not isinstance(time, Time):
+            raise TypeError(f"Time must be specified as rclpy.time.Time. Received type: {type(time)}")
+        if not self._is_active:
+            self._followed.now = time.nanoseconds
+            return
+        delta = Duration(nanoseconds=time.nanoseconds - self._followed.now)
+        jump = TimeJump(ClockChange.ROS_TIME_NO_CHANGE, delta)
+        for handle in list(self._jump_handles):
+            handle.before(jump)
+        self._followed.now = time.nanoseconds
+        for timer in self._timers:
+            timer._jumped()
+        for handle in list(self._jump_handles):
+            handle.after(jump)

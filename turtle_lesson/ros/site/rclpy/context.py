@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import inspect
+import weakref
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -23,7 +25,7 @@ class Context:
         self._initialized = False
         self.ended = False
         """Whether it was shut down."""
-        self._callbacks: list[Callable[[], Any]] = []
+        self._callbacks: list[Callable[[], Callable[[], Any] | None]] = []
         self._nodes: list[Node] = []
         self.arguments = Arguments()
         self.domain_id = 0
@@ -60,8 +62,11 @@ class Context:
         if not self.ok():
             return
         self.ended = True
-        for callback in self._callbacks:
-            callback()
+        for reference in list(self._callbacks):
+            callback = reference()
+            if callback is not None:
+                callback()
+        self._callbacks.clear()
         for node in list(self._nodes):
             node._ros_leave()  # a node without a context could do nothing, so it does not stay in the graph
         if self.shared_default:
@@ -73,11 +78,24 @@ class Context:
         return self._process.locals.get("rclpy.context") is self
 
     def on_shutdown(self, callback: Callable[[], Any]) -> None:
-        """Have `callback()` called at the shutdown (at once if it has been)."""
+        """Have `callback()` called at the shutdown (at once if it has been). A method is only called if its object is
+        still there then.
+
+        Raises TypeError for what cannot be called.
+        """
+        if not callable(callback):
+            raise TypeError(f"callback should be a callable, got {type(callback)}")
         if self.ended:
             callback()
         else:
-            self._callbacks.append(callback)
+            self._callbacks.append(_reference(callback))
+
+    def forget_callback(self, callback: Callable[[], Any]) -> None:
+        """No longer call what was given to `on_shutdown`."""
+        for place in reversed(range(len(self._callbacks))):
+            if self._callbacks[place]() == callback:
+                del self._callbacks[place]
+                return
 
     def track_node(self, node: Any) -> None:
         """Remember a node, so that it leaves the graph when the process ends."""
@@ -99,3 +117,9 @@ class Context:
 
     def __exit__(self, *error: object) -> None:
         self.try_shutdown()
+
+
+def _reference(callback: Callable[[], Any]) -> Callable[[], Callable[[], Any] | None]:
+    if inspect.ismethod(callback):
+        return weakref.WeakMethod(callback)
+    return lambda: callback

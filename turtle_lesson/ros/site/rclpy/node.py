@@ -9,7 +9,7 @@ from turtle_lesson.ros.graph import NodeEntry
 from turtle_lesson.ros.world import current_process, current_world
 
 from ._arguments import Arguments, parse_arguments
-from ._entity import Entity
+from ._entity import Entity, Handle
 from ._missing import refuse_unbuilt
 from ._mistakes import set_by_init
 from ._node_entities import NodeEntities
@@ -30,6 +30,7 @@ from .parameter_service import ParameterService
 from .publisher import Publisher
 from .service import Service
 from .subscription import Subscription
+from .time_source import TimeSource
 from .timer import Timer
 from .utilities import get_default_context
 from .validate_namespace import validate_namespace
@@ -92,11 +93,10 @@ class Node(NodeEntities, NodeNews, NodeParameters):
         self._ros_setup_parameters(overrides, allow_undeclared_parameters)
         self._ros_rosout = self._ros_publish_rosout() if enable_rosout else None
         self._ros_event_publisher = self._ros_publish_parameter_events()
-        self.declare_parameter("use_sim_time", False)
         if automatically_declare_parameters_from_overrides:
-            for override in self._ros_overrides.values():
-                if not self.has_parameter(override.name):
-                    self.declare_parameter(override.name, override.value)
+            self._ros_declare_overrides()
+        self._ros_time_source = TimeSource(node=self)
+        self._ros_time_source.attach_clock(self._ros_clock)
         if start_parameter_services:
             self._ros_parameter_service = ParameterService(self)
 
@@ -219,9 +219,13 @@ class Node(NodeEntities, NodeNews, NodeParameters):
             new_executor.add_node(self)
 
     @property
-    def handle(self) -> Any:
-        """The node stands for itself: there is no C object beneath it."""
-        return self
+    def handle(self) -> Handle:
+        """What stands for the C object of the real one."""
+        return Handle(self)
+
+    @handle.setter
+    def handle(self, value: object) -> None:
+        raise AttributeError("handle cannot be modified after node creation")
 
     def get_logger(self) -> RcutilsLogger:
         """The node's logger."""

@@ -1,21 +1,25 @@
-"""Timers, and rates to sleep by.
+"""Timers.
 
 A timer's ticks lie on a fixed grid: a late callback does not shift the next one, and ticks that were missed are dropped
-(rcl's timer.c). A timer of period zero is called as often as a real one manages to: about every 47 µs.
+(rcl's timer.c). A timer of period zero is called as often as a real one manages to: about every 47 µs. A timer whose
+clock follows /clock is looked at whenever that clock is set.
 """
 
 from __future__ import annotations
 
+import functools
+import inspect
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from turtle_lesson.ros.core import NeverWakes, running_strand
+from turtle_lesson.ros.core import EPOCH
 
-from ._blocking import drives_the_simulation
 from ._entity import TIMER, Entity
 from ._mistakes import shown
-from ._notebook import is_notebook
+from ._rate import Rate
+from ._timer_info import TimerInfo
 from .callback_groups import CallbackGroup
+from .clock import ROSClock
 from .constants import S_TO_NS
 from .exceptions import RCLError
 
@@ -23,7 +27,10 @@ if TYPE_CHECKING:
     from .clock import Clock
     from .context import Context
 
+__all__ = ["Rate", "Timer", "TimerInfo"]
+
 SHORTEST = 47_000
+NOT_BY_THE_SIMULATION = -1
 
 
 def period_ns(seconds: Any) -> int:
@@ -37,7 +44,10 @@ def period_ns(seconds: Any) -> int:
 
 
 class Timer(Entity):
-    """Made by `Node.create_timer`. `timer_period_ns` can be set; it takes effect after the next tick."""
+    """Made by `Node.create_timer`. `timer_period_ns` can be set; it takes effect after the next tick.
+
+    A callback with a parameter that is annotated as `TimerInfo` gets one (Jazzy and newer).
+    """
 
     _kind = TIMER
 
@@ -58,11 +68,20 @@ class Timer(Entity):
             )
         self._clock = clock
         self._simulation = clock._simulation
+        self._time: Any = clock._simulation  # what shows the time (ns) as its `now`: this, or what follows /clock
         self._period = int(timer_period_ns)
         self._canceled = not autostart
-        self._last = self._simulation.now
-        self._next = self._last + self._period
         self._armed: int | None = None  # when the simulation calls next, which may be too early (ns)
+        if isinstance(clock, ROSClock):
+            clock._timers.append(self)
+            if clock.ros_time_is_active:
+                self._time, self._armed = clock._followed, NOT_BY_THE_SIMULATION
+        self._last = self._time.now
+        self._next = self._last + self._period
+        name = _place_of_info(callback)
+        if name is not None and callback is not None:
+            self._take = self._take_with_info  # type: ignore[method-assign]
+            self.callback = _by_name(callback, name) if name else callback
         if autostart:
             self._arm()
 
@@ -85,29 +104,37 @@ class Timer(Entity):
 
     def is_ready(self) -> bool:
         """Whether a tick is due."""
-        return not self._canceled and self._simulation.now >= self._next
+        self._check_alive()
+        return self._has_work()
 
     def is_canceled(self) -> bool:
         """Whether the timer was cancelled."""
+        self._check_alive()
         return self._canceled
 
     def cancel(self) -> None:
         """Stop ticking, until `reset`."""
+        self._check_alive()
         self._canceled = True
 
     def reset(self) -> None:
         """Begin anew: the next tick is one period from now."""
+        self._check_alive()
         self._canceled = False
-        self._next = self._simulation.now + self._period
+        self._next = self._time.now + self._period
         self._arm()
 
     def time_since_last_call(self) -> int:
         """How long ago the last tick was, in ns."""
-        return self._simulation.now - self._last
+        self._check_alive()
+        return self._time.now - self._last
 
     def time_until_next_call(self) -> int | None:
         """How long until the next tick, in ns; None for a cancelled timer."""
-        return None if self._canceled else self._next - self._simulation.now
+        self._check_alive()
+        return None if self._canceled else self._next - self._time.now
+
+    # -- in the simulation's time ------------------------------------------------------------------------------------
 
     def _arm(self) -> None:
         """Be called when the next tick is due. A call that comes earlier is used: then there is only ever one.
@@ -130,10 +157,10 @@ class Timer(Entity):
             self._arm()
 
     def _has_work(self) -> bool:
-        return not self._canceled and self._simulation.now >= self._next
+        return not self._canceled and self._time.now >= self._next
 
     def _take(self) -> tuple[Any, ...]:
-        now = self._simulation.now
+        now = self._time.now
         self._last = now
         period = self._period
         due = self._next + period
@@ -147,41 +174,71 @@ class Timer(Entity):
             self._simulation.at(due, self._on_due, due)
         return ()
 
+    def _take_with_info(self) -> tuple[Any, ...]:
+        origin = self._clock._origin if self._time is self._simulation else 0
+        expected, actual = origin + self._next, origin + self._time.now
+        info = TimerInfo(expected_call_time=expected, actual_call_time=actual, clock_type=self._clock.clock_type)
+        Timer._take(self)
+        return (info,)
+
+    # -- in the time that is heard on /clock -------------------------------------------------------------------------
+
+    def _follow(self, followed: Any, before: int) -> None:
+        """The clock begins to follow /clock, or (None) ends it; `before` is what it showed until now (ns).
+
+        What is left of the period is waited for in the new time, if both times are known. These are rcl's rules and
+        figures, in ns since 1970.
+        """
+        shift = 0 if followed is None else EPOCH
+        last, due = self._last + shift, self._next + shift
+        now = EPOCH + self._simulation.now if followed is None else followed.now
+        left = due - before
+        if now and before and left:
+            last, due = now - left, now - left + self._period
+        if followed is None:
+            self._time, self._armed = self._simulation, None
+            self._last, self._next = last - EPOCH, max(due - EPOCH, self._simulation.now)
+            self._arm()
+        else:
+            self._time, self._armed = followed, NOT_BY_THE_SIMULATION
+            self._last, self._next = last, due
+            if self._has_work():
+                self._signal()
+
+    def _jumped(self) -> None:
+        """The clock was set."""
+        now = self._time.now
+        if self._next <= now:
+            if not self._canceled:
+                self._signal()
+        elif now < self._last:
+            self._last, self._next = now, now + self._period
+
     def destroy(self) -> None:
         """Never tick again."""
         self._canceled = True
+        if isinstance(self._clock, ROSClock) and self in self._clock._timers:
+            self._clock._timers.remove(self)
         super().destroy()
 
 
-class Rate:
-    """Made by `Node.create_rate`: `sleep()` returns once a period. Another thread must be spinning the node."""
+def _place_of_info(callback: Any) -> str | None:
+    """The parameter of a callback that is annotated as a TimerInfo; '' for the first one."""
+    try:
+        parameters = list(inspect.signature(callback).parameters.values()) if callback is not None else []
+    except (TypeError, ValueError):
+        return None
+    for index, parameter in enumerate(parameters):
+        if parameter.annotation is TimerInfo:
+            return parameter.name if index or parameter.kind is parameter.KEYWORD_ONLY else ""
+    return None
 
-    def __init__(self, timer: Timer, *, context: Context | None = None) -> None:
-        self._timer = timer
-        self._period = timer.timer_period_ns
-        self._next = timer._simulation.now + self._period
 
-    @drives_the_simulation
-    def sleep(self) -> None:
-        """Hold up the caller until the next whole period."""
-        self._check_somebody_spins()
-        simulation = self._timer._simulation
-        while self._next <= simulation.now:
-            self._next += self._period
-        simulation.sleep_until(self._next)
-        self._next += self._period
+def _by_name(callback: Callable[..., Any], name: str) -> Callable[[TimerInfo], Any]:
+    """A callback that hands its one argument on as this parameter."""
 
-    def _check_somebody_spins(self) -> None:
-        strand = running_strand()
-        if strand is None or is_notebook(strand.process):
-            return
-        executor = self._timer._executor
-        if executor is None or not executor._spun_by_another(strand):
-            raise NeverWakes(
-                "this rate would sleep for ever: it is woken by a timer of its node, and no other thread is spinning "
-                "the node. Use a timer instead of a loop, or a MultiThreadedExecutor."
-            )
+    @functools.wraps(callback)
+    def call(info: TimerInfo) -> Any:
+        return callback(**{name: info})
 
-    def destroy(self) -> None:
-        """Stop the timer behind it."""
-        self._timer.destroy()
+    return call

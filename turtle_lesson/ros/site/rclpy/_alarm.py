@@ -1,0 +1,56 @@
+"""What holds up a thread until a time has come, or something happened before."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from turtle_lesson.ros.core import Strand, running_strand
+
+from ._deadlock import executor_of_worker
+from ._notebook import is_notebook
+
+if TYPE_CHECKING:
+    from .context import Context
+    from .executors import Executor
+
+
+class Alarm:
+    """Holds up the running strand in `wait`, until a time of the simulation, or until somebody calls `ring`.
+
+    A shutdown of its context rings it, too.
+    """
+
+    def __init__(self, context: Context) -> None:
+        strand = running_strand()
+        assert strand is not None
+        self.strand = strand
+        self.rung = False
+        self._context = context
+        context.on_shutdown(self.ring)
+
+    def ring(self) -> None:
+        """End the waiting."""
+        self.rung = True
+        self.strand.simulation.wake(self.strand)
+
+    def wait(self, deadline: int | None) -> bool:
+        """Wait until the deadline (ns of the simulation; None for ever); whether it rang before."""
+        simulation, strand = self.strand.simulation, self.strand
+        if deadline is not None and simulation.now < deadline:
+            simulation.at(deadline, simulation.wake, strand)
+        try:
+            while not self.rung and (deadline is None or simulation.now < deadline):
+                simulation.park(strand)
+        finally:
+            self._context.forget_callback(self.ring)
+        return self.rung
+
+
+def somebody_spins(executor: Executor | None, strand: Strand) -> bool:
+    """Whether another strand than this spins an executor, or may do so yet (in doubt: yes)."""
+    if is_notebook(strand.process):
+        return True
+    if executor is not None and executor._spun_by_another(strand):
+        return True
+    others = (each for each in strand.process._strands if each is not strand and not each.dead)
+    return any(executor_of_worker(each) is None for each in others)

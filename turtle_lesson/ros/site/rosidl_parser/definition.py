@@ -1,0 +1,41 @@
+"""The types of fields, as `SLOT_TYPES` of a message class holds them (names as in rosidl_parser/definition.py)."""
+
+from turtle_lesson.ros.interfaces.slot_types import (
+    AbstractGenericString,
+    AbstractNestableType,
+    AbstractNestedType,
+    AbstractSequence,
+    AbstractString,
+    AbstractType,
+    AbstractWString,
+    Array,
+    BasicType,
+    BoundedSequence,
+    BoundedString,
+    BoundedWString,
+    NamedType,
+    NamespacedType,
+    UnboundedSequence,
+    UnboundedString,
+    UnboundedWString,
+)
+
+__all__ = [
+    "AbstractGenericString",
+    "AbstractNestableType",
+    "AbstractNestedType",
+    "AbstractSequence",
+    "AbstractString",
+    "AbstractType",
+    "AbstractWString",
+    "Array",
+    "BasicType",
+    "BoundedSequence",
+    "BoundedString",
+    "BoundedWString",
+    "NamedType",
+    "NamespacedType",
+    "UnboundedSequence",
+    "UnboundedString",
+    "UnboundedWString",
+]

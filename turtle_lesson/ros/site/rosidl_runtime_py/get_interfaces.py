@@ -1,0 +1,91 @@
+"""Which interfaces there are (names and sentences: rosidl_runtime_py/get_interfaces.py).
+
+Where the real functions give the names of a package in no order, ours give them in alphabetical order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+from turtle_lesson.ros.interfaces.registry import FOLDERS, registry
+from turtle_lesson.ros.workspace.current import current_packages
+
+SITE = Path(__file__).resolve().parents[1]
+
+
+def get_interface_packages() -> list[str]:
+    """The names of all packages that have interfaces."""
+    return registry.packages()
+
+
+def get_interfaces(package_names: Iterable[str] = ()) -> dict[str, list[str]]:
+    """The interfaces of some packages, or of all if none is named: `{'std_srvs': ['srv/Empty', …]}`.
+
+    A package without interfaces is left out. Raises LookupError if there is no package of a name.
+    """
+    return _interfaces(package_names, FOLDERS)
+
+
+def get_message_interfaces(package_names: Iterable[str] = ()) -> dict[str, list[str]]:
+    """The messages alone."""
+    return _interfaces(package_names, ("msg",))
+
+
+def get_service_interfaces(package_names: Iterable[str] = ()) -> dict[str, list[str]]:
+    """The services alone."""
+    return _interfaces(package_names, ("srv",))
+
+
+def get_action_interfaces(package_names: Iterable[str] = ()) -> dict[str, list[str]]:
+    """The actions alone."""
+    return _interfaces(package_names, ("action",))
+
+
+def get_interface_path(interface_name: str) -> str:
+    """The file that defines an interface, by its name such as `geometry_msgs/msg/Twist`.
+
+    Raises:
+        ValueError: the name is no such name.
+        LookupError: there is no such package or interface.
+    """
+    parts = interface_name.split("/")
+    if len(parts) < 2:
+        raise ValueError(f"Invalid name '{interface_name}'. Expected at least two parts separated by '/'")
+    if not all(parts):
+        raise ValueError(f"Invalid name '{interface_name}'. Must not contain empty parts")
+    if ".." in parts:
+        raise ValueError(f"Invalid name '{interface_name}'. Must not contain '..'")
+    path = _share(parts[0]).joinpath(*parts[1:])
+    if "." not in path.name:
+        with_suffix = path.with_name(f"{path.name}.{parts[-2]}")
+        path = with_suffix if with_suffix.is_file() else path.with_name(f"{path.name}.idl")
+    if not path.exists():
+        raise LookupError(f"Could not find the interface '{path}'")
+    return str(path)
+
+
+def _share(package: str) -> Path:
+    """The folder that holds `msg/`, `srv/` and `action/` of a package."""
+    _check_package(package)
+    if package in registry.packages():
+        return registry.package(package).directory
+    return current_packages().get(package).share if package in current_packages() else SITE / package
+
+
+def _interfaces(package_names: Iterable[str], folders: tuple[str, ...]) -> dict[str, list[str]]:
+    chosen = list(package_names) or get_interface_packages()
+    known = set(registry.packages())
+    found = {}
+    for package in chosen:
+        _check_package(package)
+        names = registry.interface_names(package) if package in known else []
+        if wanted := [name for name in names if name.partition("/")[0] in folders]:
+            found[package] = wanted
+    return found
+
+
+def _check_package(name: str) -> None:
+    is_library = name.isidentifier() and (SITE / name / "__init__.py").is_file()
+    if name not in registry.packages() and name not in current_packages() and not is_library:
+        raise LookupError(f"Unknown package '{name}'")

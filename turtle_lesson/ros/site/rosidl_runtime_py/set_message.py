@@ -1,0 +1,143 @@
+"""Values of YAML put into the fields of a message: what `ros2 topic pub` does with what was typed.
+
+The rules and sentences are those of rosidl_runtime_py/set_message.py, pinned by recordings of a real one.
+"""
+
+from __future__ import annotations
+
+import array
+import difflib
+import warnings
+from collections.abc import Callable, Iterable
+from copy import deepcopy
+from dataclasses import dataclass, field
+from functools import partial
+from typing import Any
+
+from rosidl_parser.definition import AbstractNestedType, NamespacedType
+
+from .convert import get_message_slot_types
+from .import_message import import_message_from_namespaced_type
+
+Setter = Callable[[Any], None]
+
+
+def set_message_fields(
+    msg: Any, values: dict[str, Any], expand_header_auto: bool = False, expand_time_now: bool = False
+) -> list[Setter]:
+    """Set the fields of a message to values as YAML gives them, converted to the fields' types.
+
+    Args:
+        msg: the message, a request or a goal; it is changed.
+        values: by the fields' names; a dictionary again for a field that is a message. They are not changed.
+        expand_header_auto: whether `auto` for a `std_msgs/Header` means one whose stamp is set later.
+        expand_time_now: whether `now` for a `builtin_interfaces/Time` means one that is set later.
+
+    Returns:
+        Functions that want a `builtin_interfaces/Time` and set these stamps, to be called with the time of sending.
+
+    Raises:
+        AttributeError: there is no field of a name; a note says which there are.
+        TypeError, ValueError, OverflowError, AssertionError: a value does not suit its field.
+    """
+    filling = _Filling(expand_header_auto, expand_time_now)
+    filling.fill(msg, deepcopy(values))
+    return filling.setters
+
+
+@dataclass
+class _Filling:
+    """One call: what is expanded, and the setters collected on the way."""
+
+    header_auto: bool
+    time_now: bool
+    setters: list[Setter] = field(default_factory=list)
+
+    def fill(self, message: Any, values: Any) -> None:
+        if not hasattr(values, "items"):
+            text = f"Value '{_short(values)}' is expected to be a dictionary but is a {type(values).__name__}"
+            raise TypeError(text)
+        types = get_message_slot_types(message)
+        for name, value in values.items():
+            if not isinstance(name, str):
+                raise TypeError(f"attribute name must be string, not '{type(name).__name__}'")
+            if name not in types:
+                raise _no_such_field(message, name, list(types))
+            self._set(message, name, value, types[name])
+
+    def _set(self, message: Any, name: str, value: Any, type_: Any) -> None:
+        now = getattr(message, name)
+        kind = type(now)
+        if self.header_auto and _is_word(value, "auto") and _is(kind, "std_msgs.msg._header", "Header"):
+            self.setters.append(partial(setattr, now, "stamp"))
+        elif self.time_now and _is_word(value, "now") and _is(kind, "builtin_interfaces.msg._time", "Time"):
+            self.setters.append(partial(setattr, message, name))
+        else:
+            setattr(message, name, self._elements(type_, self._converted(now, value)))
+
+    def _converted(self, now: Any, value: Any) -> Any:
+        """What a field that holds `now` is set to, when YAML says `value`."""
+        kind = type(now)
+        if kind is array.array:
+            return array.array(now.typecode, value)
+        if kind.__module__ == "numpy":
+            return _numpy(value, now.dtype)
+        if type(value) is kind:
+            return value
+        if kind is bytes and isinstance(value, int):
+            return bytes(min(value, 2))  # as many zeros, as `bytes(5)` makes; the field takes one, so two are refused
+        if hasattr(kind, "get_fields_and_field_types"):
+            made = kind()
+            self.fill(made, value)
+            return made
+        return self._by_type(kind, value)
+
+    def _by_type(self, kind: type, value: Any) -> Any:
+        """`kind(value)`; where that is impossible, the real one takes the field for a message and says so."""
+        try:
+            return kind(value)
+        except TypeError:
+            self.fill(kind(), value)
+            raise
+
+    def _elements(self, type_: Any, values: Any) -> Any:
+        """The messages of a field that holds several, each made of a dictionary; any other value as it is."""
+        if not (isinstance(type_, AbstractNestedType) and isinstance(type_.value_type, NamespacedType)):
+            return values
+        element_class = import_message_from_namespaced_type(type_.value_type)
+        made = [element_class() for _ in values]
+        for message, value in zip(made, values, strict=True):
+            self.fill(message, value)
+        return made
+
+
+def _is_word(value: Any, word: str) -> bool:
+    return isinstance(value, str) and value == word
+
+
+def _is(kind: type, module: str, name: str) -> bool:
+    """Whether a class is this one by its name: it may have been generated anew since."""
+    return kind.__module__ == module and kind.__name__ == name
+
+
+def _numpy(value: Any, dtype: Any) -> Any:
+    import numpy
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return numpy.array(value, dtype=dtype)
+
+
+def _no_such_field(message: Any, name: str, known: Iterable[str]) -> AttributeError:
+    error = AttributeError(f"'{type(message).__name__}' object has no attribute '{_short(name)}'")
+    close = difflib.get_close_matches(name[:100], known, n=1)
+    hint = f"Did you mean '{close[0]}'?" if close else f"The fields are: {', '.join(known) or 'none'}."
+    if ":" in name and name.partition(":")[0] in known:
+        hint = f"YAML wants a space after the colon: {name.replace(':', ': ', 1)}"
+    error.add_note(hint)
+    return error
+
+
+def _short(value: Any) -> str:
+    text = str(value)
+    return text if len(text) <= 200 else f"{text[:200]}..."

@@ -1,0 +1,86 @@
+"""From an interface's full name, such as `geometry_msgs/msg/Twist`, to its class.
+
+Names, rules and sentences are those of rosidl_runtime_py/utilities.py. All `get_…` raise ModuleNotFoundError or
+AttributeError where there is no such interface, ValueError where it is one of another kind or the name has no package.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rosidl_parser.definition import NamespacedType
+
+from .import_message import import_message_from_namespaced_type
+
+
+def get_interface(identifier: str) -> Any:
+    """The class of a message, service or action by its full name."""
+    return import_message_from_namespaced_type(get_namespaced_type(identifier))
+
+
+def get_message(identifier: str) -> Any:
+    """The class of a message: `geometry_msgs/msg/Twist`, or `geometry_msgs/Twist`."""
+    interface = import_message_from_namespaced_type(get_message_namespaced_type(identifier))
+    if not is_message(interface):
+        raise ValueError(f"Expected the full name of a message, got '{identifier}'")
+    return interface
+
+
+def get_service(identifier: str) -> Any:
+    """The class of a service: `std_srvs/srv/Empty`, or `std_srvs/Empty`."""
+    interface = import_message_from_namespaced_type(get_service_namespaced_type(identifier))
+    if not is_service(interface):
+        raise ValueError(f"Expected the full name of a service, got '{identifier}'")
+    return interface
+
+
+def get_action(identifier: str) -> Any:
+    """The class of an action: `turtlesim/action/RotateAbsolute`, or `turtlesim/RotateAbsolute`."""
+    interface = import_message_from_namespaced_type(get_action_namespaced_type(identifier))
+    if not is_action(interface):
+        raise ValueError(f"Expected the full name of an action, got '{identifier}'")
+    return interface
+
+
+def get_namespaced_type(identifier: str) -> NamespacedType:
+    """A full name as a type of `rosidl_parser.definition`."""
+    return _namespaced_type(identifier)
+
+
+def get_message_namespaced_type(identifier: str) -> NamespacedType:
+    """The same for a message, whose name may lack the `msg`."""
+    return _namespaced_type(identifier, "msg")
+
+
+def get_service_namespaced_type(identifier: str) -> NamespacedType:
+    """The same for a service, whose name may lack the `srv`."""
+    return _namespaced_type(identifier, "srv")
+
+
+def get_action_namespaced_type(identifier: str) -> NamespacedType:
+    """The same for an action, whose name may lack the `action`."""
+    return _namespaced_type(identifier, "action")
+
+
+def is_message(interface: Any) -> bool:
+    """Whether a class is one of messages (a request, a response, a goal is one, too)."""
+    return hasattr(interface, "SLOT_TYPES")
+
+
+def is_service(interface: Any) -> bool:
+    """Whether a class is that of a service."""
+    return hasattr(interface, "Request") and hasattr(interface, "Response")
+
+
+def is_action(interface: Any) -> bool:
+    """Whether a class is that of an action."""
+    return hasattr(interface, "Goal") and hasattr(interface, "Result") and hasattr(interface, "Feedback")
+
+
+def _namespaced_type(identifier: str, folder: str | None = None) -> NamespacedType:
+    *namespaces, name = identifier.split("/")
+    if len(namespaces) == 1 and folder is not None:
+        namespaces.append(folder)
+    if not namespaces or not namespaces[0]:
+        raise ValueError(f"Empty module name: '{identifier}' is no name such as geometry_msgs/msg/Twist")
+    return NamespacedType(namespaces, name)

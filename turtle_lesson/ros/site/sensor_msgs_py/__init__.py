@@ -1,0 +1,1 @@
+"""`sensor_msgs_py`: point clouds as numpy arrays, and back."""
