@@ -15,7 +15,7 @@ ROBOT_CONTROLLER = {
     "msg/TurtleStatus.msg": "float32 x\nfloat32 y\nfloat32 theta\nfloat32 vel_x\nfloat32 vel_y\nfloat32 battery\n",
     "srv/NavigateTo.srv": "float32 x\nfloat32 y\nfloat32 theta\n---\nbool success\nfloat32 time_taken\n",
 }
-PRIMITIVES = ["bool", "byte", "char", "float32", "float64", "string"] + [
+PRIMITIVES = ["bool", "byte", "char", "float32", "float64", "string", "wstring"] + [
     f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)
 ]
 MESSAGES = ["geometry_msgs/Point", "std_msgs/Header", "std_msgs/Empty", "turtlesim/Pose", "sensor_msgs/Range"]
@@ -52,10 +52,10 @@ def find_class(name):
 
 @st.composite
 def type_texts(draw):
-    """Types of fields as written: `float32`, `string<=5[3]`, `geometry_msgs/Point[]`, ..."""
+    """Types of fields as written: `float32`, `string<=5[3]`, `wstring[]`, `geometry_msgs/Point[]`, ..."""
     base = draw(st.sampled_from(PRIMITIVES + MESSAGES))
-    if base == "string" and draw(st.booleans()):
-        base = f"string<={draw(st.integers(1, 9))}"
+    if base in ("string", "wstring") and draw(st.booleans()):
+        base = f"{base}<={draw(st.integers(1, 9))}"
     return base + draw(st.sampled_from(["", "", "[]", "[3]", "[<=4]"]))
 
 
@@ -81,7 +81,7 @@ def _elements(type_):
     if type_.base in FLOAT_BOUNDS:
         bound = FLOAT_BOUNDS[type_.base]
         return st.floats(-bound, bound) | st.sampled_from([float("inf"), float("-inf")])
-    if type_.base == "string":
+    if type_.base in ("string", "wstring"):
         letters = st.characters(exclude_categories=["Cs"], exclude_characters="\0")
         return st.text(letters, max_size=type_.string_bound or 12)
     if type_.base == "bool":

@@ -76,10 +76,10 @@ class Navigator(Node):
         self.commands.publish(command)
 
 
-def in_a_cell(turn_to: Turn) -> tuple[Lesson, Navigator]:
+def in_a_cell(turn_to: Turn, kind: type[Navigator] = Navigator) -> tuple[Lesson, Navigator]:
     lesson = start()
     rclpy.init()
-    return lesson, Navigator(turn_to)
+    return lesson, kind(turn_to)
 
 
 def row(result: CheckResult, expected: str) -> Any:
@@ -108,14 +108,33 @@ def test_pirouettes_are_counted() -> None:
     assert "math.remainder" in row(result, "turns of 400°").next_step
 
 
-def test_what_refuses_nothing_is_no_navigator_yet() -> None:
+def test_what_refuses_nothing_is_no_navigator_yet(capsys: pytest.CaptureFixture[str]) -> None:
     lesson, _node = in_a_cell(the_short_way)
     result = lesson.check("navigator")
+    assert row(result, "outside the world").seen == "no answer in 5 s"
+    assert row(result, "no number").seen == "not looked at, because the goal (20.00, 5.00) was not refused"
     assert [each.expected for each in result.rows if not each.good] == [
-        "refuses a goal that is no number",
         "refuses a goal outside the world",
-        "no error meanwhile",
+        "refuses a goal that is no number",
     ]
+    assert "[ERROR]" not in capsys.readouterr().out
+
+
+class WithinTheWorld(Navigator):
+    """Refuses what is outside the world, by a comparison that lets pass what is no number."""
+
+    async def on_goal(self, request: Any, response: Any) -> Any:
+        if request.x > 11.09 or request.y > 11.09:
+            return response
+        return await super().on_goal(request, response)
+
+
+def test_a_goal_that_is_no_number_is_looked_at_once_one_outside_is_refused() -> None:
+    lesson, _node = in_a_cell(the_short_way, WithinTheWorld)
+    result = lesson.check("navigator")
+    assert row(result, "outside the world").good
+    assert row(result, "no number").seen == "no answer in 5 s"
+    assert "turtlesim" in row(result, "no error").seen
 
 
 @pytest.mark.parametrize(("name", "passed"), [("simple_navigator", True), ("short_way", False)])

@@ -12,11 +12,11 @@ import pytest
 import yaml
 from command_cases import FOLDER
 from command_interfaces import interfaces  # noqa: F401
+from rosidl_runtime_py import message_to_csv, message_to_yaml, set_message_fields
 
 from turtle_lesson.ros.command.common import CommandError
-from turtle_lesson.ros.command.text import Style, message_to_csv, message_to_yaml
 from turtle_lesson.ros.command.types import message_class, service_class
-from turtle_lesson.ros.command.values import NoYaml, fill, read_yaml
+from turtle_lesson.ros.command.values import NoYaml, read_yaml
 from turtle_lesson.ros.world import World
 
 CUT = 200
@@ -41,10 +41,10 @@ def test_yaml_becomes_a_message(kind: str, text: str, expected: str, world: Worl
     if expected.startswith("!! "):
         name, _, quoted = expected[3:].partition(": ")
         with pytest.raises((TypeError, AttributeError, ValueError, AssertionError)) as caught:
-            fill(message, read_yaml(text))
+            set_message_fields(message, read_yaml(text))
         assert (type(caught.value).__name__, str(caught.value)) == (name, ast.literal_eval(quoted))
     else:
-        fill(message, read_yaml(text) or {})
+        set_message_fields(message, read_yaml(text) or {})
         shown, whole = expected.removeprefix("-> "), len(expected) < CUT
         assert repr(message) == shown if whole else repr(message).startswith(shown)
 
@@ -61,8 +61,8 @@ def recorded_formats() -> Iterator[tuple[str, str, str]]:
 @pytest.mark.parametrize(("name", "expected", "values"), list(recorded_formats()))
 def test_a_message_becomes_text(name: str, expected: str, values: str, world: World) -> None:
     message = system.formats()[name]
-    assert message_to_yaml(message, Style(truncate=128)) == expected
-    assert message_to_csv(message, Style(truncate=128)) == values
+    assert message_to_yaml(message, truncate_length=128) == expected
+    assert message_to_csv(message, truncate_length=128) == values
 
 
 @pytest.mark.parametrize("name", list(system.formats()))
@@ -72,7 +72,7 @@ def test_what_is_printed_as_yaml_can_be_typed(name: str, world: World) -> None:
     if name == "byte":
         return  # the real tools print it as a text that they do not take
     again = type(message)()
-    fill(again, read_yaml(text))
+    set_message_fields(again, read_yaml(text))
     assert message_to_yaml(again) == text
 
 
@@ -114,4 +114,4 @@ def test_a_field_of_ours_that_is_none_is_no_field(world: World) -> None:
     message: Any = message_class("std_msgs/String")()
     for name in ("SLOT_TYPES", "__class__", "_data", "get_fields_and_field_types"):
         with pytest.raises(AttributeError, match="has no attribute"):
-            fill(message, {name: 1})
+            set_message_fields(message, {name: 1})

@@ -39,6 +39,11 @@ class Writer:
     def value(self, type_, value):
         if not type_.is_primitive:
             self.message(value)
+        elif type_.base == "wstring":
+            units = value.encode("utf-16-le")
+            self.number("I", len(units) // 2)
+            for (unit,) in struct.iter_unpack("<H", units):
+                self.number("I", unit)
         elif type_.base == "string":
             letters = value.encode() + b"\0"
             self.number("I", len(letters))
@@ -124,6 +129,11 @@ def test_bounds_hold_for_what_comes_in():
         deserialize(serialize(long(v=[1, 2, 3])), short)
     with pytest.raises(ValueError, match="6 characters in a string of at most 5"):
         deserialize(serialize(String(data="abcdef")), message_class("string<=5 data"))
+    names = serialize(message_class("string[] v")(v=["abcdef"]))
+    with pytest.raises(ValueError, match="6 characters in a string of at most 5"):
+        deserialize(names, message_class("string<=5[] v"))
+    with pytest.raises(ValueError, match="3 elements in a sequence of at most 2"):
+        deserialize(serialize(message_class("byte[] v")(v=[b"a"] * 3)), message_class("byte[<=2] v"))
 
 
 def test_lists_that_grew_too_long_are_not_sent():
@@ -133,9 +143,33 @@ def test_lists_that_grew_too_long_are_not_sent():
         serialize(message)
 
 
-def test_wide_strings_are_refused():
-    with pytest.raises(ValueError, match="wide strings"):
-        serialize(message_class("wstring w")())
+def test_wide_strings_travel_as_utf_16_in_four_bytes_a_unit():
+    wide = built_in.get("example_interfaces/msg/WString")
+    data = serialize(wide(data="a😀"))
+    assert data.hex() == "00010000" + "03000000" + "61000000" + "3dd80000" + "00de0000"
+    assert deserialize(data, wide) == wide(data="a😀")
+    short = message_class("wstring<=2[<=2] data")
+    assert deserialize(serialize(short(data=["ab", "ö"])), short) == short(data=["ab", "ö"])
+
+
+@pytest.mark.parametrize(
+    ("tail", "reason"),
+    [
+        ("0100000000000100", "larger than two bytes"),
+        ("010000003dd80000", "unexpected end of data|truncated data"),  # half of a character
+        ("ffffffff", ""),
+    ],
+)
+def test_wide_strings_that_are_none_are_refused(tail, reason):
+    wide = built_in.get("example_interfaces/msg/WString")
+    with pytest.raises(ValueError, match=f"are no example_interfaces/msg/WString.*({reason})"):
+        deserialize(bytes.fromhex("00010000" + tail), wide)
+
+
+def test_half_a_character_is_not_sent():
+    for kind in (String, built_in.get("example_interfaces/msg/WString")):
+        with pytest.raises(ValueError, match="cannot be written as CDR"):
+            serialize(kind(data="\ud83d"))
 
 
 def test_only_messages_are_sent(robot):

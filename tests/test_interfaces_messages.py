@@ -212,7 +212,7 @@ def test_pickle_and_deepcopy(robot):
 def test_defaults_of_the_definition():
     assert repr(Quaternion()) == "geometry_msgs.msg.Quaternion(x=0.0, y=0.0, z=0.0, w=1.0)"
     assert (Quaternion.W__DEFAULT, Quaternion().W__DEFAULT) == (1.0, 1.0)
-    kind = message_class("int32[3] a [1, 2, 3]\nint8[] b [4]\nstring[] c ['x']\nfloat32 d nan\nbool[2] e [true, 0]")
+    kind = message_class("int32[3] a [1, 2, 3]\nint8[] b [4]\nstring[] c ['x']\nfloat32 d 0.1\nbool[2] e [true, 0]")
     message = kind()
     assert (message.a.tolist(), message.b, message.c, message.e) == (
         [1, 2, 3],
@@ -220,7 +220,7 @@ def test_defaults_of_the_definition():
         ["x"],
         [True, False],
     )
-    assert math.isnan(message.d)
+    assert (message.d, message._wire_copy().d) == (0.1, 0.10000000149011612)
     message.c.append("y")
     assert (kind().c, kind.C__DEFAULT) == (["x"], ["x"])
 
@@ -233,8 +233,8 @@ def test_constants_can_be_read_and_not_set():
     with pytest.raises(AttributeError):
         BatteryState().POWER_SUPPLY_STATUS_CHARGING = 9
     assert [name for name in dir(LaserScan) if name.isupper() and name[0] != "_"] == ["SLOT_TYPES"]
-    kind = message_class("string GREETING='it\\'s me'\nfloat64 FAR=inf\nbool ON=1\nchar A=65")
-    assert ("it's me", math.inf, True, 65) == (kind.GREETING, kind.FAR, kind.ON, kind.A)
+    kind = message_class("string GREETING='it\\'s me'\nfloat64 FAR=1e300\nbool ON=1\nchar A=65")
+    assert ("it's me", 1e300, True, 65) == (kind.GREETING, kind.FAR, kind.ON, kind.A)
 
 
 # Every kind of field
@@ -377,9 +377,9 @@ def test_a_signature_tells_the_fields():
     assert "linear: geometry_msgs/Vector3" in Twist.__doc__
 
 
-@pytest.mark.parametrize("name", ["self", "value", "type", "data", "array", "new", "cls", "property", "len", "float"])
+@pytest.mark.parametrize("name", ["self", "value", "type", "data", "array", "cls", "property", "len", "other"])
 def test_fields_may_have_awkward_names(name):
-    kind = message_class(f"float32 {name}\nfloat32[] other\ngeometry_msgs/Point[2] points")
+    kind = message_class(f"float32 {name}\nfloat32[] more\ngeometry_msgs/Point[2] points")
     message = kind(**{name: 1.5})
     setattr(message, name, 2.5)
     assert getattr(message._wire_copy(), name) == 2.5

@@ -28,7 +28,7 @@ class World:
         virtual_random.install_for_numpy()
         self.seed = seed
         self.sim = Simulation()
-        self.graph = Graph(self.sim)
+        self.graph = Graph(self.sim, seed)
         self.trace: Trace | None = None
         self.packages = PackageIndex()
         self.processes: list[Process] = []

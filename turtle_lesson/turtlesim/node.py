@@ -1,8 +1,9 @@
 """The node ``/turtlesim``: shows the turtles' world to ROS as the turtlesim of ROS 2 Humble does.
 
 Plain ``rclpy``: services ``/spawn``, ``/kill``, ``/clear`` and ``/reset``; for each turtle the topics
-``cmd_vel``, ``pose`` and ``color_sensor`` and the services ``set_pen``, ``teleport_absolute`` and
-``teleport_relative``; the parameters of the background. A timer of 16 ms moves the world on and publishes.
+``cmd_vel``, ``pose`` and ``color_sensor``, the services ``set_pen``, ``teleport_absolute`` and
+``teleport_relative``, and the action ``rotate_absolute``; the parameters of the background. A timer of 16 ms moves
+the world on and publishes.
 
 Where it differs from the real one:
 
@@ -11,8 +12,7 @@ Where it differs from the real one:
   second;
 - what ends the real program or leads its turtle to NaN is refused, with an error in the log;
 - a service answers at once, not at the next tick (its effect on a moving turtle comes with that tick in
-  both);
-- the action ``rotate_absolute`` is not there yet.
+  both).
 """
 
 import rclpy
@@ -25,6 +25,7 @@ from std_srvs.srv import Empty
 from turtlesim.msg import Color, Pose
 from turtlesim.srv import Kill, SetPen, Spawn, TeleportAbsolute, TeleportRelative
 
+from turtle_lesson.turtlesim.rotate_action import RotateAction
 from turtle_lesson.turtlesim.turtle import HEIGHT, QUEUE_DEPTH, TICK, TICK_MS, Turtle, TurtleError
 from turtle_lesson.turtlesim.world import TurtleWorld, WallHit
 
@@ -46,14 +47,19 @@ class TurtlesimNode(Node):
         self._world = TurtleWorld()
         self._shown: dict[str, ShownTurtle] = {}
         self._pushing: dict[str, int] = {}  # turtles at a wall: for how many ticks they have pushed
+        self._turning: list[RotateAction] = []  # the actions that have a goal
         for turtle in self._world.turtles.values():
             self._show(turtle, turtle.x, turtle.y)
         self.create_timer(TICK, self._on_tick)
 
     def _on_tick(self) -> None:
+        for action in list(self._turning):
+            action.before_tick()
         hits = self._world.tick()
         if hits or self._pushing:
             self._report(hits)
+        for action in list(self._turning):
+            action.after_tick()
         for shown in self._shown.values():
             shown.publish()
 
@@ -102,7 +108,7 @@ class TurtlesimNode(Node):
 
     def _show(self, turtle: Turtle, x: float, y: float) -> None:
         """Give a turtle its topics and services; (x, y) is the place asked for, before y was flipped."""
-        self._shown[turtle.name] = ShownTurtle(self, turtle)
+        self._shown[turtle.name] = ShownTurtle(self, turtle, self._turning)
         theta = turtle.theta
         self.get_logger().info(f"Spawning turtle [{turtle.name}] at x=[{x:f}], y=[{y:f}], theta=[{theta:f}]")
 
@@ -120,9 +126,9 @@ class TurtlesimNode(Node):
 
 
 class ShownTurtle:
-    """What ROS sees of one turtle: its topics and its services."""
+    """What ROS sees of one turtle: its topics, its services and its action."""
 
-    def __init__(self, node: Node, turtle: Turtle) -> None:
+    def __init__(self, node: Node, turtle: Turtle, turning: list[RotateAction]) -> None:
         self._node, self._turtle, self._name = node, turtle, turtle.name
         name = turtle.name
         self._subscription = node.create_subscription(Twist, f"{name}/cmd_vel", self._on_command, QUEUE_DEPTH)
@@ -133,6 +139,7 @@ class ShownTurtle:
             node.create_service(TeleportRelative, f"{name}/teleport_relative", self._on_teleport_relative),
             node.create_service(TeleportAbsolute, f"{name}/teleport_absolute", self._on_teleport_absolute),
         ]
+        self._action = RotateAction(node, turtle, turning)
         # One message each, filled anew and published 62.5 times a second: publish() keeps no hold of it.
         self._pose, self._colour = Pose(), Color()
         self._colour_in_message = (0, 0, 0)
@@ -154,7 +161,8 @@ class ShownTurtle:
         self._colour_publisher.publish(self._colour)
 
     def close(self) -> None:
-        """Take the turtle's topics and services out of the graph."""
+        """Take the turtle's topics, services and action out of the graph."""
+        self._action.close()
         self._node.destroy_subscription(self._subscription)
         self._node.destroy_publisher(self._pose_publisher)
         self._node.destroy_publisher(self._colour_publisher)

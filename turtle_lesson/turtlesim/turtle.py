@@ -18,10 +18,10 @@ from then on, or beyond what its message can hold).
 """
 
 import math
-import struct
 from collections import deque
 
 from turtle_lesson.turtlesim.canvas import BARE, CELL, DEFAULT_PEN, Canvas, Colour, cell_at
+from turtle_lesson.turtlesim.rotation import PI, TWO_PI, Rotation, float32
 
 TICK_MS = 16
 TICK = 0.001 * TICK_MS
@@ -31,19 +31,12 @@ COMMAND_TICKS = 63
 """Ticks for which one command moves the turtle: the last one comes 0.992 s after the first."""
 
 QUEUE_DEPTH = 7
-_PI = 3.14159265
-_TWO_PI = 2.0 * _PI
 LARGEST = 1e38
 """The largest number that is taken for a speed or a place: what comes of it still fits into a float32."""
 
 
 class TurtleError(ValueError):
     """Something was asked of the world that it cannot do; the text says what, and is what the node logs."""
-
-
-def float32(value: float) -> float:
-    """Round to the precision of a float32, as a message does."""
-    return float(struct.unpack("f", struct.pack("f", value))[0])
 
 
 WIDTH = HEIGHT = float32(499 / 45)
@@ -62,6 +55,7 @@ class Turtle:
         "_cell",
         "_commands",
         "_forward",
+        "_rotation",
         "_sideways",
         "_stopped",
         "_teleports",
@@ -90,6 +84,7 @@ class Turtle:
         self._cell = cell_at(x, flipped_y)
         self._commands: deque[tuple[float, float, float]] = deque(maxlen=QUEUE_DEPTH)
         self._teleports: list[tuple[bool, float, float, float]] = []
+        self._rotation: Rotation | None = None
         self._stop()
         self._wake()  # it may have been spawned beyond a wall
 
@@ -122,6 +117,23 @@ class Turtle:
         """Turn the turtle by ``angular`` radians, then move it ``linear`` metres ahead, at the next tick."""
         self._teleport(True, linear, 0.0, angular)
 
+    def rotate_to(self, theta: float) -> Rotation:
+        """Turn to the heading theta (rad), from the next tick on; commands do nothing until it is reached.
+
+        Raises TurtleError if it is no usable number.
+        """
+        if not abs(theta) <= LARGEST:
+            raise TurtleError(f"Turtle [{self.name}] cannot rotate to theta={theta}: it must be a finite number")
+        self._rotation = Rotation(theta, self.theta)
+        self._wake()
+        return self._rotation
+
+    def stop_rotating(self) -> None:
+        """Stop turning, and stand still."""
+        if self._rotation is not None:
+            self._rotation = None
+            self._stand()
+
     def set_pen(self, colour: Colour, off: bool = False) -> None:
         """Lift the pen, or put it down with this colour."""
         self.pen_on = not off
@@ -138,6 +150,8 @@ class Turtle:
         self.colour = canvas.cells.get(self._cell, BARE)
         if self._commands:
             self._take_command()
+        if self._rotation is not None:
+            self._rotate(self._rotation)
         if self._ticks_left:
             self._ticks_left -= 1
         elif self._stopped:
@@ -150,7 +164,7 @@ class Turtle:
     def _move(self, canvas: Canvas) -> tuple[float, float] | None:
         theta = self.theta + self.angular * TICK
         if not -3.14 < theta < 3.14:  # in between, the formula changes nothing
-            theta -= _TWO_PI * math.floor((theta + _PI) / _TWO_PI)
+            theta -= TWO_PI * math.floor((theta + PI) / TWO_PI)
         self.theta = theta
         cos, sin = math.cos(theta), math.sin(theta)
         forward, sideways = self._forward, self._sideways
@@ -177,6 +191,21 @@ class Turtle:
         self._forward, self._sideways, self.angular = self._commands.popleft()
         self.speed = math.sqrt(self._forward * self._forward + self._sideways * self._sideways)
         self._ticks_left = COMMAND_TICKS
+
+    def _rotate(self, rotation: Rotation) -> None:
+        speed = rotation.step(self.theta)
+        self._stand()
+        if rotation.reached:
+            self._rotation = None
+        else:
+            self.angular = speed
+            self._ticks_left = COMMAND_TICKS
+
+    def _stand(self) -> None:
+        """Stand still from this tick on, which is still a tick that changes something."""
+        self._stop()
+        self._ticks_left = 1
+        self._stopped = False
 
     def _stop(self) -> None:
         self._forward = self._sideways = self.speed = self.angular = 0.0

@@ -221,26 +221,37 @@ def steady_commands(name: str, choose: Any, most: float = 0.15) -> Expectation:
     return Expectation("ten commands a second on the way", look)
 
 
-def refuses(what: str, x: float, y: float, theta: float = 0.0) -> Expectation:
-    """A goal that makes no sense is refused at once: success False within a second, and the turtle stays."""
+def refuses(what: str, x: float, y: float, theta: float = 0.0, *, after: Goal | None = None) -> Expectation:
+    """A goal that makes no sense is refused at once: success False within a second, and the turtle stays.
+
+    It is only asked where the goal `after` was refused: what refuses nothing would fill the log.
+    """
 
     def look(exam: Exam) -> Seen:
-        begin = where(exam)
-        answer = exam.ask(NAVIGATE, NAVIGATE_TYPE, 5.0, x=x, y=y, theta=theta)
-        exam.wait(0.3)
-        end = where(exam)
-        if answer.response is None:
-            seen = "no answer in 5 s"
-        elif answer.response.success:
-            seen = "success is True"
-        elif answer.seconds > 1.0:
-            seen = f"answered after {number(answer.seconds)} s only"
-        elif math.hypot(end.x - begin.x, end.y - begin.y) > 0.05:
-            seen = "the turtle moved"
-        else:
-            return Seen(True, "refused at once")
-        return Seen(
-            False, seen, "Look at the request first: math.isfinite(…), and 0 ≤ x, y ≤ 11.09; else return response."
-        )
+        if after is not None and _not_refused(exam, after):
+            raise CannotLook(f"the goal {point(*after[:2])} was not refused")
+        fault = _not_refused(exam, (x, y, theta))
+        step = "Look at the request first: math.isfinite(…), and 0 ≤ x, y ≤ 11.09; else return response."
+        return Seen(not fault, fault or "refused at once", step)
 
     return Expectation(f"refuses {what}", look)
+
+
+def _not_refused(exam: Exam, goal: Goal) -> str:
+    """What happened instead when a goal that makes no sense was asked, or ""; once it is asked, it is remembered."""
+    return exam.once(("refused", goal), lambda: _ask_nonsense(exam, goal))
+
+
+def _ask_nonsense(exam: Exam, goal: Goal) -> str:
+    x, y, theta = goal
+    begin = where(exam)
+    answer = exam.ask(NAVIGATE, NAVIGATE_TYPE, 5.0, x=x, y=y, theta=theta)
+    exam.wait(0.3)
+    end = where(exam)
+    if answer.response is None:
+        return "no answer in 5 s"
+    if answer.response.success:
+        return "success is True"
+    if answer.seconds > 1.0:
+        return f"answered after {number(answer.seconds)} s only"
+    return "the turtle moved" if math.hypot(end.x - begin.x, end.y - begin.y) > 0.05 else ""

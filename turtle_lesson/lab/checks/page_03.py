@@ -30,6 +30,7 @@ from .rows import CannotLook, Seen
 PAGE = "03_navigator"
 RUN = "ros2 run robot_controller navigator"
 NEAR_GOAL, WEST = "a near goal", "a goal due west"
+OUTSIDE = (20.0, 5.0, 0.0)
 
 MOST_TURNED = 400.0
 """Degrees: at most half a turn towards the goal, half a turn to its heading, and a little for steering."""
@@ -100,7 +101,7 @@ def navigator() -> list[Expectation]:
         stopped(NEAR_GOAL, two_metres_away),
         answered(WEST, due_west),
         arrived(WEST, due_west),
-        refuses("a goal that is no number", math.nan, 5.0),
-        refuses("a goal outside the world", 20.0, 5.0),
+        refuses("a goal outside the world", *OUTSIDE),
+        refuses("a goal that is no number", math.nan, 5.0, after=OUTSIDE),
         no_errors(),
     ]

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from ..core import NANOSECONDS, running_strand
-from ..graph.topic import LATENCY, LATENCY_SPREAD
+from ..graph.latency import LATENCY, LATENCY_SPREAD
 from ..interfaces.names import did_you_mean
 from ..interfaces.registry import registry
 from .contents import Message

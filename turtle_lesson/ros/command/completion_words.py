@@ -16,7 +16,6 @@ from ..interfaces.registry import registry
 from .common import absolute
 from .group_pkg import package_names
 from .jobs import jobs
-from .text import message_to_yaml
 
 if TYPE_CHECKING:
     from ..world import World
@@ -44,6 +43,9 @@ def source_packages() -> list[str]:
 
 Finder = Callable[["World", Sequence[str], str], Iterable[str]]
 
+FEEDBACK = "/_action/feedback"
+"""What an action's topic of feedback is called behind the action's own name."""
+
 
 def _nodes(world: World, given: Sequence[str], begun: str) -> list[str]:
     return [node.full_name for node in world.graph.nodes if not node.hidden]
@@ -57,6 +59,10 @@ def _services(world: World, given: Sequence[str], begun: str) -> list[str]:
     return [name for name in world.graph.services() if not is_hidden(name)]
 
 
+def _actions(world: World, given: Sequence[str], begun: str) -> list[str]:
+    return [name.removesuffix(FEEDBACK) for name in world.graph.topics() if name.endswith(FEEDBACK)]
+
+
 def _types(*folders: str) -> Finder:
     def find(world: World, given: Sequence[str], begun: str) -> list[str]:
         own = _own_type(world, given[0]) if given else []
@@ -67,10 +73,13 @@ def _types(*folders: str) -> Finder:
 
 
 def _own_type(world: World, name: str) -> list[str]:
-    """The type of a topic or service that is there."""
+    """The type of a topic, action or service that is there."""
     topic = world.graph.topics().get(name)
     if topic is not None:
         return topic.types
+    feedback = world.graph.topics().get(f"{name}{FEEDBACK}")
+    if feedback is not None:
+        return [each.removesuffix("_FeedbackMessage") for each in feedback.types]
     return world.graph.services().get(name, [])
 
 
@@ -141,19 +150,24 @@ def _folders(world: World, given: Sequence[str], begun: str) -> list[str]:
 
 def _values_of(world: World, given: Sequence[str], begun: str) -> list[str]:
     """The type that was named, with its default values, to be changed."""
+    from rosidl_runtime_py.convert import message_to_yaml
+
     name = given[1] if len(given) > 1 else ""
     try:
         made = registry.get(name)
-        values = yaml.safe_load(message_to_yaml(getattr(made, "Request", made)()))
+        values = yaml.safe_load(message_to_yaml(getattr(made, "Request", getattr(made, "Goal", made))()))
     except Exception:  # a name that is not finished, or a definition that is refused
         return []
     text = yaml.safe_dump(values, default_flow_style=True, sort_keys=False, width=1_000_000)
     return [f'"{text.strip()}"']
 
 
-_MESSAGES, _SERVICES, _ALL = _types("msg"), _types("srv"), _types("msg", "srv", "action")
+_MESSAGES, _SERVICES, _ACTIONS = _types("msg"), _types("srv"), _types("action")
+_ALL = _types("msg", "srv", "action")
 
 BY_NAME: dict[str, Finder] = {
+    "action_name": _actions,
+    "action_type": _ACTIONS,
     "bag_path": _files,
     "dependencies": _packages,
     "destination_directory": _folders,

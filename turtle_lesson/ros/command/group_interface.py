@@ -13,7 +13,6 @@ from ..interfaces.names import did_you_mean
 from ..interfaces.registry import registry
 from .in_cell import CellCommand, CommandError
 from .parser import cut
-from .text import message_to_yaml
 
 KINDS = {"msg": "Messages", "srv": "Services", "action": "Actions"}
 
@@ -26,23 +25,30 @@ def _kind_arguments(parser: ArgumentParser) -> None:
     )
 
 
-def _names(package: str, kinds: list[str]) -> list[str]:
-    return [name for name in registry.interface_names(package) if name.partition("/")[0] in kinds]
+def _of_kind(kind: str) -> dict[str, list[str]]:
+    """All interfaces of a kind, by their packages."""
+    import rosidl_runtime_py as api
+
+    getters = {
+        "msg": api.get_message_interfaces,
+        "srv": api.get_service_interfaces,
+        "action": api.get_action_interfaces,
+    }
+    return getters[kind]()
 
 
 def _list(args: Namespace) -> None:
     for kind, title in KINDS.items():
         if args.kinds is None or kind in args.kinds:
             print(f"{title}:")
-            for package in registry.packages():
-                for name in _names(package, [kind]):
+            for package, names in _of_kind(kind).items():
+                for name in names:
                     print(f"    {package}/{name}")
 
 
 def _packages(args: Namespace) -> None:
-    for package in registry.packages():
-        if _names(package, args.kinds or list(KINDS)):
-            print(package)
+    for package in sorted({package for kind in args.kinds or KINDS for package in _of_kind(kind)}):
+        print(package)
 
 
 def _package_arguments(parser: ArgumentParser) -> None:
@@ -50,13 +56,16 @@ def _package_arguments(parser: ArgumentParser) -> None:
 
 
 def _package(args: Namespace) -> None:
+    from rosidl_runtime_py import get_interfaces
+
     _check_package(args.package_name)
-    for name in registry.interface_names(args.package_name):
-        print(f"{args.package_name}/{name}")
+    for package, names in get_interfaces([args.package_name]).items():
+        for name in names:
+            print(f"{package}/{name}")
 
 
 def _check_package(name: str, base: str = "") -> None:
-    if name not in registry.packages():
+    if not registry.knows(name):
         hint = _where_is(base) or did_you_mean(name[:100], registry.packages())
         built = "A package of your own is known once it is built and its setup file is sourced."
         raise CommandError(f"Unknown package '{cut(name, 100)}'", hint or built)
@@ -100,12 +109,11 @@ def _show_arguments(parser: ArgumentParser) -> None:
 def _show(args: Namespace) -> None:
     _check(args.type)
     package, _, interface = args.type.partition("/")
-    folder = interface.partition("/")[0]
-    for line in _lines(package, registry.text(package, interface), folder == "msg", args):
+    for line in _lines(package, registry.text(package, interface), args):
         print(line)
 
 
-def _lines(package: str, text: str, is_message: bool, args: Namespace) -> Iterator[str]:
+def _lines(package: str, text: str, args: Namespace) -> Iterator[str]:
     """The lines of a definition, each field of a message type followed by that type's own lines."""
     for line in text.rstrip().splitlines() if text.strip() else []:
         shown = _without_comment(line) if args.no_comments else line.rstrip()
@@ -157,8 +165,11 @@ def _proto_arguments(parser: ArgumentParser) -> None:
 
 
 def _proto(args: Namespace) -> None:
+    from rosidl_runtime_py import message_to_yaml
+    from rosidl_runtime_py.utilities import get_interface
+
     _check(args.type)
-    made: Any = registry.get(args.type)
+    made: Any = get_interface(args.type)
     for part in ("Request", "Goal"):
         made = getattr(made, part, made)
     text = message_to_yaml(made())

@@ -14,7 +14,6 @@ if TYPE_CHECKING:
 NamesAndTypes = list[tuple[str, list[str]]]
 
 TWINS = "WARNING: Be aware that are nodes in the graph that share an exact name, this can have unintended side effects."
-SEND_GOAL = "/_action/send_goal"
 
 
 def _list_arguments(parser: ArgumentParser) -> None:
@@ -66,25 +65,14 @@ def info(args: Namespace) -> None:
 def _ends(node: Node, full_name: str) -> dict[str, NamesAndTypes]:
     namespace, _, name = full_name.rpartition("/")
     where = (name, namespace or "/")
-    services = node.get_service_names_and_types_by_node(*where)
-    clients = node.get_client_names_and_types_by_node(*where)
     return {
         "Subscribers": node.get_subscriber_names_and_types_by_node(*where),
         "Publishers": node.get_publisher_names_and_types_by_node(*where),
-        "Service Servers": services,
-        "Service Clients": clients,
-        "Action Servers": _actions(services),
-        "Action Clients": _actions(clients),
+        "Service Servers": node.get_service_names_and_types_by_node(*where),
+        "Service Clients": node.get_client_names_and_types_by_node(*where),
+        "Action Servers": node.get_action_server_names_and_types_by_node(*where),
+        "Action Clients": node.get_action_client_names_and_types_by_node(*where),
     }
-
-
-def _actions(services: NamesAndTypes) -> NamesAndTypes:
-    """The actions whose goals are sent over some of these services."""
-    return [
-        (name.removesuffix(SEND_GOAL), [each.removesuffix("_SendGoal").replace("/srv/", "/action/") for each in types])
-        for name, types in services
-        if name.endswith(SEND_GOAL)
-    ]
 
 
 VERBS: dict[str, Verb] = {

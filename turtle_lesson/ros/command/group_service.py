@@ -27,7 +27,7 @@ from .common import (
 )
 from .named import print_names, print_types, unknown
 from .types import service_class
-from .values import populate, read_yaml
+from .values import populate, read_yaml, stamp
 
 if TYPE_CHECKING:
     from rclpy.client import Client
@@ -118,12 +118,13 @@ def call(args: Namespace) -> None:
     with direct_node(args, f"{HIDDEN_PREFIX}_requester_{package}_{name}") as node:
         client = node.create_client(kind, expanded(node, args.service_name, is_service=True))
         request = kind.Request()
-        populate(request, values)
+        setters = populate(request, values)
         _wait_for_service(node, client)
         seconds = stretch_of(args) if args.rate else None
         deadline = None if seconds is None else now() + seconds
         while True:
             begun = now()
+            stamp(setters, node)
             _ask(node, client, request, args.seconds or LONGEST_ANSWER)
             if args.rate is None:
                 return

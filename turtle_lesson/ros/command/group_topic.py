@@ -57,8 +57,6 @@ def _info_arguments(parser: ArgumentParser) -> None:
 
 def info(args: Namespace) -> None:
     """`ros2 topic info`."""
-    from .quality import describe_endpoint
-
     with direct_node(args) as node:
         name, known = args.topic_name, topics(node, include_hidden=True)
         if name not in known:
@@ -69,7 +67,7 @@ def info(args: Namespace) -> None:
         for title, ends in (("Publisher", publishers(node, name)), ("Subscription", subscriptions(node, name))):
             print(f"{title} count: {len(ends)}", end=end)
             for each in ends if args.verbose else ():
-                print(describe_endpoint(each), end="\n\n")
+                print(each, end="\n\n")
 
 
 def _type_arguments(parser: ArgumentParser) -> None:

@@ -60,6 +60,7 @@ _MODULES = {"run": "run_launch", "launch": "run_launch"}
 GROUPS = {
     group.name: group
     for group in (
+        Group("action", "Find actions, and send them goals"),
         Group("bag", "Record messages, look at recordings, play them back"),
         Group("daemon", "The helper that remembers the graph between commands"),
         Group("doctor", "Say what this classroom is, what is up, and what looks wrong"),
@@ -83,7 +84,6 @@ GROUPS = {
 }
 
 NOT_HERE = {
-    "action": "actions come later",
     "component": "there are no composable nodes here",
     "control": "there is no ros2_control here",
     "extension_points": "its commands cannot be extended",

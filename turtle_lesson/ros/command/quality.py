@@ -147,27 +147,3 @@ def _effective(profile: QoSProfile, name: str) -> Any:
     return meaning[name] if value.name == "SYSTEM_DEFAULT" else value
 
 
-def describe_endpoint(info: Any) -> str:
-    """A publisher or subscription with its quality of service, as `ros2 topic info -v` shows it."""
-    profile = info.qos_profile
-    return "\n".join(
-        [
-            f"Node name: {info.node_name}",
-            f"Node namespace: {info.node_namespace}",
-            f"Topic type: {info.topic_type}",
-            f"Endpoint type: {info.endpoint_type.name}",
-            f"GID: {'.'.join(f'{byte:02x}' for byte in info.endpoint_gid)}",
-            "QoS profile:",
-            f"  Reliability: {_effective(profile, 'reliability').name}",
-            f"  History (Depth): {_effective(profile, 'history').name} ({max(1, profile.depth)})",
-            f"  Durability: {_effective(profile, 'durability').name}",
-            f"  Lifespan: {_duration(profile.lifespan)}",
-            f"  Deadline: {_duration(profile.deadline)}",
-            f"  Liveliness: {_effective(profile, 'liveliness').name}",
-            f"  Liveliness lease duration: {_duration(profile.liveliness_lease_duration)}",
-        ]
-    )
-
-
-def _duration(duration: Any) -> str:
-    return f"{duration.nanoseconds} nanoseconds" if duration.nanoseconds else "Infinite"

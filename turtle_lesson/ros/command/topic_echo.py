@@ -11,7 +11,6 @@ from .amounts import unsigned_int
 from .common import CommandError, add_duration, add_node_arguments, direct_node, expanded, suggest, topics
 from .listening import class_of_topic, listen, not_published
 from .quality import add_qos_arguments, is_chosen, matching_profile, profile_of
-from .text import Style, message_to_csv, message_to_yaml
 from .types import message_class
 
 TRUNCATE = 128
@@ -125,14 +124,17 @@ def filter_of(expression: str | None) -> Callable[[Any], bool]:
 
 def _printer(args: Namespace) -> Callable[[Any], None]:
     """What prints a message or a part of one."""
-    style = Style(None if args.full_length else args.truncate_length, args.no_arr, args.no_str, args.flow_style)
+    from rosidl_runtime_py.convert import message_to_csv, message_to_yaml
+
+    length = None if args.full_length else args.truncate_length
+    style = {"truncate_length": length, "no_arr": args.no_arr, "no_str": args.no_str}
 
     def show(part: Any) -> None:
         if not hasattr(part, "get_fields_and_field_types"):
             print(part, end="\n---\n")
         elif args.csv:
-            print(message_to_csv(part, style))
+            print(message_to_csv(part, **style))
         else:
-            print(message_to_yaml(part, style), end="---\n")
+            print(message_to_yaml(part, **style, flow_style=args.flow_style), end="---\n")
 
     return show

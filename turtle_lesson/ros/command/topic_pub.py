@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from argparse import ArgumentParser, Namespace
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from .amounts import LONGEST, frequency, seconds, unsigned_int
@@ -25,7 +26,7 @@ from .common import (
 )
 from .quality import add_qos_arguments, profile_of
 from .types import message_class
-from .values import populate, read_yaml
+from .values import populate, read_yaml, stamp
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -69,21 +70,20 @@ def pub(args: Namespace) -> None:
     if times / args.rate > LONGEST:
         raise CommandError(f"{times} messages at {args.rate:g} a second take longer than a day: make it fewer")
     with direct_node(args, args.node_name) as node:
-        message = _message(args.message_type, args.values)
+        message, setters = _message(args.message_type, args.values)
         publisher = node.create_publisher(type(message), expanded(node, args.topic_name), profile)
         _wait_for_subscriptions(node, publisher, (1 if times else 0) if needed is None else needed)
-        _publish(node, publisher, message, args, times)
+        _publish(node, publisher, message, args, times, setters)
 
 
-def _message(type_name: str, text: str) -> Any:
-    """The message as typed. Told at once, where the real tool looks at its fields only when somebody subscribes."""
+def _message(type_name: str, text: str) -> tuple[Any, list[Callable[[Any], None]]]:
+    """The message as typed, and what sets its stamps. The real tool looks at fields only when somebody subscribes."""
     kind = message_class(type_name)
     values = read_yaml(text)
     if not isinstance(values, dict):
         raise CommandError("The passed value needs to be a dictionary in YAML format")
     message = kind()
-    populate(message, values)
-    return message
+    return message, populate(message, values)
 
 
 def _wait_for_subscriptions(node: Node, publisher: Publisher, needed: int) -> None:
@@ -124,7 +124,14 @@ def _why_nobody(node: Node, publisher: Publisher, needed: int) -> tuple[str, str
     return f"{waited}: {name} has {_matched(node, publisher)} subscription(s), not {needed}", ""
 
 
-def _publish(node: Node, publisher: Publisher, message: Any, args: Namespace, times: int) -> None:
+def _publish(
+    node: Node,
+    publisher: Publisher,
+    message: Any,
+    args: Namespace,
+    times: int,
+    setters: list[Callable[[Any], None]],
+) -> None:
     """Publish so many times (0: without end), at a rate."""
     from rclpy.task import Future
 
@@ -136,6 +143,7 @@ def _publish(node: Node, publisher: Publisher, message: Any, args: Namespace, ti
         if done.done():
             return
         count += 1
+        stamp(setters, node)
         if args.print and count % args.print == 0:
             print(f"publishing #{count}: {message!r}\n")
         publisher.publish(message)

@@ -1,59 +1,73 @@
-"""From a type's name as typed, such as `geometry_msgs/Twist`, to its class.
-
-The rules are those of rosidl_runtime_py's get_message and get_service, as recorded from a real one.
-"""
+"""From a type's name as typed, such as `geometry_msgs/Twist`, to its class, or to a sentence that helps."""
 
 from __future__ import annotations
 
-from importlib import import_module
+from collections.abc import Callable
 from typing import Any
 
+from turtle_lesson.ros.interfaces.errors import InvalidDefinition
 from turtle_lesson.ros.interfaces.names import did_you_mean
+from turtle_lesson.ros.interfaces.registry import FOLDERS, registry
 
 from .common import CommandError
 
 
 def message_class(name: str) -> Any:
     """The class of a message. Raises CommandError with the real tool's sentence, and what was meant perhaps."""
-    found = _find(name, "msg")
-    if found is None or not hasattr(found, "get_fields_and_field_types"):
+    from rosidl_runtime_py.utilities import get_message
+
+    found = _find(get_message, name)
+    if found is None:
         raise CommandError("The passed message type is invalid", suggest_type(name, "msg"))
     return found
 
 
 def service_class(name: str) -> Any:
     """The class of a service. Raises CommandError with the real tool's sentence, and what was meant perhaps."""
-    found = _find(name, "srv")
+    from rosidl_runtime_py.utilities import get_interface, get_service
+
+    found = _find(get_service, name)
     if found is None:
-        raise CommandError("The passed service type is invalid", suggest_type(name, "srv"))
-    if not hasattr(found, "Request") or not hasattr(found, "Response"):
-        raise CommandError("The passed type is not a service", suggest_type(name, "srv"))
+        is_other = name.count("/") == 2 and _find(get_interface, name) is not None
+        sentence = "The passed type is not a service" if is_other else "The passed service type is invalid"
+        raise CommandError(sentence, suggest_type(name, "srv"))
     return found
 
 
-def _find(name: str, folder: str) -> Any:
+def action_class(name: str) -> Any:
+    """The class of an action. Raises CommandError with the real tool's sentence, and what was meant perhaps."""
+    from rosidl_runtime_py.utilities import get_action
+
+    found = _find(get_action, name)
+    if found is None:
+        raise CommandError("The passed action type is invalid", suggest_type(name, "action"))
+    return found
+
+
+def _find(get: Callable[[str], Any], name: str) -> Any:
+    """The class of a name, or None; a definition that is refused says why."""
     parts = name.split("/")
-    if len(parts) == 2:
-        parts.insert(1, folder)
-    if len(parts) != 3 or not all(part.isidentifier() for part in parts) or parts[1] not in ("msg", "srv", "action"):
+    if len(parts) > 3 or (len(parts) == 3 and parts[1] not in FOLDERS) or not all(map(str.isidentifier, parts)):
         return None
     try:
-        return getattr(import_module(".".join(parts[:2])), parts[2])
-    except (AttributeError, ImportError):
+        return get(name)
+    except InvalidDefinition:
+        raise
+    except (AttributeError, ImportError, ValueError):
         return None
 
 
 def unknown_type(name: str, folder: str) -> str:
     """A line about a type that does not exist, or that was typed in its short form; nothing for one that does."""
-    if name.count("/") == 2 and _find(name, folder) is not None:
+    from rosidl_runtime_py.utilities import get_interface
+
+    if name.count("/") == 2 and _find(get_interface, name) is not None:
         return ""
     return f"There is no type '{name}'\n{suggest_type(name, folder)}".rstrip()
 
 
 def suggest_type(name: str, folder: str) -> str:
     """`Did you mean 'std_msgs/msg/String'?`, or nothing if no type is like that."""
-    from turtle_lesson.ros.interfaces import registry
-
     known = [
         f"{package}/{interface}"
         for package in registry.packages()

@@ -8,15 +8,16 @@ after the other, in the order in which they were woken.
 from __future__ import annotations
 
 import asyncio
-import contextvars
 import sys
 import threading
 import weakref
 from collections import deque
 from collections.abc import Callable
+from contextvars import copy_context
 from heapq import heappop, heappush
 from typing import TYPE_CHECKING, Any
 
+from .cell_context import Cell
 from .errors import SimulationError, WorldClosed
 from .interrupts import Guard
 from .strand import GreenletExit, Strand, running_greenlet, running_strand
@@ -53,7 +54,7 @@ class Simulation:
         self._raising = False
         self._thread = threading.get_ident()
         self.driven: Strand | None = None
-        self._context = contextvars.copy_context()
+        self._cell = Cell(copy_context())
         self._for_the_hub: deque[tuple[Callable[..., object], tuple[Any, ...]]] = deque()
         self._strands: weakref.WeakSet[Strand] = weakref.WeakSet()
         self._forgotten: list[Strand] = []
@@ -158,8 +159,10 @@ class Simulation:
         self._raising = True
         self._enter(strand.process)
         try:
-            if strand:  # it has begun, and so has a context of its own
-                strand.gr_context = contextvars.copy_context()
+            if running_strand() is None:
+                self._cell = self._cell.now()
+            if strand.cell is not self._cell:
+                self._cell.show_to(strand)
             strand.raise_inside(error)
         finally:
             self.hub, self._halted, self._limit, self._raising = hub, halted, limit, raising
@@ -217,7 +220,7 @@ class Simulation:
 
     def _loop(self) -> None:
         """What the hub does: let strands go on until nothing is left to do, or the run is halted."""
-        self._context = contextvars.copy_context()
+        self._cell = self._cell.now()
         while True:
             strand = self._next_strand()
             if strand is not None:
@@ -248,7 +251,8 @@ class Simulation:
     def _go_on_with(self, strand: Strand) -> None:
         if strand.process is not self._face:
             self._enter(strand.process)
-        strand.gr_context = self._context  # or what it prints would go to an earlier cell
+        if strand.cell is not self._cell:
+            self._cell.show_to(strand)  # or what it prints would go to an earlier cell
         strand.switch()
 
     def park(self, strand: Strand) -> None:

@@ -14,21 +14,36 @@ from typing import TYPE_CHECKING, Any
 
 from greenlet import GreenletExit, getcurrent, greenlet
 
-__all__ = ["GreenletExit", "Strand", "getcurrent", "running_greenlet", "running_strand"]
+__all__ = ["GreenletExit", "Strand", "getcurrent", "greenlet", "running_greenlet", "running_strand"]
 
 if TYPE_CHECKING:
+    from .cell_context import Cell
     from .process import Process
     from .simulation import Simulation
 
 
 class Strand(greenlet):
-    """One line of execution of a process: its main program, or a worker of a multi-threaded executor."""
+    """One line of execution of a process: its main program, a thread, or a worker of a multi-threaded executor.
+
+    Attributes:
+        process: the process that it belongs to.
+        simulation: that process's simulation.
+        parked: whether it waits to be woken.
+        activity: what it does, for whoever has to explain why it takes so long.
+        warned: whether it was told once that it computes without end.
+        cell: the cell that it prints to.
+        waits_for: for what it waits without a time limit, and in vain if all others of its process do; None else.
+        thread: the `threading.Thread` that it is, once somebody has asked.
+    """
 
     process: Process
     simulation: Simulation
     parked: bool
     activity: str
     warned: bool
+    cell: Cell | None = None
+    waits_for: Any = None
+    thread: Any = None
 
     def __init__(self, process: Process, target: Callable[[], Any]) -> None:
         super().__init__(target)

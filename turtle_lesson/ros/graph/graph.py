@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from .network import Conditions, Network
 from .quality import Quality
 from .service import ClientEnd, ServerEnd
 from .topic import Reader, Topic, Writer
@@ -32,6 +33,11 @@ class NodeEntry:
         return f"/{self.name}" if self.namespace == "/" else f"{self.namespace}/{self.name}"
 
     @property
+    def logger_name(self) -> str:
+        """The name of the node's logger: its full name with dots."""
+        return self.full_name.strip("/").replace("/", ".")
+
+    @property
     def hidden(self) -> bool:
         """Whether ROS's tools leave this node out of their lists: a part of its name starts with an underscore."""
         return is_hidden(self.full_name)
@@ -48,8 +54,9 @@ def is_hidden(name: str) -> bool:
 class Graph:
     """All nodes, topics and services of a world. `on_change` callbacks hear of every change."""
 
-    def __init__(self, simulation: Simulation) -> None:
+    def __init__(self, simulation: Simulation, seed: object = 0) -> None:
         self.simulation = simulation
+        self.network = Network(seed)
         self.nodes: list[NodeEntry] = []
         self.trace: Trace | None = None
         self._topics: dict[str, Topic] = {}
@@ -87,7 +94,7 @@ class Graph:
     def topic(self, name: str) -> Topic:
         """The topic of a full name, made if nobody has used it yet."""
         if name not in self._topics:
-            self._topics[name] = Topic(self.simulation, name)
+            self._topics[name] = Topic(self.simulation, name, self.network)
         return self._topics[name]
 
     def add_writer(self, node: NodeEntry, name: str, type_name: str, quality: Quality) -> Writer:
@@ -121,6 +128,21 @@ class Graph:
         """The topics that somebody publishes or subscribes to now, by full name, sorted."""
         return {name: topic for name, topic in sorted(self._topics.items()) if topic.writers or topic.readers}
 
+    def set_network(self, name: str | None, conditions: Conditions | None) -> None:
+        """Have the messages of a topic, or the calls of a service, travel under these conditions from now on.
+
+        `name` may be a pattern. Without conditions it is forgotten; without a name everything is.
+        """
+        if name is None:
+            self.network.clear()
+        else:
+            self.network.set(name, conditions)
+        for topic in self._topics.values():
+            topic.use(self.network.of(topic.name))
+        for clients in self._clients.values():
+            for client in clients:
+                client.use(self.network.of(client.name))
+
     # -- services ------------------------------------------------------------------------------------------------
 
     def add_server(self, node: NodeEntry, name: str, type_name: str) -> ServerEnd:
@@ -133,7 +155,7 @@ class Graph:
 
     def add_client(self, node: NodeEntry, name: str, type_name: str) -> ClientEnd:
         """A node's new client."""
-        client = ClientEnd(node, name, type_name, self.simulation)
+        client = ClientEnd(node, name, type_name, self.simulation, self.network)
         client.trace = self.trace
         node.clients.append(client)
         self._clients.setdefault(name, []).append(client)

@@ -27,6 +27,9 @@ NOTICED_AFTER = 10_000_000
 """How long it takes, in ns and beside two ways, until a lost message is asked for and sent again: the delays that DDS
 implementations have for their answers to heartbeats are 5 to 10 ms."""
 
+LINGER = 1_000_000_000
+"""How long, in ns, a publisher that goes still repeats what was lost: as long as one of Cyclone DDS."""
+
 USUAL = Conditions()
 Deliver = Callable[[Any, int], object]
 """Gets what has arrived, and when it was sent (ns)."""
@@ -72,8 +75,11 @@ class Line:
         return None
 
     def close(self) -> None:
-        """Deliver nothing more."""
+        """The one who would get the messages has gone: deliver nothing more."""
         self._deliver = self._told = _nothing
+
+    def linger(self) -> None:
+        """The one who sends has gone: what is under way still arrives."""
 
     def _way(self) -> int:
         """How long a transmission takes now, in ns: never less than in the usual network."""
@@ -177,6 +183,15 @@ class ReliableLine(Line):
         """See Line."""
         super().close()
         self._parcels.clear()
+
+    def linger(self) -> None:
+        """See Line. What is missing is repeated for some time."""
+        self._simulation.at(self._simulation.now + LINGER, self._give_up, None)
+
+    def _give_up(self, _: object) -> None:
+        for parcel in self._parcels:
+            parcel.given_up = parcel.missing
+        self._hand_over()
 
     def _transmit(self, parcel: _Parcel) -> None:
         if self._is_lost():

@@ -26,11 +26,15 @@ class Flaw(NamedTuple):
 
 
 class Remap(NamedTuple):
-    """One remapping rule, as in `-r chatter:=/news`; `node` limits it to the node of that name."""
+    """One remapping rule, as in `-r chatter:=/news`; `node` limits it to the node of that name.
+
+    `is_service` limits it to services (`rosservice://…`), or to topics (`rostopic://…`).
+    """
 
     match: str
     replacement: str
     node: str | None = None
+    is_service: bool | None = None
 
 
 def node_name_flaw(name: str) -> Flaw | None:
@@ -150,12 +154,11 @@ def expand(name: str, node: str, namespace: str) -> str:
     return name if name.startswith("/") else f"{base}/{name}"
 
 
-def remap(name: str, node: str, namespace: str, rules: Sequence[Remap]) -> str:
+def remap(name: str, node: str, namespace: str, rules: Sequence[Remap], *, is_service: bool = False) -> str:
     """The full name after the first remapping rule that matches it, if any does."""
     for rule in rules:
-        if rule.match.startswith("__") or rule.node not in (None, node):
+        if rule.match.startswith("__") or rule.node not in (None, node) or rule.is_service not in (None, is_service):
             continue
-        match = rule.match.split("://")[-1]
-        if expand(match, node, namespace) == name:
+        if expand(rule.match, node, namespace) == name:
             return expand(rule.replacement, node, namespace)
     return name

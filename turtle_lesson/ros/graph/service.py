@@ -6,12 +6,14 @@ from collections import deque
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from .topic import latency_of, nobody
+from .latency import latency_of, nobody
+from .line import ReliableLine
 
 if TYPE_CHECKING:
     from ..core import Simulation
     from ..trace import Call, Trace
     from .graph import NodeEntry
+    from .network import Conditions, Network
 
 
 class Request(NamedTuple):
@@ -44,7 +46,7 @@ class ServerEnd:
 class ClientEnd:
     """A client's end: answers that have arrived, as (number of the request, response)."""
 
-    def __init__(self, node: NodeEntry, name: str, type_name: str, simulation: Simulation) -> None:
+    def __init__(self, node: NodeEntry, name: str, type_name: str, simulation: Simulation, network: Network) -> None:
         self.node = node
         self.name = name
         self.type_name = type_name
@@ -52,6 +54,9 @@ class ClientEnd:
         self.wake: Callable[[], object] = nobody
         self.simulation = simulation
         self.latency = latency_of(name)
+        self._network = network
+        self._lines: dict[Callable[[Any], object], ReliableLine] | None = None
+        self.use(network.of(name))
         self._sent = 0
         self.trace: Trace | None = None
         self._calls: dict[int, Call] = {}
@@ -64,7 +69,11 @@ class ClientEnd:
         if self.trace is not None:
             call = self._calls[self._sent] = self.trace.asked(self, message._wire_copy())
         for server in servers:
-            self.simulation.at(arrival, server.receive, Request(self, self._sent, message._wire_copy(), call))
+            request = Request(self, self._sent, message._wire_copy(), call)
+            if self._lines is None:
+                self.simulation.at(arrival, server.receive, request)
+            else:
+                self._line_to(server.receive, server.node).send(request, self.simulation.now)
         return self._sent
 
     def reply(self, number: int, message: Any) -> None:
@@ -72,10 +81,43 @@ class ClientEnd:
         arrival = self.simulation.now + self.latency
         if self.trace is not None and number in self._calls:
             self.trace.answered(self._calls[number], message._wire_copy())
-        self.simulation.at(arrival, self._receive, (number, message._wire_copy()))
+        answer = (number, message._wire_copy())
+        if self._lines is None:
+            self.simulation.at(arrival, self._receive, answer)
+        else:
+            self._line_to(self._receive, self.node).send(answer, self.simulation.now)
+
+    def use(self, conditions: Conditions | None) -> None:
+        """Have requests and answers travel under these conditions from now on; None for the usual ones.
+
+        Services are reliable, and keep everything: what is lost is sent again until it has arrived.
+        """
+        if conditions is not None and self._lines is None:
+            self._lines = {}
+        for line in (self._lines or {}).values():
+            line.use(conditions)
+
+    def _line_to(self, receive: Callable[[Any], object], node: NodeEntry) -> ReliableLine:
+        """The way of requests to a server, or of answers to this client, in a network that is not the usual one."""
+        assert self._lines is not None
+        line = self._lines.get(receive)
+        if line is None:
+
+            def deliver(wire: Any, _: int) -> None:
+                receive(wire)
+
+            ends = f"{self.name} {self.node.full_name} {node.full_name}"
+            line = ReliableLine(self.simulation, self.latency, deliver, nobody_counts, self._network, ends)
+            line.use(self._network.of(self.name))
+            self._lines[receive] = line
+        return line
 
     def _receive(self, answer: tuple[int, Any]) -> None:
         if self.trace is not None and (call := self._calls.pop(answer[0], None)) is not None:
             self.trace.told(call)
         self.queue.append(answer)
         self.wake()
+
+
+def nobody_counts(_: int) -> None:
+    """Nobody asks how many requests or answers were lost: none is."""

@@ -39,8 +39,8 @@ class Watchdog:
         self._looks = False
         due = self._due
         if due is not None and self._simulation.now > due:
-            due = self._due = due + self._span if self._repeats else None
+            self._due = due + self._span if self._repeats else None
             self._alarm()
-        if due is not None and not self._looks:
+        if self._due is not None and not self._looks:
             self._looks = True
-            self._simulation.at(due + 1, self._look, None)
+            self._simulation.at(self._due + 1, self._look, None)

@@ -179,8 +179,10 @@ class Writer(End):
         """One of the two goes: send nothing more to this reader."""
         self.readers = tuple(each for each in self.readers if each is not reader)
         line = self._lines.pop(reader, None)
-        if line is not None:
+        if line is not None and self.topic.has(self):
             line.close()
+        elif line is not None:
+            line.linger()
         self.arrange()
         for end in (self, reader):
             end.will_happen(MATCHED, (0, -1))

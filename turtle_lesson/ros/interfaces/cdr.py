@@ -2,7 +2,8 @@
 
 `rosbags` does the work. It reads the attributes of any object, if arrays are numpy arrays and bytes are
 numbers, so each message is shown to it as a plain portrait of itself; what it reads goes straight into our
-own classes.
+own classes. It knows no wide strings: these are shown to it as what they are on the wire of Humble's Fast DDS, the number
+of UTF-16 units and then each in four bytes (rosidl_typesupport_fastrtps_cpp, Fast-CDR 1).
 """
 
 from __future__ import annotations
@@ -16,12 +17,16 @@ from weakref import WeakKeyDictionary
 
 from turtle_lesson.ros.interfaces.checks import TYPE_CODES, numpy_name
 from turtle_lesson.ros.interfaces.model import FieldType
+from turtle_lesson.ros.interfaces.names import STRINGS
 
 if TYPE_CHECKING:
     from rosbags.typesys.store import Typestore
 
 # What DDS puts into a message without fields (rosidl_generator_c, EMPTY_STRUCTURE_REQUIRED_MEMBER_NAME).
 PLACEHOLDER = "structure_needs_at_least_one_member"
+
+WIDE = "wide string"
+"""The name under which rosbags knows an element of an array of wide strings."""
 
 _names: WeakKeyDictionary[type, str] = WeakKeyDictionary()
 
@@ -31,7 +36,7 @@ def serialize(message: Any) -> bytes:
 
     Raises:
         TypeError: the object is no message of a generated class.
-        ValueError: the message holds what CDR cannot carry, such as a wstring or a list that is too long.
+        ValueError: the message holds what CDR cannot carry, such as half a character or a list that is too long.
     """
     if isinstance(message, type):
         raise TypeError(f"expected a message, got the class {message.__name__}")
@@ -68,7 +73,10 @@ def deserialize(data: bytes | bytearray | memoryview, message_class: Any) -> Any
 def _store() -> Typestore:
     from rosbags.typesys.store import Typestore
 
-    return Typestore()
+    store: Any = Typestore()
+    store.fielddefs[WIDE] = ((), [("units", _units())])
+    store.types[WIDE] = _from_units
+    return store
 
 
 def _name(message_class: Any) -> str:
@@ -100,8 +108,8 @@ def _description(type_: FieldType, element_class: Any) -> Any:
     from rosbags.interfaces import Nodetype
 
     if type_.base == "wstring":
-        raise ValueError("wide strings have no agreed form in CDR; use string")
-    if type_.is_primitive:
+        element = (Nodetype.NAME, WIDE) if type_.is_array else _units()
+    elif type_.is_primitive:
         element = _base("uint8" if type_.base in ("byte", "char") else type_.base)
     else:
         element = (Nodetype.NAME, _name(element_class))
@@ -114,6 +122,25 @@ def _base(name: str) -> Any:
     from rosbags.interfaces import Nodetype
 
     return Nodetype.BASE, (name, 0)
+
+
+def _units() -> Any:
+    from rosbags.interfaces import Nodetype
+
+    return Nodetype.SEQUENCE, (_base("uint32"), 0)
+
+
+def _to_units(text: str) -> Any:
+    import numpy
+
+    return numpy.frombuffer(text.encode("utf-16-le"), "<u2").astype("uint32")
+
+
+def _from_units(units: Any) -> str:
+    if len(units) and units.max() > 0xFFFF:
+        raise ValueError("a unit of a wide string is larger than two bytes")
+    text: str = units.astype("<u2").tobytes().decode("utf-16-le")
+    return text
 
 
 def _portrait(message: Any) -> SimpleNamespace:
@@ -129,6 +156,8 @@ def _shown(value: Any, type_: FieldType) -> Any:
     if not type_.is_array:
         if not type_.is_primitive:
             return _portrait(value)
+        if type_.base == "wstring":
+            return _to_units(value)
         return value[0] if type_.base == "byte" else value
     if type_.is_bounded and type_.size is not None and len(value) > type_.size:
         raise ValueError(f"{len(value)} elements in a sequence of at most {type_.size}")
@@ -136,6 +165,8 @@ def _shown(value: Any, type_: FieldType) -> Any:
         return [_portrait(each) for each in value]
     if type_.base == "string":
         return list(value)
+    if type_.base == "wstring":
+        return [SimpleNamespace(units=_to_units(each)) for each in value]
     if type_.base == "byte":
         return numpy.frombuffer(b"".join(value), "uint8")
     if type_.base == "bool":
@@ -157,18 +188,28 @@ def _maker(message_class: Any) -> Callable[..., Any]:
 
 
 def _reader(type_: FieldType) -> Callable[[Any], Any] | None:
-    if type_.base == "byte":
-        return (lambda values: [bytes([each]) for each in values]) if type_.is_array else lambda value: bytes([value])
     if not type_.is_array:
-        return _bounded_text(type_.string_bound) if type_.string_bound is not None else None
+        return (lambda value: bytes([value])) if type_.base == "byte" else _text_reader(type_)
+    if type_.base == "byte":
+        return lambda values: _limited([bytes([each]) for each in values], type_)
     if type_.base == "bool":
         return lambda values: _limited(values.tolist(), type_)
-    if not type_.is_primitive or type_.base == "string":
+    if not type_.is_primitive or type_.string_bound is None and type_.base in STRINGS:
         return lambda values: _limited(values, type_)
+    if type_.string_bound is not None:
+        check = _bounded_text(type_.string_bound)
+        return lambda values: _limited([check(each) for each in values], type_)
     if type_.is_fixed:
         return lambda values: values.copy()
     code = TYPE_CODES[type_.base]
     return lambda values: _limited(array(code, values.tobytes()), type_)
+
+
+def _text_reader(type_: FieldType) -> Callable[[Any], str] | None:
+    check = None if type_.string_bound is None else _bounded_text(type_.string_bound)
+    if type_.base != "wstring":
+        return check
+    return _from_units if check is None else lambda units: check(_from_units(units))
 
 
 def _bounded_text(bound: int) -> Callable[[str], str]:

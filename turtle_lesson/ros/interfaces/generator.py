@@ -8,21 +8,22 @@ computer would get.
 
 from __future__ import annotations
 
-import keyword
 import linecache
 from array import array
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from math import inf, nan
 from struct import Struct
 from types import ModuleType
 from typing import Any
 
-from turtle_lesson.ros.interfaces import message
-from turtle_lesson.ros.interfaces.actions import derived_parts
-from turtle_lesson.ros.interfaces.errors import InvalidDefinition, InvalidMemberName, InvalidType
-from turtle_lesson.ros.interfaces.kinds import Kind, kind_of
+from turtle_lesson.ros.interfaces import buildable, message
+from turtle_lesson.ros.interfaces.actions import derived_parts, event_part
+from turtle_lesson.ros.interfaces.errors import InvalidDefinition
+from turtle_lesson.ros.interfaces.kinds import Kind, kind_of, weight_of
 from turtle_lesson.ros.interfaces.model import (
     ActionDefinition,
+    Constant,
     Definition,
     Field,
     FieldType,
@@ -35,9 +36,6 @@ from turtle_lesson.ros.interfaces.source import message_source, wrapper_source
 
 Resolve = Callable[[FieldType], type]
 """Gives the class of a field's messages; raises UnknownMessageType where there is none."""
-
-# Attributes of our own in the classes, which fields of these names would replace.
-TAKEN = ("wire_copy", "fields_and_field_types")
 
 COMMON: dict[str, Any] = {
     "_array": array,
@@ -93,11 +91,20 @@ class _Builder:
         self._globals.update(COMMON)
         self._source = ""
         self._resolve = resolve
+        self._events: dict[str, Callable[[], type]] = {}
 
     def add_message(self, definition: MessageDefinition) -> None:
         """Add the class of a message or of a part of a service or action."""
-        kinds = tuple(self._kind(definition, member) for member in definition.fields)
         name = definition.name
+        kinds = tuple(self._kind(definition, member) for member in definition.fields)
+        try:
+            buildable.check_class_name(name)
+            buildable.check_weight(name, weight_of(kinds))
+        except InvalidDefinition as error:
+            raise error.locate(interface=definition.full_name, file=definition.file) from None
+        if definition.constants:
+            constants = tuple(_built_constant(definition, constant) for constant in definition.constants)
+            definition = replace(definition, constants=constants)
         self._globals[f"_kinds_{name}"] = kinds
         self._globals[f"_slot_types_{name}"] = tuple(slot_type(member.type) for member in definition.fields)
         for kind in _with_inner(kinds):
@@ -112,7 +119,7 @@ class _Builder:
         """Add request, response and the class that holds both."""
         for part in definition.parts():
             self.add_message(part)
-        self._add_wrapper(definition, {"Request": definition.request.name, "Response": definition.response.name})
+        self._add_service_class(definition)
 
     def add_action(self, definition: ActionDefinition) -> None:
         """Add goal, result, feedback, the class that holds them, and what carries them (`Impl`)."""
@@ -137,12 +144,34 @@ class _Builder:
         """The module with all that was added."""
         lines = self._source.splitlines(keepends=True)
         linecache.cache[self._file] = (len(self._source), None, lines, self._file)
+        self._source = ""  # the cache has it
         return self._module
+
+    def _add_service_class(self, definition: ServiceDefinition) -> None:
+        def make_event() -> type:
+            event = event_part(definition)
+            if event.name not in self._globals:
+                self._source = "".join(linecache.cache[self._file][2])
+                self.add_message(event)
+                self.finish()
+            made: type = self._globals[event.name]
+            return made
+
+        self._globals[f"_event_{definition.name}"] = message.EventClass(make_event)
+        parts = {"Request": definition.request.name, "Response": definition.response.name}
+        self._add_wrapper(definition, {**parts, "Event": f"_event_{definition.name}"})
+        self._events[f"{definition.name}_Event"] = make_event
+        self._globals["__getattr__"] = self._event_by_name
+
+    def _event_by_name(self, name: str) -> type:
+        """Attribute of the module that is not there yet: the class of an event, or nothing."""
+        if name not in self._events:
+            raise AttributeError(f"module {self._module.__name__!r} has no attribute {name!r}", name=name)
+        return self._events[name]()
 
     def _add_carrier(self, action: ActionDefinition, name: str) -> None:
         request, response = (self._globals[f"{name}_{part}"]._DEFINITION for part in ("Request", "Response"))
-        service = ServiceDefinition(action.package, name, request, response, "", action.file, "action")
-        self._add_wrapper(service, {"Request": request.name, "Response": response.name})
+        self._add_service_class(ServiceDefinition(action.package, name, request, response, "", action.file, "action"))
 
     def _add_wrapper(self, definition: Definition, parts: dict[str, str]) -> None:
         self._run(definition, wrapper_source(definition, parts))
@@ -160,20 +189,16 @@ class _Builder:
 
     def _kind(self, definition: MessageDefinition, member: Field) -> Kind:
         try:
-            _check_for_python(member)
-            return kind_of(definition, member, self._message_class(definition, member.type))
+            buildable.check_field(member)
+            built = member if member.default is None else replace(member, default=buildable.built_default(member))
+            return kind_of(definition, built, self._message_class(definition, member.type))
         except InvalidDefinition as error:
-            raise error.locate(
-                interface=definition.full_name,
-                file=definition.file,
-                line=member.line or None,
-                line_text=str(member),
-            ) from None
+            raise _located(error, definition, member) from None
 
     def _message_class(self, definition: MessageDefinition, type_: FieldType) -> type | None:
         if type_.is_primitive:
             return None
-        if (type_.package, type_.folder) == (definition.package, "action"):
+        if (type_.package, type_.folder) == (definition.package, definition.folder) != (type_.package, "msg"):
             own: type = self._globals[type_.base]
             return own
         return self._resolve(type_)
@@ -186,26 +211,25 @@ class _Builder:
 
 
 def _with_inner(kinds: tuple[Kind, ...]) -> Iterator[Kind]:
-    """All fields, those of sub messages included."""
+    """All fields, those of messages that are written out included."""
     for kind in kinds:
         yield kind
-        if kind.message_class is not None:
-            yield from _with_inner(kind.message_class._KINDS)  # type: ignore[attr-defined]
+        if kind.inlined is not None:
+            yield from _with_inner(kind.inlined)
 
 
 def _signature_default(kind: Kind) -> str:
     return f"{kind.message_class.__name__}()" if kind.message_class else kind.fresh.replace("_array('", "array('")
 
 
-def _check_for_python(member: Field) -> None:
-    """Refuse what ROS's parser lets pass and its later steps do not."""
-    if member.type.base in ("time", "duration"):
-        better = f"builtin_interfaces/{member.type.base.capitalize()}"
-        raise InvalidType(f"the type '{member.type.base}' is of ROS 1", hint=f"Write '{better} {member.name}'")
-    if keyword.iskeyword(member.name):
-        raise InvalidMemberName(
-            f"Member name '{member.name}' is a reserved keyword in Python and is not supported at the moment."
-            " Please use a different name"
-        )
-    if member.name in TAKEN:
-        raise InvalidMemberName(f"the field name '{member.name}' is taken", hint="Please use a different name")
+def _built_constant(definition: MessageDefinition, constant: Constant) -> Constant:
+    try:
+        return replace(constant, value=buildable.built_constant(constant))
+    except InvalidDefinition as error:
+        raise _located(error, definition, constant) from None
+
+
+def _located(error: InvalidDefinition, definition: MessageDefinition, member: Field | Constant) -> InvalidDefinition:
+    return error.locate(
+        interface=definition.full_name, file=definition.file, line=member.line or None, line_text=str(member)
+    )

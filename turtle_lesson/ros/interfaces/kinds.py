@@ -6,7 +6,7 @@ globals of the generated module; no field can have such a name.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from math import isfinite
 from typing import Any
@@ -37,6 +37,8 @@ class Kind:
         message_class: class of the value, where the field is one message.
         element_class: class of the value or of its elements, where these are messages.
         objects: globals that these expressions use.
+        weight: how many values and messages the default consists of.
+        lines: how many fields stand where this one is written out, a message field by field.
     """
 
     name: str
@@ -51,6 +53,25 @@ class Kind:
     message_class: type | None = None
     element_class: type | None = None
     objects: dict[str, Any] = field(default_factory=dict)
+    weight: int = 1
+    lines: int = 1
+
+    @property
+    def inlined(self) -> tuple[Kind, ...] | None:
+        """The fields of a message that is written out field by field, which is fast; None for what is not."""
+        if self.message_class is None or self.lines == 1:
+            return None
+        kinds: tuple[Kind, ...] = self.message_class._KINDS  # type: ignore[attr-defined]
+        return kinds
+
+
+MOST_LINES = 64
+"""A message with more fields than these, its messages' fields included, is not written out in those that contain it."""
+
+
+def weight_of(kinds: Iterable[Kind]) -> int:
+    """How many values and messages a message of such fields consists of, as long as its sequences are empty."""
+    return 1 + sum(kind.weight for kind in kinds)
 
 
 def kind_of(definition: MessageDefinition, member: Field, message_class: type | None) -> Kind:
@@ -115,6 +136,8 @@ def _plain_pieces(name: str, type_: FieldType) -> tuple[checks.Check, str, str]:
 
 def _message_kind(member: Field, key: str, message_class: type) -> Kind:
     check, fresh, variable = f"_check_{key}", f"_fresh_{key}", class_variable(message_class)
+    inner: tuple[Kind, ...] = message_class._KINDS  # type: ignore[attr-defined]
+    lines = 1 + sum(kind.lines for kind in inner)
     return Kind(
         name=member.name,
         check=check,
@@ -128,6 +151,8 @@ def _message_kind(member: Field, key: str, message_class: type) -> Kind:
             fresh: message_class._FRESH,  # type: ignore[attr-defined]
             variable: message_class,
         },
+        weight=weight_of(inner),
+        lines=lines if lines <= MOST_LINES else 1,
     )
 
 
@@ -166,6 +191,7 @@ def _numpy_kind(member: Field, key: str) -> Kind:
             construct: checks.numpy_constructor(member.name, type_),
             "_numpy": numpy,
         },
+        weight=type_.size or 0,
     )
 
 
@@ -188,7 +214,13 @@ def _list_kind(member: Field, key: str, message_class: type | None) -> Kind:
         copy=f"{copy}({{value}})",
         element_class=message_class,
         objects=objects,
+        weight=_list_weight(type_, message_class),
     )
+
+
+def _list_weight(type_: FieldType, message_class: type | None) -> int:
+    element = weight_of(message_class._KINDS) if message_class else 1  # type: ignore[attr-defined]
+    return (type_.size or 0) * element if type_.is_fixed else 1
 
 
 def _fresh_list(member: Field, message_class: type | None) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from array import array
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Any, NoReturn
+from typing import Any
 
 from turtle_lesson.ros.interfaces.checks import refusal
 from turtle_lesson.ros.interfaces.names import did_you_mean
@@ -58,9 +58,28 @@ def same_array(one: Any, other: Any) -> bool:
     return bool(one.shape == other.shape and (one == other).all())
 
 
-def refuse_arguments(message_class: type, unknown: Iterable[str]) -> NoReturn:
-    """Refuse constructor arguments that are no fields."""
-    names = sorted(unknown)
+class EventClass:
+    """Attribute `Event` of a service: the class of what service introspection publishes, made when first asked for."""
+
+    __slots__ = ("_make",)
+
+    def __init__(self, make: Callable[[], type]) -> None:
+        self._make = make
+
+    def __get__(self, instance: object, owner: type) -> type:
+        made = self._make()
+        owner.Event = made  # type: ignore[attr-defined]
+        return made
+
+
+def refuse_arguments(message_class: type, unknown: Iterable[str]) -> None:
+    """Refuse constructor arguments that are no fields.
+
+    `check_fields`, with which newer releases switch the checks on, is taken: here they are always on.
+    """
+    names = sorted(set(unknown) - {"check_fields"})
+    if not names:
+        return
     fields = [slot[1:] for slot in message_class.__slots__]  # type: ignore[attr-defined]
     hints = [hint for hint in (did_you_mean(name, fields) for name in names) if hint]
     note = " ".join([*hints, f"The fields are: {', '.join(fields) or 'none'}"])

@@ -21,6 +21,12 @@ from turtle_lesson.ros.interfaces.model import Definition, FieldType
 
 SHARE = Path(__file__).with_name("share")
 FOLDERS = ("msg", "srv", "action")
+ALIASES = {"turtlesim_msgs": "turtlesim"}
+"""Built-in packages that newer releases know by another name (turtlesim's interfaces since Kilted): the same classes."""
+
+DEEPEST = 50
+"""How many messages may lie within each other; Python's own stack would end at some 100."""
+
 PARSERS: dict[str, Callable[[str, str, str, str], Definition]] = {
     "msg": parse_message,
     "srv": parse_service,
@@ -105,6 +111,10 @@ class Registry:
         """Names of all packages, in alphabetical order."""
         return sorted({*self._known_built_in(), *self._added})
 
+    def knows(self, package: str) -> bool:
+        """Whether there is a package of this name, or of one that newer releases use."""
+        return package in self._added or ALIASES.get(package, package) in self._known_built_in()
+
     def interface_names(self, package: str) -> list[str]:
         """Names such as `msg/Twist` of one package: messages, services, actions."""
         return self.package(package).interface_names()
@@ -131,7 +141,7 @@ class Registry:
         found = self._classes.get(name)
         if found is None:
             package, interface = self._split(name)
-            found = vars(self.module(package, interface)).get(interface.partition("/")[2])
+            found = getattr(self.module(package, interface), interface.partition("/")[2], None)
             if found is None:
                 raise LookupError(f"'{name}' is no part of a service or action")
             self._classes[name] = found
@@ -176,6 +186,8 @@ class Registry:
         if name in self._in_progress:
             circle = " -> ".join([*self._in_progress, name])
             raise UnknownMessageType(f"a message cannot contain itself: {circle}")
+        if len(self._in_progress) >= DEEPEST:
+            raise UnknownMessageType(f"messages lie within each other more than {DEEPEST} deep")
         self._in_progress.append(name)
         self._uses[name] = {owner.name}
         try:
@@ -198,7 +210,7 @@ class Registry:
 
     def package(self, name: str) -> Package:
         """One package; LookupError where there is none of that name."""
-        owner = self._added.get(name) or self._known_built_in().get(name)
+        owner = self._added.get(name) or self._known_built_in().get(ALIASES.get(name, name))
         if owner is None:
             raise LookupError(f"there is no interface package '{name}'. {self._hint(name)}".rstrip())
         return owner
@@ -235,7 +247,8 @@ class Registry:
         for owner in [*self._added.values(), *self._known_built_in().values()]:
             if owner.name in stale:
                 owner.modules.clear()
-                forget_modules(owner.name)
+                for name in (owner.name, *(alias for alias, real in ALIASES.items() if real == owner.name)):
+                    forget_modules(name)
 
 
 registry = Registry()

@@ -189,14 +189,13 @@ def _copy_fields(new: str, old: str, kinds: tuple[Kind, ...], packed: list[tuple
         target, source = f"{new}._{kind.name}", f"{old}._{kind.name}"
         if kind.is_float32:
             packed.append((target, source))
-        elif kind.message_class is None:
+        elif kind.message_class is None or kind.inlined is None:
             lines.append(f"{target} = {kind.copy.format(value=source)}")
         else:
             inner_new, inner_old = f"{new}__{kind.name}", f"{old}__{kind.name}"
             lines.append(f"{inner_old} = {source}")
             lines.append(f"{target} = {inner_new} = _new({class_variable(kind.message_class)})")
-            inner_kinds: tuple[Kind, ...] = kind.message_class._KINDS  # type: ignore[attr-defined]
-            lines += _copy_fields(inner_new, inner_old, inner_kinds, packed)
+            lines += _copy_fields(inner_new, inner_old, kind.inlined, packed)
     return lines
 
 
@@ -209,11 +208,10 @@ def _fresh_fields(new: str, kinds: tuple[Kind, ...]) -> Lines:
     lines: Lines = []
     for kind in kinds:
         target = f"{new}._{kind.name}"
-        if kind.message_class is None:
+        if kind.message_class is None or kind.inlined is None:
             lines.append(f"{target} = {kind.fresh}")
         else:
             inner_new = f"{new}__{kind.name}"
             lines.append(f"{target} = {inner_new} = _new({class_variable(kind.message_class)})")
-            inner_kinds: tuple[Kind, ...] = kind.message_class._KINDS  # type: ignore[attr-defined]
-            lines += _fresh_fields(inner_new, inner_kinds)
+            lines += _fresh_fields(inner_new, kind.inlined)
     return lines

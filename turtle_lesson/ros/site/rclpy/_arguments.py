@@ -1,6 +1,6 @@
 """ROS arguments of a process: `--ros-args -r from:=to -p name:=value --params-file file --log-level level`.
 
-Facts: https://docs.ros.org/en/humble/How-To-Guides/Node-arguments.html.
+Facts: https://docs.ros.org/en/humble/How-To-Guides/Node-arguments.html, rcl's arguments.c, and recordings.
 """
 
 from __future__ import annotations
@@ -8,38 +8,58 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 from turtle_lesson.ros.graph.names import Remap
 
+from ._params_file import Entry, read_parameter_file
+from ._yaml_values import YamlValueError, tree, value_of
 from .exceptions import RCLError, UnknownROSArgsError
 from .parameter import Parameter
 
 FAILED = "failed to initialize rcl:"
 LEVELS = ("DEBUG", "INFO", "WARN", "ERROR", "FATAL")
-NAME = re.compile(r"[\w/~{}*]+")
+NAME = re.compile(r"[\w/~{}]+", re.ASCII)
+SWITCH = re.compile(r"--(enable|disable)-(rosout|stdout|external-lib)-logs")
+OBSOLETE = re.compile(r"(__ns|__node|__name|[\w/~{}:]*?[\w~}]):=[\w/~{}]+", re.ASCII)
+SCHEMES = {"rostopic": False, "rosservice": True}
 
 
 @dataclass
 class Arguments:
-    """What the ROS arguments say: remappings, parameter values (node pattern, name, value), the log level."""
+    """What the ROS arguments say."""
 
     remaps: list[Remap] = field(default_factory=list)
-    parameters: list[tuple[str, str, Any]] = field(default_factory=list)
+    parameters: list[Entry] = field(default_factory=list)
     log_levels: dict[str, str] = field(default_factory=dict)
+    """By logger; '' is the default."""
+    switches: dict[str, bool] = field(default_factory=dict)
+    """Whether logs go to `rosout`, `stdout` and `external-lib`, as far as that is said."""
+    unknown: list[str] = field(default_factory=list)
+    obsolete: list[str] = field(default_factory=list)
+    """Remapping rules that are given as ROS 2 had it before `--ros-args`."""
 
     def parameters_of(self, full_name: str) -> list[Parameter]:
-        """The values for the node of this full name; of several for one parameter the last one counts."""
-        return [
-            Parameter(name, value=value)
-            for pattern, name, value in self.parameters
-            if pattern_matches(pattern, full_name)
-        ]
+        """The values for the node of this full name.
+
+        They are gathered by the nodes that they are given for, in the order in which those are first named; of several
+        that mean this node the last one counts. So `-p` need not win over a file that names the node (rclpy's node.cpp).
+        """
+        by_nodes: dict[str, dict[str, Any]] = {}
+        for nodes, name, value in self.parameters:
+            by_nodes.setdefault(nodes, {})[name] = value
+        found: dict[str, Any] = {}
+        for nodes, values in by_nodes.items():
+            if pattern_matches(nodes, full_name):
+                found.update(values)
+        return [Parameter(name, value=value) for name, value in found.items()]
 
 
 def parse_arguments(words: list[str]) -> Arguments:
-    """Read the ROS arguments among a process's arguments; what is not between `--ros-args` and `--` is skipped."""
+    """Read the ROS arguments among a process's arguments; what is not between `--ros-args` and `--` is skipped.
+
+    Raises RCLError for what cannot be read, UnknownROSArgsError for what means nothing.
+    """
     found = Arguments()
     inside = False
     iterator = iter(words)
@@ -50,6 +70,13 @@ def parse_arguments(words: list[str]) -> Arguments:
             inside = False
         elif inside:
             _take(word, iterator, found)
+        elif OBSOLETE.fullmatch(word):
+            found.remaps.append(_remap(word))
+            found.obsolete.append(word)
+    if found.unknown:
+        error = UnknownROSArgsError(str(found.unknown))
+        error.add_note("After --ros-args stand -r, -p, --params-file, --log-level and their like; -- ends them.")
+        raise error
     return found
 
 
@@ -59,21 +86,16 @@ def _take(word: str, following: Iterator[str], found: Arguments) -> None:
     elif word in {"-p", "--param"}:
         found.parameters.append(_parameter(_next(word, following)))
     elif word == "--params-file":
-        found.parameters.extend(read_parameter_file(_next(word, following)))
+        found.parameters.extend(_parameter_file(_next(word, following)))
     elif word == "--log-level":
         name, level = _log_level(_next(word, following))
         found.log_levels[name] = level
-    elif word in {"-e", "--enclave", "--log-config-file"}:
+    elif word in {"-e", "--enclave", "--log-config-file", "--log-file-name"}:
         _next(word, following)
-    elif word not in _SWITCHES:
-        raise UnknownROSArgsError(
-            f"Found unknown ROS arguments: [{word}]; known are -r, -p, --params-file, --log-level"
-        )
-
-
-_SWITCHES = {
-    f"--{state}-{what}-logs" for state in ("enable", "disable") for what in ("rosout", "stdout", "external-lib")
-}
+    elif (switch := SWITCH.fullmatch(word)) is not None:
+        found.switches[switch[2]] = switch[1] == "enable"
+    else:
+        found.unknown.append(word)
 
 
 def _next(word: str, following: Iterator[str]) -> str:
@@ -87,108 +109,47 @@ def _remap(rule: str) -> Remap:
     node, colon, name = match.partition(":")
     if not colon or name.startswith("//"):
         node, name = "", match
-    parts = [part.removeprefix("rostopic://").removeprefix("rosservice://") for part in (name, replacement)]
-    if not separator or not all(NAME.fullmatch(part) for part in parts):
+    scheme, slashes, rest = name.partition("://")
+    name, is_service = (rest, SCHEMES.get(scheme)) if slashes else (name, None)
+    replacement = replacement.removeprefix(f"{scheme}://") if slashes else replacement
+    good = all(NAME.fullmatch(part) for part in (name, replacement)) and (not slashes or scheme in SCHEMES)
+    if not separator or not good or (colon and node and not NAME.fullmatch(node)):
         raise RCLError(f"{FAILED} Couldn't parse remap rule: '-r {rule}'. A rule looks like old_name:=new_name")
     if name == "__ns" and not replacement.startswith("/"):
         raise RCLError(
             f"{FAILED} Couldn't parse remap rule: '-r {rule}'. A namespace is given in full: __ns:=/{replacement}"
         )
-    return Remap(name, replacement, node or None)
+    return Remap(name, replacement, node or None, is_service)
 
 
-def _parameter(rule: str) -> tuple[str, str, Any]:
+def _parameter(rule: str) -> Entry:
     name, separator, text = rule.partition(":=")
-    if not separator or not name or not text:
-        raise RCLError(f"{FAILED} Couldn't parse parameter override rule: '-p {rule}'. A rule looks like name:=value")
     node, colon, own = name.partition(":")
+    if not separator or not name or not text or (colon and not own):
+        raise RCLError(f"{FAILED} Couldn't parse parameter override rule: '-p {rule}'. A rule looks like name:=value")
     try:
-        value = load_yaml(text)
-    except yaml_error() as error:
-        raise RCLError(
-            f"{FAILED} Couldn't parse parameter override rule: '-p {rule}'. Its value is no YAML: {error}"
-        ) from None
-    _check_value(value, f"parameter override rule: '-p {rule}'")
-    return (f"/**/{node}" if colon else "/**", own if colon else name, value)
+        found = tree(text)
+        value = text if found is None else value_of(found)
+    except YamlValueError as error:
+        raise RCLError(f"{FAILED} Couldn't parse parameter override rule: '-p {rule}'. Error: {error}") from None
+    return (node, own, value) if colon else ("/**", name, value)
+
+
+def _parameter_file(path: str) -> list[Entry]:
+    try:
+        return read_parameter_file(path)
+    except YamlValueError as error:
+        raise RCLError(f"{FAILED} Couldn't parse params file: '--params-file {path}'. Error: {error}") from None
 
 
 def _log_level(rule: str) -> tuple[str, str]:
     name, _, level = rule.rpartition(":=")
     if level.upper() not in LEVELS:
-        raise RCLError(f"{FAILED} Couldn't parse log level: '--log-level {rule}'. Levels are {', '.join(LEVELS)}")
+        raise RCLError(
+            f"{FAILED} Couldn't parse log level: '--log-level {rule}'. Error: Argument does not use a valid severity level; "
+            f"levels are {', '.join(LEVELS)}"
+        )
     return name, level
-
-
-def read_parameter_file(path: str) -> list[tuple[str, str, Any]]:
-    """The values in a YAML parameter file: node pattern, parameter name (nested ones joined by dots), value."""
-    what = f"params file: '--params-file {path}'"
-    try:
-        content = load_yaml(Path(path).read_text(encoding="utf-8"))
-    except OSError as error:
-        raise RCLError(f"{FAILED} Couldn't parse {what}. Error: Error opening YAML file: {error.strerror}") from None
-    except yaml_error() as error:
-        raise RCLError(f"{FAILED} Couldn't parse {what}. Error: Error parsing the YAML file: {error}") from None
-    if not isinstance(content, dict):
-        raise RCLError(
-            f"{FAILED} Couldn't parse {what}. Error: it should map node names to `ros__parameters:`, found {content!r}"
-        )
-    found = list(_entries(content, "", what))
-    for _, _, value in found:
-        _check_value(value, what)
-    return found
-
-
-def _entries(content: dict[str, Any], pattern: str, what: str) -> Iterator[tuple[str, str, Any]]:
-    for key, value in content.items():
-        if key == "ros__parameters":
-            for name, leaf in _flatten(value or {}, ""):
-                yield (pattern, name, leaf)
-        elif isinstance(value, dict):
-            yield from _entries(value, f"{pattern}/{str(key).strip('/')}", what)
-        else:
-            raise RCLError(
-                f"{FAILED} Couldn't parse {what}. Error: Cannot have a value before ros__parameters: "
-                f"indent '{key}: {value}' beneath that word"
-            )
-
-
-def _flatten(values: dict[str, Any], prefix: str) -> Iterator[tuple[str, Any]]:
-    for key, value in values.items():
-        if isinstance(value, dict):
-            yield from _flatten(value, f"{prefix}{key}.")
-        else:
-            yield (f"{prefix}{key}", value)
-
-
-def _check_value(value: Any, what: str) -> None:
-    """Raise RCLError for a list of several types, and for what no parameter can have as its value."""
-    items = value if isinstance(value, list) else [value]
-    for item in items:
-        if not isinstance(item, (bool, int, float, str)):
-            raise RCLError(f"{FAILED} Couldn't parse {what}. Error: {item!r} cannot be the value of a parameter")
-    if len({type(item) for item in items}) > 1:
-        raise RCLError(
-            f"{FAILED} Couldn't parse {what}. Error: Sequence should be of same type, got {value!r}; "
-            "write 1.0 for a whole number among others"
-        )
-
-
-def load_yaml(text: str) -> Any:
-    """What a YAML text means to ROS, which also takes 1e3 for a number. Raises yaml.YAMLError."""
-    import yaml
-
-    class Loader(yaml.SafeLoader):
-        pass
-
-    Loader.add_implicit_resolver("tag:yaml.org,2002:float", re.compile(r"[-+]?\d+[eE][-+]?\d+$"), list("-+0123456789"))
-    return yaml.load(text, Loader)
-
-
-def yaml_error() -> type[Exception]:
-    """The error of a text that is no YAML. (PyYAML is only imported where a YAML text is read.)"""
-    import yaml
-
-    return yaml.YAMLError
 
 
 def pattern_matches(pattern: str, full_name: str) -> bool:

@@ -6,18 +6,19 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from . import type_support
-from ._missing import refuse_unbuilt
 from ._node_graph import NodeGraph
-from ._qos_events import QoSEvents, mismatch_text, unenforced_text
+from ._qos_best_available import choose_for_publisher, choose_for_subscription, is_left_open
+from ._qos_events import QoSEvents
 from ._waitables import WaitableEntity
 from .callback_groups import CallbackGroup, ReentrantCallbackGroup
 from .client import Client
+from .event_handler import EventHandler, PublisherEventCallbacks, SubscriptionEventCallbacks, checked_callbacks
 from .exceptions import RCLError, refuse_destroyed
 from .guard_condition import GuardCondition
 from .publisher import Publisher
-from .qos import QoSProfile, checked_profile, qos_profile_services_default
+from .qos import QoSProfile, checked_profile, copied, qos_profile_services_default, usable_quality
 from .service import Service
-from .subscription import Subscription
+from .subscription import NO_FILTER, Subscription
 from .timer import Rate, Timer, period_ns
 
 if TYPE_CHECKING:
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
     from .context import Context
     from .executors import Executor
     from .impl.rcutils_logger import RcutilsLogger
+    from .qos_overriding_options import QoSOverridingOptions
     from .waitable import Waitable
 
 
@@ -68,27 +70,30 @@ class NodeEntities(NodeGraph):
         qos_profile: QoSProfile | int,
         *,
         callback_group: CallbackGroup | None = None,
-        event_callbacks: Any = None,
-        qos_overriding_options: Any = None,
+        event_callbacks: PublisherEventCallbacks | None = None,
+        qos_overriding_options: QoSOverridingOptions | None = None,
         publisher_class: type[Publisher] = Publisher,
     ) -> Publisher:
         """Publish messages of a type on a topic. `qos_profile`: a QoSProfile, or how many to keep for late takers.
 
-        Raises InvalidTopicNameException, AttributeError or RuntimeError (no message type), TypeError, ValueError.
+        Raises InvalidTopicNameException, AttributeError or RuntimeError (no message type), TypeError, ValueError,
+        RCLError, InvalidQosOverridesError.
         """
         self._ros_check_alive()
-        refuse_unbuilt(event_callbacks=event_callbacks, qos_overriding_options=qos_overriding_options)
-        profile = checked_profile(qos_profile)
+        callbacks = checked_callbacks(event_callbacks, PublisherEventCallbacks)
         full_name = self._ros_full_name_of(topic)
+        profile = self._ros_profile(Publisher, full_name, checked_profile(qos_profile), qos_overriding_options)
+        quality = usable_quality(profile, "publisher")
         type_support.check_is_valid_msg_type(msg_type)
         self._ros_check_one_type("publisher", full_name, msg_type)
         kind = msg_type if isinstance(msg_type, type) else type(msg_type)
-        writer = self._ros_graph.add_writer(self._ros_entry, full_name, kind._TYPE_NAME, profile.quality())  # type: ignore[attr-defined]
-        writer.profile = profile  # type: ignore[attr-defined]
-        writer.on_mismatch = lambda policy: self._ros_warn(mismatch_text(topic, policy, publishes=True))
-        publisher = publisher_class(writer, kind, topic, profile, self._ros_logger.name)
+        writer = self._ros_graph.add_writer(self._ros_entry, full_name, kind._TYPE_NAME, quality)  # type: ignore[attr-defined]
+        writer.profile = profile
+        group = callback_group or self._ros_default_callback_group
+        publisher = publisher_class(writer, kind, topic, profile, event_callbacks=callbacks, callback_group=group)
         self._ros_publishers.append(publisher)
-        self._ros_say_unenforced("publisher", topic, profile)
+        for handler in publisher.event_handlers:
+            self._ros_keep(handler)
         return publisher
 
     def create_subscription(
@@ -99,28 +104,50 @@ class NodeEntities(NodeGraph):
         qos_profile: QoSProfile | int,
         *,
         callback_group: CallbackGroup | None = None,
-        event_callbacks: Any = None,
-        qos_overriding_options: Any = None,
+        event_callbacks: SubscriptionEventCallbacks | None = None,
+        qos_overriding_options: QoSOverridingOptions | None = None,
         raw: bool = False,
+        content_filter_options: Any = None,
     ) -> Subscription:
         """Have `callback(message)` called for each message of a topic; the queue keeps `qos_profile` of them.
 
-        Raises InvalidTopicNameException, AttributeError or RuntimeError (no message type), TypeError, ValueError.
+        Raises InvalidTopicNameException, AttributeError or RuntimeError (no message type), TypeError, ValueError,
+        RCLError, InvalidQosOverridesError.
         """
         self._ros_check_alive()
-        refuse_unbuilt(event_callbacks=event_callbacks, qos_overriding_options=qos_overriding_options)
-        profile = checked_profile(qos_profile)
+        if content_filter_options is not None:
+            raise NotImplementedError(NO_FILTER)
+        callbacks = checked_callbacks(event_callbacks, SubscriptionEventCallbacks)
         full_name = self._ros_full_name_of(topic)
+        profile = self._ros_profile(Subscription, full_name, checked_profile(qos_profile), qos_overriding_options)
+        quality = usable_quality(profile, "subscription")
         type_support.check_is_valid_msg_type(msg_type)
         self._ros_check_one_type("subscription", full_name, msg_type)
-        reader = self._ros_graph.add_reader(self._ros_entry, full_name, msg_type._TYPE_NAME, profile.quality())
-        reader.profile = profile  # type: ignore[attr-defined]
-        reader.on_mismatch = lambda policy: self._ros_warn(mismatch_text(topic, policy, publishes=False))
+        reader = self._ros_graph.add_reader(self._ros_entry, full_name, msg_type._TYPE_NAME, quality)
+        reader.profile = profile
         group = callback_group or self._ros_default_callback_group
-        self._ros_say_unenforced("subscription", topic, profile)
-        return self._ros_keep(
-            Subscription(reader, msg_type, topic, callback, group, profile, raw, self._ros_logger.name)
-        )
+        subscription = Subscription(reader, msg_type, topic, callback, group, profile, raw, callbacks)
+        self._ros_keep(subscription)
+        for handler in subscription.event_handlers:
+            self._ros_keep(handler)
+        return subscription
+
+    def _ros_profile(
+        self, kind: type[Publisher] | type[Subscription], name: str, profile: QoSProfile, options: QoSOverridingOptions | None
+    ) -> QoSProfile:
+        """A profile as it is used: overridden by parameters, and with what is left to the others on the topic."""
+        if options is not None:
+            from .qos_overriding_options import _declare_qos_parameters
+
+            profile = copied(profile)
+            _declare_qos_parameters(kind, self, name, profile, options)  # type: ignore[arg-type]
+        if is_left_open(profile):
+            profile, topic = copied(profile), self._ros_graph.topic(name)
+            if kind is Publisher:
+                choose_for_publisher(profile, [reader.quality for reader, _ in topic.readers])
+            else:
+                choose_for_subscription(profile, [writer.quality for writer, _ in topic.writers])
+        return profile
 
     def _ros_check_one_type(self, what: str, full_name: str, msg_type: Any) -> None:
         """Within one process ROS refuses a second type on a topic; between processes it only never connects."""
@@ -132,10 +159,6 @@ class NodeEntities(NodeGraph):
                     f"Failed to create {what}: failed to create topic [rt{full_name}] because it's already in use in this "
                     f"context with a different message type: it is {type_name}, asked for was {msg_type._TYPE_NAME}"
                 )
-
-    def _ros_say_unenforced(self, what: str, topic: str, profile: QoSProfile) -> None:
-        if text := unenforced_text(what, topic, profile):
-            self._ros_logger.warning(text)
 
     def _ros_warn(self, text: str) -> None:
         """Log a warning when the node is spun."""
@@ -217,7 +240,7 @@ class NodeEntities(NodeGraph):
     def add_waitable(self, waitable: Waitable) -> None:
         """Have the node's executor wait for something of one's own, too."""
         self._ros_check_alive()
-        self._ros_keep(WaitableEntity(waitable))
+        self._ros_keep(waitable if isinstance(waitable, EventHandler) else WaitableEntity(waitable))
 
     # -- taking things away ----------------------------------------------------------------------------------------
 
@@ -259,7 +282,7 @@ class NodeEntities(NodeGraph):
     def remove_waitable(self, waitable: Waitable) -> None:
         """No longer wait for a waitable. Raises ValueError if it is not this node's."""
         for entity in list(self._ros_waiting_entities):
-            if isinstance(entity, WaitableEntity) and entity.waitable is waitable:
+            if isinstance(entity, (WaitableEntity, EventHandler)) and entity.waitable is waitable:
                 self._ros_destroy(entity)
                 return
         raise ValueError(f"{waitable!r} was never added to this node with add_waitable")

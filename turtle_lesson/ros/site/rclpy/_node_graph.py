@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from turtle_lesson.ros.graph.names import Remap
 
 NamesAndTypes = list[tuple[str, list[str]]]
+FEEDBACK = "/_action/feedback"
 
 
 class NodeGraph:
@@ -37,7 +38,9 @@ class NodeGraph:
         validate_full_topic_name(full_name, is_service=is_service)
         if only_expand:
             return full_name
-        return remap(full_name, self._ros_entry.name, self._ros_entry.namespace, self._ros_remaps)
+        return remap(
+            full_name, self._ros_entry.name, self._ros_entry.namespace, self._ros_remaps, is_service=is_service
+        )
 
     def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
         """The full name of a topic, after remapping."""
@@ -99,6 +102,18 @@ class NodeGraph:
         """The services that a node is a client of. Raises NodeNameNonExistentError."""
         return _types_by_service(self._ros_entry_of(node_name, node_namespace).clients)
 
+    def get_action_names_and_types(self) -> NamesAndTypes:
+        """All actions, with their types (newer releases)."""
+        return _actions(self.get_topic_names_and_types())
+
+    def get_action_client_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
+        """The actions that a node is a client of (newer releases). Raises NodeNameNonExistentError."""
+        return _actions(self.get_subscriber_names_and_types_by_node(node_name, node_namespace))
+
+    def get_action_server_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
+        """The actions that a node offers (newer releases). Raises NodeNameNonExistentError."""
+        return _actions(self.get_publisher_names_and_types_by_node(node_name, node_namespace))
+
     def count_publishers(self, topic_name: str) -> int:
         """How many publishers a topic has."""
         return len(self._ros_graph.topic(self._ros_full_name_of(topic_name)).writers)
@@ -142,6 +157,15 @@ def _types_by_service(ends: list[Any]) -> NamesAndTypes:
     return [(name, sorted(types)) for name, types in sorted(found.items())]
 
 
+def _actions(topics: NamesAndTypes) -> NamesAndTypes:
+    """The actions whose feedback is published on some of these topics (rcl_action's graph.c)."""
+    return [
+        (name.removesuffix(FEEDBACK), [each.removesuffix("_FeedbackMessage") for each in types])
+        for name, types in topics
+        if name.endswith(FEEDBACK)
+    ]
+
+
 def _info(end: Writer | Reader, type_name: str, kind: TopicEndpointTypeEnum) -> TopicEndpointInfo:
     node = end.node
     ends: list[Any] = [*node.writers, *node.readers]
@@ -153,5 +177,5 @@ def _info(end: Writer | Reader, type_name: str, kind: TopicEndpointTypeEnum) -> 
         topic_type=type_name,
         endpoint_type=kind,
         endpoint_gid=gid,
-        qos_profile=getattr(end, "profile", None),  # type: ignore[arg-type]
+        qos_profile=end.profile._as_used(),
     )

@@ -105,6 +105,7 @@ def _note_arrivals(entity: Any, trace: Trace) -> None:
     end = entity._reader if entity._kind == SUBSCRIPTION else entity._server
     simulation, signal, queue = trace.simulation, entity._signal, end.queue
     arrivals = entity._traced.arrivals = deque([simulation.now] * len(queue), maxlen=queue.maxlen)
+    getattr(end, "beside", []).append(arrivals)  # or what expires in the queue would leave its time behind
     note = arrivals.append
 
     def arrive() -> None:

@@ -43,15 +43,14 @@ class Duration:
         return f"Duration(nanoseconds={self._nanoseconds})"
 
     def __str__(self) -> str:
-        return repr(self) if self._nanoseconds < 2**63 - 1 else "Infinite"
+        return f"{self._nanoseconds} nanoseconds" if self._nanoseconds < 2**63 - 1 else "Infinite"
 
     def __eq__(self, other: object) -> bool:
         if isinstance(other, Duration):
             return self._nanoseconds == other._nanoseconds
         return NotImplemented
 
-    def __hash__(self) -> int:
-        return hash(self._nanoseconds)
+    __hash__ = None  # type: ignore[assignment]
 
     def __lt__(self, other: object) -> bool:
         return self._nanoseconds < _ns(other)
@@ -70,10 +69,14 @@ class Duration:
             return NotImplemented  # a Time knows how to add a duration
         return Duration(nanoseconds=self._nanoseconds + _ns(other))
 
-    def __sub__(self, other: Duration) -> Duration:
+    def __sub__(self, other: object) -> Duration:
+        if not isinstance(other, (Duration, int, float)):
+            return NotImplemented
         return Duration(nanoseconds=self._nanoseconds - _ns(other))
 
-    def __mul__(self, factor: float) -> Duration:
+    def __mul__(self, factor: object) -> Duration:
+        if not isinstance(factor, (int, float)):
+            return NotImplemented
         return Duration(nanoseconds=int(self._nanoseconds * factor))
 
 

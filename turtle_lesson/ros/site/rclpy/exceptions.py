@@ -7,8 +7,35 @@ from typing import TYPE_CHECKING, Any, NoReturn
 from turtle_lesson.ros.core import WorldClosed
 from turtle_lesson.ros.graph import names
 
+from ._rclpy_pybind11 import InvalidHandle, NodeNameNonExistentError, RCLError, UnknownROSArgsError
+
 if TYPE_CHECKING:
     from turtle_lesson.ros.core import Simulation
+
+
+__all__ = [
+    "InvalidHandle",
+    "InvalidNamespaceException",
+    "InvalidNodeNameException",
+    "InvalidParameterException",
+    "InvalidParameterTypeException",
+    "InvalidParameterValueException",
+    "InvalidServiceNameException",
+    "InvalidTopicNameException",
+    "NameValidationException",
+    "NoTypeSupportImportedException",
+    "NodeNameNonExistentError",
+    "NotInitializedException",
+    "ParameterAlreadyDeclaredException",
+    "ParameterException",
+    "ParameterImmutableException",
+    "ParameterNotDeclaredException",
+    "ParameterUninitializedException",
+    "RCLError",
+    "ROSInterruptException",
+    "UnknownROSArgsError",
+    "refuse_destroyed",
+]
 
 
 class NotInitializedException(Exception):
@@ -122,10 +149,6 @@ class ParameterUninitializedException(ParameterException):
         Exception.__init__(self, f"The parameter '{parameter_name}' is not initialized")
 
 
-class InvalidHandle(RuntimeError):
-    """Something is used after it was destroyed."""
-
-
 def refuse_destroyed(simulation: Simulation) -> NoReturn:
     """Raise what the use of something destroyed deserves; what went with its world says that instead."""
     if simulation.closed:
@@ -137,18 +160,6 @@ def refuse_destroyed(simulation: Simulation) -> NoReturn:
         "It, or its node, was destroyed, perhaps by rclpy.shutdown(). Run the cells again that make the node and this."
     )
     raise error
-
-
-class RCLError(RuntimeError):
-    """An error that the real rclpy hears from the C library beneath it."""
-
-
-class NodeNameNonExistentError(RCLError):
-    """The graph has no node of this name."""
-
-
-class UnknownROSArgsError(RuntimeError):
-    """There are words after `--ros-args` that mean nothing."""
 
 
 class ROSInterruptException(Exception):

@@ -22,6 +22,7 @@ from .callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup
 from .client import Client
 from .clock import Clock, ROSClock
 from .context import Context
+from .event_handler import EventHandler
 from .exceptions import NodeNameNonExistentError, NotInitializedException, RCLError
 from .guard_condition import GuardCondition
 from .impl.rcutils_logger import RcutilsLogger, publish_rosout
@@ -69,8 +70,9 @@ class Node(NodeEntities, NodeNews, NodeParameters):
         if not self._ros_context.ok():
             raise NotInitializedException("cannot create node")
         refuse_unbuilt(enable_logger_service=enable_logger_service)
-        arguments = self._ros_arguments_of(cli_args, use_global_arguments)
-        self._ros_remaps = arguments.remaps
+        own = parse_arguments(cli_args or [])
+        common = self._ros_context.arguments if use_global_arguments else Arguments()
+        self._ros_remaps = own.remaps + common.remaps
         name, full_namespace = self._ros_names(node_name, namespace)
         world = current_world()
         self._ros_graph = world.graph
@@ -89,7 +91,8 @@ class Node(NodeEntities, NodeNews, NodeParameters):
         self._ros_logger = RcutilsLogger(self._ros_entry.full_name.strip("/").replace("/", "."))
         self._ros_graph.add_node(self._ros_entry)
         self._ros_context.track_node(self)
-        overrides = [*arguments.parameters_of(self._ros_entry.full_name), *(parameter_overrides or [])]
+        given = [parameter for each in (common, own) for parameter in each.parameters_of(self._ros_entry.full_name)]
+        overrides = [*given, *(parameter_overrides or [])]
         self._ros_setup_parameters(overrides, allow_undeclared_parameters)
         self._ros_rosout = self._ros_publish_rosout() if enable_rosout else None
         self._ros_event_publisher = self._ros_publish_parameter_events()
@@ -111,12 +114,6 @@ class Node(NodeEntities, NodeNews, NodeParameters):
         self.destroy_node()
 
     # -- names -----------------------------------------------------------------------------------------------------
-
-    def _ros_arguments_of(self, cli_args: list[str] | None, use_global_arguments: bool) -> Arguments:
-        """This node's own ROS arguments, which go before those of the process."""
-        own = parse_arguments(cli_args or [])
-        common = self._ros_context.arguments if use_global_arguments else Arguments()
-        return Arguments(own.remaps + common.remaps, common.parameters + own.parameters)
 
     def _ros_names(self, node_name: str, namespace: str | None) -> tuple[str, str]:
         if node_name is None:
@@ -192,7 +189,7 @@ class Node(NodeEntities, NodeNews, NodeParameters):
     @property
     def waitables(self) -> Iterator[Any]:
         """Other things that the node's executor waits for."""
-        return (entity.waitable for entity in self._ros_of_kind(WaitableEntity))
+        return (entity.waitable for kind in (WaitableEntity, EventHandler) for entity in self._ros_of_kind(kind))
 
     @property
     def context(self) -> Context:  # type: ignore[override]

@@ -6,28 +6,48 @@ from typing import Any
 
 from turtle_lesson.ros.graph import Writer
 
+from ._blocking import drives_the_simulation
+from ._entity import Handle
 from ._mistakes import no_message
 from .callback_groups import CallbackGroup
+from .duration import Duration
+from .event_handler import EventHandler, PublisherEventCallbacks
 from .exceptions import refuse_destroyed
 from .qos import QoSProfile
+
+FOR_EVER = Duration(seconds=-1)
 
 
 class Publisher:
     """Made by `Node.create_publisher`."""
 
-    def __init__(self, writer: Writer, msg_type: type, topic: str, qos_profile: QoSProfile, logger_name: str) -> None:
-        self._writer: Writer | None = writer
-        self._write = writer.write
-        self._simulation = writer.topic.simulation
+    def __init__(
+        self,
+        publisher_impl: Writer,
+        msg_type: type,
+        topic: str,
+        qos_profile: QoSProfile,
+        event_callbacks: PublisherEventCallbacks,
+        callback_group: CallbackGroup,
+    ) -> None:
+        self._writer: Writer | None = publisher_impl
+        self._write = publisher_impl.write
+        self._simulation = publisher_impl.topic.simulation
         self.msg_type = msg_type
         self.topic = topic
         self.qos_profile = qos_profile
-        self.event_handlers: list[Any] = []
-        self.callback_group: CallbackGroup | None = None
-        self._logger_name = logger_name
+        self.callback_group = callback_group
+        self._logger_name = publisher_impl.node.logger_name
+        self.event_handlers: list[EventHandler] = event_callbacks.create_event_handlers(callback_group, self, topic)
 
     def __repr__(self) -> str:
         return f"<Publisher of {self.topic}>"
+
+    def __enter__(self) -> Publisher:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.destroy()
 
     @property
     def topic_name(self) -> str:
@@ -35,9 +55,9 @@ class Publisher:
         return self._end().topic.name
 
     @property
-    def handle(self) -> Any:
-        """The publisher stands for itself: there is no C object beneath it."""
-        return self
+    def handle(self) -> Handle:
+        """What stands for the C object of the real one."""
+        return Handle(self)
 
     @property
     def logger_name(self) -> str:
@@ -48,6 +68,9 @@ class Publisher:
         if self._writer is None:
             refuse_destroyed(self._simulation)
         return self._writer
+
+    def _check_alive(self) -> None:
+        self._end()
 
     def publish(self, msg: Any) -> None:
         """Send a message to all matched subscriptions. It is copied: changing `msg` later changes nothing sent.
@@ -70,19 +93,41 @@ class Publisher:
         return len(self._end().readers)
 
     def assert_liveliness(self) -> None:
-        """Say that this publisher is alive; nothing here doubts it."""
-        self._end()
+        """Say that this publisher is alive. One with MANUAL_BY_TOPIC says or publishes something within each lease."""
+        self._end().assert_liveliness()
 
-    def wait_for_all_acked(self, timeout: Any = None) -> bool:
-        """Whether everything has arrived: nothing is ever lost on the way here."""
-        return True
+    def wait_for_all_acked(self, timeout: Duration = FOR_EVER) -> bool:
+        """Wait until all reliable subscriptions have what was published; False if the timeout is over before that.
+
+        A negative timeout waits for ever, one of 0 only looks. A best-effort publisher never waits.
+        """
+        if not isinstance(timeout, Duration):
+            raise TypeError(f"the timeout must be a Duration, got {timeout!r}: try Duration(seconds=1)")
+        writer = self._end()
+        if timeout.nanoseconds == 0 or writer.next_acknowledgement() is None:
+            return writer.next_acknowledgement() is None
+        return _wait_for_all_acked(writer, timeout.nanoseconds)
 
     def destroy(self) -> None:
         """Leave the topic."""
         if self._writer is not None:
+            for handler in self.event_handlers:
+                handler.destroy()
             self._writer.node.process.locals["world"].graph.remove_topic_end(self._writer)
             self._writer = None
             self._write = self._refuse
 
     def _refuse(self, message: Any) -> None:
         refuse_destroyed(self._simulation)
+
+
+@drives_the_simulation
+def _wait_for_all_acked(writer: Writer, timeout: int) -> bool:
+    simulation = writer.topic.simulation
+    deadline = simulation.now + timeout if timeout > 0 else None
+    while (look := writer.next_acknowledgement()) is not None:
+        if deadline is not None and simulation.now >= deadline:
+            return False
+        look = max(look, simulation.now + 1)
+        simulation.sleep_until(look if deadline is None else min(look, deadline))
+    return True

@@ -1,15 +1,71 @@
-"""Quality of service profiles. Numbers and presets are those of rclpy and rmw of Humble."""
+"""Quality of service profiles. Numbers and presets are those of rclpy and rmw of Humble (rmw's qos_profiles.h).
+
+BEST_AVAILABLE, and what has it in its name, came with Iron.
+"""
 
 from __future__ import annotations
 
 import warnings
-from enum import Enum, IntEnum
+from enum import Enum
 from typing import Any
 
 from turtle_lesson.ros.graph import Quality
 
 from ._mistakes import did_you_mean
-from .duration import Duration
+from ._qos_best_available import BEST_AVAILABLE_SPAN
+from ._qos_compatibility import QoSCompatibility, qos_check_compatible
+from ._qos_policies import (
+    DurabilityPolicy,
+    HistoryPolicy,
+    LivelinessPolicy,
+    QoSPolicyEnum,
+    QoSPolicyKind,
+    ReliabilityPolicy,
+    qos_policy_name_from_kind,
+)
+from .duration import Duration, Infinite
+from .exceptions import RCLError
+
+__all__ = [
+    "DeadlineBestAvailable",
+    "DurabilityPolicy",
+    "HistoryPolicy",
+    "InvalidQoSProfileException",
+    "LivelinessLeaseDurationeBestAvailable",
+    "LivelinessPolicy",
+    "QoSCompatibility",
+    "QoSDurabilityPolicy",
+    "QoSHistoryPolicy",
+    "QoSLivelinessPolicy",
+    "QoSPolicyEnum",
+    "QoSPolicyKind",
+    "QoSPresetProfiles",
+    "QoSProfile",
+    "QoSReliabilityPolicy",
+    "ReliabilityPolicy",
+    "qos_check_compatible",
+    "qos_policy_name_from_kind",
+    "qos_profile_action_status_default",
+    "qos_profile_best_available",
+    "qos_profile_default",
+    "qos_profile_parameter_events",
+    "qos_profile_parameters",
+    "qos_profile_rosout_default",
+    "qos_profile_sensor_data",
+    "qos_profile_services_default",
+    "qos_profile_system_default",
+    "qos_profile_unknown",
+]
+
+QoSHistoryPolicy = HistoryPolicy
+QoSReliabilityPolicy = ReliabilityPolicy
+QoSDurabilityPolicy = DurabilityPolicy
+QoSLivelinessPolicy = LivelinessPolicy
+
+DeadlineBestAvailable = BEST_AVAILABLE_SPAN
+LivelinessLeaseDurationeBestAvailable = BEST_AVAILABLE_SPAN  # so it is spelled in the real one
+
+NO_DEPTH = "A zero depth with KEEP_LAST doesn't make sense; no data could be stored."
 
 
 class InvalidQoSProfileException(Exception):
@@ -19,67 +75,17 @@ class InvalidQoSProfileException(Exception):
         super().__init__("Invalid QoSProfile", *args)
 
 
-class _Policy(IntEnum):
-    @property
-    def short_key(self) -> str:
-        """The policy's name as the command line has it."""
-        return self.name.lower()
-
-    @classmethod
-    def short_keys(cls) -> list[str]:
-        """All names as the command line has them."""
-        return [policy.name.lower() for policy in cls]
-
-    @classmethod
-    def get_from_short_key(cls, name: str) -> Any:
-        """The policy of a name."""
-        return cls[name.upper()]
-
-
-class HistoryPolicy(_Policy):
-    """How many messages a queue keeps."""
-
-    SYSTEM_DEFAULT = 0
-    KEEP_LAST = 1
-    KEEP_ALL = 2
-    UNKNOWN = 3
-
-
-class ReliabilityPolicy(_Policy):
-    """Whether a lost message is sent again."""
-
-    SYSTEM_DEFAULT = 0
-    RELIABLE = 1
-    BEST_EFFORT = 2
-    UNKNOWN = 3
-
-
-class DurabilityPolicy(_Policy):
-    """Whether late subscriptions get earlier messages."""
-
-    SYSTEM_DEFAULT = 0
-    TRANSIENT_LOCAL = 1
-    VOLATILE = 2
-    UNKNOWN = 3
-
-
-class LivelinessPolicy(_Policy):
-    """How a publisher shows that it lives."""
-
-    SYSTEM_DEFAULT = 0
-    AUTOMATIC = 1
-    MANUAL_BY_TOPIC = 3
-    UNKNOWN = 4
-
-
-QoSHistoryPolicy = HistoryPolicy
-QoSReliabilityPolicy = ReliabilityPolicy
-QoSDurabilityPolicy = DurabilityPolicy
-QoSLivelinessPolicy = LivelinessPolicy
+_MEANT: dict[str, QoSPolicyEnum] = {
+    "reliability": ReliabilityPolicy.RELIABLE,
+    "durability": DurabilityPolicy.VOLATILE,
+    "history": HistoryPolicy.KEEP_LAST,
+    "liveliness": LivelinessPolicy.AUTOMATIC,
+}
+"""What `system default` stands for."""
 
 _FIELDS: dict[str, tuple[type, Any]] = {
     "history": (HistoryPolicy, HistoryPolicy.KEEP_LAST),
-    "depth": (int, 0),
+    "depth": (int, 10),
     "reliability": (ReliabilityPolicy, ReliabilityPolicy.RELIABLE),
     "durability": (DurabilityPolicy, DurabilityPolicy.VOLATILE),
     "lifespan": (Duration, Duration()),
@@ -110,14 +116,14 @@ class QoSProfile:
         if name not in _FIELDS:
             raise AttributeError(f"QoSProfile has no policy {name!r}; it has {', '.join(_FIELDS)}")
         kind = _FIELDS[name][0]
-        if issubclass(kind, _Policy) and isinstance(value, int):
+        if issubclass(kind, QoSPolicyEnum) and isinstance(value, int):
             value = kind(value)
         assert isinstance(value, kind), _expectation(name, kind, value)
         if name == "depth" and isinstance(value, int):
             if value < 0:
                 raise ValueError("history depth must be greater than or equal to zero")
             if value == 0 and getattr(self, "history", None) == HistoryPolicy.KEEP_LAST and "depth" in vars(self):
-                warnings.warn("A zero depth with KEEP_LAST doesn't make sense; no data could be stored.", stacklevel=3)
+                warnings.warn(NO_DEPTH, stacklevel=3)
         object.__setattr__(self, name, value)
 
     def __eq__(self, other: object) -> bool:
@@ -131,7 +137,7 @@ class QoSProfile:
         def shown(value: Any) -> Any:
             if isinstance(value, Duration):
                 return f"{value.nanoseconds} nanoseconds"
-            return int(value) if isinstance(value, _Policy) else value
+            return int(value) if isinstance(value, QoSPolicyEnum) else value
 
         return f"QoSProfile({', '.join(f'{name}={shown(getattr(self, name))}' for name in _FIELDS)})"
 
@@ -145,17 +151,56 @@ class QoSProfile:
             depth=None if keep_all else max(1, policies["depth"]),
             reliable=policies["reliability"] != ReliabilityPolicy.BEST_EFFORT,
             latched=policies["durability"] == DurabilityPolicy.TRANSIENT_LOCAL,
+            deadline=self._limit("deadline"),
+            lifespan=self._limit("lifespan"),
+            manual=policies["liveliness"] == LivelinessPolicy.MANUAL_BY_TOPIC,
+            lease=self._limit("liveliness_lease_duration"),
         )
+
+    def _limit(self, name: str) -> int | None:
+        """A span in ns; None if it has no end, which is also what 0, the default, stands for."""
+        nanoseconds = getattr(self, name).nanoseconds
+        return None if nanoseconds in (0, Infinite.nanoseconds) else nanoseconds
+
+    def _as_used(self) -> QoSProfile:
+        """This profile as the graph shows it: with what it leaves open filled in, as Cyclone DDS does."""
+        policies = dict(vars(self))
+        for name, meant in _MEANT.items():
+            if policies[name].name == "SYSTEM_DEFAULT":
+                policies[name] = meant
+        for name in ("lifespan", "deadline", "liveliness_lease_duration"):
+            policies[name] = policies[name] if policies[name].nanoseconds else Infinite
+        policies["depth"] = max(1, policies["depth"])
+        return QoSProfile(**policies)
 
 
 def _expectation(name: str, kind: type, value: object) -> str:
     """What a policy must be, for one who gave something else."""
     example = {int: "10", bool: "True", Duration: "Duration(seconds=1)"}.get(kind, "")
-    if issubclass(kind, _Policy):
+    if issubclass(kind, QoSPolicyEnum):
         words = [f"{kind.__name__}.{key}" for key in kind.__members__ if key not in {"SYSTEM_DEFAULT", "UNKNOWN"}]
         close = [word for word in words if str(value).upper().endswith(word.rpartition(".")[2])]
         example = (close or words)[0]
     return f"QoS policy {name!r} must be of type {kind.__name__}, got {value!r}: try {name}={example}"
+
+
+def copied(profile: QoSProfile) -> QoSProfile:
+    """A profile of the same policies, so that changing it does not change one that others use, too."""
+    return QoSProfile(**vars(profile))
+
+
+def usable_quality(profile: QoSProfile, what: str) -> Quality:
+    """What a profile means for delivery. Raises RCLError where no publisher or subscription (`what`) can be made of it."""
+    policies = vars(profile)
+    unknown = [name for name in _MEANT if policies[name].name == "UNKNOWN"]
+    past = [name for name, value in policies.items() if isinstance(value, Duration) and value.nanoseconds < 0]
+    if unknown:
+        reason = f"the policy {unknown[0]} of its QoS profile is UNKNOWN, which stands for none: choose one"
+    elif past:
+        reason = f"the {past[0]} of its QoS profile is negative: {policies[past[0]]}"
+    else:
+        return profile.quality()
+    raise RCLError(f"Failed to create {what}: {reason}")
 
 
 def checked_profile(profile: Any) -> QoSProfile:
@@ -196,6 +241,17 @@ qos_profile_services_default = _keep_last(10)
 qos_profile_parameters = _keep_last(1000)
 qos_profile_parameter_events = _keep_last(1000)
 qos_profile_default = _keep_last(10)
+qos_profile_rosout_default = QoSProfile(
+    depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL, lifespan=Duration(seconds=10)
+)
+qos_profile_best_available = QoSProfile(
+    depth=10,
+    reliability=ReliabilityPolicy.BEST_AVAILABLE,
+    durability=DurabilityPolicy.BEST_AVAILABLE,
+    deadline=DeadlineBestAvailable,
+    liveliness=LivelinessPolicy.BEST_AVAILABLE,
+    liveliness_lease_duration=LivelinessLeaseDurationeBestAvailable,
+)
 qos_profile_action_status_default = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
@@ -210,6 +266,7 @@ class QoSPresetProfiles(Enum):
     PARAMETERS = qos_profile_parameters
     PARAMETER_EVENTS = qos_profile_parameter_events
     ACTION_STATUS_DEFAULT = qos_profile_action_status_default
+    BEST_AVAILABLE = qos_profile_best_available
 
     @classmethod
     def short_keys(cls) -> list[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from datetime import datetime
 from typing import Any
 
 from .clock_type import ClockType
@@ -15,7 +16,7 @@ class Time:
     """`Time(seconds=…, nanoseconds=…, clock_type=…)`: ns since the clock's beginning, never negative."""
 
     def __init__(
-        self, *, seconds: float = 0, nanoseconds: int = 0, clock_type: ClockType = ClockType.SYSTEM_TIME
+        self, *, seconds: float = 0, nanoseconds: float = 0, clock_type: ClockType = ClockType.SYSTEM_TIME
     ) -> None:
         if not isinstance(clock_type, ClockType):
             raise TypeError("Clock type must be a ClockType enum")
@@ -27,7 +28,12 @@ class Time:
         if total >= _LIMIT:
             raise OverflowError("Total nanoseconds value is too large to store in C time point.")
         self._nanoseconds = total
-        self.clock_type = clock_type
+        self._clock_type = clock_type
+
+    @property
+    def clock_type(self) -> ClockType:
+        """The kind of clock that this time is of."""
+        return self._clock_type
 
     @property
     def nanoseconds(self) -> int:
@@ -44,6 +50,12 @@ class Time:
 
         seconds, nanoseconds = self.seconds_nanoseconds()
         return Message(sec=seconds, nanosec=nanoseconds)
+
+    def to_datetime(self) -> datetime:
+        """As a date and time of day, in the computer's time zone. Raises TypeError for steady time, which has none."""
+        if self.clock_type not in (ClockType.ROS_TIME, ClockType.SYSTEM_TIME):
+            raise TypeError("Time object's clock type should be either ROS_TIME or SYSTEM_TIME")
+        return datetime.fromtimestamp(self._nanoseconds / S_TO_NS)
 
     @classmethod
     def from_msg(cls, msg: Any, clock_type: ClockType = ClockType.ROS_TIME) -> Time:
@@ -87,20 +99,21 @@ class Time:
         self._check(other)
         return self._nanoseconds == other._nanoseconds
 
-    def __hash__(self) -> int:
-        return hash((self._nanoseconds, self.clock_type))
+    __hash__ = None  # type: ignore[assignment]
 
     def __lt__(self, other: object) -> bool:
-        if not isinstance(other, Time):
-            return NotImplemented
-        self._check(other)
-        return self._nanoseconds < other._nanoseconds
+        return self._other(other) > self._nanoseconds if isinstance(other, Time) else NotImplemented
 
     def __le__(self, other: object) -> bool:
-        return self == other or self < other
+        return self._other(other) >= self._nanoseconds if isinstance(other, Time) else NotImplemented
 
     def __gt__(self, other: object) -> bool:
-        return not self <= other
+        return self._other(other) < self._nanoseconds if isinstance(other, Time) else NotImplemented
 
     def __ge__(self, other: object) -> bool:
-        return not self < other
+        return self._other(other) <= self._nanoseconds if isinstance(other, Time) else NotImplemented
+
+    def _other(self, other: Time) -> int:
+        """The time (ns) to compare with. Raises TypeError if it is of another clock."""
+        self._check(other)
+        return other._nanoseconds

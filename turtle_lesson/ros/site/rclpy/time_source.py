@@ -24,6 +24,11 @@ USE_SIM_TIME_NAME = "use_sim_time"
 PATIENCE = 5 * NANOSECONDS
 """How long nothing may be heard on /clock before the node is told of it (a real one waits in silence)."""
 
+SILENCE = (
+    "The parameter use_sim_time is true, but nothing has been heard on /clock so far: for this node the time stands still, "
+    "and its timers wait. Does anybody publish /clock? Without use_sim_time the node goes by the time of the system."
+)
+
 
 class TimeSource:
     """Sets the clocks that are attached to it to what its node hears on /clock."""
@@ -68,11 +73,17 @@ class TimeSource:
         node._ros_simulation.call_later(PATIENCE, self._warn_of_silence)
 
     def _warn_of_silence(self) -> None:
-        if self._is_active and not self._heard and self._node is not None:
-            self._node._ros_warn(
-                f"The parameter use_sim_time is true, but nothing has been heard on {CLOCK_TOPIC} so far: for this node the "
-                "time stands still, and its timers wait. Who publishes it? Or: ros2 param set … use_sim_time false"
-            )
+        """Have the node say, when it is spun, that its time stands still."""
+        node = self._node
+        if node is None or node._ros_destroyed or self._heard or not self._is_active:
+            return
+
+        def say() -> None:
+            node.get_logger().warning(SILENCE)
+            node.destroy_guard_condition(guard)
+
+        guard = node.create_guard_condition(say)
+        guard.trigger()
 
     def attach_node(self, node: Node) -> None:
         """Hear /clock through a node, as soon as its parameter use_sim_time is true. Raises TypeError."""

@@ -68,18 +68,17 @@ def get_interface_path(interface_name: str) -> str:
 def _share(package: str) -> Path:
     """The folder that holds `msg/`, `srv/` and `action/` of a package."""
     _check_package(package)
-    if package in registry.packages():
+    if registry.knows(package):
         return registry.package(package).directory
     return current_packages().get(package).share if package in current_packages() else SITE / package
 
 
 def _interfaces(package_names: Iterable[str], folders: tuple[str, ...]) -> dict[str, list[str]]:
     chosen = list(package_names) or get_interface_packages()
-    known = set(registry.packages())
     found = {}
     for package in chosen:
         _check_package(package)
-        names = registry.interface_names(package) if package in known else []
+        names = registry.interface_names(package) if registry.knows(package) else []
         if wanted := [name for name in names if name.partition("/")[0] in folders]:
             found[package] = wanted
     return found
@@ -87,5 +86,5 @@ def _interfaces(package_names: Iterable[str], folders: tuple[str, ...]) -> dict[
 
 def _check_package(name: str) -> None:
     is_library = name.isidentifier() and (SITE / name / "__init__.py").is_file()
-    if name not in registry.packages() and name not in current_packages() and not is_library:
+    if not registry.knows(name) and name not in current_packages() and not is_library:
         raise LookupError(f"Unknown package '{name}'")

@@ -6,15 +6,16 @@ The rules and sentences are those of rosidl_runtime_py/set_message.py, pinned by
 from __future__ import annotations
 
 import array
-import difflib
 import warnings
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from copy import deepcopy
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
 from rosidl_parser.definition import AbstractNestedType, NamespacedType
+
+from turtle_lesson.ros.interfaces.names import did_you_mean
 
 from .convert import get_message_slot_types
 from .import_message import import_message_from_namespaced_type
@@ -128,10 +129,9 @@ def _numpy(value: Any, dtype: Any) -> Any:
         return numpy.array(value, dtype=dtype)
 
 
-def _no_such_field(message: Any, name: str, known: Iterable[str]) -> AttributeError:
+def _no_such_field(message: Any, name: str, known: list[str]) -> AttributeError:
     error = AttributeError(f"'{type(message).__name__}' object has no attribute '{_short(name)}'")
-    close = difflib.get_close_matches(name[:100], known, n=1)
-    hint = f"Did you mean '{close[0]}'?" if close else f"The fields are: {', '.join(known) or 'none'}."
+    hint = did_you_mean(name[:100], known) or f"The fields are: {', '.join(known) or 'none'}."
     if ":" in name and name.partition(":")[0] in known:
         hint = f"YAML wants a space after the colon: {name.replace(':', ': ', 1)}"
     error.add_note(hint)

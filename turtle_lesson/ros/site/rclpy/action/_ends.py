@@ -19,14 +19,17 @@ from ..type_support import check_for_type_support
 if TYPE_CHECKING:
     from .._executor import Executor
     from ..node import Node
+    from ..qos import QoSProfile
 
-SERVICES = ("send_goal", "cancel_goal", "get_result")
-TOPICS = ("feedback", "status")
+SERVICES = {"send_goal": "SendGoalService", "cancel_goal": "CancelGoalService", "get_result": "GetResultService"}
+TOPICS = {"feedback": "FeedbackMessage", "status": "GoalStatusMessage"}
 
 ORDER = {
     "client": "The order is ActionClient(node, action_type, action_name).",
     "server": "The order is ActionServer(node, action_type, action_name, execute_callback).",
 }
+
+Make = Callable[[Any, str, "QoSProfile"], Any]
 
 
 def check_action(role: str, node: Any, action_type: Any) -> None:
@@ -40,13 +43,13 @@ def check_action(role: str, node: Any, action_type: Any) -> None:
         error.add_note(f"{ORDER[role]} An action's class is wanted, such as example_interfaces.action.Fibonacci.")
         raise
     if not hasattr(action_type, "Impl"):
-        error = RuntimeError(
+        problem = RuntimeError(
             f"The action type provided is not valid ({action_type}), this might be a message or service"
         )
         name, _, part = getattr(action_type, "__name__", "").rpartition("_")
         if part in {"Goal", "Result", "Feedback"}:
-            error.add_note(f"The action's type is {name}; {name}.{part} is only a part of it.")
-        raise error
+            problem.add_note(f"The action's type is {name}; {name}.{part} is only a part of it.")
+        raise problem
 
 
 def full_names(role: str, node: Node, action_name: Any) -> dict[str, str]:
@@ -56,9 +59,9 @@ def full_names(role: str, node: Node, action_name: Any) -> dict[str, str]:
     """
     try:
         whole = node._ros_full_name_of(action_name, is_service=True)
-        parts = {part: f"{whole}/_action/{part}" for part in (*SERVICES, *TOPICS)}
         return {"": whole} | {
-            part: node._ros_full_name_of(name, is_service=part in SERVICES) for part, name in parts.items()
+            part: node._ros_full_name_of(f"{whole}/_action/{part}", is_service=part in SERVICES)
+            for part in (*SERVICES, *TOPICS)
         }
     except NameValidationException as error:
         raise ValueError(
@@ -66,11 +69,34 @@ def full_names(role: str, node: Node, action_name: Any) -> dict[str, str]:
         ) from None
 
 
-def detached(node: Node, part: Any) -> Any:
-    """A service, client, subscription or publisher that the node has just made, no longer among those of the node."""
-    for parts in (node._ros_waiting_entities, node._ros_publishers):
-        if part in parts:
-            parts.remove(part)
+def make_parts(
+    node: Node,
+    action_type: Any,
+    names: dict[str, str],
+    profiles: dict[str, QoSProfile],
+    make_service: Make,
+    make_topic: Make,
+) -> dict[str, Any]:
+    """The five ends of an action; or none of them, if one cannot be made."""
+    parts: dict[str, Any] = {}
+    try:
+        for part, type_name in (SERVICES | TOPICS).items():
+            make = make_service if part in SERVICES else make_topic
+            kind = getattr(action_type.Impl, type_name)
+            parts[part] = _detached(node, make(kind, names[part], profiles[part]))
+    except Exception:
+        for made in parts.values():
+            made.destroy()
+        raise
+    return parts
+
+
+def _detached(node: Node, part: Any) -> Any:
+    """What the node has just made, no longer among the things that it has."""
+    lists: tuple[list[Any], list[Any]] = (node._ros_waiting_entities, node._ros_publishers)
+    for things in lists:
+        if part in things:
+            things.remove(part)
     if isinstance(part, Entity):
         part._executor = None
     return part
@@ -79,7 +105,7 @@ def detached(node: Node, part: Any) -> Any:
 class ActionEntity(WaitableEntity):
     """An action server or client in a node. Its parts go with it: to an executor, and out of the graph."""
 
-    def __init__(self, waitable: Any, parts: list[Any], queues: list[deque[Any]]) -> None:
+    def __init__(self, waitable: Any, parts: dict[str, Any], queues: list[deque[Any]]) -> None:
         self._parts = parts
         self._queues = queues
         super().__init__(waitable)
@@ -94,7 +120,7 @@ class ActionEntity(WaitableEntity):
     @_executor.setter
     def _executor(self, executor: Executor | None) -> None:
         self._runs_it = executor
-        for part in self._parts:
+        for part in self._parts.values():
             if isinstance(part, Entity):
                 part._executor = executor
 
@@ -116,19 +142,6 @@ class ActionEntity(WaitableEntity):
         """Leave the node and the graph."""
         if not self._destroyed:
             super().destroy()
-            for part in self._parts:
+            for part in self._parts.values():
                 part.destroy()
-            self.waitable._ended()
-
-
-def made(node: Node, makers: list[Callable[[], Any]]) -> list[Any]:
-    """All the parts, or none if one of them cannot be made."""
-    parts: list[Any] = []
-    try:
-        for make in makers:
-            parts.append(detached(node, make()))
-    except Exception:
-        for part in parts:
-            part.destroy()
-        raise
-    return parts
+            self.waitable._end()

@@ -7,7 +7,6 @@ one it holds up everything, the cancelling of its own goal included, unless it i
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Callable
 from enum import Enum
 from typing import TYPE_CHECKING, Any
@@ -23,12 +22,15 @@ from ..qos import QoSProfile, qos_profile_action_status_default, qos_profile_ser
 from ..waitable import NumberOfEntities, Waitable
 from ._callbacks import call_back
 from ._cancelling import goals_to_cancel
-from ._ends import SERVICES, ActionEntity, check_action, full_names, made
+from ._ends import ActionEntity, check_action, full_names, make_parts
 from ._goal_handle import ServerGoalHandle
-from ._goal_states import NAMES, GoalEvent
-from ._tracing import traced
+from ._goal_states import GoalEvent
+from ._goals import Goals
+from ._tracing import noted
 
 if TYPE_CHECKING:
+    from turtle_lesson.ros.trace import Callback
+
     from ..node import Node
 
 __all__ = [
@@ -42,6 +44,12 @@ __all__ = [
     "default_goal_callback",
     "default_handle_accepted_callback",
 ]
+
+FEEDBACK = QoSProfile(depth=10)
+
+START = 200_000
+"""How long it takes from `execute()` to the execute callback (ns), about as in a real rclpy: so whoever has sent the goal
+hears that it was accepted before any feedback."""
 
 
 class GoalResponse(Enum):
@@ -102,7 +110,7 @@ class ActionServer(Waitable):
         goal_service_qos_profile: QoSProfile = qos_profile_services_default,
         result_service_qos_profile: QoSProfile = qos_profile_services_default,
         cancel_service_qos_profile: QoSProfile = qos_profile_services_default,
-        feedback_pub_qos_profile: QoSProfile = QoSProfile(depth=10),  # noqa: B008
+        feedback_pub_qos_profile: QoSProfile = FEEDBACK,
         status_pub_qos_profile: QoSProfile = qos_profile_action_status_default,
         result_timeout: float = 900,
     ) -> None:
@@ -114,32 +122,238 @@ class ActionServer(Waitable):
         self.register_execute_callback(execute_callback)
         self._node = node
         self._action_type = action_type
-        self._timeout = round(result_timeout * NANOSECONDS)
-        self._goal_handles: dict[bytes, ServerGoalHandle] = {}
-        self._results: dict[bytes, Any] = {}
-        self._asked_for_results: dict[bytes, list[Any]] = {}
-        self._ended_goals: deque[tuple[int, bytes]] = deque()  # until when each is kept (ns), in this order
-        names = full_names("server", node, action_name)
+        self._goals = Goals(node._ros_simulation, round(result_timeout * NANOSECONDS))
+        self._traced: dict[str, Callback] = {}
+        profiles = {
+            "send_goal": goal_service_qos_profile,
+            "cancel_goal": cancel_service_qos_profile,
+            "get_result": result_service_qos_profile,
+            "feedback": feedback_pub_qos_profile,
+            "status": status_pub_qos_profile,
+        }
+        self._make_parts(full_names("server", node, action_name), profiles)
+
+    def _make_parts(self, names: dict[str, str], profiles: dict[str, QoSProfile]) -> None:
+        node, group = self._node, self.callback_group
+
+        def make_service(kind: Any, name: str, profile: QoSProfile) -> Any:
+            return node.create_service(kind, name, None, qos_profile=profile, callback_group=group)  # type: ignore[arg-type]
+
         self._name = names[""]
-        impl, group = action_type.Impl, self.callback_group
-        services: list[tuple[Any, str, QoSProfile]] = [
-            (impl.SendGoalService, names["send_goal"], goal_service_qos_profile),
-            (impl.CancelGoalService, names["cancel_goal"], cancel_service_qos_profile),
-            (impl.GetResultService, names["get_result"], result_service_qos_profile),
-        ]
-        topics: list[tuple[Any, str, QoSProfile]] = [
-            (impl.FeedbackMessage, names["feedback"], feedback_pub_qos_profile),
-            (impl.GoalStatusMessage, names["status"], status_pub_qos_profile),
-        ]
-        parts = made(
-            node,
-            [
-                *(
-                    lambda kind=kind, name=name, qos=qos: node.create_service(
-                        kind, name, None, qos_profile=qos, callback_group=group
-                    )
-                    for kind, name, qos in services
-                ),
-                *(lambda kind=kind, name=name, qos=qos: node.create_publisher(kind, name, qos) for kind, name, qos in topics),
-            ],
-        )
+        parts = make_parts(node, self._action_type, names, profiles, make_service, node.create_publisher)
+        self._feedback, self._status = parts["feedback"], parts["status"]
+        self._requests = {
+            "goal": parts["send_goal"]._server.queue,
+            "cancel": parts["cancel_goal"]._server.queue,
+            "result": parts["get_result"]._server.queue,
+        }
+        self._entity = ActionEntity(self, parts, list(self._requests.values()))
+        for part in ("send_goal", "cancel_goal", "get_result"):
+            parts[part]._server.wake = self._entity._signal
+        node._ros_keep(self._entity)
+
+    def __repr__(self) -> str:
+        return f"<ActionServer of {self._name}>"
+
+    @property
+    def action_type(self) -> Any:
+        """The action's class."""
+        return self._action_type
+
+    # -- callbacks -------------------------------------------------------------------------------------------------
+
+    def register_handle_accepted_callback(
+        self, handle_accepted_callback: Callable[[ServerGoalHandle], Any] | None
+    ) -> None:
+        """Have this called for new goals from now on; None: execute them at once."""
+        self._handle_accepted_callback = handle_accepted_callback or default_handle_accepted_callback
+
+    def register_goal_callback(self, goal_callback: Callable[[Any], Any] | None) -> None:
+        """Have this decide about new goals from now on; None: accept all."""
+        self._goal_callback = goal_callback or default_goal_callback
+
+    def register_cancel_callback(self, cancel_callback: Callable[[ServerGoalHandle], Any] | None) -> None:
+        """Have this decide from now on whether goals are cancelled; None: cancel none."""
+        self._cancel_callback = cancel_callback or default_cancel_callback
+
+    def register_execute_callback(self, execute_callback: Callable[[ServerGoalHandle], Any] | None) -> None:
+        """Have this called from now on to reach goals. None calls nothing, as in newer releases: goals stay unended."""
+        if execute_callback is not None and not callable(execute_callback):
+            error = TypeError("Failed to register goal execution callback: not callable")
+            error.add_note("Hand over the function itself, as in self.execute_callback, without brackets.")
+            raise error
+        self._execute_callback = execute_callback
+
+    # -- what comes in ---------------------------------------------------------------------------------------------
+
+    def is_ready(self, wait_set: Any) -> bool:
+        """Whether a request waits."""
+        return any(self._requests.values())
+
+    def take_data(self) -> dict[str, Any]:
+        """Take one request of each kind."""
+        return {kind: queue.popleft() for kind, queue in self._requests.items() if queue}
+
+    async def execute(self, taken_data: dict[str, Any]) -> None:
+        """Do what the requests ask for."""
+        self._forget_expired()
+        if "goal" in taken_data:
+            await self._execute_goal_request(taken_data["goal"])
+        if "cancel" in taken_data:
+            await self._execute_cancel_request(taken_data["cancel"])
+        if "result" in taken_data:
+            self._execute_result_request(taken_data["result"])
+
+    async def _execute_goal_request(self, request: Any) -> None:
+        message, logger = request.message, self._node.get_logger()
+        shown = message.goal_id.uuid
+        logger.debug(f"New goal request with ID: {shown}")
+        info = GoalInfo(goal_id=message.goal_id)
+        accepted = self._goals.get(message.goal_id) is None and await self._is_acceptable(message.goal)
+        handle = None
+        if accepted:
+            info.stamp = self._node.get_clock().now().to_msg()
+            handle = ServerGoalHandle(self, info, message.goal)
+            self._goals.add(handle)
+        response = self._action_type.Impl.SendGoalService.Response(accepted=accepted, stamp=info.stamp)
+        request.client.reply(request.number, response)
+        if handle is None:
+            logger.debug(f"New goal rejected: {shown}")
+            return
+        logger.debug(f"New goal accepted: {shown}")
+        self._publish_status()
+        await call_back("handle_accepted_callback", self._handle_accepted_callback, handle)
+
+    async def _is_acceptable(self, goal: Any) -> bool:
+        response = await call_back("goal_callback", self._goal_callback, goal)
+        if not isinstance(response, GoalResponse):
+            self._node.get_logger().warning(
+                "Goal request callback did not return a GoalResponse type. Rejecting goal."
+            )
+        return response is GoalResponse.ACCEPT
+
+    async def _execute_cancel_request(self, request: Any) -> None:
+        self._node.get_logger().debug(f"Cancel request received: {request.message}")
+        response = self._action_type.Impl.CancelGoalService.Response()
+        response.return_code, handles = goals_to_cancel(request.message.goal_info, self._goals)
+        response.goals_canceling = [handle._goal_info for handle in handles if await self._cancel(handle)]
+        request.client.reply(request.number, response)
+
+    async def _cancel(self, handle: ServerGoalHandle) -> bool:
+        """Whether the program lets this goal be cancelled."""
+        logger = self._node.get_logger()
+        response = await call_back("cancel_callback", self._cancel_callback, handle)
+        if not isinstance(response, CancelResponse):
+            logger.warning("Cancel callback did not return a CancelResponse type. Rejecting cancel request.")
+        if response is not CancelResponse.ACCEPT:
+            return False
+        try:
+            handle._update_state(GoalEvent.CANCEL_GOAL)
+        except RCLError as error:  # it has ended meanwhile
+            logger.debug(f"Failed to cancel goal in cancel callback: {error}")
+            return False
+        return True
+
+    def _execute_result_request(self, request: Any) -> None:
+        goal_id, logger = request.message.goal_id, self._node.get_logger()
+        logger.debug(f"Result request received for goal with ID: {goal_id.uuid}")
+        if self._goals.get(goal_id) is None:
+            logger.debug(f"Sending result response for unknown goal ID: {goal_id.uuid}")
+            unknown = self._action_type.Impl.GetResultService.Response(status=GoalStatus.STATUS_UNKNOWN)
+            request.client.reply(request.number, unknown)
+            return
+        response = self._goals.ask(goal_id, request)
+        if response is not None:
+            request.client.reply(request.number, response)
+
+    # -- executing goals -------------------------------------------------------------------------------------------
+
+    def notify_execute(
+        self, goal_handle: ServerGoalHandle, execute_callback: Callable[[ServerGoalHandle], Any] | None
+    ) -> None:
+        """Have a callback, or the server's own, called for a goal by the executor of the node."""
+        callback = execute_callback or self._execute_callback
+        if callback is None:
+            return
+        executor = self._node.executor
+        if executor is None:
+            raise RuntimeError(
+                f"nobody spins {self._node!r} now, so nobody could call the execute callback of {self._name}: add the "
+                "node to an executor first, with executor.add_node(node)"
+            )
+        self._goals.begin(goal_handle)
+        simulation = self._node._ros_simulation
+        ready = simulation.now + START
+        task = (self._execute_goal, callback, goal_handle, ready)
+        simulation.at(ready, lambda task: executor.create_task(*task), task)
+
+    async def _execute_goal(
+        self, execute_callback: Callable[..., Any], goal_handle: ServerGoalHandle, ready: int
+    ) -> None:
+        shown, logger = goal_handle.goal_id.uuid, self._node.get_logger()
+        logger.debug(f"Executing goal with ID {shown}")
+        try:
+            with noted(self, execute_callback, ready):
+                result = await call_back("execute_callback", execute_callback, goal_handle)
+        except Exception as error:
+            result = self._action_type.Result()
+            logger.error(f"Error raised in execute callback: {error}")
+            print_error(error)
+        if goal_handle.is_active:
+            logger.warning(f"Goal state not set, assuming aborted. Goal ID: {shown}")
+            goal_handle.abort()
+        logger.debug(f"Goal with ID {shown} finished with state {goal_handle.status}")
+        response = self._result_response(goal_handle.status, result)
+        for request in self._goals.finish(goal_handle, response):
+            request.client.reply(request.number, response)
+
+    def _result_response(self, status: int, result: Any) -> Any:
+        try:
+            return self._action_type.Impl.GetResultService.Response(status=status, result=result)
+        except AssertionError as error:
+            name = self._action_type.__name__
+            error.add_note(
+                f"The execute callback of {self._name} returned {result!r}, where a {name}.Result is expected: end it "
+                f"with `return {name}.Result(…)`, on every way out."
+            )
+            raise
+
+    # -- what goes out ---------------------------------------------------------------------------------------------
+
+    def _publish_status(self) -> None:
+        goals = [GoalStatus(goal_info=goal._goal_info, status=goal.status) for goal in self._goals]
+        self._status.publish(GoalStatusArray(status_list=goals))
+
+    def _publish_feedback(self, goal_id: Any, feedback: Any) -> None:
+        self._feedback.publish(self._action_type.Impl.FeedbackMessage(goal_id=goal_id, feedback=feedback))
+
+    def _note_ended(self, handle: ServerGoalHandle) -> None:
+        self._goals.end(handle)
+
+    def _forget_expired(self) -> None:
+        self._goals.forget_expired()
+
+    # -- as part of a node -----------------------------------------------------------------------------------------
+
+    def _may_call_back(self) -> bool:
+        return True
+
+    def get_num_entities(self) -> NumberOfEntities:
+        """Three services, and a timer in the real one."""
+        return NumberOfEntities(num_timers=1, num_services=3)
+
+    def add_to_wait_set(self, wait_set: Any) -> None:
+        """Nothing to do: an executor here is told when a request comes."""
+
+    def __enter__(self) -> ActionServer:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        """Nothing to let go of."""
+
+    def destroy(self) -> None:
+        """Stop offering the action. Goals that go on are not followed any more."""
+        self._entity.destroy()
+
+    def _end(self) -> None:
+        self._goals.forget_all()

@@ -1,0 +1,219 @@
+"""Every interface package that comes with ROS 2: its definitions are the real ones, and its messages travel."""
+
+from __future__ import annotations
+
+import importlib
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from interface_cases import built_in, messages
+from rosbags.interfaces import Nodetype
+from rosbags.typesys import Stores, get_typestore
+
+from turtle_lesson.ros.interfaces.cdr import PLACEHOLDER, deserialize, serialize
+
+HUMBLE, KILTED = get_typestore(Stores.ROS2_HUMBLE), get_typestore(Stores.ROS2_KILTED)
+OF_THE_RECORDER = "rosbag2_interfaces/"  # what `ros2 bag` tells of its own files
+
+PACKAGES = """
+action_msgs action_tutorials_interfaces actionlib_msgs builtin_interfaces composition_interfaces diagnostic_msgs
+example_interfaces geometry_msgs lifecycle_msgs nav_msgs rcl_interfaces rmw_dds_common rosgraph_msgs sensor_msgs
+service_msgs shape_msgs statistics_msgs std_msgs std_srvs stereo_msgs tf2_msgs trajectory_msgs turtlesim
+type_description_interfaces unique_identifier_msgs visualization_msgs
+""".split()
+
+MESSAGES = [
+    f"{package}/{name}" for package in PACKAGES for name in built_in.interface_names(package) if name.startswith("msg/")
+]
+KNOWN_ELSEWHERE = [name for name in MESSAGES if name in HUMBLE.fielddefs or name in KILTED.fielddefs]
+
+
+def definition_elsewhere(name: str) -> Any:
+    """rosbags' own definition of a message: constants and fields, as Humble has them, or else Kilted."""
+    return HUMBLE.fielddefs.get(name) or KILTED.fielddefs[name]
+
+
+def as_text(described: Any) -> str:
+    """rosbags' description of a type, as a definition file would say it."""
+    kind, value = described
+    if kind == Nodetype.BASE:
+        return {"octet": "byte"}.get(value[0], value[0]) + (f"<={value[1]}" if value[1] else "")
+    if kind == Nodetype.NAME:
+        return value.replace("/msg/", "/")
+    element, size = value
+    bound = "<=" if kind == Nodetype.SEQUENCE and size else ""
+    return f"{as_text(element)}[{bound}{size or ''}]"
+
+
+def test_the_packages_are_all_there() -> None:
+    assert built_in.packages() == PACKAGES
+
+
+@pytest.mark.parametrize("name", KNOWN_ELSEWHERE)
+def test_a_message_has_the_fields_and_constants_of_the_real_one(name: str) -> None:
+    constants, fields = definition_elsewhere(name)
+    definition: Any = built_in.definition(name)
+    expected = [(member, as_text(described)) for member, described in fields if member != PLACEHOLDER]
+    assert [(field.name, str(field.type)) for field in definition.fields] == expected
+    assert [(each.name, each.type, each.value) for each in definition.constants] == [tuple(each) for each in constants]
+
+
+def test_no_message_that_humble_and_kilted_have_is_missing() -> None:
+    theirs = {*HUMBLE.fielddefs, *KILTED.fielddefs}
+    assert sorted(name for name in theirs if name not in MESSAGES and not name.startswith(OF_THE_RECORDER)) == []
+
+
+@settings(max_examples=200, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
+@given(st.data())
+def test_any_message_is_read_and_written_alike_by_another_library(data: st.DataObject) -> None:
+    """rosbags reads our bytes with its own definition of the type, and writes the same bytes again."""
+    name = data.draw(st.sampled_from(KNOWN_ELSEWHERE))
+    kind = built_in.get(name)
+    message = data.draw(messages(kind))
+    written = serialize(message)
+    store = HUMBLE if name in HUMBLE.fielddefs else KILTED
+    theirs = store.deserialize_cdr(written, name)
+    assert bytes(store.serialize_cdr(theirs, name)) == written
+    assert repr(deserialize(written, kind)) == repr(message._wire_copy())
+
+
+def test_every_default_message_travels() -> None:
+    for package in PACKAGES:
+        for interface in built_in.interface_names(package):
+            kind = built_in.get(f"{package}/{interface}")
+            for part in kind._DEFINITION.parts():
+                made = built_in.get(part.full_name)
+                assert deserialize(serialize(made()), made) == made(), part.full_name
+
+
+@pytest.mark.parametrize(
+    ("name", "parts"),
+    [
+        ("action_msgs/srv/CancelGoal", ["goal_info", "return_code goals_canceling"]),
+        ("composition_interfaces/srv/ListNodes", ["", "full_node_names unique_ids"]),
+        (
+            "composition_interfaces/srv/LoadNode",
+            [
+                "package_name plugin_name node_name node_namespace log_level remap_rules parameters extra_arguments",
+                "success error_message full_node_name unique_id",
+            ],
+        ),
+        ("composition_interfaces/srv/UnloadNode", ["unique_id", "success error_message"]),
+        ("diagnostic_msgs/srv/AddDiagnostics", ["load_namespace", "success message"]),
+        ("diagnostic_msgs/srv/SelfTest", ["", "id passed status"]),
+        ("example_interfaces/srv/AddTwoInts", ["a b", "sum"]),
+        ("example_interfaces/action/Fibonacci", ["order", "sequence", "sequence"]),
+        ("action_tutorials_interfaces/action/Fibonacci", ["order", "sequence", "partial_sequence"]),
+        ("lifecycle_msgs/srv/ChangeState", ["transition", "success"]),
+        ("lifecycle_msgs/srv/GetAvailableStates", ["", "available_states"]),
+        ("lifecycle_msgs/srv/GetAvailableTransitions", ["", "available_transitions"]),
+        ("lifecycle_msgs/srv/GetState", ["", "current_state"]),
+        ("nav_msgs/srv/GetMap", ["", "map"]),
+        ("nav_msgs/srv/GetPlan", ["start goal tolerance", "plan"]),
+        ("nav_msgs/srv/LoadMap", ["map_url", "map result"]),
+        ("nav_msgs/srv/SetMap", ["map initial_pose", "success"]),
+        ("rcl_interfaces/srv/GetLoggerLevels", ["names", "levels"]),
+        ("rcl_interfaces/srv/SetLoggerLevels", ["levels", "results"]),
+        ("sensor_msgs/srv/SetCameraInfo", ["camera_info", "success status_message"]),
+        ("tf2_msgs/srv/FrameGraph", ["", "frame_yaml"]),
+        (
+            "tf2_msgs/action/LookupTransform",
+            [
+                "target_frame source_frame source_time timeout target_time fixed_frame advanced",
+                "transform error",
+                "",
+            ],
+        ),
+        ("turtlesim/action/RotateAbsolute", ["theta", "delta", "remaining"]),
+        (
+            "type_description_interfaces/srv/GetTypeDescription",
+            [
+                "type_name type_hash include_type_sources",
+                "successful failure_reason type_description type_sources extra_information",
+            ],
+        ),
+    ],
+)
+def test_services_and_actions_have_their_fields(name: str, parts: list[str]) -> None:
+    found = [" ".join(field.name for field in part.fields) for part in built_in.definition(name).parts()]
+    assert found == parts
+
+
+def test_defaults_that_the_packages_give() -> None:
+    from geometry_msgs.msg import Pose, Quaternion, TransformStamped
+    from rcl_interfaces.msg import ParameterDescriptor
+    from type_description_interfaces.srv import GetTypeDescription
+
+    assert Pose().orientation == TransformStamped().transform.rotation == Quaternion(x=0.0, y=0.0, z=0.0, w=1.0)
+    assert ParameterDescriptor.READ_ONLY__DEFAULT is False
+    assert GetTypeDescription.Request().include_type_sources is True
+
+
+def test_constants_are_on_the_class_and_its_messages() -> None:
+    from diagnostic_msgs.msg import DiagnosticStatus
+    from lifecycle_msgs.msg import State, Transition
+    from nav_msgs.srv import LoadMap
+    from sensor_msgs.msg import BatteryState, JoyFeedback, NavSatFix, NavSatStatus, PointField, Range
+    from shape_msgs.msg import SolidPrimitive
+    from tf2_msgs.msg import TF2Error
+    from visualization_msgs.msg import InteractiveMarkerControl, Marker
+
+    assert (Marker.ARROW, Marker.SPHERE, Marker.TEXT_VIEW_FACING, Marker.MESH_RESOURCE) == (0, 2, 9, 10)
+    assert (Marker.ADD, Marker.MODIFY, Marker.DELETE, Marker().DELETEALL) == (0, 0, 2, 3)
+    assert InteractiveMarkerControl.MOVE_ROTATE == 6
+    assert (PointField.FLOAT32, PointField().FLOAT64) == (7, 8)
+    assert (NavSatFix.COVARIANCE_TYPE_KNOWN, NavSatStatus.STATUS_NO_FIX, Range.INFRARED) == (3, -1, 1)
+    assert (BatteryState.POWER_SUPPLY_TECHNOLOGY_LIPO, JoyFeedback.TYPE_BUZZER) == (3, 2)
+    assert (DiagnosticStatus.WARN, DiagnosticStatus().STALE) == (b"\x01", b"\x03")
+    assert (State.PRIMARY_STATE_ACTIVE, Transition.TRANSITION_CALLBACK_ERROR) == (3, 99)
+    assert (SolidPrimitive.CONE, TF2Error.EXTRAPOLATION_ERROR) == (4, 3)
+    assert LoadMap.Response.RESULT_UNDEFINED_FAILURE == LoadMap.Response().RESULT_UNDEFINED_FAILURE == 255
+
+
+# How programs in the wild get at them
+
+
+def test_messages_are_imported_in_every_way() -> None:
+    import nav_msgs.msg as nav
+    import tf2_msgs.msg
+    from nav_msgs.msg import OccupancyGrid
+    from nav_msgs.msg._occupancy_grid import OccupancyGrid as Same
+
+    assert nav.OccupancyGrid is OccupancyGrid is Same
+    assert importlib.import_module("nav_msgs.msg").OccupancyGrid is OccupancyGrid
+    assert getattr(importlib.import_module("nav_msgs.srv"), "GetMap").Response().map == OccupancyGrid()  # noqa: B009
+    assert tf2_msgs.msg.TFMessage().transforms == []
+    scope: dict[str, Any] = {}
+    exec("from trajectory_msgs.msg import *", scope)
+    assert {"JointTrajectory", "JointTrajectoryPoint", "MultiDOFJointTrajectory"} <= set(scope)
+
+
+def test_turtlesim_has_the_name_of_newer_releases_too() -> None:
+    """Since Kilted its interfaces are in turtlesim_msgs: here these are the same classes under another name."""
+    import turtlesim.msg
+    import turtlesim_msgs.action
+    import turtlesim_msgs.msg
+    from turtlesim_msgs.msg import Pose
+    from turtlesim_msgs.srv._spawn import Spawn
+
+    assert Pose is turtlesim.msg.Pose
+    assert built_in.get("turtlesim_msgs/msg/Pose")._TYPE_NAME == "turtlesim/msg/Pose"
+    assert Spawn.Request(name="t").name == "t"
+    assert turtlesim_msgs.action.RotateAbsolute.Goal().theta == 0.0
+    with pytest.raises(ImportError, match="Did you mean 'Pose'"):
+        from turtlesim_msgs.msg import Poze  # noqa: F401
+
+
+def test_grids_and_paths_hold_what_programs_put_in() -> None:
+    from nav_msgs.msg import OccupancyGrid, Odometry, Path
+
+    grid = OccupancyGrid()
+    grid.data = [-1, 0, 100]
+    assert (grid.data.typecode, grid.data.tolist()) == ("b", [-1, 0, 100])
+    grid.data = np.full(4, 100, np.int8).tolist()
+    assert Odometry().pose.covariance.shape == (36,)
+    with pytest.raises(AssertionError, match="'poses' field must be a set or sequence and each value of type 'Pose"):
+        Path().poses = [Odometry()]

@@ -1,0 +1,149 @@
+"""`ros2 action send_goal`: from the goal to its result, with feedback on the way. Texts are those of ros2action of Humble."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace
+from typing import TYPE_CHECKING, Any
+
+from .amounts import stretch
+from .common import (
+    HIDDEN_PREFIX,
+    PATIENCE,
+    CommandError,
+    Interrupted,
+    direct_node,
+    expanded,
+    now,
+    spin_for,
+    suggest,
+)
+from .types import action_class
+from .values import read_yaml
+
+if TYPE_CHECKING:
+    from rclpy.action import ActionClient
+    from rclpy.action.client import ClientGoalHandle
+    from rclpy.node import Node
+    from rclpy.task import Future
+
+LONGEST_GOAL = 600.0
+"""How long, in s of robot time, a goal may take unless `--for` tells otherwise. The real tool waits for ever."""
+
+LOOK_AGAIN = 1.0
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Declare what may be typed after `send_goal`."""
+    parser.add_argument("action_name", help="Name of the action, such as /turtle1/rotate_absolute")
+    parser.add_argument("action_type", help="Its type, such as turtlesim/action/RotateAbsolute")
+    parser.add_argument("values", metavar="goal", help="What the goal's fields are set to, in YAML")
+    parser.add_argument("-f", "--feedback", action="store_true", help="Print the feedback messages, too")
+    parser.add_argument(
+        "--for",
+        dest="seconds",
+        type=stretch,
+        metavar="SECONDS",
+        help=f"Cancel the goal after this stretch of robot time (default: {LONGEST_GOAL:g}; only in this classroom)",
+    )
+
+
+def send_goal(args: Namespace) -> None:
+    """`ros2 action send_goal`."""
+    from rosidl_runtime_py.convert import message_to_yaml
+
+    kind = action_class(args.action_type)
+    values = read_yaml(args.values)
+    with direct_node(args, f"{HIDDEN_PREFIX}_send_goal_{args.action_type.replace('/', '_')}") as node:
+        from rclpy.action import ActionClient
+
+        client = ActionClient(node, kind, expanded(node, args.action_name, is_service=True))
+        goal = kind.Goal()
+        _populate(goal, values)
+        _wait_for_server(node, client, kind)
+        print(f"Sending goal:\n     {message_to_yaml(goal)}")
+        until = now() + (args.seconds or LONGEST_GOAL)
+        future = client.send_goal_async(goal, _print_feedback if args.feedback else None)
+        handle = _outcome(node, client, future, until, None)
+        if not handle.accepted:
+            print("Goal was rejected.")
+            return
+        print(f"Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n")
+        with_result = _outcome(node, client, handle.get_result_async(), until, handle)
+        print(f"Result:\n    {message_to_yaml(with_result.result)}")
+        print(f"Goal finished with status: {_status(with_result.status)}")
+
+
+def _populate(goal: Any, values: Any) -> None:
+    from rosidl_runtime_py.set_message import set_message_fields
+
+    try:
+        set_message_fields(goal, values)
+    except (TypeError, AttributeError, ValueError, AssertionError, OverflowError, RecursionError) as error:
+        notes = getattr(error, "__notes__", []) if isinstance(error, AttributeError) else []
+        raise CommandError(f"Failed to populate message fields: {error!r}", "\n".join(notes)) from None
+
+
+def _print_feedback(message: Any) -> None:
+    from rosidl_runtime_py.convert import message_to_yaml
+
+    print(f"Feedback:\n    {message_to_yaml(message.feedback)}")
+
+
+def _status(status: int) -> str:
+    from rclpy.action._goal_states import NAMES
+
+    return NAMES.get(status, "UNKNOWN")
+
+
+def _wait_for_server(node: Node, client: ActionClient, kind: Any) -> None:
+    print("Waiting for an action server to become available...")
+    if client.wait_for_server(timeout_sec=PATIENCE):
+        return
+    known = dict(node.get_action_names_and_types())
+    name, own = client._name, kind._TYPE_NAME
+    waited = f"Gave up after {PATIENCE:g} s of robot time"
+    others = [each for each in known.pop(name, []) if each != own]
+    if others:
+        raise CommandError(f"{waited}: {name} is of type {', '.join(others)}, not {own}")
+    hint = suggest(name, known)
+    raise CommandError(
+        f"{waited}: nobody offers {name}",
+        hint or "Is its node running (`ros2 node list`)? `ros2 action list` shows the actions.",
+    )
+
+
+def _outcome(node: Node, client: ActionClient, future: Future, until: float, handle: ClientGoalHandle | None) -> Any:
+    """What a future brings; until then, look whether the server is still there. A goal that takes too long is cancelled.
+
+    Raises CommandError, or Interrupted when the time (s of robot time) is over.
+    """
+    try:
+        while not spin_for(node, min(LOOK_AGAIN, until - now()), future):
+            if not client.server_is_ready():
+                raise CommandError(
+                    f"{client._name} went away before it answered: did its node end, or an error end it?"
+                )
+            if now() >= until - 1e-9:
+                raise _too_long(node, handle)
+    except KeyboardInterrupt:
+        if handle is not None:  # nobody can wait for the answer any more
+            print("Canceling goal...")
+            handle.cancel_goal_async()
+        raise
+    if future.exception() is not None:
+        what = "sending goal" if handle is None else "getting result"
+        raise CommandError(f"Exception while {what}: {future.exception()!r}")
+    return future.result()
+
+
+def _too_long(node: Node, handle: ClientGoalHandle | None) -> Exception:
+    if handle is None:
+        return CommandError("No answer whether the goal is accepted: is the server's node busy with something else?")
+    print("Canceling goal...")
+    future = handle.cancel_goal_async()
+    if not spin_for(node, PATIENCE, future):
+        return CommandError("No answer to the cancelling: is the server's node busy with something else?")
+    if not future.result().goals_canceling:
+        return CommandError("Failed to cancel goal", "The server goes on: its cancel_callback did not accept that.")
+    print("Goal canceled.")
+    return Interrupted("(the goal took too long; --for SECONDS gives it more robot time, or less)")

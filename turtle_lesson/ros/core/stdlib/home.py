@@ -1,0 +1,79 @@
+"""Whose thread is it? What a simulated process or a learner's cell makes belongs to the simulation, all else is real.
+
+Locks, threads and their kin belong to the simulation if they are made
+
+- by code that runs in a simulated process, whatever code that is, or
+- in the notebook, while a world is open and in the thread that the world lives in, directly by code of a cell (of the
+  module `__main__`) or of a file of the learner's own. What the modules `threading`, `queue` and `concurrent.futures`
+  make on the way counts as made by whoever called them.
+
+So Jupyter's own threads, those of tornado, matplotlib, asyncio, and whatever any other library starts, stay Python's own.
+"""
+
+from __future__ import annotations
+
+import sys
+import threading
+from collections.abc import Callable
+from types import FrameType
+from typing import TYPE_CHECKING
+
+from ..strand import Strand, getcurrent
+
+if TYPE_CHECKING:
+    from ..process import Process
+
+_ON_THE_WAY = {"threading", "queue", "concurrent.futures.thread", "concurrent.futures._base", "_threading_local"}
+_OURS = __name__.rpartition(".")[0]
+
+
+def nobody() -> Process | None:
+    """No notebook: no world is open."""
+    return None
+
+
+def no_file(filename: str) -> bool:
+    """No file is known to be the learner's own."""
+    return False
+
+
+class Notebook:
+    """What the world tells about the notebook that it lives in: its process, and which files are the learner's own."""
+
+    process: Callable[[], Process | None] = staticmethod(nobody)
+    is_learners: Callable[[str], bool] = staticmethod(no_file)
+
+
+def process_here() -> Process | None:
+    """The simulated process that a thing made here belongs to; None if it is to be Python's own."""
+    strand = getcurrent()
+    if type(strand) is Strand:
+        return strand.process
+    notebook = notebook_here()
+    return notebook if notebook is not None and _is_called_by_learner() else None
+
+
+def notebook_here() -> Process | None:
+    """The notebook's process, if this is plain code in the thread that its world lives in, and it can be run."""
+    process = Notebook.process()
+    if process is None or process.simulation.closed or threading.get_ident() != process.simulation.thread:
+        return None
+    return process
+
+
+def _is_called_by_learner() -> bool:
+    frame = maker(sys._getframe(1))
+    if frame is None:
+        return False
+    main = sys.modules.get("__main__")
+    return frame.f_globals is getattr(main, "__dict__", None) or Notebook.is_learners(frame.f_code.co_filename)
+
+
+def maker(frame: FrameType | None) -> FrameType | None:
+    """The innermost of these frames that is not in the rooms of threads of the standard library, or here."""
+    while frame is not None:
+        name = frame.f_globals.get("__name__", "")
+        if name not in _ON_THE_WAY and not name.startswith(_OURS):
+            return frame
+        frame = frame.f_back
+    return None

@@ -1,0 +1,55 @@
+"""The exceptions that the real rclpy gets from its C++ half, under the names by which tracebacks print them.
+
+Nothing else of that half is here: what stands in its place is Python.
+"""
+
+from __future__ import annotations
+
+from typing import NoReturn
+
+
+class InvalidHandle(RuntimeError):
+    """Something is used after it was destroyed."""
+
+
+class RCUtilsError(RuntimeError):
+    """An error that the real rclpy hears from rcutils."""
+
+
+class RMWError(RuntimeError):
+    """An error that the real rclpy hears from the middleware."""
+
+
+class RCLError(RuntimeError):
+    """An error that the real rclpy hears from the C library beneath it."""
+
+
+class RCLInvalidROSArgsError(RCLError):
+    """ROS arguments cannot be read. (Humble raises its base class, and so does this rclpy.)"""
+
+
+class UnknownROSArgsError(RuntimeError):
+    """There are words after `--ros-args` that mean nothing."""
+
+
+class NodeNameNonExistentError(RCLError):
+    """The graph has no node of this name."""
+
+
+class UnsupportedEventTypeError(RCLError):
+    """The middleware knows no such event."""
+
+
+class TimerCancelledError(RCLError):
+    """A cancelled timer is called."""
+
+
+def __getattr__(name: str) -> NoReturn:
+    if name.startswith("__"):
+        raise AttributeError(name)
+    raise AttributeError(
+        f"rclpy._rclpy_pybind11 has no {name!r} here: on a robot it is rclpy's inner half, written in C++, and its names "
+        "change between releases. What programs need of it is in rclpy's own modules.",
+        name=name,
+        obj=None,
+    )

@@ -1,0 +1,50 @@
+"""Calls of an action that can never be answered are found before they hang, and explained."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from turtle_lesson.ros.core import NeverWakes
+
+from .._deadlock import Words, why_never_answered
+from .._mistakes import did_you_mean
+
+if TYPE_CHECKING:
+    from turtle_lesson.ros.core import Strand
+
+    from ..client import Client
+    from .client import ActionClient
+
+WORDS = {
+    part: Words("action client", "action server", ask, "ActionClient")
+    for part, ask in {
+        "send_goal": "action_client.send_goal_async(goal)",
+        "cancel_goal": "goal_handle.cancel_goal_async()",
+        "get_result": "goal_handle.get_result_async()",
+    }.items()
+}
+"""What the clients behind an action client are called in such explanations."""
+
+
+SUFFIX = "/_action/send_goal"
+
+
+def refuse_hopeless(action_client: ActionClient, client: Client, what: str, strand: Strand) -> None:
+    """Raise NeverWakes if a synchronous call from this strand, such as send_goal (`what`), would wait for ever."""
+    ready = action_client.server_is_ready()
+    problem = why_never_answered(client, strand) if ready else _why_nobody_offers(action_client)
+    if problem:
+        raise NeverWakes(f"this {what} of {action_client._name} can never be answered: {problem}")
+
+
+def _why_nobody_offers(action_client: ActionClient) -> str:
+    """What is known about an action that nobody offers by this name and type."""
+    name, own = action_client._name, action_client._action_type._TYPE_NAME
+    services = action_client._node._ros_graph.services().items()
+    offered = {each.removesuffix(SUFFIX): types for each, types in services if each.endswith(SUFFIX)}
+    if name in offered:
+        return f"the action of this name is of type {offered[name][0].removesuffix('_SendGoal')}, not {own}."
+    return (
+        f"nobody offers this action ({own}){did_you_mean(name, offered) or '.'} Is its node running? "
+        "wait_for_server(timeout_sec=…) waits for it."
+    )

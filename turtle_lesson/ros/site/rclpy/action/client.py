@@ -1,0 +1,347 @@
+"""Action clients: the side that has goals."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, Any
+from weakref import WeakValueDictionary
+
+from action_msgs.msg import GoalStatus
+from action_msgs.srv import CancelGoal
+
+from turtle_lesson.ros.core import running_strand
+
+from .._blocking import drives_the_simulation
+from .._mistakes import shown
+from ..callback_groups import CallbackGroup
+from ..client import Client
+from ..qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
+from ..task import Future
+from ..waitable import NumberOfEntities, Waitable
+from ._callbacks import call_back
+from ._ends import ActionEntity, check_action, full_names, make_parts
+from ._goal_states import ACTIVE
+from ._goals import key_of
+from ._hopeless import WORDS, refuse_hopeless
+from ._ids import new_goal_id
+
+if TYPE_CHECKING:
+    from ..node import Node
+
+__all__ = ["ActionClient", "ClientGoalHandle"]
+
+FEEDBACK = QoSProfile(depth=10)
+POLL = 0.25  # how often, in s, the real one looks whether a server has appeared (client.py)
+
+
+class ClientGoalHandle:
+    """A goal, as the client sees it that has sent it. Made by ActionClient."""
+
+    def __init__(self, action_client: ActionClient, goal_id: Any, goal_response: Any) -> None:
+        self._action_client = action_client
+        self._goal_id = goal_id
+        self._goal_response = goal_response
+        self._status = GoalStatus.STATUS_UNKNOWN
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, ClientGoalHandle) and self._goal_id == other.goal_id
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        return f"ClientGoalHandle <id={self.goal_id.uuid}, accepted={self.accepted}, status={self.status}>"
+
+    @property
+    def goal_id(self) -> Any:
+        """The goal's number, a unique_identifier_msgs.msg.UUID."""
+        return self._goal_id
+
+    @property
+    def stamp(self) -> Any:
+        """When the server accepted the goal, a builtin_interfaces.msg.Time."""
+        return self._goal_response.stamp
+
+    @property
+    def accepted(self) -> bool:
+        """Whether the server accepted the goal."""
+        return self._goal_response.accepted
+
+    @property
+    def status(self) -> int:
+        """The goal's state as last heard of, one of action_msgs.msg.GoalStatus."""
+        return self._status
+
+    def cancel_goal(self) -> Any:
+        """Ask to cancel the goal, and wait for the answer. Not for callbacks: see ActionClient.send_goal."""
+        return self._action_client._cancel_goal(self)
+
+    def cancel_goal_async(self) -> Future:
+        """Ask to cancel the goal; the future will have a CancelGoal.Response."""
+        return self._action_client._cancel_goal_async(self)
+
+    def get_result(self) -> Any:
+        """Wait for the goal's end; returns its `status` and `result`. Not for callbacks: see ActionClient.send_goal."""
+        return self._action_client._get_result(self)
+
+    def get_result_async(self) -> Future:
+        """Ask for the goal's result; the future will have its `status` and `result` when it has ended."""
+        return self._action_client._get_result_async(self)
+
+
+class ActionClient(Waitable):
+    """Sends goals to an action's server.
+
+    Args:
+        node: whose client it is.
+        action_type: the action's class, such as example_interfaces.action.Fibonacci.
+        action_name: its name.
+        callback_group: for the taking of answers and feedback; the node's default one if none is given.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        action_type: Any,
+        action_name: str,
+        *,
+        callback_group: CallbackGroup | None = None,
+        goal_service_qos_profile: QoSProfile = qos_profile_services_default,
+        result_service_qos_profile: QoSProfile = qos_profile_services_default,
+        cancel_service_qos_profile: QoSProfile = qos_profile_services_default,
+        feedback_sub_qos_profile: QoSProfile = FEEDBACK,
+        status_sub_qos_profile: QoSProfile = qos_profile_action_status_default,
+    ) -> None:
+        check_action("client", node, action_type)
+        super().__init__(node.default_callback_group if callback_group is None else callback_group)
+        self._node = node
+        self._action_type = action_type
+        self._action_name = action_name
+        self._goal_ids: dict[int, Any] = {}
+        self._goal_handles: WeakValueDictionary[bytes, ClientGoalHandle] = WeakValueDictionary()
+        self._feedback_callbacks: dict[bytes, Callable[[Any], Any]] = {}
+        profiles = {
+            "send_goal": goal_service_qos_profile,
+            "cancel_goal": cancel_service_qos_profile,
+            "get_result": result_service_qos_profile,
+            "feedback": feedback_sub_qos_profile,
+            "status": status_sub_qos_profile,
+        }
+        self._make_parts(full_names("client", node, action_name), profiles)
+
+    def _make_parts(self, names: dict[str, str], profiles: dict[str, QoSProfile]) -> None:
+        node, group = self._node, self.callback_group
+
+        def make_service(kind: Any, name: str, profile: QoSProfile) -> Any:
+            return node.create_client(kind, name, qos_profile=profile, callback_group=group)
+
+        def make_topic(kind: Any, name: str, profile: QoSProfile) -> Any:
+            return node.create_subscription(kind, name, None, profile, callback_group=group)  # type: ignore[arg-type]
+
+        self._name = names[""]
+        parts = make_parts(node, self._action_type, names, profiles, make_service, make_topic)
+        self._goal_client: Client = parts["send_goal"]
+        self._cancel_client: Client = parts["cancel_goal"]
+        self._result_client: Client = parts["get_result"]
+        self._readers = [parts["feedback"]._reader, parts["status"]._reader]
+        for client, part in zip(self._clients, WORDS, strict=True):
+            client._words = WORDS[part]
+        self._arrived = dict(
+            zip(
+                ("goal", "cancel", "result", "feedback", "status"),
+                [end.queue for end in (*(client._end for client in self._clients), *self._readers)],
+                strict=True,
+            )
+        )
+        self._entity = ActionEntity(self, parts, list(self._arrived.values()))
+        for end in (*(client._end for client in self._clients), *self._readers):
+            end.wake = self._entity._signal
+        node._ros_keep(self._entity)
+
+    @property
+    def _clients(self) -> tuple[Client, Client, Client]:
+        return (self._goal_client, self._cancel_client, self._result_client)
+
+    def __repr__(self) -> str:
+        return f"<ActionClient of {self._name}>"
+
+    # -- the server ------------------------------------------------------------------------------------------------
+
+    def server_is_ready(self) -> bool:
+        """Whether somebody offers the action now."""
+        self._entity._check_alive()
+        return all(client._servers() for client in self._clients) and all(
+            reader.topic.writers for reader in self._readers
+        )
+
+    @drives_the_simulation
+    def wait_for_server(self, timeout_sec: float | None = None) -> bool:
+        """Wait until somebody offers the action; False if nobody does within the timeout (s). None waits for ever.
+
+        As the real one it looks every quarter of a second, and waits for whole quarters.
+        """
+        strand = running_strand()
+        if strand is not None:
+            strand.activity = f"wait_for_server for {self._name}"
+        left = float("inf") if timeout_sec is None else timeout_sec
+        while self._node.context.ok() and not self.server_is_ready() and left > 0.0:
+            time.sleep(POLL)
+            left -= POLL
+        return self.server_is_ready()
+
+    # -- goals -----------------------------------------------------------------------------------------------------
+
+    def send_goal_async(
+        self, goal: Any, feedback_callback: Callable[[Any], Any] | None = None, goal_uuid: Any = None
+    ) -> Future:
+        """Send a goal; the future will have a ClientGoalHandle, once the server has accepted or rejected it.
+
+        Args:
+            goal: an action_type.Goal.
+            feedback_callback: called with each feedback message, whose `feedback` is an action_type.Feedback.
+            goal_uuid: the goal's number, a unique_identifier_msgs.msg.UUID; a new one if none is given.
+
+        Raises TypeError for anything but a goal.
+        """
+        self._check_goal(goal)
+        request = self._action_type.Impl.SendGoalService.Request(goal=goal)
+        request.goal_id = new_goal_id() if goal_uuid is None else goal_uuid
+        future = self._goal_client.call_async(request)
+        self._goal_ids[future._request_number] = request.goal_id
+        if feedback_callback is not None:
+            self._feedback_callbacks[key_of(request.goal_id)] = feedback_callback
+        return future
+
+    def send_goal(self, goal: Any, **kwargs: Any) -> Any:
+        """Send a goal and wait for its end; returns its `status` and `result`. Keywords are those of send_goal_async.
+
+        Works where another thread takes the answers, and in a plain notebook cell. Where nobody ever could, it raises
+        NeverWakes, which says why, instead of hanging as a real one does.
+        """
+        self._check_goal(goal)
+        return self._get_result(self._wait(self._goal_client, "send_goal", lambda: self.send_goal_async(goal, **kwargs)))
+
+    def _check_goal(self, goal: Any) -> None:
+        if not isinstance(goal, self._action_type.Goal):
+            name = f"{self._action_type.__name__}.Goal"
+            raise TypeError(f"a goal of {self._action_name} is of type {name}, got {shown(goal)}: try {name}(…)")
+
+    def _cancel_goal_async(self, goal_handle: ClientGoalHandle) -> Future:
+        _check_handle(goal_handle)
+        request = CancelGoal.Request()
+        request.goal_info.goal_id = goal_handle.goal_id
+        return self._cancel_client.call_async(request)
+
+    def _cancel_goal(self, goal_handle: ClientGoalHandle) -> Any:
+        _check_handle(goal_handle)
+        return self._wait(self._cancel_client, "cancel_goal", lambda: self._cancel_goal_async(goal_handle))
+
+    def _get_result_async(self, goal_handle: ClientGoalHandle) -> Future:
+        _check_handle(goal_handle)
+        request = self._action_type.Impl.GetResultService.Request(goal_id=goal_handle.goal_id)
+        future = self._result_client.call_async(request)
+        future.add_done_callback(partial(self._forget_feedback, key_of(goal_handle.goal_id)))
+        return future
+
+    def _get_result(self, goal_handle: ClientGoalHandle) -> Any:
+        _check_handle(goal_handle)
+        return self._wait(self._result_client, "get_result", lambda: self._get_result_async(goal_handle))
+
+    def _forget_feedback(self, key: bytes, _: Future) -> None:
+        self._feedback_callbacks.pop(key, None)
+
+    @drives_the_simulation
+    def _wait(self, client: Client, what: str, ask: Callable[[], Future]) -> Any:
+        """Ask, and wait for the answer as `Client.call` does."""
+        strand = running_strand()
+        assert strand is not None
+        strand.activity = f"{what} of {self._name}"
+        refuse_hopeless(self, client, what, strand)
+        return client._answer_to(ask(), strand)
+
+    # -- what comes back -------------------------------------------------------------------------------------------
+
+    def is_ready(self, wait_set: Any) -> bool:
+        """Whether something has come."""
+        return any(self._arrived.values())
+
+    def take_data(self) -> dict[str, Any]:
+        """Take one thing of each kind."""
+        return {kind: queue.popleft() for kind, queue in self._arrived.items() if queue}
+
+    async def execute(self, taken_data: dict[str, Any]) -> None:
+        """Give the futures their results, and feedback to its callback, in the order of rclpy."""
+        if "goal" in taken_data:
+            self._take_goal_response(*taken_data["goal"])
+        if "cancel" in taken_data:
+            self._complete(self._cancel_client, "cancel", *taken_data["cancel"])
+        if "result" in taken_data:
+            self._complete(self._result_client, "result", *taken_data["result"])
+        if "feedback" in taken_data:
+            message = taken_data["feedback"]
+            callback = self._feedback_callbacks.get(key_of(message.goal_id))
+            if callback is not None:
+                await call_back("feedback_callback", callback, message)
+        if "status" in taken_data:
+            for each in taken_data["status"].status_list:
+                self._take_status(key_of(each.goal_info.goal_id), each.status)
+
+    def _take_goal_response(self, number: int, response: Any) -> None:
+        goal_id = self._goal_ids.pop(number, None)
+        handle = ClientGoalHandle(self, goal_id, response)
+        if goal_id is not None:
+            if not handle.accepted:
+                self._feedback_callbacks.pop(key_of(goal_id), None)
+            elif key_of(goal_id) in self._goal_handles:
+                raise RuntimeError(f"Two goals were accepted with the same ID ({handle})")
+            else:
+                self._goal_handles[key_of(goal_id)] = handle
+        self._complete(self._goal_client, "goal", number, handle)
+
+    def _complete(self, client: Client, kind: str, number: int, value: Any) -> None:
+        future = client._waiting.pop(number, None)
+        if future is not None:
+            client._set_result(future, value)
+            return
+        self._node.get_logger().warning(
+            f"Ignoring unexpected {kind} response. There may be more than "
+            f"one action server for the action '{self._action_name}'"
+        )
+
+    def _take_status(self, key: bytes, status: int) -> None:
+        handle = self._goal_handles.get(key)
+        if handle is not None:
+            handle._status = status
+            if status not in ACTIVE:
+                del self._goal_handles[key]
+
+    # -- as part of a node -----------------------------------------------------------------------------------------
+
+    def _may_call_back(self) -> bool:
+        return bool(self._feedback_callbacks) or any(client._waiting for client in self._clients)
+
+    def get_num_entities(self) -> NumberOfEntities:
+        """Two subscriptions and three clients."""
+        return NumberOfEntities(num_subs=2, num_clients=3)
+
+    def add_to_wait_set(self, wait_set: Any) -> None:
+        """Nothing to do: an executor here is told when something comes."""
+
+    def __enter__(self) -> ActionClient:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        """Nothing to let go of."""
+
+    def destroy(self) -> None:
+        """Leave the action; answers under way are dropped."""
+        self._entity.destroy()
+
+    def _end(self) -> None:
+        self._feedback_callbacks.clear()
+
+
+def _check_handle(goal_handle: Any) -> None:
+    if not isinstance(goal_handle, ClientGoalHandle):
+        raise TypeError(f"Expected type ClientGoalHandle but received {type(goal_handle)}")

@@ -1,0 +1,259 @@
+"""Callbacks for what happens to publishers and subscriptions: deadlines missed, partners that do not fit, messages lost.
+
+rclpy's event_handler.py of today, which in Humble is qos_event.py; `incompatible_type` and `matched` came with Jazzy.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from enum import IntEnum
+from typing import Any
+
+from ._entity import WAITABLE, Entity
+from ._event_infos import (
+    PUBLISHER_EVENTS,
+    SUBSCRIPTION_EVENTS,
+    IncompatibleTypeInfo,
+    QoSLivelinessChangedInfo,
+    QoSLivelinessLostInfo,
+    QoSMessageLostInfo,
+    QoSOfferedDeadlineMissedInfo,
+    QoSOfferedIncompatibleQoSInfo,
+    QoSPublisherEventType,
+    QoSPublisherMatchedInfo,
+    QoSRequestedDeadlineMissedInfo,
+    QoSRequestedIncompatibleQoSInfo,
+    QoSSubscriptionEventType,
+    QoSSubscriptionMatchedInfo,
+)
+from ._rclpy_pybind11 import UnsupportedEventTypeError
+from .callback_groups import CallbackGroup
+from .logging import get_logger
+from .qos import QoSPolicyKind, qos_policy_name_from_kind
+from .waitable import NumberOfEntities, Waitable
+
+__all__ = [
+    "EventHandler",
+    "IncompatibleTypeInfo",
+    "PublisherEventCallbacks",
+    "QoSEventHandler",
+    "QoSLivelinessChangedInfo",
+    "QoSLivelinessLostInfo",
+    "QoSMessageLostInfo",
+    "QoSOfferedDeadlineMissedInfo",
+    "QoSOfferedIncompatibleQoSInfo",
+    "QoSPublisherEventType",
+    "QoSPublisherMatchedInfo",
+    "QoSRequestedDeadlineMissedInfo",
+    "QoSRequestedIncompatibleQoSInfo",
+    "QoSSubscriptionEventType",
+    "QoSSubscriptionMatchedInfo",
+    "SubscriptionEventCallbacks",
+    "UnsupportedEventTypeError",
+]
+
+
+class EventHandler(Entity, Waitable):
+    """Waits for events of one type of a publisher or subscription, `parent_impl` (in Iron and before `parent_handle`)."""
+
+    _kind = WAITABLE
+    _is_default = False
+
+    def __init__(
+        self,
+        *,
+        callback_group: CallbackGroup,
+        callback: Callable[[Any], Any],
+        event_type: IntEnum,
+        parent_impl: Any = None,
+        parent_handle: Any = None,
+    ) -> None:
+        super().__init__(callback, callback_group)
+        self._futures = []
+        self.event_type = event_type
+        parent = parent_impl or parent_handle
+        parent = getattr(parent, "_entity", parent)  # of a handle
+        kind, self._info = _meaning(event_type, parent)
+        self._tally = parent._end().listen(kind)
+        self._tally.wake = self._signal
+
+    def __repr__(self) -> str:
+        return f"<EventHandler of {self.event_type.name}>"
+
+    @property
+    def waitable(self) -> EventHandler:
+        """It stands for itself among a node's waitables."""
+        return self
+
+    @property
+    def _waiting(self) -> bool:
+        """Whether it may ever call something of the program's own."""
+        return not self._is_default
+
+    def _has_work(self) -> bool:
+        return self._tally.news
+
+    def _take(self) -> tuple[Any, ...]:
+        return (self._read(),)
+
+    def _read(self) -> Any:
+        info = self._info(*self._tally.take())
+        if isinstance(info, QoSRequestedIncompatibleQoSInfo):
+            info = info._replace(last_policy_kind=QoSPolicyKind[info.last_policy_kind])  # type: ignore[misc]
+        return info
+
+    # What an executor of a real rclpy asks a waitable; the ones here ask an entity.
+
+    def is_ready(self, wait_set: Any) -> bool:
+        """Whether something has happened since the last look."""
+        return self._tally.news
+
+    def take_data(self) -> Any:
+        """What has happened since the last look; None if nothing has."""
+        return self._read() if self._tally.news else None
+
+    async def execute(self, taken_data: Any) -> None:
+        """Call the callback with what was taken."""
+        if taken_data is not None:
+            result = self.callback(taken_data)
+            if inspect.iscoroutine(result):
+                await result
+
+    def get_num_entities(self) -> NumberOfEntities:
+        """One event."""
+        return NumberOfEntities(num_events=1)
+
+    def add_to_wait_set(self, wait_set: Any) -> None:
+        """An executor here hears of events without a wait set."""
+
+
+QoSEventHandler = EventHandler
+
+
+def _meaning(event_type: IntEnum, parent: Any) -> tuple[str, Any]:
+    """What the graph counts for a type of event, and what it is told as."""
+    publishes = hasattr(parent, "publish")
+    known = QoSPublisherEventType if publishes else QoSSubscriptionEventType
+    if not isinstance(event_type, known):
+        what = "publisher" if publishes else "subscription"
+        raise UnsupportedEventTypeError(
+            f"a {what} has no events of type {event_type!r}; it has {', '.join(each.name for each in known)}"
+        )
+    return (PUBLISHER_EVENTS if publishes else SUBSCRIPTION_EVENTS)[event_type]
+
+
+class _EventCallbacks:
+    """Base class: `_events` says which attribute is called for which type of event, in rclpy's order."""
+
+    _events: dict[str, IntEnum]
+    _mismatch: str
+    use_default_callbacks: bool
+    incompatible_qos: Callable[[Any], Any] | None
+
+    def create_event_handlers(self, callback_group: CallbackGroup, entity: Any, topic_name: str) -> list[EventHandler]:
+        """Handlers for all callbacks that were given, and for those that stand in for one that was not."""
+        entity = getattr(entity, "_entity", entity)
+        handlers = []
+        for name, event_type in self._events.items():
+            callback = getattr(self, name)
+            stands_in = not callback and self.use_default_callbacks and name == "incompatible_qos"
+            if stands_in:
+                callback = self._warning(entity.logger_name, topic_name)
+            if callback:
+                handler = EventHandler(
+                    callback_group=callback_group, callback=callback, event_type=event_type, parent_impl=entity
+                )
+                handler._is_default = stands_in
+                handlers.append(handler)
+        return handlers
+
+    def _warning(self, logger_name: str, topic_name: str) -> Callable[[Any], None]:
+        """What is said about a partner whose quality of service does not go together with this one's."""
+
+        def warn(event: Any) -> None:
+            policy = qos_policy_name_from_kind(event.last_policy_kind)
+            get_logger(logger_name).warning(self._mismatch.format(topic=topic_name, policy=policy))
+
+        return warn
+
+
+class SubscriptionEventCallbacks(_EventCallbacks):
+    """What to call when something happens to a subscription. Without `incompatible_qos` a warning is logged for it."""
+
+    _events = {  # noqa: RUF012
+        "deadline": QoSSubscriptionEventType.RCL_SUBSCRIPTION_REQUESTED_DEADLINE_MISSED,
+        "incompatible_qos": QoSSubscriptionEventType.RCL_SUBSCRIPTION_REQUESTED_INCOMPATIBLE_QOS,
+        "liveliness": QoSSubscriptionEventType.RCL_SUBSCRIPTION_LIVELINESS_CHANGED,
+        "message_lost": QoSSubscriptionEventType.RCL_SUBSCRIPTION_MESSAGE_LOST,
+        "incompatible_type": QoSSubscriptionEventType.RCL_SUBSCRIPTION_INCOMPATIBLE_TYPE,
+        "matched": QoSSubscriptionEventType.RCL_SUBSCRIPTION_MATCHED,
+    }
+    _mismatch = (
+        "New publisher discovered on topic '{topic}', offering incompatible QoS. No messages will be received from it. "
+        "Last incompatible policy: {policy}"
+    )
+
+    def __init__(
+        self,
+        *,
+        deadline: Callable[[QoSRequestedDeadlineMissedInfo], Any] | None = None,
+        incompatible_qos: Callable[[QoSRequestedIncompatibleQoSInfo], Any] | None = None,
+        liveliness: Callable[[QoSLivelinessChangedInfo], Any] | None = None,
+        message_lost: Callable[[QoSMessageLostInfo], Any] | None = None,
+        incompatible_type: Callable[[IncompatibleTypeInfo], Any] | None = None,
+        matched: Callable[[QoSSubscriptionMatchedInfo], Any] | None = None,
+        use_default_callbacks: bool = True,
+    ) -> None:
+        self.deadline = deadline
+        self.incompatible_qos = incompatible_qos
+        self.liveliness = liveliness
+        self.message_lost = message_lost
+        self.incompatible_type = incompatible_type
+        self.matched = matched
+        self.use_default_callbacks = use_default_callbacks
+
+
+class PublisherEventCallbacks(_EventCallbacks):
+    """What to call when something happens to a publisher. Without `incompatible_qos` a warning is logged for it."""
+
+    _events = {  # noqa: RUF012
+        "deadline": QoSPublisherEventType.RCL_PUBLISHER_OFFERED_DEADLINE_MISSED,
+        "liveliness": QoSPublisherEventType.RCL_PUBLISHER_LIVELINESS_LOST,
+        "incompatible_qos": QoSPublisherEventType.RCL_PUBLISHER_OFFERED_INCOMPATIBLE_QOS,
+        "incompatible_type": QoSPublisherEventType.RCL_PUBLISHER_INCOMPATIBLE_TYPE,
+        "matched": QoSPublisherEventType.RCL_PUBLISHER_MATCHED,
+    }
+    _mismatch = (
+        "New subscription discovered on topic '{topic}', requesting incompatible QoS. No messages will be sent to it. "
+        "Last incompatible policy: {policy}"
+    )
+
+    def __init__(
+        self,
+        *,
+        deadline: Callable[[QoSOfferedDeadlineMissedInfo], Any] | None = None,
+        liveliness: Callable[[QoSLivelinessLostInfo], Any] | None = None,
+        incompatible_qos: Callable[[QoSRequestedIncompatibleQoSInfo], Any] | None = None,
+        incompatible_type: Callable[[IncompatibleTypeInfo], Any] | None = None,
+        matched: Callable[[QoSPublisherMatchedInfo], Any] | None = None,
+        use_default_callbacks: bool = True,
+    ) -> None:
+        self.deadline = deadline
+        self.liveliness = liveliness
+        self.incompatible_qos = incompatible_qos
+        self.incompatible_type = incompatible_type
+        self.matched = matched
+        self.use_default_callbacks = use_default_callbacks
+
+
+def checked_callbacks(callbacks: Any, expected: type[_EventCallbacks]) -> Any:
+    """The callbacks that a program gives a publisher or subscription, or the usual ones. Raises TypeError."""
+    if callbacks is None:
+        return expected()
+    if not isinstance(callbacks, expected) and (
+        isinstance(callbacks, _EventCallbacks) or not hasattr(callbacks, "create_event_handlers")
+    ):
+        hint = f"{expected.__name__}(deadline=self.on_deadline)"
+        raise TypeError(f"event_callbacks must be {expected.__name__}, got {callbacks!r}: try event_callbacks={hint}")
+    return callbacks
