@@ -23,6 +23,11 @@ MESSAGES = ["geometry_msgs/Point", "std_msgs/Header", "std_msgs/Empty", "turtles
 built_in = Registry()
 
 
+def words(text):
+    """The words of a text."""
+    return text.split()
+
+
 def recorded(name):
     """Cases recorded on a real ROS 2 Humble."""
     return json.loads((DATA / name).read_text(encoding="utf-8"))
@@ -66,18 +71,18 @@ def definition_texts(draw):
     return "".join(f"{type_} field{index}\n" for index, type_ in enumerate(types))
 
 
-def values_of(type_):
-    """Values that a field of a type accepts."""
-    element = _elements(type_)
+def values_of(type_, get=built_in.get):
+    """Values that a field of a type accepts; `get` gives the class of a message."""
+    element = _elements(type_, get)
     if not type_.is_array:
         return element
     low, high = (type_.size, type_.size) if type_.is_fixed else (0, type_.size or 5)
     return st.lists(element, min_size=low, max_size=high)
 
 
-def _elements(type_):
+def _elements(type_, get):
     if not type_.is_primitive:
-        return messages(built_in.get(f"{type_.package}/{type_.base}"))
+        return messages(get(f"{type_.package}/{type_.folder}/{type_.base}"), get)
     if type_.base in FLOAT_BOUNDS:
         bound = FLOAT_BOUNDS[type_.base]
         return st.floats(-bound, bound) | st.sampled_from([float("inf"), float("-inf")])
@@ -91,9 +96,9 @@ def _elements(type_):
     return st.integers(*integer_bounds(type_.base))
 
 
-def messages(kind):
+def messages(kind, get=built_in.get):
     """Messages of a class, with values for all fields."""
-    fields = {field.name: values_of(field.type) for field in kind._DEFINITION.fields}
+    fields = {field.name: values_of(field.type, get) for field in kind._DEFINITION.fields}
     return st.builds(lambda values: kind(**values), st.fixed_dictionaries(fields))
 
 

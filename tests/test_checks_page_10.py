@@ -88,6 +88,14 @@ def test_on_site(lesson: Lesson) -> None:
     assert lesson.check("on_site").passed
 
 
+def test_on_site_without_any_node_asks_for_one_launch(lesson: Lesson) -> None:
+    result = lesson.check("on_site")
+    steps = [each.next_step for each in result.rows if each.expected.startswith("one node")]
+    assert len(steps) == 3
+    assert all("ros2 launch robot_controller start_system.launch.py" in step for step in steps)
+    assert not any("ros2 run" in step for step in steps)
+
+
 @pytest.mark.parametrize(("near", "age", "seen"), [(0.5, 0.5, "✓" * 7), (0.5, 1e6, "✓✓✓✓✓✓✗"), (0.0, 0.5, "✓✓✓✓✗✓✓")])
 def test_safety_stop(lesson: Lesson, near: float, age: float, seen: str) -> None:
     def safety_stop() -> Any:

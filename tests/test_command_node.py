@@ -66,14 +66,14 @@ def test_hidden_topics_of_a_node_are_shown_when_asked_for(world: World) -> None:
     assert "    /_secret: std_msgs/msg/Empty\n" in type_in(world, "ros2 node info /shy --include-hidden").stdout
 
 
-def test_an_action_shows_by_the_services_that_it_consists_of(world: World) -> None:
+def test_an_action_shows_as_one_instead_of_what_it_consists_of(world: World) -> None:
     def turner() -> None:
+        from rclpy.action import ActionServer
         from turtlesim.action import RotateAbsolute
 
         rclpy.init(args=[])
         node = rclpy.create_node("turner")
-        kind = RotateAbsolute.Impl.SendGoalService
-        node.create_service(kind, "rotate/_action/send_goal", lambda request, response: response)
+        ActionServer(node, RotateAbsolute, "rotate", lambda goal_handle: RotateAbsolute.Result())
         rclpy.spin(node)
 
     system.start(world, turner)

@@ -5,18 +5,20 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import command_system as system
 import pytest
 import yaml
-from command_cases import FOLDER
+from command_cases import FOLDER, type_in
 from command_interfaces import interfaces  # noqa: F401
 from rosidl_runtime_py import message_to_csv, message_to_yaml, set_message_fields
 
 from turtle_lesson.ros.command.common import CommandError
 from turtle_lesson.ros.command.types import message_class, service_class
 from turtle_lesson.ros.command.values import NoYaml, read_yaml
+from turtle_lesson.ros.interfaces import InvalidDefinition, registry
 from turtle_lesson.ros.world import World
 
 CUT = 200
@@ -115,3 +117,25 @@ def test_a_field_of_ours_that_is_none_is_no_field(world: World) -> None:
     for name in ("SLOT_TYPES", "__class__", "_data", "get_fields_and_field_types"):
         with pytest.raises(AttributeError, match="has no attribute"):
             set_message_fields(message, {name: 1})
+
+
+def test_auto_and_now_are_the_time_of_sending(world: World) -> None:
+    answer = type_in(world, "ros2 topic pub -t 2 -w 0 /joints sensor_msgs/msg/JointState 'header: auto'")
+    stamps = re.findall(r"sec=(\d+), nanosec=(\d+)", answer.stdout)
+    assert len(stamps) == 2 and stamps[0][0].startswith("18000000")
+    assert int(stamps[1][0]) == int(stamps[0][0]) + 1
+    answer = type_in(world, "ros2 topic pub --once -w 0 /t sensor_msgs/TimeReference '{time_ref: now, source: gps}'")
+    assert re.search(r"time_ref=builtin_interfaces\.msg\.Time\(sec=18000000\d\d, .*source='gps'", answer.stdout)
+    answer = type_in(world, "ros2 topic pub --once -w 0 /t std_msgs/String 'data: now'")
+    assert "data='now'" in answer.stdout
+
+
+def test_a_definition_of_ones_own_that_is_refused_says_why(world: World, tmp_path: Path) -> None:
+    (tmp_path / "msg").mkdir()
+    (tmp_path / "msg" / "Bad.msg").write_text("float x\n", encoding="utf-8")
+    registry.add("bad_msgs", tmp_path)
+    try:
+        with pytest.raises(InvalidDefinition, match=r"bad_msgs/msg/Bad\.msg, line 1, 'float x'"):
+            message_class("bad_msgs/msg/Bad")
+    finally:
+        registry.remove("bad_msgs")

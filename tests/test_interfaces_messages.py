@@ -234,7 +234,7 @@ def test_constants_can_be_read_and_not_set():
         BatteryState().POWER_SUPPLY_STATUS_CHARGING = 9
     assert [name for name in dir(LaserScan) if name.isupper() and name[0] != "_"] == ["SLOT_TYPES"]
     kind = message_class("string GREETING='it\\'s me'\nfloat64 FAR=1e300\nbool ON=1\nchar A=65")
-    assert ("it's me", 1e300, True, 65) == (kind.GREETING, kind.FAR, kind.ON, kind.A)
+    assert (kind.GREETING, kind.FAR, kind.ON, kind.A) == ("it's me", 1e300, True, 65)
 
 
 # Every kind of field

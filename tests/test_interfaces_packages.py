@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from interface_cases import built_in, messages
+from interface_cases import built_in, messages, words
 from rosbags.interfaces import Nodetype
 from rosbags.typesys import Stores, get_typestore
 
@@ -18,12 +18,14 @@ from turtle_lesson.ros.interfaces.cdr import PLACEHOLDER, deserialize, serialize
 HUMBLE, KILTED = get_typestore(Stores.ROS2_HUMBLE), get_typestore(Stores.ROS2_KILTED)
 OF_THE_RECORDER = "rosbag2_interfaces/"  # what `ros2 bag` tells of its own files
 
-PACKAGES = """
+PACKAGES = words(
+    """
 action_msgs action_tutorials_interfaces actionlib_msgs builtin_interfaces composition_interfaces diagnostic_msgs
 example_interfaces geometry_msgs lifecycle_msgs nav_msgs rcl_interfaces rmw_dds_common rosgraph_msgs sensor_msgs
 service_msgs shape_msgs statistics_msgs std_msgs std_srvs stereo_msgs tf2_msgs trajectory_msgs turtlesim
 type_description_interfaces unique_identifier_msgs visualization_msgs
-""".split()
+"""
+)
 
 MESSAGES = [
     f"{package}/{name}" for package in PACKAGES for name in built_in.interface_names(package) if name.startswith("msg/")

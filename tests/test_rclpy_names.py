@@ -459,7 +459,7 @@ def test_a_bad_remapping_rule_is_refused_at_the_start(world: World, rule: str) -
 
 def test_unknown_ros_arguments_are_named(world: World) -> None:
     text = message_of(UnknownROSArgsError, lambda: rclpy.init(args=["prog", "--ros-args", "--foo"]))
-    assert text == "Found unknown ROS arguments: [--foo]; known are -r, -p, --params-file, --log-level"
+    assert text == "['--foo']"
     text = message_of(RCLError, lambda: rclpy.init(args=["prog", "--ros-args", "-r"]))
     assert text == "failed to initialize rcl: Couldn't parse trailing -r flag. It must be followed by a value"
 

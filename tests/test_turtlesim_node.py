@@ -121,7 +121,7 @@ def test_a_recorded_session_of_calls_gets_the_same_answers_and_log_lines(bench: 
     ]
 
 
-def test_the_graph_is_the_recorded_one_but_for_the_action(bench: Bench) -> None:
+def test_the_graph_is_the_recorded_one(bench: Bench) -> None:
     node, name = bench.node, ("turtlesim", "/")
     publishers = dict(node.get_publisher_names_and_types_by_node(*name))
     subscribers = dict(node.get_subscriber_names_and_types_by_node(*name))
@@ -135,12 +135,17 @@ def test_the_graph_is_the_recorded_one_but_for_the_action(bench: Bench) -> None:
         "/rosout": ["rcl_interfaces/msg/Log"],
         "/turtle1/color_sensor": ["turtlesim/msg/Color"],
         "/turtle1/pose": ["turtlesim/msg/Pose"],
+        "/turtle1/rotate_absolute/_action/feedback": ["turtlesim/action/RotateAbsolute_FeedbackMessage"],
+        "/turtle1/rotate_absolute/_action/status": ["action_msgs/msg/GoalStatusArray"],
     }
     assert {service: types for service, types in services.items() if not service.startswith("/turtlesim/")} == {
         "/clear": ["std_srvs/srv/Empty"],
         "/kill": ["turtlesim/srv/Kill"],
         "/reset": ["std_srvs/srv/Empty"],
         "/spawn": ["turtlesim/srv/Spawn"],
+        "/turtle1/rotate_absolute/_action/cancel_goal": ["action_msgs/srv/CancelGoal"],
+        "/turtle1/rotate_absolute/_action/get_result": ["turtlesim/action/RotateAbsolute_GetResult"],
+        "/turtle1/rotate_absolute/_action/send_goal": ["turtlesim/action/RotateAbsolute_SendGoal"],
         "/turtle1/set_pen": ["turtlesim/srv/SetPen"],
         "/turtle1/teleport_absolute": ["turtlesim/srv/TeleportAbsolute"],
         "/turtle1/teleport_relative": ["turtlesim/srv/TeleportRelative"],

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from .lab.recorder import Recorder
     from .lab.widgets.station import Station
     from .ros.bags.recording import Recording
+    from .ros.graph.network import Conditions
     from .ros.launching import LaunchHandle
     from .ros.workspace.export import Exported
     from .turtlesim.obstacles import Obstacle
@@ -182,6 +183,36 @@ class Lesson(Shelf, Insight):
     def pause(self) -> None:
         """Stop what `play` began."""
         self._player.pause()
+
+    # -- the network -----------------------------------------------------------------------------------------------
+
+    def network(
+        self,
+        topic: str | None = "",
+        *,
+        latency: float | None = None,
+        jitter: float | None = None,
+        loss: float | None = None,
+    ) -> dict[str, Conditions]:
+        """Have the messages of a topic travel through a network that is as bad as this says, from now on.
+
+        Best-effort messages that are lost are gone. Reliable ones are sent again, 10 ms and two ways later and as long as
+        the publisher still has them, and arrive in their order. A service of that name is treated so, too, and is always
+        reliable. What is lost is chance, and the same in each run of the same world.
+
+        Args:
+            topic: a full name such as "/scan", or a pattern such as "/turtle*/pose"; nobody need use it yet. A name goes
+                before patterns, a later pattern before an earlier one.
+            latency: how long a transmission takes (s); at least the 0.1 ms that it always takes.
+            jitter: up to how much longer it takes (s), each time anew; best-effort messages that are overtaken are lost.
+            loss: the share of transmissions that is lost, from 0 to 1; with 1, nothing comes through.
+
+        With none of the three, what was said about this name is forgotten; `network(None)` forgets everything. Returns
+        what holds now, for all names; `network()` does nothing else. Raises ValueError or TypeError.
+        """
+        from .ros.graph.network import set_conditions
+
+        return set_conditions(self._world.graph, topic, latency, jitter, loss)
 
     # -- programs --------------------------------------------------------------------------------------------------
 

@@ -105,7 +105,7 @@ def lanes_of(
         elif full in topics:
             lanes.append(_topic_lane(trace, full, window))
         else:
-            raise ValueError(_unknown(full, nodes, sorted(topics)))
+            raise ValueError(_unknown(full, nodes, sorted(each for each in topics if not is_hidden(each))))
     return lanes
 
 

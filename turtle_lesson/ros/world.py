@@ -12,6 +12,7 @@ from typing import Any
 
 from .core import EPOCH, Process, Simulation, running_strand, virtual_random, virtual_time
 from .core.process import Output
+from .core.stdlib import home, lend
 from .graph import Graph
 from .trace import Trace
 from .workspace.index import PackageIndex
@@ -26,6 +27,7 @@ class World:
         virtual_time.install()
         virtual_random.install()
         virtual_random.install_for_numpy()
+        lend.install()
         self.seed = seed
         self.sim = Simulation()
         self.graph = Graph(self.sim, seed)
@@ -35,6 +37,7 @@ class World:
         self._pid = FIRST_PID
         self._names: dict[str, int] = {}
         self.notebook = self._make_process("notebook", argv=["notebook"])
+        self.notebook.is_notebook = True
 
     @property
     def now(self) -> int:
@@ -90,6 +93,14 @@ def _program(path: Path) -> Callable[[], object]:
 
 
 _current: World | None = None
+
+
+def _notebook() -> Process | None:
+    """The process of the notebook, if a world is open."""
+    return None if _current is None else _current.notebook
+
+
+home.Notebook.process = staticmethod(_notebook)
 
 
 def current_process() -> Process:

@@ -6,15 +6,15 @@ from typing import Any
 
 from ..words import listed, number
 from . import page_04, page_05
-from .drives import COMMAND_TYPE, COMMANDS
+from .drives import COMMAND_TYPE, COMMANDS, NAVIGATE, NAVIGATE_TYPE
 from .exam import Exam
-from .page_06 import system_is_there
-from .parts import node, parameter, publishes, subscribes
+from .parts import node, offers, parameter, publishes, subscribes
 from .registry import Expectation, check
 from .rows import CannotLook, Seen
 from .streams import rate
 
 PAGE = "11_to_a_real_robot"
+LAUNCH = "ros2 launch robot_controller start_system.launch.py NAME:=VALUE … (it starts all three nodes)"
 PLAYER = "rosbag2_player"
 WANTED = "/wanted_vel"
 SPEED = 0.5
@@ -27,7 +27,13 @@ BEAMS = 181
 def on_site() -> list[Expectation]:
     """The package is started with the settings of another place, and its files stay as they are."""
     return [
-        *system_is_there(),
+        node("/navigator", LAUNCH),
+        offers(NAVIGATE, NAVIGATE_TYPE, by="/navigator"),
+        publishes(COMMANDS, COMMAND_TYPE, by="/navigator"),
+        node("/status_monitor", LAUNCH),
+        publishes(page_04.STATUS, page_04.STATUS_TYPE, by="/status_monitor"),
+        node("/obstacle_detector", LAUNCH),
+        publishes(page_05.SCAN, page_05.SCAN_TYPE, by="/obstacle_detector"),
         parameter("/navigator", "goal_timeout", 8.0),
         parameter("/status_monitor", "publish_rate", 20),
         parameter("/obstacle_detector", "source", "world"),

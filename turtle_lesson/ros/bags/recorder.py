@@ -137,7 +137,8 @@ class Recorder:
         profile = request_for([writer.quality for writer in heard.writers])
 
         def write(message: Any, info: Any) -> None:
-            self._write(heard, message, info["source_timestamp"])
+            # When it arrived, were it not for the moment that everything takes: so in the usual network it is when it was sent.
+            self._write(heard, message, info["received_timestamp"] - topic.latency)
 
         heard.subscription = self._node.create_subscription(heard.message_class, name, write, profile)
         self._heard[name] = heard

@@ -125,6 +125,12 @@ def _value_now(world: World, given: Sequence[str], begun: str) -> list[str]:
     return [f'"{text}"' if " " in text else text]
 
 
+def _transitions(world: World, given: Sequence[str], begun: str) -> list[str]:
+    """The transitions that a managed node can make now."""
+    machine = getattr(_node_of(world, given[0]) if given else None, "_state_machine", None)
+    return [] if machine is None else [each.label for each in machine.available_transitions]
+
+
 def _node_of(world: World, name: str) -> Any:
     """The running node of a name. Tab must not let time pass, so it does not ask the node's services, as commands do."""
     for entry in world.graph.nodes:
@@ -189,6 +195,7 @@ BY_NAME: dict[str, Finder] = {
     "topic_name": _topics,
     "topic_type": _MESSAGES,
     "topics": _topics,
+    "transition": _transitions,
     "type": _ALL,
     "value": _value_now,
     "values": _values_of,

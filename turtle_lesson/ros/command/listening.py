@@ -92,14 +92,17 @@ def listen(
     *,
     raw: bool = False,
     done: Future | None = None,
+    lost: Callable[[Any], object] | None = None,
     period: float | None = None,
     report: Callable[[], object] | None = None,
 ) -> None:
     """Have `callback` called for every message until `done`, or until the stretch of robot time is over.
 
-    Every `period` seconds `report` is called. Raises Interrupted at the end of the stretch, and CommandError if
-    nothing has come until then.
+    Whenever messages turn out to be lost, `lost` is called; every `period` seconds `report` is. Raises Interrupted at
+    the end of the stretch, and CommandError if nothing has come until then.
     """
+    from rclpy.event_handler import SubscriptionEventCallbacks
+
     heard = False
     seconds = stretch_of(args)
 
@@ -108,7 +111,8 @@ def listen(
         heard = True
         callback(message)
 
-    node.create_subscription(kind, topic, hear, profile, raw=raw)
+    events = SubscriptionEventCallbacks(message_lost=lost)
+    node.create_subscription(kind, topic, hear, profile, raw=raw, event_callbacks=events)
     if period is not None and report is not None:
         node.create_timer(period, report)
     if spin_for(node, seconds, done):

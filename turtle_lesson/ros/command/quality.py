@@ -112,9 +112,9 @@ def matching_profile(node: Node, topic: str, preset: str) -> QoSProfile:
     if offers:
         reliability, durability = QoSReliabilityPolicy, QoSDurabilityPolicy
         weak, strong = reliability.BEST_EFFORT, reliability.RELIABLE
-        profile.reliability = _common([_effective(each, "reliability") for each in offers], strong, weak)
+        profile.reliability = _common([each.reliability for each in offers], strong, weak)
         weak_durability, latched = durability.VOLATILE, durability.TRANSIENT_LOCAL
-        profile.durability = _common([_effective(each, "durability") for each in offers], latched, weak_durability)
+        profile.durability = _common([each.durability for each in offers], latched, weak_durability)
     return profile
 
 
@@ -131,19 +131,3 @@ def _copy(profile: QoSProfile) -> QoSProfile:
     from rclpy.qos import QoSProfile
 
     return QoSProfile(**vars(profile))
-
-
-def _effective(profile: QoSProfile, name: str) -> Any:
-    """A policy as the middleware takes it: `system_default` stands for one of the others."""
-    from rclpy.qos import DurabilityPolicy, HistoryPolicy, LivelinessPolicy, ReliabilityPolicy
-
-    meaning = {
-        "reliability": ReliabilityPolicy.RELIABLE,
-        "durability": DurabilityPolicy.VOLATILE,
-        "history": HistoryPolicy.KEEP_LAST,
-        "liveliness": LivelinessPolicy.AUTOMATIC,
-    }
-    value = getattr(profile, name)
-    return meaning[name] if value.name == "SYSTEM_DEFAULT" else value
-
-

@@ -37,7 +37,7 @@ def arguments(parser: ArgumentParser) -> None:
     parser.add_argument("--no-str", action="store_true", help="Print the length of texts instead of them")
     parser.add_argument("--flow-style", action="store_true", help="Print an array in one line, in brackets")
     parser.add_argument("--lost-messages", action="store_true", help="Deprecated, and without effect")
-    parser.add_argument("--no-lost-messages", action="store_true", help="Accepted; no message is ever lost here")
+    parser.add_argument("--no-lost-messages", action="store_true", help="Do not say when messages were lost")
     parser.add_argument("--raw", action="store_true", help="Print the bytes as they are sent")
     parser.add_argument(
         "--filter",
@@ -79,7 +79,13 @@ def echo(args: Namespace) -> None:
                 raise CommandError("Could not determine the type for the passed topic", hint)
         else:
             kind = message_class(given)
-        listen(node, args.topic_name, kind, print_message, profile, args, raw=args.raw, done=done)
+        lost = None if args.no_lost_messages else _say_what_was_lost
+        listen(node, args.topic_name, kind, print_message, profile, args, raw=args.raw, done=done, lost=lost)
+
+
+def _say_what_was_lost(event: Any) -> None:
+    counts = f"total count change:{event.total_count_change}\n\ttotal count: {event.total_count}"
+    print(f"A message was lost!!!\n\t{counts}", end="---\n")
 
 
 def _path(field: str | None) -> list[str]:

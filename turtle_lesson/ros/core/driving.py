@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -29,6 +30,7 @@ class Call:
         self.value: Any = None
         self.error: BaseException | None = None
         self.strand: Strand = process.add_strand(self._run)
+        self.strand.thread = threading.current_thread()  # for the learner it is the cell that calls
         simulation.driven = self.strand
         simulation.put_back(self.strand)
 

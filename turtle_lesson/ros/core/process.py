@@ -2,10 +2,12 @@
 
 A process is *alive* (it has a strand that can go on), then *dead* (`exit_code` is set). Exit codes are Python's:
 0 after `main()` returned, 1 after an exception, the code of `sys.exit`, -2 after an interrupt that nobody caught.
+After `main()` the process lives on as long as a thread of it does that is no daemon.
 """
 
 from __future__ import annotations
 
+import signal
 import sys
 from collections.abc import Callable, Sequence
 from io import StringIO
@@ -30,8 +32,22 @@ class Output(Protocol):
         """Show what was written."""
 
 
+class Killed(SystemExit):
+    """Ends a process that is not asked."""
+
+
 class Process:
-    """A program in the simulation. `locals` is where libraries keep what each process has one of."""
+    """A program in the simulation. `locals` is where libraries keep what each process has one of.
+
+    Attributes:
+        is_notebook: whether it stands for a notebook, whose cells drive the simulation.
+        strands: its lines of execution, in the order of their making; dead ones may be among them.
+        before_exit: called when the main program has ended, the last one first: waits for what is still at work.
+        exit_functions: called after that, the last one first: what the program gave to `atexit.register`.
+        at_exit: called at the very end, the last one first, however the process ends: what libraries clean up.
+        signal_handlers: what the program has set with `signal.signal`, by the number of the signal.
+        signals_handled: how many signals have called one of those.
+    """
 
     def __init__(
         self,
@@ -55,11 +71,17 @@ class Process:
         self.stderr: Any = stderr
         self.exit_code: int | None = None
         self.locals: dict[str, Any] = {}
+        self.before_exit: list[Callable[[], None]] = []
+        self.exit_functions: list[Callable[[], object]] = []
         self.at_exit: list[Callable[[], None]] = []
+        self.signal_handlers: dict[int, Any] = {}
+        self.signals_handled = 0
         self.error: BaseException | None = None
+        self.is_notebook = False
+        self.main_strand: Strand | None = None
+        self.strands: list[Strand] = []
         self._on_exit = on_exit
-        self._strands: list[Strand] = []
-        self._main: Strand | None = None
+        self._idents = pid << 16
 
     def __repr__(self) -> str:
         state = "alive" if self.alive else f"exited with {self.exit_code}"
@@ -76,24 +98,47 @@ class Process:
         def main() -> None:
             self._run_main(program)
 
-        self._main = self.add_strand(main)
-        self._main.parked = True
-        self.simulation.wake(self._main)
+        self.main_strand = self.add_strand(main)
+        self.main_strand.parked = True
+        self.simulation.wake(self.main_strand)
 
     def add_strand(self, target: Callable[[], Any]) -> Strand:
         """Make another line of execution in this process; it starts when it is made ready."""
-        self._strands = [strand for strand in self._strands if not strand.dead]
+        self.strands = [strand for strand in self.strands if not strand.dead]
         strand = Strand(self, target)
-        self._strands.append(strand)
+        self.strands.append(strand)
         return strand
 
+    def next_ident(self) -> int:
+        """A number for one more thread."""
+        self._idents += 1
+        return self._idents
+
     def interrupt(self) -> None:
-        """Do as Ctrl-C in a terminal would: raise KeyboardInterrupt in the main strand, now."""
-        self._end_main(KeyboardInterrupt())
+        """Do as Ctrl-C in a terminal would: SIGINT, which raises KeyboardInterrupt in the main strand, now."""
+        self.send_signal(signal.SIGINT)
+
+    def send_signal(self, number: int) -> None:
+        """Have the process get a signal: its own handler is called in the main strand, or does what Python does."""
+        handler = self.signal_handlers.get(number)
+        main = self.main_strand
+        if handler is not None and self.alive and main:
+            self._handle(handler, number, main)
+        elif number == signal.SIGINT:
+            self._end_main(KeyboardInterrupt())
+        else:
+            self.kill()
+
+    def _handle(self, handler: Callable[..., object], number: int, main: Strand) -> None:
+        self.signals_handled += 1
+        if main is running_strand():
+            handler(number, sys._getframe(2))
+        else:
+            self.simulation.call_in(main, lambda: handler(number, sys._getframe(2)))
 
     def kill(self) -> None:
         """End the process without asking; its `finally` blocks still run, but none of them may wait."""
-        self._end_main(SystemExit(KILLED))
+        self._end_main(Killed(KILLED))
         self.abandon(None)
 
     def close(self) -> None:
@@ -111,7 +156,7 @@ class Process:
         self._finish(KILLED)
 
     def _end_main(self, error: BaseException) -> None:
-        main = self._main
+        main = self.main_strand
         if not self.alive or main is None:
             return
         if main is running_strand():
@@ -122,19 +167,31 @@ class Process:
         self.simulation.raise_in(main, error)
 
     def _run_main(self, program: Callable[[], object]) -> None:
-        code = 1
+        code: int | None = None
+        try:
+            code = self._code_of(program)
+            if code is not None and self.alive:
+                from .stdlib.ending import wind_down
+
+                wind_down(self)
+        finally:
+            self._finish(KILLED if code is None else code)
+
+    def _code_of(self, program: Callable[[], object]) -> int | None:
+        """Run the main program; the exit code that it ends with, None if it is killed."""
         try:
             program()
-            code = 0
+            return 0
+        except Killed:
+            return None
         except SystemExit as error:
-            code = self._exit_status(error)
+            return self._exit_status(error)
         except KeyboardInterrupt as error:
-            code = INTERRUPTED
             self._show(error)
+            return INTERRUPTED
         except BaseException as error:
             self._show(error)
-        finally:
-            self._finish(code)
+            return 1
 
     def _exit_status(self, error: SystemExit) -> int:
         if error.code is None:
@@ -166,6 +223,6 @@ class Process:
     def _drop_other_strands(self) -> None:
         """Workers end with their process: they are never resumed again, wherever they stand."""
         current = running_strand()
-        for strand in self._strands:
+        for strand in self.strands:
             if strand is not current:
                 self.simulation.forget(strand)

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import asyncio
 import sys
-import threading
 import weakref
+from _thread import get_ident
 from collections import deque
 from collections.abc import Callable
 from contextvars import copy_context
@@ -52,7 +52,7 @@ class Simulation:
         self._limit = 0
         self._halted = False
         self._raising = False
-        self._thread = threading.get_ident()
+        self.thread = get_ident()
         self.driven: Strand | None = None
         self._cell = Cell(copy_context())
         self._for_the_hub: deque[tuple[Callable[..., object], tuple[Any, ...]]] = deque()
@@ -93,6 +93,7 @@ class Simulation:
     def forget(self, strand: Strand) -> None:
         """Never run a strand again. What it holds is given back when the world closes."""
         strand.parked = False
+        strand.waits_for = "nothing"
         self._forgotten.append(strand)
         if strand in self._ready:
             self._ready.remove(strand)
@@ -151,8 +152,17 @@ class Simulation:
 
     def raise_in(self, strand: Strand, error: BaseException) -> None:
         """Raise `error` where a strand waits, at once, and let it clean up until it waits again or ends."""
-        if strand.dead:
-            return
+        if not strand.dead:
+            self._visit(strand, lambda: strand.raise_inside(error))
+
+    def call_in(self, strand: Strand, function: Callable[[], object]) -> None:
+        """Call a function within a strand, where it waits, at once. The strand must have been made careful before."""
+        if not strand.dead:
+            strand.calls = [*strand.calls, function]
+            self._visit(strand, strand.go_on)
+
+    def _visit(self, strand: Strand, go: Callable[[], object]) -> None:
+        """Switch to a strand out of its turn, until it waits again or ends. No time passes."""
         hub, face, halted, limit, raising = self.hub, self._face, self._halted, self._limit, self._raising
         self.hub = running_greenlet()
         self.halt()
@@ -163,7 +173,7 @@ class Simulation:
                 self._cell = self._cell.now()
             if strand.cell is not self._cell:
                 self._cell.show_to(strand)
-            strand.raise_inside(error)
+            go()
         finally:
             self.hub, self._halted, self._limit, self._raising = hub, halted, limit, raising
             if strand.dead and strand in self._ready:
@@ -178,7 +188,7 @@ class Simulation:
             raise WorldClosed("this world was closed by a later start(): use the lesson that start() returned last")
         if self.running:
             raise SimulationError("the simulation runs already: a callback cannot run it once more")
-        if threading.get_ident() != self._thread:
+        if get_ident() != self.thread:
             raise SimulationError(
                 "a world runs in the thread that made it, and in no other: hand the work over to that one, for example "
                 "with loop.call_soon_threadsafe"
@@ -190,8 +200,9 @@ class Simulation:
         self._limit = limit
         self._halted = False
         self.running = True
-        loop = asyncio._get_running_loop()
+        loop, hooks = asyncio._get_running_loop(), sys.get_asyncgen_hooks()
         asyncio._set_running_loop(None)  # a simulated process is no part of Jupyter's event loop
+        sys.set_asyncgen_hooks(None, None)
         try:
             self._loop()
         finally:
@@ -199,6 +210,7 @@ class Simulation:
             self._limit = 0
             self._leave()
             asyncio._set_running_loop(loop)
+            sys.set_asyncgen_hooks(*hooks)
 
     def scheduled(self) -> list[tuple[int, int, Callable[[Any], object], Any]]:
         """What `at` was asked for and has not happened yet, in its order: time (ns), a number, action, argument."""

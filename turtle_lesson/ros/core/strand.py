@@ -9,7 +9,7 @@ The hub is the greenlet that runs the simulation's loop: the notebook cell itsel
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from greenlet import GreenletExit, getcurrent, greenlet
@@ -33,7 +33,9 @@ class Strand(greenlet):
         warned: whether it was told once that it computes without end.
         cell: the cell that it prints to.
         waits_for: for what it waits without a time limit, and in vain if all others of its process do; None else.
+        name: what it is called, if nobody gives it another name.
         thread: the `threading.Thread` that it is, once somebody has asked.
+        calls: functions to be called in it where it waits, such as handlers of signals.
     """
 
     process: Process
@@ -43,7 +45,9 @@ class Strand(greenlet):
     warned: bool
     cell: Cell | None = None
     waits_for: Any = None
+    name: str = ""
     thread: Any = None
+    calls: Sequence[Callable[[], object]] = ()
 
     def __init__(self, process: Process, target: Callable[[], Any]) -> None:
         super().__init__(target)
@@ -58,6 +62,12 @@ class Strand(greenlet):
     def park(self) -> None:
         """Stop here until woken. May also return early: callers check what they wait for, in a loop."""
         self.simulation.park(self)
+
+    def go_on(self) -> None:
+        """Go on out of turn (called by the hub)."""
+        self.parked = False
+        self.parent = self.simulation.hub
+        self.switch()
 
     def raise_inside(self, error: BaseException) -> None:
         """Go on, with `error` raised at the place where the strand stopped (called by the hub)."""

@@ -33,6 +33,11 @@ def is_ours(filename: str) -> bool:
     return filename.startswith(("generated/", "<generated ", "<frozen "))
 
 
+def is_library(filename: str) -> bool:
+    """Whether a file is part of Python itself, of a package that was installed, or of this one."""
+    return is_ours(filename) or "site-packages" in filename or "dist-packages" in filename
+
+
 def traceback_entries(trace: TracebackType | None) -> list[TracebackType]:
     """All entries of a traceback, outermost first."""
     entries = []

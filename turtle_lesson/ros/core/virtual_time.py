@@ -7,9 +7,9 @@ process gets virtual time, everybody else (Jupyter, the event loop, other thread
 from __future__ import annotations
 
 import atexit
-import threading
 import time
 from collections.abc import Callable
+from types import MethodType
 from typing import Any
 
 from .simulation import CLOCK_READ, EPOCH, NANOSECONDS
@@ -20,8 +20,8 @@ real_sleep = time.sleep
 real_monotonic = time.monotonic
 
 
-def _seconds(real: Callable[[], float], origin: int) -> Callable[[], float]:
-    def read() -> float:
+def _seconds(origin: int) -> Callable[..., float]:
+    def read(real: Callable[[], float]) -> float:
         strand = getcurrent()
         if type(strand) is Strand:
             return (origin + strand.simulation.read_clock()) / NANOSECONDS
@@ -30,8 +30,8 @@ def _seconds(real: Callable[[], float], origin: int) -> Callable[[], float]:
     return read
 
 
-def _nanoseconds(real: Callable[[], int], origin: int) -> Callable[[], int]:
-    def read() -> int:
+def _nanoseconds(origin: int) -> Callable[..., int]:
+    def read(real: Callable[[], int]) -> int:
         strand = getcurrent()
         if type(strand) is Strand:
             return origin + strand.simulation.read_clock()
@@ -40,27 +40,15 @@ def _nanoseconds(real: Callable[[], int], origin: int) -> Callable[[], int]:
     return read
 
 
-def _sleep(seconds: float) -> None:
+def _sleep(real: Callable[[float], None], seconds: float, /) -> None:
     """Like time.sleep: in a simulated process it holds up this strand alone, in virtual time."""
     strand = getcurrent()
     if type(strand) is not Strand:
-        real_sleep(seconds)
+        real(seconds)
         return
     if seconds < 0:
         raise ValueError("sleep length must be non-negative")
     strand.simulation.sleep_until(strand.simulation.now + max(CLOCK_READ, round(seconds * NANOSECONDS)))
-
-
-def _start_thread(real: Callable[[threading.Thread], None]) -> Callable[[threading.Thread], None]:
-    def start(self: threading.Thread) -> None:
-        if type(getcurrent()) is Strand:
-            raise NotImplementedError(
-                "a simulated process cannot start a thread in this classroom yet: a real thread would run beside "
-                "virtual time. Use a timer, or a MultiThreadedExecutor, whose threads are simulated."
-            )
-        real(self)
-
-    return start
 
 
 _originals: dict[str, Any] = {}
@@ -71,21 +59,20 @@ def install() -> None:
     if _originals:
         return
     replacements: dict[str, Any] = {
-        "time": _seconds(time.time, EPOCH),
-        "monotonic": _seconds(time.monotonic, 0),
-        "perf_counter": _seconds(time.perf_counter, 0),
-        "time_ns": _nanoseconds(time.time_ns, EPOCH),
-        "monotonic_ns": _nanoseconds(time.monotonic_ns, 0),
-        "perf_counter_ns": _nanoseconds(time.perf_counter_ns, 0),
+        "time": _seconds(EPOCH),
+        "monotonic": _seconds(0),
+        "perf_counter": _seconds(0),
+        "time_ns": _nanoseconds(EPOCH),
+        "monotonic_ns": _nanoseconds(0),
+        "perf_counter_ns": _nanoseconds(0),
         "sleep": _sleep,
     }
     for name, function in replacements.items():
+        real = _originals[name] = getattr(time, name)
         function.__name__ = function.__qualname__ = name
-        function.__doc__ = getattr(time, name).__doc__
-        _originals[name] = getattr(time, name)
-        setattr(time, name, function)
+        function.__doc__ = real.__doc__
+        setattr(time, name, MethodType(function, real))  # as an attribute of a class it is not bound once more
     atexit.register(_restore)  # nothing may ask which greenlet runs while Python takes itself apart
-    threading.Thread.start = _start_thread(threading.Thread.start)  # type: ignore[method-assign,assignment]
 
 
 def _restore() -> None:

@@ -8,8 +8,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from random import Random
+from typing import TYPE_CHECKING
 
 from .names import full_topic_name_flaw
+
+if TYPE_CHECKING:
+    from .graph import Graph
 
 SECOND = 1_000_000_000
 LONGEST = 3600.0
@@ -24,10 +28,10 @@ class Conditions:
     jitter: int = 0
     loss: float = 0.0
 
-    def __str__(self) -> str:
+    def __repr__(self) -> str:
         longer = f" to {_span(self.latency + self.jitter)}" if self.jitter else ""
         way = f"{_span(self.latency)}{longer} under way" if self.latency or self.jitter else "under way as usual"
-        return f"{way}, {self.loss:.4g} of all transmissions lost" if self.loss else way
+        return f"<{way}, {self.loss * 100:g} % lost>" if self.loss else f"<{way}>"
 
 
 def _span(nanoseconds: int) -> str:
@@ -91,6 +95,20 @@ class Network:
         """Random numbers for a line; the second line of the same ends has others than the first."""
         number = self._lines[line] = self._lines.get(line, 0) + 1
         return Random(f"{self.seed}/network/{line}/{number}")
+
+
+def set_conditions(
+    graph: Graph, name: str | None, latency: float | None, jitter: float | None, loss: float | None
+) -> dict[str, Conditions]:
+    """What `lesson.network` does: set, forget (with nothing but a name), forget all (None), or only look ("")."""
+    if latency is jitter is loss is None:
+        if name != "":
+            graph.set_network(None if name is None else checked_name(name), None)
+    elif not name:
+        raise ValueError('these conditions are for which topic? All are "*", as in lesson.network("*", loss=0.1)')
+    else:
+        graph.set_network(checked_name(name), conditions(latency, jitter, loss))
+    return graph.network.rules()
 
 
 def is_pattern(name: str) -> bool:

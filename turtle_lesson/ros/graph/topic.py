@@ -73,7 +73,7 @@ class Topic:
         else:
             for writer, _ in self.writers:
                 if end in writer.readers:
-                    writer.part(end)  # type: ignore[arg-type]
+                    writer.part(end)
 
 
 def _introduce(writer: Writer, reader: Reader, same_type: bool) -> None:

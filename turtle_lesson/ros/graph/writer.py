@@ -162,8 +162,8 @@ class Writer(End):
         for end in (self, reader):
             end.will_happen(MATCHED, (1, 1))
         reader.will_happen(LIVELINESS, (1, 0) if self.alive else (0, 1))
-        if reader.quality.latched:
-            self._greet(reader)
+        if reader.quality.latched and reader.quality.reliable:
+            self._greet(reader)  # those who come too late have to ask for it, as for what was lost
 
     def _greet(self, reader: Reader) -> None:
         self._forget_expired()

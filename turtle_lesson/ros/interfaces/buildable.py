@@ -21,7 +21,12 @@ from turtle_lesson.ros.interfaces.names import STRINGS
 # Attributes of our own in the classes, which fields of these names would replace.
 TAKEN = ("wire_copy", "fields_and_field_types")
 
-CPP_WORDS = frozenset(
+
+def _words(text: str) -> frozenset[str]:
+    return frozenset(text.split())
+
+
+CPP_WORDS = _words(
     """
     alignas alignof and and_eq asm auto bitand bitor bool break case catch char char16_t char32_t class compl const
     const_cast constexpr continue decltype default delete do double dynamic_cast else enum explicit export extern false
@@ -29,7 +34,7 @@ CPP_WORDS = frozenset(
     protected public register reinterpret_cast restrict return short signed sizeof static static_assert static_cast
     struct switch template this thread_local throw true try typedef typeid typename union unsigned using virtual void
     volatile wchar_t while xor xor_eq
-    """.split()
+    """
 )
 """The reserved words of C and of C++17."""
 

@@ -2,8 +2,7 @@
 
 `rosbags` does the work. It reads the attributes of any object, if arrays are numpy arrays and bytes are
 numbers, so each message is shown to it as a plain portrait of itself; what it reads goes straight into our
-own classes. It knows no wide strings: these are shown to it as what they are on the wire of Humble's Fast DDS, the number
-of UTF-16 units and then each in four bytes (rosidl_typesupport_fastrtps_cpp, Fast-CDR 1).
+own classes. What it does not know is in `cdr_shapes`.
 """
 
 from __future__ import annotations
@@ -15,6 +14,19 @@ from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 from weakref import WeakKeyDictionary
 
+from turtle_lesson.ros.interfaces.cdr_shapes import (
+    LONGEST,
+    WIDE,
+    array_of,
+    base,
+    from_units,
+    in_parts,
+    long_array,
+    named,
+    register_wide_strings,
+    to_units,
+    wide_string,
+)
 from turtle_lesson.ros.interfaces.checks import TYPE_CODES, numpy_name
 from turtle_lesson.ros.interfaces.model import FieldType
 from turtle_lesson.ros.interfaces.names import STRINGS
@@ -24,9 +36,6 @@ if TYPE_CHECKING:
 
 # What DDS puts into a message without fields (rosidl_generator_c, EMPTY_STRUCTURE_REQUIRED_MEMBER_NAME).
 PLACEHOLDER = "structure_needs_at_least_one_member"
-
-WIDE = "wide string"
-"""The name under which rosbags knows an element of an array of wide strings."""
 
 _names: WeakKeyDictionary[type, str] = WeakKeyDictionary()
 
@@ -73,9 +82,8 @@ def deserialize(data: bytes | bytearray | memoryview, message_class: Any) -> Any
 def _store() -> Typestore:
     from rosbags.typesys.store import Typestore
 
-    store: Any = Typestore()
-    store.fielddefs[WIDE] = ((), [("units", _units())])
-    store.types[WIDE] = _from_units
+    store = Typestore()
+    register_wide_strings(store)
     return store
 
 
@@ -92,13 +100,13 @@ def _name(message_class: Any) -> str:
 def _register(message_class: Any) -> str:
     members = message_class._DEFINITION.fields
     kinds = message_class._KINDS
-    fields = [
+    fields: list[Any] = [
         (member.name, _description(member.type, kind.element_class))
         for member, kind in zip(members, kinds, strict=True)
     ]
     store: Any = _store()
     name = f"{message_class._TYPE_NAME}#{len(store.types)}"
-    store.fielddefs[name] = ((), fields or [(PLACEHOLDER, _base("uint8"))])
+    store.fielddefs[name] = ((), fields or [(PLACEHOLDER, base("uint8"))])
     store.types[name] = _maker(message_class)
     return name
 
@@ -108,39 +116,21 @@ def _description(type_: FieldType, element_class: Any) -> Any:
     from rosbags.interfaces import Nodetype
 
     if type_.base == "wstring":
-        element = (Nodetype.NAME, WIDE) if type_.is_array else _units()
+        element = named(WIDE) if type_.is_array else wide_string()
     elif type_.is_primitive:
-        element = _base("uint8" if type_.base in ("byte", "char") else type_.base)
+        element = base("uint8" if type_.base in ("byte", "char") else type_.base)
     else:
-        element = (Nodetype.NAME, _name(element_class))
+        element = named(_name(element_class))
     if not type_.is_array:
         return element
-    return (Nodetype.ARRAY if type_.is_fixed else Nodetype.SEQUENCE, (element, type_.size or 0))
+    if type_.is_fixed and type_.size is not None:
+        return long_array(_store(), element, type_.size) if _is_long(type_) else array_of(element, type_.size)
+    return Nodetype.SEQUENCE, (element, type_.size or 0)
 
 
-def _base(name: str) -> Any:
-    from rosbags.interfaces import Nodetype
-
-    return Nodetype.BASE, (name, 0)
-
-
-def _units() -> Any:
-    from rosbags.interfaces import Nodetype
-
-    return Nodetype.SEQUENCE, (_base("uint32"), 0)
-
-
-def _to_units(text: str) -> Any:
-    import numpy
-
-    return numpy.frombuffer(text.encode("utf-16-le"), "<u2").astype("uint32")
-
-
-def _from_units(units: Any) -> str:
-    if len(units) and units.max() > 0xFFFF:
-        raise ValueError("a unit of a wide string is larger than two bytes")
-    text: str = units.astype("<u2").tobytes().decode("utf-16-le")
-    return text
+def _is_long(type_: FieldType) -> bool:
+    """Whether an array is told in parts."""
+    return type_.is_fixed and (type_.size or 0) > LONGEST and (not type_.is_primitive or type_.base in STRINGS)
 
 
 def _portrait(message: Any) -> SimpleNamespace:
@@ -157,21 +147,24 @@ def _shown(value: Any, type_: FieldType) -> Any:
         if not type_.is_primitive:
             return _portrait(value)
         if type_.base == "wstring":
-            return _to_units(value)
+            return to_units(value)
         return value[0] if type_.base == "byte" else value
     if type_.is_bounded and type_.size is not None and len(value) > type_.size:
         raise ValueError(f"{len(value)} elements in a sequence of at most {type_.size}")
-    if not type_.is_primitive:
-        return [_portrait(each) for each in value]
-    if type_.base == "string":
-        return list(value)
-    if type_.base == "wstring":
-        return [SimpleNamespace(units=_to_units(each)) for each in value]
+    if not type_.is_primitive or type_.base in STRINGS:
+        shown = _shown_elements(value, type_)
+        return in_parts(shown) if _is_long(type_) else shown
     if type_.base == "byte":
         return numpy.frombuffer(b"".join(value), "uint8")
     if type_.base == "bool":
         return numpy.array(list(value), "bool")
     return numpy.asarray(value, numpy_name(type_.base)).ravel()
+
+
+def _shown_elements(values: Any, type_: FieldType) -> list[Any]:
+    if not type_.is_primitive:
+        return [_portrait(each) for each in values]
+    return [SimpleNamespace(units=to_units(each)) for each in values] if type_.base == "wstring" else list(values)
 
 
 def _maker(message_class: Any) -> Callable[..., Any]:
@@ -194,7 +187,7 @@ def _reader(type_: FieldType) -> Callable[[Any], Any] | None:
         return lambda values: _limited([bytes([each]) for each in values], type_)
     if type_.base == "bool":
         return lambda values: _limited(values.tolist(), type_)
-    if not type_.is_primitive or type_.string_bound is None and type_.base in STRINGS:
+    if not type_.is_primitive or (type_.string_bound is None and type_.base in STRINGS):
         return lambda values: _limited(values, type_)
     if type_.string_bound is not None:
         check = _bounded_text(type_.string_bound)
@@ -209,7 +202,7 @@ def _text_reader(type_: FieldType) -> Callable[[Any], str] | None:
     check = None if type_.string_bound is None else _bounded_text(type_.string_bound)
     if type_.base != "wstring":
         return check
-    return _from_units if check is None else lambda units: check(_from_units(units))
+    return from_units if check is None else lambda units: check(from_units(units))
 
 
 def _bounded_text(bound: int) -> Callable[[str], str]:

@@ -151,7 +151,7 @@ class _Builder:
         def make_event() -> type:
             event = event_part(definition)
             if event.name not in self._globals:
-                self._source = "".join(linecache.cache[self._file][2])
+                self._source = "".join(linecache.getlines(self._file))
                 self.add_message(event)
                 self.finish()
             made: type = self._globals[event.name]

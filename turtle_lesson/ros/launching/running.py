@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 from typing import TYPE_CHECKING, Any
 
 from .output import LineWriter, Screen
@@ -97,13 +98,14 @@ class RunningProcess:
         return self.action._respawns and (limit < 0 or self.retries < limit)
 
     def signal(self, name: str) -> None:
-        """Send SIGINT, which a program may handle, or SIGTERM or SIGKILL, which none survives."""
+        """Send SIGINT or SIGTERM, which a program may handle, or SIGKILL, which none survives."""
         if name not in {"SIGINT", "SIGTERM", "SIGKILL"}:
             raise NotImplementedError(f"{name} does not exist in this classroom; SIGINT, SIGTERM and SIGKILL do")
         if self.process is None or not self.alive:
             return
-        if name == "SIGINT":
-            self.process.interrupt()
-        else:
-            self._terminated = name == "SIGTERM"
+        if name == "SIGKILL":
             self.process.kill()
+            return
+        number = signal.Signals[name]
+        self._terminated = name == "SIGTERM" and number not in self.process.signal_handlers
+        self.process.send_signal(number)

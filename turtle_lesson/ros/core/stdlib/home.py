@@ -13,7 +13,7 @@ So Jupyter's own threads, those of tornado, matplotlib, asyncio, and whatever an
 from __future__ import annotations
 
 import sys
-import threading
+from _thread import get_ident
 from collections.abc import Callable
 from types import FrameType
 from typing import TYPE_CHECKING
@@ -56,7 +56,7 @@ def process_here() -> Process | None:
 def notebook_here() -> Process | None:
     """The notebook's process, if this is plain code in the thread that its world lives in, and it can be run."""
     process = Notebook.process()
-    if process is None or process.simulation.closed or threading.get_ident() != process.simulation.thread:
+    if process is None or process.simulation.closed or get_ident() != process.simulation.thread:
         return None
     return process
 

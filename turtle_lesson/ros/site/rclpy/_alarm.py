@@ -52,5 +52,5 @@ def somebody_spins(executor: Executor | None, strand: Strand) -> bool:
         return True
     if executor is not None and executor._spun_by_another(strand):
         return True
-    others = (each for each in strand.process._strands if each is not strand and not each.dead)
+    others = (each for each in strand.process.strands if each is not strand and not each.dead)
     return any(executor_of_worker(each) is None for each in others)

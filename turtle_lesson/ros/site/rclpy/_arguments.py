@@ -80,6 +80,26 @@ def parse_arguments(words: list[str]) -> Arguments:
     return found
 
 
+def obsolete_text(rule: str) -> str:
+    """The warning about a rule that is given as ROS 2 had it before `--ros-args`."""
+    return f"Found remap rule '{rule}'. This syntax is deprecated. Use '--ros-args --remap {rule}' instead."
+
+
+def without_ros_arguments(words: list[str]) -> tuple[list[str], list[str]]:
+    """The words that are not ROS's, and apart from them the obsolete rules, which are."""
+    kept: list[str] = []
+    obsolete: list[str] = []
+    inside = False
+    for word in words:
+        if word == "--ros-args":
+            inside = True
+        elif word == "--" and inside:
+            inside = False
+        elif not inside:
+            (obsolete if OBSOLETE.fullmatch(word) else kept).append(word)
+    return kept, obsolete
+
+
 def _take(word: str, following: Iterator[str], found: Arguments) -> None:
     if word in {"-r", "--remap"}:
         found.remaps.append(_remap(_next(word, following)))

@@ -10,7 +10,7 @@ from turtle_lesson.ros.core.tracebacks import shown_path
 
 from .impl.logging_severity import LoggingSeverity
 from .impl.rcutils_logger import RcutilsLogger, publish_rosout
-from .qos import DurabilityPolicy, QoSProfile, qos_profile_parameter_events
+from .qos import QoSProfile, qos_profile_parameter_events, qos_profile_rosout_default
 
 if TYPE_CHECKING:
     from turtle_lesson.ros.core import Simulation
@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 
     from .clock import ROSClock
     from .publisher import Publisher
-
-ROSOUT = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 class NodeNews:
@@ -40,7 +38,7 @@ class NodeNews:
         """Publish on /rosout what the logger prints."""
         from rcl_interfaces.msg import Log
 
-        publisher = self.create_publisher(Log, "/rosout", ROSOUT)
+        publisher = self.create_publisher(Log, "/rosout", qos_profile_rosout_default)
         trace = self._ros_graph.trace
 
         def publish(message: str, severity: LoggingSeverity, frame: FrameType) -> None:

@@ -113,6 +113,18 @@ def integer_range_flaw(parameter: Parameter, limits: Any) -> str:
     return ""
 
 
+def check_prefixes(prefixes: object, depth: object) -> None:
+    """Raise TypeError or ValueError for what `list_parameters` cannot go by."""
+    if not isinstance(prefixes, list):
+        raise TypeError(f"The prefixes argument must be a list, got {prefixes!r}")
+    if not all(isinstance(prefix, str) for prefix in prefixes):
+        raise TypeError("All prefixes must be instances of type str")
+    if not isinstance(depth, int):
+        raise TypeError(f"The depth must be instance of type int, got {depth!r}")
+    if depth < 0:
+        raise ValueError("The depth must be greater than or equal to zero")
+
+
 def is_listed(name: str, prefixes: list[str], depth: int) -> bool:
     """Whether a parameter is one that a list of what is below some prefixes, to some depth, contains."""
     separator = PARAMETER_SEPARATOR_STRING

@@ -53,7 +53,9 @@ def _parameters(found: Any, prefix: str) -> Iterator[tuple[str, Any]]:
     if found.id == "scalar" and not found.value and not prefix:
         return  # nothing below ros__parameters
     if found.id != "mapping":
-        raise YamlValueError(f"Cannot have a value before {KEY} at line {line_of(found)}: names of parameters are expected")
+        raise YamlValueError(
+            f"Cannot have a value before {KEY} at line {line_of(found)}: names of parameters are expected"
+        )
     for key, value in found.value:
         name = prefix + _name(key)
         if value.id == "mapping":

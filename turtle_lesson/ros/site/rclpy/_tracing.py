@@ -14,7 +14,6 @@ from turtle_lesson.ros.trace import Callback, Trace
 from turtle_lesson.ros.trace.trace import PLUMBING
 
 from ._entity import SERVICE, SUBSCRIPTION, TIMER
-from .parameter_service import ParameterService
 from .time_source import TimeSource
 from .timer import Rate
 
@@ -35,8 +34,8 @@ def trace_entity(entity: Any, node: Node, executor: Executor, trace: Trace) -> N
         _begin_to_trace(executor)
     if entity._traced is not None:
         return  # it has been traced in another executor
-    if type(getattr(entity.callback, "__self__", None)) is ParameterService:
-        name = source.rpartition("/")[2]
+    if type(getattr(entity.callback, "__self__", None)).__module__.startswith("rclpy."):
+        name = source.rpartition("/")[2]  # a service of rclpy's own, such as get_parameters
     entry = node._ros_entry
     period = entity._period if kind == "timer" else 0
     entity._traced = Callback(entry.full_name, name, kind, source, period, entry.process.pid, entity._is_async)

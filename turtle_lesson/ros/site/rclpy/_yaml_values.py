@@ -8,8 +8,8 @@ from __future__ import annotations
 import re
 from typing import Any
 
-TRUE = frozenset("Y y yes Yes YES true True TRUE on On ON".split())
-FALSE = frozenset("N n no No NO false False FALSE off Off OFF".split())
+TRUE = frozenset(["Y", "y", "yes", "Yes", "YES", "true", "True", "TRUE", "on", "On", "ON"])
+FALSE = frozenset(["N", "n", "no", "No", "NO", "false", "False", "FALSE", "off", "Off", "OFF"])
 
 WHOLE = re.compile(r"[-+]?(0[xX][0-9a-fA-F]+|0[0-7]*|[1-9][0-9]*)")
 DECIMAL = re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?")
@@ -38,7 +38,9 @@ def scalar(text: str) -> Any:
         value = float(text)
     elif HEXADECIMAL.fullmatch(text):
         value = _hexadecimal(text)
-    in_range = value is not None and abs(value) != float("inf") and (value != 0 or not re.search(r"[1-9]", _digits(text)))
+    in_range = (
+        value is not None and abs(value) != float("inf") and (value != 0 or not re.search(r"[1-9]", _digits(text)))
+    )
     return value if in_range else text
 
 
@@ -89,7 +91,9 @@ def _sequence_of(node: Any) -> list[Any]:
     values = [_scalar_of(item) for item in node.value]
     for item, value in zip(node.value, values, strict=True):
         if type(value) is not type(values[0]):
-            advice = "; write 1.0 for a whole number among others" if {type(value), type(values[0])} == {int, float} else ""
+            advice = (
+                "; write 1.0 for a whole number among others" if {type(value), type(values[0])} == {int, float} else ""
+            )
             raise YamlValueError(
                 f"Sequence should be of same type. Value type '{NAMES[type(value)]}' do not belong at line_num "
                 f"{line_of(item)}{advice}"

@@ -9,7 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 from turtle_lesson.ros.world import current_process
 
-from ._arguments import Arguments, parse_arguments
+from ._arguments import Arguments, obsolete_text, parse_arguments
+from ._entity import Handle
+from .exceptions import RCLError
+from .impl._console import wanted_format
 from .impl.logging_severity import LoggingSeverity
 from .impl.rcutils_logger import RcutilsLogger
 
@@ -28,28 +31,61 @@ class Context:
         self._callbacks: list[Callable[[], Callable[[], Any] | None]] = []
         self._nodes: list[Node] = []
         self.arguments = Arguments()
-        self.domain_id = 0
+        self._domain_id = 0
 
     def init(
         self, args: list[str] | None = None, *, initialize_logging: bool = True, domain_id: int | None = None
     ) -> None:
-        """Begin; `args` defaults to the process's arguments. Raises RuntimeError the second time."""
+        """Begin; `args` defaults to the process's arguments.
+
+        Raises RuntimeError the second time or for a negative domain, RCLError and UnknownROSArgsError for ROS arguments
+        that cannot be read.
+        """
+        if domain_id is not None and domain_id < 0:
+            raise RuntimeError(f"Domain id ({domain_id}) should not be lower than zero.")
         if self._initialized:
             raise RuntimeError("Context.init() must only be called once")
-        self.arguments = parse_arguments(self._process.argv if args is None else args)
-        self.domain_id = domain_id or 0
+        self.arguments = self._read(self._process.argv if args is None else args)
+        self._domain_id = domain_id or 0
         self._initialized = True
+        if initialize_logging:
+            self._set_up_logging()
+        self._process.at_exit.append(self._end)
+
+    def _read(self, args: list[str]) -> Arguments:
+        logger = RcutilsLogger("rcl")
+        try:
+            arguments = parse_arguments(args)
+        except RCLError:
+            logger.error("Failed to parse global arguments")
+            raise
+        for rule in arguments.obsolete:
+            logger.warning(obsolete_text(rule))
+        return arguments
+
+    def _set_up_logging(self) -> None:
         for name, level in self.arguments.log_levels.items():
             RcutilsLogger(name).set_level(LoggingSeverity[level.upper()])
-        self._process.at_exit.append(self._end)
+        self._process.locals["rclpy.log_to"] = self.arguments.switches
+        self._process.locals["rclpy.log_format"] = wanted_format()
+
+    @property
+    def handle(self) -> Handle | None:
+        """What stands for the C object of the real one; None before `init`."""
+        return Handle(self) if self._initialized else None
 
     def ok(self) -> bool:
         """Whether the context is initialized and not shut down."""
         return self._initialized and not self.ended
 
     def get_domain_id(self) -> int:
-        """The ROS domain, which is only a number here: all processes of a world see each other."""
-        return self.domain_id
+        """The ROS domain, which is only a number here: all processes of a world see each other.
+
+        Raises RuntimeError before `init`.
+        """
+        if not self._initialized:
+            raise RuntimeError("Context must be initialized before it can have a domain id")
+        return self._domain_id
 
     def shutdown(self) -> None:
         """End it. Raises RuntimeError if it is not initialized, or ended already."""
@@ -71,6 +107,10 @@ class Context:
             node._ros_leave()  # a node without a context could do nothing, so it does not stay in the graph
         if self.shared_default:
             del self._process.locals["rclpy.context"]
+
+    def destroy(self) -> None:
+        """Let go of it; in the real one this frees the C object. A context that is still up is shut down."""
+        self.try_shutdown()
 
     @property
     def shared_default(self) -> bool:
@@ -113,6 +153,8 @@ class Context:
             node._ros_leave()
 
     def __enter__(self) -> Context:
+        if not self._initialized:
+            raise RuntimeError("init() must be called on this Context before using it with a context manager")
         return self
 
     def __exit__(self, *error: object) -> None:

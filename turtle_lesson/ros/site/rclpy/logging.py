@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
+import os
+from pathlib import Path
+
 from .impl.logging_severity import LoggingSeverity
-from .impl.rcutils_logger import RcutilsLogger, _levels, as_severity
+from .impl.rcutils_logger import RcutilsLogger, forget_levels, level_of, set_level_of
 
 __all__ = [
     "LoggingSeverity",
+    "RcutilsLogger",
+    "clear_config",
     "get_logger",
     "get_logger_effective_level",
     "get_logger_level",
+    "get_logging_directory",
     "get_logging_severity_from_string",
+    "initialize",
     "set_logger_level",
+    "shutdown",
 ]
 
 
@@ -22,14 +30,31 @@ def get_logger(name: str) -> RcutilsLogger:
     return RcutilsLogger(name)
 
 
+def initialize() -> None:
+    """Make the logging ready; here it always is."""
+
+
+def shutdown() -> None:
+    """Forget all levels."""
+    forget_levels()
+
+
+def clear_config() -> None:
+    """Forget all levels."""
+    forget_levels()
+
+
 def set_logger_level(name: str, level: int, detailed_error: bool = False) -> None:
-    """Have the logger of this name print only what is at least this severe."""
-    _levels()[name] = as_severity(level)
+    """Have the logger of this name, or by default all (''), print only what is at least this severe.
+
+    Raises ValueError for what is no level. `detailed_error` makes no difference here.
+    """
+    set_level_of(name, level)
 
 
 def get_logger_level(name: str) -> LoggingSeverity:
     """The level that was set for a name."""
-    return _levels().get(name, LoggingSeverity.UNSET)
+    return level_of(name)
 
 
 def get_logger_effective_level(name: str) -> LoggingSeverity:
@@ -44,3 +69,10 @@ def get_logging_severity_from_string(log_severity: str) -> LoggingSeverity:
     except KeyError:
         known = ", ".join(severity.name for severity in LoggingSeverity)
         raise RuntimeError(f"'{log_severity}' is no log level; levels are {known}") from None
+
+
+def get_logging_directory() -> Path:
+    """Where a real ROS 2 would write log files: $ROS_LOG_DIR, or `log` in $ROS_HOME or ~/.ros. None are written here."""
+    given = os.environ.get("ROS_LOG_DIR")
+    home = os.environ.get("ROS_HOME") or "~/.ros"
+    return Path(given or f"{home}/log").expanduser()

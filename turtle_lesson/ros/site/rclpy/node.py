@@ -10,12 +10,13 @@ from turtle_lesson.ros.world import current_process, current_world
 
 from ._arguments import Arguments, parse_arguments
 from ._entity import Entity, Handle
-from ._missing import refuse_unbuilt
 from ._mistakes import set_by_init
 from ._node_entities import NodeEntities
 from ._node_graph import NodeGraph
 from ._node_news import NodeNews
+from ._node_parameter_setting import ParameterSetting
 from ._node_parameters import NodeParameters
+from ._parameter_rules import TOLERANCE
 from ._qos_events import QoSEvents
 from ._waitables import WaitableEntity
 from .callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup
@@ -26,6 +27,7 @@ from .event_handler import EventHandler
 from .exceptions import NodeNameNonExistentError, NotInitializedException, RCLError
 from .guard_condition import GuardCondition
 from .impl.rcutils_logger import RcutilsLogger, publish_rosout
+from .logging_service import LoggingService
 from .parameter import Parameter
 from .parameter_service import ParameterService
 from .publisher import Publisher
@@ -51,6 +53,9 @@ class Node(NodeEntities, NodeNews, NodeParameters):
     Raises NotInitializedException before `rclpy.init()`, and InvalidNodeNameException or InvalidNamespaceException.
     """
 
+    PARAM_REL_TOL = TOLERANCE
+    """How far, relatively, a floating-point value may be off an end or a step of its range."""
+
     def __init__(
         self,
         node_name: str,
@@ -69,7 +74,6 @@ class Node(NodeEntities, NodeNews, NodeParameters):
         self._ros_context = get_default_context() if context is None else context
         if not self._ros_context.ok():
             raise NotInitializedException("cannot create node")
-        refuse_unbuilt(enable_logger_service=enable_logger_service)
         own = parse_arguments(cli_args or [])
         common = self._ros_context.arguments if use_global_arguments else Arguments()
         self._ros_remaps = own.remaps + common.remaps
@@ -102,6 +106,8 @@ class Node(NodeEntities, NodeNews, NodeParameters):
         self._ros_time_source.attach_clock(self._ros_clock)
         if start_parameter_services:
             self._ros_parameter_service = ParameterService(self)
+        if enable_logger_service:
+            self._ros_logger_service = LoggingService(self)
 
     def __repr__(self) -> str:
         entry = vars(self).get("_ros_entry")
@@ -259,7 +265,7 @@ set_by_init(
     Node, "_ros_clock", "_ros_destroyed", "_ros_entry", "_ros_graph", "_ros_logger", "_ros_overrides", "_ros_parameters"
 )
 
-for _part in (NodeEntities, NodeGraph, NodeParameters):
+for _part in (NodeEntities, NodeGraph, NodeParameters, ParameterSetting):
     for _name, _method in vars(_part).items():
         if not _name.startswith("_"):
             _method.__qualname__ = f"Node.{_name}"  # Python's own errors name it: nobody knows of parts

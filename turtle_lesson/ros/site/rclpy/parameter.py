@@ -8,6 +8,13 @@ from typing import Any
 
 PARAMETER_SEPARATOR_STRING = "."
 
+AllowableParameterValue = (
+    None | bool | int | float | str | list[bytes] | list[bool] | list[int] | list[float] | list[str] | array.array
+)
+"""What a parameter can hold."""
+
+_PYTHON: dict[str, type] = {"BOOL": bool, "INTEGER": int, "DOUBLE": float, "STRING": str, "BYTE": bytes}
+
 
 class Parameter:
     """`Parameter(name, type_, value)`; the type is found from the value if it is left out."""
@@ -47,13 +54,16 @@ class Parameter:
             raise TypeError(f"The given value is not a list of one of the allowed types '{values}'.")
 
         def check(self, parameter_value: Any) -> bool:
-            """Whether a Python value has this type."""
-            try:
-                return Parameter.Type.from_parameter_value(parameter_value) == self or (
-                    isinstance(parameter_value, (list, tuple)) and not parameter_value and self.name.endswith("_ARRAY")
-                )
-            except TypeError:
+            """Whether a Python value can have this type. An empty list can be a list of any type."""
+            if self is Parameter.Type.NOT_SET:
+                return parameter_value is None
+            if not self.name.endswith("_ARRAY"):
+                return isinstance(parameter_value, _PYTHON[self.name])
+            kind = _PYTHON[self.name.removesuffix("_ARRAY")]
+            lists = (list, tuple, array.array) if kind in (int, float) else (list, tuple)
+            if not isinstance(parameter_value, lists) or not all(isinstance(value, kind) for value in parameter_value):
                 return False
+            return kind is not bytes or all(len(value) == 1 for value in parameter_value)
 
     @classmethod
     def from_parameter_msg(cls, param_msg: Any) -> Parameter:
@@ -64,7 +74,7 @@ class Parameter:
         if type_ is None:
             type_ = Parameter.Type.from_parameter_value(value)
         if not isinstance(type_, Parameter.Type):
-            raise TypeError("type must be an instance of Parameter.Type")
+            raise TypeError(f"type must be an instance of '{Parameter.Type!r}'")
         if not type_.check(value):
             raise ValueError(f"Type '{type_}' and value '{value}' do not agree")
         self._type_ = type_
@@ -89,13 +99,6 @@ class Parameter:
     def __repr__(self) -> str:
         return f"<rclpy.parameter.Parameter {self._name}={self._value!r}>"
 
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Parameter):
-            return NotImplemented
-        return (self._name, self._type_, self._value) == (other._name, other._type_, other._value)
-
-    __hash__ = None  # type: ignore[assignment]
-
     def get_parameter_value(self) -> Any:
         """As rcl_interfaces/msg/ParameterValue."""
         from rcl_interfaces.msg import ParameterValue
@@ -114,8 +117,11 @@ class Parameter:
 
 
 def parameter_value_to_python(parameter_value: Any) -> Any:
-    """The Python value of an rcl_interfaces/msg/ParameterValue."""
-    kind = Parameter.Type(parameter_value.type)
+    """The Python value of an rcl_interfaces/msg/ParameterValue. Raises RuntimeError for a type that there is not."""
+    try:
+        kind = Parameter.Type(parameter_value.type)
+    except ValueError:
+        raise RuntimeError(f"unexpected parameter type {parameter_value.type}") from None
     if kind == Parameter.Type.NOT_SET:
         return None
     value = getattr(parameter_value, f"{kind.name.lower()}_value")
@@ -123,14 +129,72 @@ def parameter_value_to_python(parameter_value: Any) -> Any:
 
 
 def get_parameter_value(string_value: str) -> Any:
-    """An rcl_interfaces/msg/ParameterValue from text, read as YAML, as the command line does."""
+    """An rcl_interfaces/msg/ParameterValue from text, read as YAML, as the command line does.
+
+    What is neither a value nor a list of values of one type is taken for a text.
+    """
     import yaml
 
     try:
         value = yaml.safe_load(string_value)
-    except yaml.YAMLError:
+    except (yaml.YAMLError, ValueError):
         value = string_value
-    try:
-        return Parameter("", value=value).get_parameter_value()
-    except TypeError:
-        return Parameter("", value=string_value).get_parameter_value()
+    for kind in (Parameter.Type[name] for name in _TRIED):
+        if kind.check(value):
+            return Parameter("", kind, value).get_parameter_value()
+    text = value if isinstance(value, str) else string_value
+    return Parameter("", Parameter.Type.STRING, text).get_parameter_value()
+
+
+_TRIED = ("BOOL", "INTEGER", "DOUBLE", "BOOL_ARRAY", "INTEGER_ARRAY", "DOUBLE_ARRAY", "STRING_ARRAY")
+
+
+def parameter_dict_from_yaml_file(
+    parameter_file: str, use_wildcard: bool = False, target_nodes: list[str] | None = None, namespace: str = ""
+) -> dict[str, Any]:
+    """The parameters in a YAML file, as rcl_interfaces/msg/Parameter, by their full names.
+
+    Args:
+        parameter_file: the file.
+        use_wildcard: whether those for all nodes (`/**`) are taken, too; others go before them.
+        target_nodes: of which nodes, as the file names them; None for all.
+        namespace: what is put before each name.
+
+    Raises:
+        RuntimeError: if the file has nothing for a node, or is no parameter file.
+        OSError: if it cannot be read.
+    """
+    import yaml
+
+    with open(parameter_file, encoding="utf-8") as file:
+        content = yaml.safe_load(file)
+    if not isinstance(content, dict):
+        raise RuntimeError(
+            f"YAML file is not a valid ROS parameter file: it should map nodes to ros__parameters: {content!r}"
+        )
+    keys = ["/**"] if use_wildcard and "/**" in content else []
+    for node in target_nodes or []:
+        if node not in content:
+            raise RuntimeError(f"Param file does not contain parameters for {node},only for nodes: {list(content)} ")
+    keys += target_nodes or [key for key in content if key != "/**"]
+    if not keys:
+        raise RuntimeError("Param file does not contain selected parameters")
+    found: dict[str, Any] = {}
+    for key in keys:
+        if not isinstance(content[key], dict) or "ros__parameters" not in content[key]:
+            raise RuntimeError(f"YAML file is not a valid ROS parameter file for node {key}")
+        found.update(content[key]["ros__parameters"] or {})
+    return _flat(namespace, found)
+
+
+def _flat(prefix: str, values: dict[str, Any]) -> dict[str, Any]:
+    from rcl_interfaces.msg import Parameter as Message
+
+    found: dict[str, Any] = {}
+    for key, value in values.items():
+        name = f"{prefix}{key}"
+        if isinstance(value, dict):
+            found.update(_flat(name + PARAMETER_SEPARATOR_STRING, value))
+        else:
+            found[name] = Message(name=name, value=get_parameter_value(str(value)))
+    return found

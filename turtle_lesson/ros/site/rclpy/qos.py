@@ -99,6 +99,16 @@ _FIELDS: dict[str, tuple[type, Any]] = {
 class QoSProfile:
     """The policies of a publisher, subscription, service or client, as keyword arguments and attributes."""
 
+    history: HistoryPolicy
+    depth: int
+    reliability: ReliabilityPolicy
+    durability: DurabilityPolicy
+    lifespan: Duration
+    deadline: Duration
+    liveliness: LivelinessPolicy
+    liveliness_lease_duration: Duration
+    avoid_ros_namespace_conventions: bool
+
     def __init__(self, **policies: Any) -> None:
         unknown = set(policies) - set(_FIELDS)
         hint = "".join(did_you_mean(name, _FIELDS) for name in sorted(unknown))

@@ -6,8 +6,10 @@ import sys
 
 from turtle_lesson.ros.world import current_process
 
+from ._arguments import obsolete_text, without_ros_arguments
 from .constants import S_TO_NS
 from .context import Context
+from .impl.rcutils_logger import RcutilsLogger
 
 
 def get_default_context(*, shutting_down: bool = False) -> Context:
@@ -35,14 +37,9 @@ def try_shutdown(*, context: Context | None = None, uninstall_handlers: bool | N
 
 def remove_ros_args(args: list[str] | None = None) -> list[str]:
     """The arguments without those between `--ros-args` and `--`."""
-    kept, inside = [], False
-    for word in sys.argv if args is None else args:
-        if word == "--ros-args":
-            inside = True
-        elif word == "--" and inside:
-            inside = False
-        elif not inside:
-            kept.append(word)
+    kept, obsolete = without_ros_arguments(sys.argv if args is None else args)
+    for rule in obsolete:
+        RcutilsLogger("rcl").warning(obsolete_text(rule))
     return kept
 
 

@@ -56,9 +56,7 @@ def message_to_yaml(
     return yaml.dump(shown, Dumper=_dumper(), allow_unicode=True, width=sys.maxsize, default_flow_style=flow_style)
 
 
-def message_to_csv(
-    msg: Any, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False
-) -> str:
+def message_to_csv(msg: Any, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False) -> str:
     """A message as values with commas between them, without a line end; the arguments are those of `message_to_yaml`."""
     return _csv_of_message(msg, _Style(truncate_length, no_arr, no_str))
 

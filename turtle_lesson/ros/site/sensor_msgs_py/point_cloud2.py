@@ -18,7 +18,7 @@ from std_msgs.msg import Header
 
 DUMMY_FIELD_PREFIX = "unnamed_field"
 
-_DATATYPES = {
+_DATATYPES: dict[int, np.dtype[Any]] = {
     PointField.INT8: np.dtype(np.int8),
     PointField.UINT8: np.dtype(np.uint8),
     PointField.INT16: np.dtype(np.int16),
@@ -78,9 +78,9 @@ def read_points_numpy(
     The arguments are those of `read_points`.
     """
     first, *others = cloud.fields
-    assert all(
-        each.datatype == first.datatype for each in others if field_names is None or each.name in field_names
-    ), "All fields need to have the same datatype. Use `read_points()` otherwise."
+    assert all(each.datatype == first.datatype for each in others if field_names is None or each.name in field_names), (
+        "All fields need to have the same datatype. Use `read_points()` otherwise."
+    )
     return structured_to_unstructured(read_points(cloud, field_names, skip_nans, uvs, reshape_organized_cloud))
 
 
@@ -96,8 +96,8 @@ def read_points_list(
     """
     assert isinstance(cloud, PointCloud2), "cloud is not a sensor_msgs.msg.PointCloud2"
     names = [field.name for field in cloud.fields] if field_names is None else list(field_names)
-    make = namedtuple("Point", names)._make  # type: ignore[misc]
-    return [make(point) for point in read_points(cloud, names, skip_nans, uvs)]
+    point_class: Any = namedtuple("Point", names)  # type: ignore[misc]
+    return [point_class._make(point) for point in read_points(cloud, names, skip_nans, uvs)]
 
 
 def dtype_from_fields(fields: Iterable[PointField], point_step: int | None = None) -> np.dtype:
@@ -120,7 +120,7 @@ def dtype_from_fields(fields: Iterable[PointField], point_step: int | None = Non
             names.append(part)
             offsets.append(field.offset + place * datatype.itemsize)
             formats.append(datatype.str)
-    layout: dict[str, Any] = {"names": names, "formats": formats, "offsets": offsets}
+    layout: Any = {"names": names, "formats": formats, "offsets": offsets}
     if point_step is not None:
         layout["itemsize"] = point_step
     return np.dtype(layout)

@@ -138,6 +138,11 @@ class ActionEntity(WaitableEntity):
             self._signal()
         return (data,)
 
+    def _arrive(self) -> None:
+        """Something has come."""
+        self.waitable._on_arrival()
+        self._signal()
+
     def destroy(self) -> None:
         """Leave the node and the graph."""
         if not self._destroyed:

@@ -156,7 +156,7 @@ class ActionClient(Waitable):
         )
         self._entity = ActionEntity(self, parts, list(self._arrived.values()))
         for end in (*(client._end for client in self._clients), *self._readers):
-            end.wake = self._entity._signal
+            end.wake = self._entity._arrive
         node._ros_keep(self._entity)
 
     @property
@@ -337,6 +337,9 @@ class ActionClient(Waitable):
     def destroy(self) -> None:
         """Leave the action; answers under way are dropped."""
         self._entity.destroy()
+
+    def _on_arrival(self) -> None:
+        """Nothing to do at once."""
 
     def _end(self) -> None:
         self._feedback_callbacks.clear()

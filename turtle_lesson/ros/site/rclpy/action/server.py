@@ -47,9 +47,9 @@ __all__ = [
 
 FEEDBACK = QoSProfile(depth=10)
 
-START = 200_000
-"""How long it takes from `execute()` to the execute callback (ns), about as in a real rclpy: so whoever has sent the goal
-hears that it was accepted before any feedback."""
+OVERHEAD = 200_000
+"""What a real rclpy needs, about, from `execute()` to the execute callback (ns). So whoever has sent the goal hears that it
+was accepted before there is any feedback."""
 
 
 class GoalResponse(Enum):
@@ -149,7 +149,7 @@ class ActionServer(Waitable):
         }
         self._entity = ActionEntity(self, parts, list(self._requests.values()))
         for part in ("send_goal", "cancel_goal", "get_result"):
-            parts[part]._server.wake = self._entity._signal
+            parts[part]._server.wake = self._entity._arrive
         node._ros_keep(self._entity)
 
     def __repr__(self) -> str:
@@ -196,7 +196,6 @@ class ActionServer(Waitable):
 
     async def execute(self, taken_data: dict[str, Any]) -> None:
         """Do what the requests ask for."""
-        self._forget_expired()
         if "goal" in taken_data:
             await self._execute_goal_request(taken_data["goal"])
         if "cancel" in taken_data:
@@ -282,16 +281,14 @@ class ActionServer(Waitable):
                 "node to an executor first, with executor.add_node(node)"
             )
         self._goals.begin(goal_handle)
-        simulation = self._node._ros_simulation
-        ready = simulation.now + START
-        task = (self._execute_goal, callback, goal_handle, ready)
-        simulation.at(ready, lambda task: executor.create_task(*task), task)
+        executor.create_task(self._execute_goal, callback, goal_handle, self._node._ros_simulation.now)
 
     async def _execute_goal(
         self, execute_callback: Callable[..., Any], goal_handle: ServerGoalHandle, ready: int
     ) -> None:
-        shown, logger = goal_handle.goal_id.uuid, self._node.get_logger()
+        shown, logger, simulation = goal_handle.goal_id.uuid, self._node.get_logger(), self._node._ros_simulation
         logger.debug(f"Executing goal with ID {shown}")
+        simulation.sleep_until(simulation.now + OVERHEAD)
         try:
             with noted(self, execute_callback, ready):
                 result = await call_back("execute_callback", execute_callback, goal_handle)
@@ -332,6 +329,10 @@ class ActionServer(Waitable):
 
     def _forget_expired(self) -> None:
         self._goals.forget_expired()
+
+    def _on_arrival(self) -> None:
+        """What is known when a request comes counts, not what is when there is time for it."""
+        self._forget_expired()
 
     # -- as part of a node -----------------------------------------------------------------------------------------
 

@@ -11,75 +11,19 @@ from collections.abc import Callable
 from types import CodeType, FrameType
 from typing import Any
 
-from turtle_lesson.ros.core import EPOCH, NANOSECONDS
+from turtle_lesson.ros.core import EPOCH
 from turtle_lesson.ros.world import current_process, current_world
 
-from .._mistakes import did_you_mean
-from .._notebook import is_notebook
+from ._console import Line, print_line
+from ._log_filters import CallSite, filters_of
 from .logging_severity import LoggingSeverity
 
+EVERYWHERE: dict[str, Any] = {}
 TWO_OF_A_NAME = (
     "Publisher already registered for provided node name. If this is due to multiple nodes with the same name then all "
     "logs for that logger name will go out over the existing publisher. As soon as any node with that name is destructed "
     "it will unregister the publisher, preventing any further logs for that name from being published on the rosout topic."
 )
-OPTIONS = ("throttle_duration_sec", "throttle_time_source_type", "skip_first", "once")
-
-
-def filters_of(options: dict[str, Any]) -> dict[str, Any]:
-    """The filters that the options of a log call ask for: once, skip_first, throttle (s). Raises TypeError."""
-    for name in options:
-        if name not in OPTIONS:
-            hint = did_you_mean(name, OPTIONS)
-            raise TypeError(f'parameter "{name}" is not one of the recognized logging options {OPTIONS}{hint}')
-    pause = options.get("throttle_duration_sec")
-    if pause is not None and not isinstance(pause, (int, float)):
-        raise TypeError(f"throttle_duration_sec is a number of seconds, got {pause!r}")
-    if pause is None and options.get("throttle_time_source_type"):
-        raise TypeError("throttle_time_source_type needs throttle_duration_sec, a number of seconds, beside it")
-    asked = {"throttle": pause, "skip_first": options.get("skip_first"), "once": options.get("once")}
-    return {name: value for name, value in asked.items() if value}
-
-
-class CallSite:
-    """What a logger remembers of one place in a program, for once, skip_first and throttling."""
-
-    def __init__(self, severity: LoggingSeverity, name: str, filters: dict[str, Any]) -> None:
-        self.severity = severity
-        self.name = name
-        self.filters = filters
-        self._skipped = False
-        self._logged = False
-        self._last: int | None = None
-
-    def check(self, severity: LoggingSeverity, name: str, filters: dict[str, Any]) -> None:
-        """Raise ValueError if the same line of a program is used in another way than before."""
-        if severity != self.severity:
-            raise ValueError("Logger severity cannot be changed between calls.")
-        if name != self.name:
-            raise ValueError("Logger name cannot be changed between calls.")
-        if filters.keys() != self.filters.keys():
-            raise ValueError("Requested logging filters cannot be changed between calls.")
-        if filters != self.filters:
-            raise ValueError("Logging filter parameters cannot be changed between calls.")
-
-    def lets_through(self, now: int) -> bool:
-        """Whether this call is to be printed: the filters are asked in rclpy's order, throttle, skip_first, once."""
-        filters = self.filters
-        if not filters:
-            return True
-        pause = filters.get("throttle")
-        if pause:
-            if self._last is not None and now < self._last + pause * NANOSECONDS:
-                return False
-            self._last = now
-        if "skip_first" in filters and not self._skipped:
-            self._skipped = True
-            return False
-        if "once" in filters and self._logged:
-            return False
-        self._logged = True
-        return True
 
 
 class RcutilsLogger:
@@ -97,7 +41,7 @@ class RcutilsLogger:
 
     def set_level(self, level: int) -> None:
         """Print only what is at least this severe."""
-        _levels()[self.name] = as_severity(level)
+        set_level_of(self.name, level)
 
     def get_effective_level(self) -> LoggingSeverity:
         """The level in force: this logger's, or that of the nearest one above it that has one."""
@@ -149,17 +93,14 @@ class RcutilsLogger:
         now = current_world().sim.now
         if not site.lets_through(now):
             return False
-        _print(message, severity, name, EPOCH + now)
-        publish = current_process().locals.get("rclpy.rosout", {}).get(name)
-        if publish is not None:
+        shelf = current_process().locals
+        goes_to = shelf.get("rclpy.log_to", EVERYWHERE)
+        if goes_to.get("stdout", True):
+            print_line(Line(message, severity, name, EPOCH + now, frame), shelf.get("rclpy.log_format"))
+        publish = shelf.get("rclpy.rosout", EVERYWHERE).get(name)
+        if publish is not None and goes_to.get("rosout", True):
             publish(message, severity, frame)
         return True
-
-
-def _print(message: str, severity: LoggingSeverity, name: str, time: int) -> None:
-    seconds, nanoseconds = divmod(time, NANOSECONDS)
-    stream = sys.stdout if is_notebook(current_process()) else sys.stderr
-    print(f"[{severity.name}] [{seconds}.{nanoseconds:09d}] [{name}]: {message}", file=stream)
 
 
 def as_severity(level: int) -> LoggingSeverity:
@@ -186,6 +127,21 @@ def _effective_level(name: str) -> LoggingSeverity:
 def _levels() -> dict[str, LoggingSeverity]:
     """The levels that were set in this process, by logger name; '' is the default."""
     return current_process().locals.setdefault("rclpy.log_levels", {})
+
+
+def set_level_of(name: str, level: int) -> None:
+    """Have the logger of this name, or by default all ('') print only what is at least this severe."""
+    _levels()[name] = as_severity(level)
+
+
+def level_of(name: str) -> LoggingSeverity:
+    """The level that was set for a name; UNSET if none was."""
+    return _levels().get(name, LoggingSeverity.UNSET if name else LoggingSeverity.INFO)
+
+
+def forget_levels() -> None:
+    """All levels are again what they are at the start of a process."""
+    _levels().clear()
 
 
 def publish_rosout(name: str, publish: Callable[[str, LoggingSeverity, FrameType], None] | None) -> None:

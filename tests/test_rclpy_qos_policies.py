@@ -1,0 +1,258 @@
+"""Profiles, policies and presets by their public names, and whether two profiles go together.
+
+What is expected is recorded, or stands in rclpy's qos.py and rmw_dds_common's qos.cpp.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+import rclpy
+from hypothesis import given
+from hypothesis import strategies as st
+from rclpy import qos
+from rclpy.duration import Duration, Infinite
+from rclpy.exceptions import RCLError
+from rclpy.qos import (
+    DurabilityPolicy,
+    HistoryPolicy,
+    LivelinessPolicy,
+    QoSCompatibility,
+    QoSPolicyKind,
+    QoSPresetProfiles,
+    QoSProfile,
+    ReliabilityPolicy,
+    qos_check_compatible,
+)
+from std_msgs.msg import Int32
+
+from turtle_lesson.ros.world import World
+
+SECOND, TWO_SECONDS = Duration(seconds=1), Duration(seconds=2)
+
+
+def profile(**policies: Any) -> QoSProfile:
+    """A profile in which nothing is left open."""
+    return QoSProfile(**{"depth": 10, "liveliness": LivelinessPolicy.AUTOMATIC, **policies})
+
+
+# ---------------------------------------------------------------- names and numbers
+
+
+def test_policies_are_known_by_number_and_by_short_key() -> None:
+    assert HistoryPolicy.short_keys() == ["system_default", "keep_last", "keep_all", "unknown"]
+    assert ReliabilityPolicy.short_keys()[:4] == ["system_default", "reliable", "best_effort", "unknown"]
+    assert DurabilityPolicy.get_from_short_key("Transient_LOCAL") == 1
+    assert LivelinessPolicy.MANUAL_BY_TOPIC == 3
+    assert HistoryPolicy.KEEP_ALL.short_key == "keep_all"
+    assert [kind.value for kind in QoSPolicyKind] == [1, 2, 4, 8, 16, 32, 64, 128, 256, 512]
+    assert qos.qos_policy_name_from_kind(16) == "RELIABILITY"
+    assert qos.QoSHistoryPolicy is HistoryPolicy
+
+
+def test_names_of_old_releases_work_and_say_what_to_write_instead() -> None:
+    advice = (
+        r"ReliabilityPolicy.RMW_QOS_POLICY_RELIABILITY_RELIABLE is deprecated. Use ReliabilityPolicy.RELIABLE instead."
+    )
+    with pytest.warns(UserWarning, match=advice):
+        old = ReliabilityPolicy.RMW_QOS_POLICY_RELIABILITY_RELIABLE  # type: ignore[attr-defined]
+    assert old is ReliabilityPolicy.RELIABLE
+
+
+def test_presets_are_found_by_short_key() -> None:
+    assert QoSPresetProfiles.get_from_short_key("sensor_data") is qos.qos_profile_sensor_data
+    assert "action_status_default" in QoSPresetProfiles.short_keys()
+    assert QoSPresetProfiles.ACTION_STATUS_DEFAULT.value.durability == DurabilityPolicy.TRANSIENT_LOCAL
+    assert qos.qos_profile_rosout_default.lifespan == Duration(seconds=10)
+    assert QoSProfile(history=HistoryPolicy.KEEP_ALL).depth == 10
+
+
+# ---------------------------------------------------------------- do they go together?
+
+
+@pytest.mark.parametrize(
+    ("offered", "requested", "reason"),
+    [
+        (
+            {"reliability": ReliabilityPolicy.BEST_EFFORT},
+            {},
+            "ERROR: Best effort publisher and reliable subscription;",
+        ),
+        (
+            {},
+            {"durability": DurabilityPolicy.TRANSIENT_LOCAL},
+            "ERROR: Volatile publisher and transient local subscription;",
+        ),
+        ({}, {"deadline": SECOND}, "ERROR: Subscription has a deadline, but publisher does not;"),
+        (
+            {"deadline": TWO_SECONDS},
+            {"deadline": SECOND},
+            "ERROR: Subscription deadline is less than publisher deadline;",
+        ),
+        (
+            {},
+            {"liveliness": LivelinessPolicy.MANUAL_BY_TOPIC},
+            "ERROR: Publisher's liveliness is automatic and subscription's is manual by topic;",
+        ),
+        (
+            {},
+            {"liveliness_lease_duration": SECOND},
+            "ERROR: Subscription has a liveliness lease duration, but publisher does not;",
+        ),
+        (
+            {"liveliness_lease_duration": TWO_SECONDS},
+            {"liveliness_lease_duration": SECOND},
+            "ERROR: Subscription liveliness lease duration is less than publisher;",
+        ),
+        (
+            {"reliability": ReliabilityPolicy.BEST_EFFORT},
+            {"deadline": SECOND},
+            "ERROR: Best effort publisher and reliable subscription;"
+            "ERROR: Subscription has a deadline, but publisher does not;",
+        ),
+        (
+            {"reliability": ReliabilityPolicy.SYSTEM_DEFAULT},
+            {},
+            "WARNING: Reliable subscription, but publisher is system_default;",
+        ),
+        (
+            {"durability": DurabilityPolicy.UNKNOWN},
+            {"durability": DurabilityPolicy.SYSTEM_DEFAULT},
+            "WARNING: Publisher durabilty is unknown and subscription durability is system_default;",
+        ),
+        (
+            {"liveliness": LivelinessPolicy.SYSTEM_DEFAULT},
+            {"liveliness": LivelinessPolicy.SYSTEM_DEFAULT},
+            "WARNING: Publisher liveliness is system_default and subscription liveliness is system_default;",
+        ),
+        ({}, {"reliability": ReliabilityPolicy.BEST_EFFORT}, ""),
+        ({"deadline": SECOND}, {"deadline": TWO_SECONDS}, ""),
+    ],
+)
+def test_a_check_names_every_reason(offered: dict[str, Any], requested: dict[str, Any], reason: str) -> None:
+    kind = QoSCompatibility[reason.partition(":")[0] or "OK"]
+    assert qos_check_compatible(profile(**offered), profile(**requested)) == (kind, reason)
+
+
+def test_the_example_of_the_release_notes() -> None:
+    answer = qos_check_compatible(qos.qos_profile_sensor_data, qos.qos_profile_parameter_events)
+    assert answer == (QoSCompatibility.ERROR, "ERROR: Best effort publisher and reliable subscription;")
+    assert str(answer[0]) == "QoSCompatibility.ERROR"
+
+
+SPANS = st.sampled_from([Duration(), Duration(seconds=0.5), SECOND, TWO_SECONDS])
+PROFILES = st.builds(
+    profile,
+    reliability=st.sampled_from([ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT]),
+    durability=st.sampled_from([DurabilityPolicy.VOLATILE, DurabilityPolicy.TRANSIENT_LOCAL]),
+    liveliness=st.sampled_from([LivelinessPolicy.AUTOMATIC, LivelinessPolicy.MANUAL_BY_TOPIC]),
+    deadline=SPANS,
+    lifespan=SPANS,
+    liveliness_lease_duration=SPANS,
+)
+
+
+@given(offered=PROFILES, requested=PROFILES)
+def test_the_graph_connects_what_the_check_calls_compatible(offered: QoSProfile, requested: QoSProfile) -> None:
+    compatibility, reason = qos_check_compatible(offered, requested)
+    policy = offered.quality().refusal(requested.quality())
+    assert (compatibility is QoSCompatibility.OK) == (policy is None), reason
+
+
+# ---------------------------------------------------------------- refused
+
+
+@pytest.mark.parametrize(
+    ("policies", "reason"),
+    [
+        ({"reliability": ReliabilityPolicy.UNKNOWN}, "the policy reliability of its QoS profile is UNKNOWN"),
+        ({"deadline": Duration(seconds=-1)}, "the deadline of its QoS profile is negative: -1000000000 nanoseconds"),
+    ],
+)
+def test_what_stands_for_no_policy_makes_no_publisher(world: World, policies: dict[str, Any], reason: str) -> None:
+    rclpy.init()
+    node = rclpy.create_node("n")
+    with pytest.raises(RCLError, match=f"Failed to create publisher: {reason}"):
+        node.create_publisher(Int32, "x", QoSProfile(depth=1, **policies))
+    with pytest.raises(RCLError, match=f"Failed to create subscription: {reason}"):
+        node.create_subscription(Int32, "x", print, QoSProfile(depth=1, **policies))
+    assert node.count_publishers("x") == node.count_subscribers("x") == 0
+
+
+# ---------------------------------------------------------------- the best that is there
+
+
+def test_best_available_suits_everybody_who_is_there(world: World) -> None:
+    rclpy.init()
+    node = rclpy.create_node("n")
+    alone = node.create_subscription(Int32, "nobody", print, qos.qos_profile_best_available)
+    assert alone.qos_profile.reliability == ReliabilityPolicy.RELIABLE
+    assert alone.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL
+    assert alone.qos_profile.deadline == Duration()
+    for limit, reliability in ((SECOND, ReliabilityPolicy.RELIABLE), (TWO_SECONDS, ReliabilityPolicy.BEST_EFFORT)):
+        node.create_publisher(Int32, "x", QoSProfile(depth=1, reliability=reliability, deadline=limit))
+    hearing = node.create_subscription(Int32, "x", print, qos.qos_profile_best_available)
+    assert hearing.get_publisher_count() == 2
+    assert (hearing.qos_profile.reliability, hearing.qos_profile.deadline) == (
+        ReliabilityPolicy.BEST_EFFORT,
+        TWO_SECONDS,
+    )
+    node.create_subscription(Int32, "y", print, QoSProfile(depth=1, deadline=SECOND))
+    node.create_subscription(Int32, "y", print, QoSProfile(depth=1, liveliness=LivelinessPolicy.MANUAL_BY_TOPIC))
+    speaking = node.create_publisher(Int32, "y", qos.qos_profile_best_available)
+    assert speaking.get_subscription_count() == 2
+    assert speaking.qos_profile.liveliness == LivelinessPolicy.MANUAL_BY_TOPIC
+    assert qos.qos_profile_best_available.reliability == ReliabilityPolicy.BEST_AVAILABLE  # as it was
+
+
+# ---------------------------------------------------------------- what the graph says
+
+
+def test_the_graph_shows_policies_as_they_are_used(world: World) -> None:
+    rclpy.init()
+    node = rclpy.create_node("n", namespace="/deep")
+    offered = QoSProfile(
+        history=HistoryPolicy.SYSTEM_DEFAULT, deadline=SECOND, liveliness=LivelinessPolicy.MANUAL_BY_TOPIC
+    )
+    node.create_publisher(Int32, "/x", offered)
+    node.create_subscription(Int32, "/x", print, QoSProfile(history=HistoryPolicy.KEEP_ALL, deadline=Infinite))
+    (publisher,) = node.get_publishers_info_by_topic("/x")
+    (subscription,) = node.get_subscriptions_info_by_topic("/x")
+    assert publisher.qos_profile.lifespan == Infinite
+    lines = str(publisher).splitlines()
+    assert lines[:4] == [
+        "Node name: n",
+        "Node namespace: /deep",
+        "Topic type: std_msgs/msg/Int32",
+        "Endpoint type: PUBLISHER",
+    ]
+    assert len(lines[4].partition("GID: ")[2].split(".")) == 24
+    assert lines[5:] == [
+        "QoS profile:",
+        "  Reliability: RELIABLE",
+        "  History (Depth): KEEP_LAST (10)",
+        "  Durability: VOLATILE",
+        "  Lifespan: Infinite",
+        "  Deadline: 1000000000 nanoseconds",
+        "  Liveliness: MANUAL_BY_TOPIC",
+        "  Liveliness lease duration: Infinite",
+    ]
+    assert "  History (Depth): KEEP_ALL\n" in str(subscription)
+    assert repr(subscription) == "<TopicEndpointInfo SUBSCRIPTION of /deep/n, std_msgs/msg/Int32>"
+
+
+def test_an_endpoint_can_be_described_by_hand() -> None:
+    from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
+
+    empty = TopicEndpointInfo()
+    assert str(empty).splitlines()[3:7] == ["Endpoint type: INVALID", "GID: ", "QoS profile:", "  Reliability: UNKNOWN"]
+    named = TopicEndpointInfo(node_name="n", endpoint_type=1, qos_profile={"depth": 3})
+    assert (named.endpoint_type, named.qos_profile.depth) == (TopicEndpointTypeEnum.PUBLISHER, 3)
+    assert named != empty
+    empty.node_name, empty.endpoint_type, empty.qos_profile = "n", TopicEndpointTypeEnum(1), QoSProfile(depth=3)
+    assert named == empty
+    with pytest.raises(AssertionError, match="node_name must be a str, got 5"):
+        empty.node_name = 5  # type: ignore[assignment]
+    with pytest.raises(AttributeError, match="has no 'node'; it has node_name"):
+        empty.node = "n"  # type: ignore[attr-defined]

@@ -1,0 +1,152 @@
+"""Puts all this in place of the functions and classes of the standard library; `install` is called by the first world.
+
+Modules that took a name out of the standard library before that, as `from threading import Lock` does, keep the real
+one. All replacements give whoever is no simulated process, and no cell of a learner, what the real ones give.
+"""
+
+from __future__ import annotations
+
+import _thread
+import atexit
+import os
+import queue
+import signal
+import sys
+import threading
+import time
+from collections.abc import Callable
+from concurrent.futures import thread as pool
+from types import MethodType
+from typing import Any
+
+from ..strand import Strand, getcurrent
+from . import exits, identity, local, locks, pools, refused, signals, threads, time_of_day
+from .facade import facade
+from .home import process_here
+
+_replaced: list[tuple[Any, str, Any]] = []
+
+
+def install() -> None:
+    """Replace them; a second call does nothing."""
+    if _replaced:
+        return
+    _install_locks()
+    _install_threads()
+    _install_pools()
+    _install_signals()
+    _install_refusals()
+    for function in time_of_day.REPLACEMENTS:
+        replace_function(time, function.__name__, function)
+    atexit.register(_restore)  # nothing may ask which greenlet runs while Python takes itself apart
+    replace_function(atexit, "register", exits.register)
+    replace_function(atexit, "unregister", exits.unregister)
+
+
+def replace(owner: Any, name: str, new: Any) -> None:
+    """Put something in the place of an attribute of a module or class."""
+    _replaced.append((owner, name, vars(owner)[name]))
+    setattr(owner, name, new)
+
+
+def replace_function(owner: Any, name: str, function: Callable[..., Any]) -> None:
+    """Put a function in the place of a module's, if it has one of this name; the real one is its first argument.
+
+    As a method of the real one it is as good an attribute of a class as that: it is not bound once more.
+    """
+    real = getattr(owner, name, None)
+    if real is not None:
+        named(function, name, real)
+        replace(owner, name, MethodType(function, real))
+
+
+def replace_method(owner: type, name: str, method: Callable[..., Any]) -> None:
+    """Put a method in the place of a class's."""
+    replace(owner, name, named(method, name, getattr(owner, name)))
+
+
+def named(function: Any, name: str, real: Any) -> Any:
+    """Give a function the name and docstring of the one that it stands for."""
+    function.__name__, function.__qualname__ = name, getattr(real, "__qualname__", name)
+    function.__module__, function.__doc__ = getattr(real, "__module__", None), real.__doc__
+    return function
+
+
+def _restore() -> None:
+    """Python ends: the real ones are back, and who still holds one of ours gets what the real one gives."""
+    room = __name__.rpartition(".")[0]
+    for name, module in list(sys.modules.items()):
+        if name.startswith(room) and hasattr(module, "getcurrent"):
+            module.getcurrent = _nothing  # type: ignore[attr-defined]
+    for owner, name, real in reversed(_replaced):
+        setattr(owner, name, real)
+    _replaced.clear()
+
+
+def _nothing() -> None:
+    """No strand runs any more."""
+
+
+def _install_locks() -> None:
+    lock_kinds = (locks.RealLock, locks.VirtualLock)
+    replace(threading, "Lock", facade(threading.Lock, locks.VirtualLock, lock_kinds))
+    replace_function(threading, "RLock", _rlock)
+    replace_method(threading.Condition, "wait", locks.condition_wait(threading.Condition.wait))
+    replace_function(threading, "_time", _peek)
+    replace_function(queue, "time", _peek)
+    queue_kinds = (pools.RealSimpleQueue, pools.VirtualSimpleQueue)
+    replace(queue, "SimpleQueue", facade(pools.RealSimpleQueue, pools.VirtualSimpleQueue, queue_kinds))
+
+
+def _rlock(real: Any, *arguments: Any, **keywords: Any) -> Any:
+    return (real if process_here() is None else locks.VirtualRLock)(*arguments, **keywords)
+
+
+def _peek(real: Any) -> float:
+    """A clock for waiting with a time limit: unlike `time.monotonic`, looking at it takes no virtual time."""
+    strand = getcurrent()
+    return strand.simulation.now / locks.NANOSECONDS if type(strand) is Strand else real()
+
+
+def _install_threads() -> None:
+    kind: Any = threading.Thread
+    replace_method(kind, "start", threads.start)
+    if not identity.HAS_HANDLES:
+        replace_method(kind, "_wait_for_tstate_lock", threads.wait_for_end(kind._wait_for_tstate_lock))
+    for function in identity.REPLACEMENTS:
+        replace_function(threading, function.__name__, function)
+    replace_function(_thread, "start_new_thread", threads.start_new_thread)
+    replace(local.module, "current_thread", threading.current_thread)
+    replace(local.module, "RLock", threading.RLock)
+    local_kinds = (local.RealLocal, local.VirtualLocal)
+    replace(threading, "local", facade(local.RealLocal, local.VirtualLocal, local_kinds))
+
+
+def _install_pools() -> None:
+    kind: Any = pool.ThreadPoolExecutor
+    replace_method(kind, "__init__", pools.init)
+    replace_function(kind, "_counter", pools.next_number)
+    replace(pool, "_global_shutdown_lock", pools.NotInStrands())
+
+
+def _install_signals() -> None:
+    for function in signals.REPLACEMENTS:
+        replace_function(signal, function.__name__, function)
+    replace_function(os, "kill", signals.kill)
+
+
+def _install_refusals() -> None:
+    for name in ("fork", "forkpty"):
+        replace_function(os, name, refused.processes(f"os.{name}()"))
+    for name in ("setitimer", "sigwait", "sigwaitinfo", "sigtimedwait", "set_wakeup_fd", "pthread_kill"):
+        replace_function(signal, name, refused.signals(f"signal.{name}()"))
+
+
+def refuse_multiprocessing() -> None:
+    """Refuse `multiprocessing` in simulated processes, once it has been imported."""
+    kind: Any = getattr(sys.modules.get("multiprocessing.process"), "BaseProcess", None)
+    if kind is not None and (kind, "start") not in [(owner, name) for owner, name, _ in _replaced]:
+        replace_method(kind, "start", refused.start_process(kind.start))
+
+
+__all__ = ["install", "refuse_multiprocessing"]

@@ -1,0 +1,97 @@
+"""`concurrent.futures` and queues in a simulated process: Python's own, on virtual locks.
+
+What depends on the machine or on other processes is set: a pool has eight threads unless told otherwise, and counts
+its names by process. When the main program ends, pools finish what they have been given.
+"""
+
+from __future__ import annotations
+
+import queue
+from _thread import allocate_lock
+from concurrent.futures import thread as pool
+from typing import TYPE_CHECKING, Any
+
+from ..strand import Strand, getcurrent
+from .home import process_here
+
+if TYPE_CHECKING:
+    import threading
+
+    from ..process import Process
+
+MOST_WORKERS = 8
+"""How many threads a pool has on a computer with four cores, which a simulated one is."""
+
+RealSimpleQueue = queue.SimpleQueue
+VirtualSimpleQueue: Any = queue._PySimpleQueue  # type: ignore[attr-defined]
+_real_init = pool.ThreadPoolExecutor.__init__
+
+
+def next_number(real: Any) -> int:
+    """Numbers the pools, those of each simulated process by themselves."""
+    process = process_here()
+    if process is None:
+        return real()
+    process.locals["pools"] = number = process.locals.get("pools", -1) + 1
+    return number
+
+
+class NotInStrands:
+    """A lock against the end of Python itself, which can't come while a simulated process runs."""
+
+    def __init__(self) -> None:
+        self._lock = allocate_lock()
+
+    def __enter__(self) -> None:
+        if type(getcurrent()) is not Strand:
+            self._lock.acquire()
+
+    def __exit__(self, *error: object) -> None:
+        if type(getcurrent()) is not Strand:
+            self._lock.release()
+
+
+def init(self: Any, max_workers: int | None = None, *arguments: Any, **keywords: Any) -> None:
+    """Make a pool of threads."""
+    if max_workers is None and process_here() is not None:
+        max_workers = MOST_WORKERS
+    _real_init(self, max_workers, *arguments, **keywords)
+
+
+def is_worker(thread: threading.Thread) -> bool:
+    """Whether a thread is one of a pool's."""
+    return getattr(thread, "_target", None) is pool._worker  # type: ignore[attr-defined]
+
+
+def remember(process: Process) -> None:
+    """A thread of a pool starts: before the process ends, its pools are to end."""
+    if "pools.end" not in process.locals:
+        process.locals["pools.end"] = True
+        process.before_exit.append(lambda: end_pools(process))
+        process.at_exit.append(lambda: _forget(process))
+
+
+def end_pools(process: Process) -> None:
+    """Have the pools of a process do what they have been given, and end their threads."""
+    workers = _workers(process)
+    for thread, work in workers:
+        reference = thread._args[0]  # type: ignore[attr-defined]
+        executor = reference()
+        if executor is not None:
+            executor._shutdown = True
+        work.put(None)
+    for thread, _ in workers:
+        thread.join()
+
+
+def _workers(process: Process) -> list[tuple[threading.Thread, Any]]:
+    own = [strand.thread for strand in process.strands if strand.thread is not None and is_worker(strand.thread)]
+    queues: Any = pool._threads_queues  # type: ignore[attr-defined]
+    return [(thread, queues[thread]) for thread in own if thread in queues and thread.is_alive()]
+
+
+def _forget(process: Process) -> None:
+    """Nobody waits for these threads when Python itself ends."""
+    queues: Any = pool._threads_queues  # type: ignore[attr-defined]
+    for thread in [strand.thread for strand in process.strands if strand.thread is not None]:
+        queues.pop(thread, None)

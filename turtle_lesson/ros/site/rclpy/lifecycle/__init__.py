@@ -1,0 +1,25 @@
+"""Managed nodes: they are configured, activated, deactivated and cleaned up from outside (rclpy.lifecycle).
+
+Facts: rclpy's lifecycle package, rcl_lifecycle's default_state_machine.c, https://design.ros2.org/articles/node_lifecycle.html.
+"""
+
+from __future__ import annotations
+
+from ._states import TransitionCallbackReturnType as TransitionCallbackReturn
+from .managed_entity import ManagedEntity, SimpleManagedEntity
+from .node import LifecycleNode, LifecycleNodeMixin, LifecycleState
+from .publisher import LifecyclePublisher
+
+Node = LifecycleNode
+State = LifecycleState
+Publisher = LifecyclePublisher
+
+__all__ = [
+    "LifecycleNode",
+    "LifecycleNodeMixin",
+    "LifecyclePublisher",
+    "LifecycleState",
+    "ManagedEntity",
+    "SimpleManagedEntity",
+    "TransitionCallbackReturn",
+]

@@ -1,0 +1,82 @@
+"""What belongs to a managed node, and goes through its transitions with it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import wraps
+from typing import TYPE_CHECKING, Any
+
+from ._states import TransitionCallbackReturnType as TransitionCallbackReturn
+
+if TYPE_CHECKING:
+    from .node import LifecycleState
+
+__all__ = ["ManagedEntity", "SimpleManagedEntity", "TransitionCallbackReturn"]
+
+
+class ManagedEntity:
+    """Base class. Each method is told of a transition, with the state it begins in, and returns how that went."""
+
+    def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """The node is being configured."""
+        return TransitionCallbackReturn.SUCCESS
+
+    def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """The node is being cleaned up."""
+        return TransitionCallbackReturn.SUCCESS
+
+    def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """The node is being shut down."""
+        return TransitionCallbackReturn.SUCCESS
+
+    def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """The node is being activated."""
+        return TransitionCallbackReturn.SUCCESS
+
+    def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """The node is being deactivated."""
+        return TransitionCallbackReturn.SUCCESS
+
+    def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """An error is being dealt with."""
+        return TransitionCallbackReturn.SUCCESS
+
+
+class SimpleManagedEntity(ManagedEntity):
+    """An entity that is enabled while its node is active."""
+
+    def __init__(self) -> None:
+        self._enabled = False
+
+    def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """From now on it is enabled."""
+        self._enabled = True
+        return TransitionCallbackReturn.SUCCESS
+
+    def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """From now on it is not enabled."""
+        self._enabled = False
+        return TransitionCallbackReturn.SUCCESS
+
+    @property
+    def is_activated(self) -> bool:
+        """Whether it is enabled."""
+        return self._enabled
+
+    @staticmethod
+    def when_enabled(
+        wrapped: Callable[..., None] | None = None, *, when_not_enabled: Callable[[], Any] | None = None
+    ) -> Any:
+        """Decorator for a method that does nothing, or calls `when_not_enabled()`, while the entity is not enabled."""
+
+        def decorate(method: Callable[..., None]) -> Callable[..., None]:
+            @wraps(method)
+            def only_when_enabled(self: SimpleManagedEntity, *args: Any, **kwargs: Any) -> None:
+                if self._enabled:
+                    method(self, *args, **kwargs)
+                elif when_not_enabled is not None:
+                    when_not_enabled()
+
+            return only_when_enabled
+
+        return decorate if wrapped is None else decorate(wrapped)

@@ -1,0 +1,207 @@
+"""Managed nodes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from turtle_lesson.ros.core.tracebacks import shown_path
+
+from ..callback_groups import CallbackGroup
+from ..exceptions import RCLError
+from ..node import Node
+from ._services import LifecycleServices
+from ._states import STATES, State, StateMachine
+from ._states import TransitionCallbackReturnType as TransitionCallbackReturn
+from .managed_entity import ManagedEntity
+from .publisher import LifecyclePublisher
+
+__all__ = ["LifecycleNode", "LifecycleNodeMixin", "LifecycleState", "TransitionCallbackReturn"]
+
+CONFIGURE, CLEANUP, ACTIVATE, DEACTIVATE = 1, 2, 3, 4
+SHUTDOWN = {"unconfigured": 5, "inactive": 6, "active": 7}
+HANDLERS = {
+    "configuring": "on_configure",
+    "cleaningup": "on_cleanup",
+    "shuttingdown": "on_shutdown",
+    "activating": "on_activate",
+    "deactivating": "on_deactivate",
+    "errorprocessing": "on_error",
+}
+
+
+class LifecycleState(NamedTuple):
+    """A state, as a transition's callback is told it: the one that the transition begins in."""
+
+    label: str
+    state_id: int
+
+
+class LifecycleNodeMixin(ManagedEntity):
+    """What makes a managed node of a node: `class MyNode(LifecycleNodeMixin, Node)`, both of whose __init__ are called.
+
+    Overriding on_configure and its like replaces what it does by default, which is to ask all managed entities in the
+    order in which they were added; `super().on_configure(state)` does that as well.
+    """
+
+    if TYPE_CHECKING:
+        create_publisher: Any
+        default_callback_group: CallbackGroup
+        destroy_publisher: Any
+        get_logger: Any
+
+    def __init__(
+        self, *, enable_communication_interface: bool = True, callback_group: CallbackGroup | None = None
+    ) -> None:
+        from lifecycle_msgs.msg import TransitionEvent
+
+        self._callbacks: dict[int, Callable[[LifecycleState], TransitionCallbackReturn]] = {
+            STATES[state].id: getattr(self, name) for state, name in HANDLERS.items()
+        }
+        self._managed_entities: list[ManagedEntity] = []
+        publisher = Node.create_publisher(self, TransitionEvent, "~/transition_event", 10)  # type: ignore[arg-type]
+
+        def notify(start: State, goal: State) -> None:
+            event = TransitionEvent()
+            event.start_state.id, event.start_state.label = start
+            event.goal_state.id, event.goal_state.label = goal
+            publisher.publish(event)
+
+        self._state_machine = StateMachine(notify)
+        if enable_communication_interface:
+            group = callback_group or self.default_callback_group
+            self._ros_lifecycle = LifecycleServices(self, self._state_machine, self._ros_change_state_asked, group)
+
+    # -- transitions ---------------------------------------------------------------------------------------------
+
+    def trigger_configure(self) -> TransitionCallbackReturn:
+        """Configure the node, which must be unconfigured; raises RCLError if it is not (as its siblings do)."""
+        return self._ros_change_state(CONFIGURE)
+
+    def trigger_cleanup(self) -> TransitionCallbackReturn:
+        """Clean up the node, which must be inactive."""
+        return self._ros_change_state(CLEANUP)
+
+    def trigger_shutdown(self) -> TransitionCallbackReturn | None:
+        """Shut the node down; it stays where it is, but can do nothing any more. None if it is not in a state to be."""
+        transition = SHUTDOWN.get(self._state_machine.current_state.label)
+        return None if transition is None else self._ros_change_state(transition)
+
+    def trigger_activate(self) -> TransitionCallbackReturn:
+        """Activate the node, which must be inactive."""
+        return self._ros_change_state(ACTIVATE)
+
+    def trigger_deactivate(self) -> TransitionCallbackReturn:
+        """Deactivate the node, which must be active."""
+        return self._ros_change_state(DEACTIVATE)
+
+    def _ros_change_state(self, transition_id: int) -> TransitionCallbackReturn:
+        machine = self._state_machine
+        before = LifecycleState(label=machine.current_state.label, state_id=machine.current_state.id)
+        machine.trigger_transition_by_id(transition_id, True)
+        outcome = self._ros_call(before)
+        machine.trigger_transition_by_label(_label_of(outcome, machine), True)
+        if outcome == TransitionCallbackReturn.ERROR:
+            machine.trigger_transition_by_label(_label_of(self._ros_call(before), machine), True)
+        return outcome
+
+    def _ros_call(self, before: LifecycleState) -> TransitionCallbackReturn:
+        """Call what handles the state that the node is in. What it raises counts as an error, and is logged."""
+        callback = self._callbacks[self._state_machine.current_state.id]
+        try:
+            return callback(before)
+        except Exception as error:
+            self.get_logger().error(_told(callback, error))
+            return TransitionCallbackReturn.ERROR
+
+    def _ros_change_state_asked(self, transition_id: int) -> bool:
+        """Do what the service change_state is asked for; whether that went well."""
+        current = self._state_machine.current_state
+        try:
+            return self._ros_change_state(transition_id) == TransitionCallbackReturn.SUCCESS
+        except RCLError:
+            self.get_logger().error(f"Unable to start transition {transition_id} from current state {tuple(current)}")
+            return False
+
+    # -- what the transitions do by default ----------------------------------------------------------------------
+
+    def add_managed_entity(self, entity: ManagedEntity) -> None:
+        """Have an entity go through the node's transitions, too."""
+        if entity not in self._managed_entities:
+            self._managed_entities.append(entity)
+
+    def _ros_ask_entities(self, name: str, state: LifecycleState) -> TransitionCallbackReturn:
+        for entity in list(self._managed_entities):
+            outcome = getattr(entity, name)(state)
+            if outcome != TransitionCallbackReturn.SUCCESS:
+                return outcome
+        return TransitionCallbackReturn.SUCCESS
+
+    def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """The node is being configured: ask all managed entities, up to the first that does not succeed."""
+        return self._ros_ask_entities("on_configure", state)
+
+    def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """The node is being cleaned up: ask all managed entities, up to the first that does not succeed."""
+        return self._ros_ask_entities("on_cleanup", state)
+
+    def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """The node is being shut down: ask all managed entities, up to the first that does not succeed."""
+        return self._ros_ask_entities("on_shutdown", state)
+
+    def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """The node is being activated: ask all managed entities, up to the first that does not succeed."""
+        return self._ros_ask_entities("on_activate", state)
+
+    def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """The node is being deactivated: ask all managed entities, up to the first that does not succeed."""
+        return self._ros_ask_entities("on_deactivate", state)
+
+    def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """An error is being dealt with: ask all managed entities, up to the first that does not succeed."""
+        return self._ros_ask_entities("on_error", state)
+
+    # -- publishers ----------------------------------------------------------------------------------------------
+
+    def create_lifecycle_publisher(self, *args: Any, **kwargs: Any) -> LifecyclePublisher:
+        """As `create_publisher`; but the publisher only publishes while the node is active."""
+        if "publisher_class" in kwargs:
+            raise TypeError("create_publisher() got an unexpected keyword argument 'publisher_class'")
+        publisher: Any = Node.create_publisher(self, *args, **kwargs, publisher_class=LifecyclePublisher)  # type: ignore[arg-type]
+        self.add_managed_entity(publisher)
+        return publisher
+
+    def destroy_lifecycle_publisher(self, publisher: LifecyclePublisher) -> bool:
+        """Take such a publisher away; False if it is not this node's."""
+        if publisher in self._managed_entities:
+            self._managed_entities.remove(publisher)
+        return Node.destroy_publisher(self, publisher)  # type: ignore[arg-type]
+
+
+class LifecycleNode(LifecycleNodeMixin, Node):
+    """A managed node. `keywords` are those of `rclpy.node.Node`."""
+
+    def __init__(self, node_name: str, *, enable_communication_interface: bool = True, **kwargs: Any) -> None:
+        Node.__init__(self, node_name, **kwargs)
+        LifecycleNodeMixin.__init__(self, enable_communication_interface=enable_communication_interface)
+
+
+def _label_of(outcome: Any, machine: StateMachine) -> str:
+    """The label of the transition that a callback's result means."""
+    if not hasattr(outcome, "to_label"):
+        error = AttributeError(f"{type(outcome).__name__!r} object has no attribute 'to_label'")
+        name = HANDLERS[machine.current_state.label]
+        error.add_note(f"{name} returned {outcome!r}; end it with `return TransitionCallbackReturn.SUCCESS`.")
+        raise error
+    return outcome.to_label()
+
+
+def _told(callback: Callable[..., Any], error: Exception) -> str:
+    """What is logged of an error in a callback. The real rclpy says nothing of it."""
+    trace = error.__traceback__
+    while trace is not None and trace.tb_next is not None:
+        trace = trace.tb_next
+    place = f" ({shown_path(trace.tb_frame.f_code.co_filename)}, line {trace.tb_lineno})" if trace is not None else ""
+    return (
+        f"{callback.__name__} raised {type(error).__name__}: {error}{place}. That counts as an error of the transition."
+    )

@@ -1,0 +1,144 @@
+"""`ParameterEventHandler`: being told when parameters change, of this node or others (rclpy of Jazzy and newer)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from itertools import chain
+from typing import TYPE_CHECKING, Any
+
+from .callback_groups import CallbackGroup
+from .qos import QoSProfile, qos_profile_parameter_events
+
+if TYPE_CHECKING:
+    from .node import Node
+
+GONE = "Callback doesn't exist"
+
+
+class ParameterCallbackHandle:
+    """What `add_parameter_callback` returns, and `remove_parameter_callback` takes."""
+
+    def __init__(self, parameter_name: str, node_name: str, callback: Callable[[Any], Any]) -> None:
+        self.parameter_name = parameter_name
+        self.node_name = node_name
+        self.callback = callback
+
+
+class ParameterEventCallbackHandle:
+    """What `add_parameter_event_callback` returns, and `remove_parameter_event_callback` takes."""
+
+    def __init__(self, callback: Callable[[Any], Any]) -> None:
+        self.callback = callback
+
+
+class ParameterEventHandler:
+    """Listens on /parameter_events with a node that is spun. Its callbacks run in that subscription's callback group.
+
+    The newest callback is called first; those for one parameter go before those for whole events.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        qos_profile: QoSProfile = qos_profile_parameter_events,
+        callback_group: CallbackGroup | None = None,
+        event_callbacks: Any = None,
+        qos_overriding_options: Any = None,
+        raw: bool = False,
+    ) -> None:
+        from rcl_interfaces.msg import ParameterEvent
+
+        self.node = node
+        self.qos_profile = qos_profile
+        self._for_parameters: dict[tuple[str, str], list[ParameterCallbackHandle]] = {}
+        self._for_events: list[ParameterEventCallbackHandle] = []
+        self._only_nodes: list[str] = []
+        self.parameter_event_subscription = node.create_subscription(
+            ParameterEvent,
+            "/parameter_events",
+            self._heard,
+            qos_profile,
+            callback_group=callback_group,
+            event_callbacks=event_callbacks,
+            qos_overriding_options=qos_overriding_options,
+            raw=raw,
+        )
+
+    def destroy(self) -> None:
+        """Listen no more."""
+        self.node.destroy_subscription(self.parameter_event_subscription)
+
+    def _heard(self, event: Any) -> None:
+        if self._only_nodes and event.node not in self._only_nodes:
+            return
+        for (parameter_name, node_name), handles in list(self._for_parameters.items()):
+            parameter = self.get_parameter_from_event(event, parameter_name, node_name)
+            if parameter is not None:
+                for handle in list(handles):
+                    handle.callback(parameter)
+        for each in list(self._for_events):
+            each.callback(event)
+
+    # -- what an event says ----------------------------------------------------------------------------------------
+
+    @staticmethod
+    def get_parameter_from_event(event: Any, parameter_name: str, node_name: str) -> Any:
+        """The rcl_interfaces/msg/Parameter of a name in an event, if it is new or changed and of this node; or None."""
+        if event.node == node_name:
+            for parameter in chain(event.new_parameters, event.changed_parameters):
+                if parameter.name == parameter_name:
+                    return parameter
+        return None
+
+    @staticmethod
+    def get_parameters_from_event(event: Any) -> Iterable[Any]:
+        """The parameters in an event that are new or changed."""
+        yield from chain(event.new_parameters, event.changed_parameters)
+
+    # -- callbacks -------------------------------------------------------------------------------------------------
+
+    def add_parameter_callback(
+        self, parameter_name: str, node_name: str, callback: Callable[[Any], Any]
+    ) -> ParameterCallbackHandle:
+        """Have `callback(parameter)` called when a parameter of a node is new or changed.
+
+        A relative `node_name` is in this node's namespace; '' is this node.
+        """
+        full_name = self._resolve_path(node_name)
+        handle = ParameterCallbackHandle(parameter_name, full_name, callback)
+        self._for_parameters.setdefault((parameter_name, full_name), []).insert(0, handle)
+        return handle
+
+    def remove_parameter_callback(self, handle: ParameterCallbackHandle) -> None:
+        """No longer call a callback. Raises RuntimeError if it is not (or no longer) called."""
+        key = (handle.parameter_name, handle.node_name)
+        handles = self._for_parameters.get(key, [])
+        if handle not in handles:
+            raise RuntimeError(GONE)
+        handles.remove(handle)
+        if not handles:
+            del self._for_parameters[key]
+
+    def add_parameter_event_callback(self, callback: Callable[[Any], Any]) -> ParameterEventCallbackHandle:
+        """Have `callback(event)` called for each rcl_interfaces/msg/ParameterEvent."""
+        handle = ParameterEventCallbackHandle(callback)
+        self._for_events.insert(0, handle)
+        return handle
+
+    def remove_parameter_event_callback(self, handle: ParameterEventCallbackHandle) -> None:
+        """No longer call a callback. Raises RuntimeError if it is not (or no longer) called."""
+        if handle not in self._for_events:
+            raise RuntimeError(GONE)
+        self._for_events.remove(handle)
+
+    def configure_nodes_filter(self, node_names: list[str] | None = None) -> bool:
+        """Hear only of these nodes (full names); None or none: of all. True, as with a middleware that can filter."""
+        self._only_nodes = list(node_names or [])
+        return True
+
+    def _resolve_path(self, node_path: str | None) -> str:
+        if not node_path:
+            return self.node.get_fully_qualified_name()
+        if node_path.startswith("/"):
+            return node_path
+        return f"{self.node.get_namespace().rstrip('/')}/{node_path}"
