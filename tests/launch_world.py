@@ -63,6 +63,9 @@ class FakeProcess:
     def kill(self) -> None:
         self.end(-9)
 
+    def handles(self, number: int) -> bool:
+        return False
+
 
 class FakeWorld:
     """What `launching` needs of a world."""

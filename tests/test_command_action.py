@@ -85,7 +85,9 @@ def test_a_goal_that_is_cancelled_by_somebody_else(turtle: World) -> None:
         rclpy.spin(node)
 
     turtle.spawn(other, name="other")
-    answer = type_in(turtle, "ros2 action send_goal turtle1/rotate_absolute turtlesim/action/RotateAbsolute '{theta: 3}'")
+    answer = type_in(
+        turtle, "ros2 action send_goal turtle1/rotate_absolute turtlesim/action/RotateAbsolute '{theta: 3}'"
+    )
     assert answer.stdout.endswith("Goal finished with status: CANCELED\n")
 
 
@@ -102,9 +104,7 @@ def test_a_server_whose_thread_is_busy(world: World) -> None:
     answer = type_in(world, f"{SEND.replace(': 2', ': 20')} --for 1")
     assert answer.stderr == "No answer to the cancelling: is the server's node busy with something else?\n"
     answer = type_in(world, f"{SEND} --for 2")
-    assert answer.stderr == (
-        "No answer whether the goal is accepted: is the server's node busy with something else?\n"
-    )
+    assert answer.stderr == ("No answer whether the goal is accepted: is the server's node busy with something else?\n")
     assert answer.code == 1
 
 

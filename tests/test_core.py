@@ -409,13 +409,6 @@ def test_time_cannot_run_backwards(world: World) -> None:
         world.sim.call_later(-1, print)
 
 
-def test_a_process_cannot_start_a_real_thread(world: World) -> None:
-    process = world.spawn(lambda: threading.Thread(target=print).start(), name="main")
-    world.sim.run_until(SECOND)
-    assert isinstance(process.error, NotImplementedError)
-    assert "MultiThreadedExecutor" in str(process.error)
-
-
 def test_a_call_that_ignores_being_given_up_is_never_run_again(world: World) -> None:
     log: list[str] = []
 
@@ -486,7 +479,9 @@ def test_what_the_cell_itself_computes_can_be_interrupted(world: World, monkeypa
 
 def test_a_process_that_waits_for_a_real_lock_is_told_so(world: World, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(interrupts, "patience", 0.2)
-    process = world.spawn(lambda: threading.Event().wait(), name="waits")
+    lock = threading.Lock()
+    lock.acquire()
+    process = world.spawn(lock.acquire, name="waits")
     world.sim.run_until(SECOND)
     assert isinstance(process.error, NeverReturns)
     assert "await a future" in str(process.error)

@@ -259,7 +259,10 @@ def test_a_closed_recorder_hears_no_more_but_keeps_what_it_heard(bench):
 
 
 def test_an_rclpy_that_tells_no_times_is_asked_for_the_clock(bench, monkeypatch):
+    from rclpy.subscription import Subscription
+
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: object())
+    monkeypatch.delattr(Subscription, "CallbackType")
     heard = []
     hear = with_time(bench.eye, lambda message, info: heard.append((message, info["source_timestamp"])))
     hear("hello")

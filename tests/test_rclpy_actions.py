@@ -332,7 +332,9 @@ def test_a_deferred_goal_waits_in_the_state_accepted(run: Run) -> None:
         wait(node, Future(), 1.0)
         found += [handles[0].status, goal.status]
         rclpy.get_global_executor().add_node(node)
-        handles[0].execute(lambda goal_handle: count_up(goal_handle) if goal_handle.request.order < 9 else at_once(goal_handle))
+        handles[0].execute(
+            lambda goal_handle: count_up(goal_handle) if goal_handle.request.order < 9 else at_once(goal_handle)
+        )
         found += [handles[0].status, outcome(node, goal)]
 
     assert run(program) == [GoalStatus.STATUS_ACCEPTED] * 2 + [GoalStatus.STATUS_EXECUTING, (4, [9])]
@@ -367,7 +369,7 @@ def test_callbacks_can_be_exchanged(run: Run) -> None:
         found.append(len(wait(node, goal.cancel_goal_async()).goals_canceling))
         server.register_cancel_callback(accept)
         found.append(len(wait(node, goal.cancel_goal_async()).goals_canceling))
-        with pytest.raises(TypeError, match="^Failed to register goal execution callback: not callable"):
+        with pytest.raises(TypeError, match=r"^Failed to register goal execution callback: not callable"):
             server.register_execute_callback(Result())
 
     assert run(program) == [False, GoalStatus.STATUS_ABORTED, "taken", 0, 1]
@@ -411,7 +413,11 @@ def test_every_callback_may_be_async(run: Run) -> None:
 
 @pytest.mark.parametrize(
     ("role", "argument"),
-    [("goal_callback", "goal_request"), ("cancel_callback", "goal_handle"), ("handle_accepted_callback", "goal_handle")],
+    [
+        ("goal_callback", "goal_request"),
+        ("cancel_callback", "goal_handle"),
+        ("handle_accepted_callback", "goal_handle"),
+    ],
 )
 def test_a_callback_with_the_wrong_arguments_ends_the_server_and_is_told(
     world: World, role: str, argument: str
@@ -602,7 +608,9 @@ def test_the_status_topic_tells_of_every_step_also_those_who_come_late(run: Run)
             quality = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
             def hear(message: Any) -> None:
-                found.append((name, [(int(each.goal_info.goal_id.uuid[0]), each.status) for each in message.status_list]))
+                found.append(
+                    (name, [(int(each.goal_info.goal_id.uuid[0]), each.status) for each in message.status_list])
+                )
 
             node.create_subscription(GoalStatusArray, "/fibonacci/_action/status", hear, quality)
             rclpy.spin(node)
@@ -681,7 +689,9 @@ def test_an_action_is_one_waitable_of_its_node_and_goes_with_it(run: Run) -> Non
         node = rclpy.create_node("both")
         server = ActionServer(node, Fibonacci, "fibonacci", at_once)
         client = ActionClient(node, Fibonacci, "fibonacci")
-        found.append([each for each in node.waitables if isinstance(each, (ActionServer, ActionClient))] == [server, client])
+        found.append(
+            [each for each in node.waitables if isinstance(each, (ActionServer, ActionClient))] == [server, client]
+        )
         found.append([isinstance(each, Waitable) for each in (server, client)])
         found.append([len(list(each)) for each in (node.clients, node.subscriptions)])
         found.append([name.get_num_entities().num_services for name in (server, client)])

@@ -332,8 +332,16 @@ def test_send_goal_to_a_server_in_the_same_callback_group(run: Run) -> None:
 @pytest.mark.parametrize(
     ("kind", "name", "text"),
     [
-        (Fibonacci, "fibonaci", "nobody offers this action (example_interfaces/action/Fibonacci); did you mean '/fibonacci'?"),
-        (RotateAbsolute, "fibonacci", "the action of this name is of type example_interfaces/action/Fibonacci, not turtlesim/"),
+        (
+            Fibonacci,
+            "fibonaci",
+            "nobody offers this action (example_interfaces/action/Fibonacci); did you mean '/fibonacci'?",
+        ),
+        (
+            RotateAbsolute,
+            "fibonacci",
+            "the action of this name is of type example_interfaces/action/Fibonacci, not turtlesim/",
+        ),
     ],
 )
 def test_send_goal_to_nobody(run: Run, kind: Any, name: str, text: str) -> None:
@@ -365,7 +373,9 @@ def test_in_a_cell_blocking_calls_run_the_simulation(world: World, node: Node) -
     assert client.wait_for_server()
     heard: list[Any] = []
     began = world.now
-    answer = client.send_goal(Goal(order=3), feedback_callback=lambda message: heard.append(len(message.feedback.sequence)))
+    answer = client.send_goal(
+        Goal(order=3), feedback_callback=lambda message: heard.append(len(message.feedback.sequence))
+    )
     assert (answer.status, list(answer.result.sequence), heard) == (4, [0, 1, 2], [1, 2, 3])
     assert world.now - began == pytest.approx(3.0 * SECOND, rel=0.001)
 

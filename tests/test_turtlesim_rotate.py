@@ -176,11 +176,10 @@ def test_every_turtle_has_its_own_action_and_takes_it_away(bench: Bench) -> None
 def test_any_heading_is_reached_the_shorter_way(theta: float, heading: float) -> None:
     rotation = Rotation(theta, heading)
     way = abs(normalized(normalized(theta) - float32(heading)))
-    for ticks in range(200):
-        speed = rotation.step(heading)
-        if rotation.reached:
-            break
-        heading = normalized(heading + speed * TICK)
+    ticks = 0
+    while not rotation.reached and ticks < 200:
+        heading = normalized(heading + rotation.step(heading) * TICK)
+        ticks += 1
     assert rotation.reached
     assert ticks <= way / TICK + 2
     assert abs(rotation.remaining) < 0.021 or abs(abs(rotation.remaining) - 2 * PI) < 0.021

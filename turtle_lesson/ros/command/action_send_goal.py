@@ -90,9 +90,10 @@ def _print_feedback(message: Any) -> None:
 
 
 def _status(status: int) -> str:
-    from rclpy.action._goal_states import NAMES
+    from action_msgs.msg import GoalStatus
 
-    return NAMES.get(status, "UNKNOWN")
+    names = ("ACCEPTED", "EXECUTING", "CANCELING", "SUCCEEDED", "CANCELED", "ABORTED")
+    return next((name for name in names if getattr(GoalStatus, f"STATUS_{name}") == status), "UNKNOWN")
 
 
 def _wait_for_server(node: Node, client: ActionClient, kind: Any) -> None:

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import asyncio
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from types import MethodType
 from typing import TYPE_CHECKING, Any
 
@@ -24,30 +26,31 @@ def be_careful(simulation: Simulation) -> None:
 
 
 def _park(simulation: Simulation, strand: Strand) -> None:
-    loop = asyncio._get_running_loop()
-    if loop is None:
+    if asyncio._get_running_loop() is None:
         type(simulation).park(simulation, strand)
     else:
-        _park_beside(loop, simulation, strand)
+        with loop_aside():
+            type(simulation).park(simulation, strand)
     while strand.calls:
         function, *strand.calls = strand.calls
         function()
 
 
-def _park_beside(loop: asyncio.AbstractEventLoop, simulation: Simulation, strand: Strand) -> None:
-    """Park in the middle of an asyncio loop that this strand runs."""
-    task = asyncio.current_task(loop)
-    hooks = sys.get_asyncgen_hooks()
-    if task is not None:
+@contextmanager
+def loop_aside() -> Iterator[None]:
+    """While others go on, put aside the asyncio loop that runs here, with its task and its care for generators."""
+    loop, hooks = asyncio._get_running_loop(), sys.get_asyncgen_hooks()
+    task = None if loop is None else asyncio.current_task(loop)
+    if loop is not None and task is not None:
         _leave_task(loop, task)
     asyncio._set_running_loop(None)
     sys.set_asyncgen_hooks(None, None)
     try:
-        type(simulation).park(simulation, strand)
+        yield
     finally:
         asyncio._set_running_loop(loop)
         sys.set_asyncgen_hooks(*hooks)
-        if task is not None:
+        if loop is not None and task is not None:
             _enter_task(loop, task)
 
 

@@ -57,6 +57,12 @@ class Cell:
         visitor.gr_context = context
         visitor.switch(changes)
 
+    def show_here(self) -> None:
+        """The same for the context of the running code."""
+        before = _shown.get(None)
+        if before is not None and before is not self:
+            _set_all([(_shown, self), *self._changes(before, copy_context())])
+
     def _changes(self, before: Cell, context: Context) -> list[tuple[ContextVar[Any], Any]]:
         return [
             (variable, value)

@@ -15,6 +15,7 @@ import time
 from types import FrameType, TracebackType
 from typing import TYPE_CHECKING, Any
 
+from .careful import loop_aside
 from .errors import NeverReturns
 from .strand import Strand, running_strand
 
@@ -76,7 +77,8 @@ class Guard:
         if strand is None:
             raise KeyboardInterrupt  # it is no process that computes, but what the cell itself does
         self.simulation.put_back(strand)
-        self.simulation.hub.switch()
+        with loop_aside():
+            self.simulation.hub.switch()
 
     def _give_up_on(self, strand: Strand | None) -> None:
         name = "what the cell does" if strand is None else strand.process.name

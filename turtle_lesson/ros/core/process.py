@@ -36,12 +36,23 @@ class Killed(SystemExit):
     """Ends a process that is not asked."""
 
 
+class SignalHook(Protocol):
+    """What a library does about signals before the program hears of them."""
+
+    def takes(self, number: int) -> bool:
+        """Whether a signal is dealt with by the library alone."""
+
+    def hear(self, number: int) -> bool:
+        """A signal comes; True if that is the end of it."""
+
+
 class Process:
     """A program in the simulation. `locals` is where libraries keep what each process has one of.
 
     Attributes:
         is_notebook: whether it stands for a notebook, whose cells drive the simulation.
         strands: its lines of execution, in the order of their making; dead ones may be among them.
+        modules: the Python modules of its own that a program has which was read from a file.
         before_exit: called when the main program has ended, the last one first: waits for what is still at work.
         exit_functions: called after that, the last one first: what the program gave to `atexit.register`.
         at_exit: called at the very end, the last one first, however the process ends: what libraries clean up.
@@ -75,9 +86,11 @@ class Process:
         self.exit_functions: list[Callable[[], object]] = []
         self.at_exit: list[Callable[[], None]] = []
         self.signal_handlers: dict[int, Any] = {}
+        self.signal_hook: SignalHook | None = None
         self.signals_handled = 0
         self.error: BaseException | None = None
         self.is_notebook = False
+        self.modules: Any = None
         self.main_strand: Strand | None = None
         self.strands: list[Strand] = []
         self._on_exit = on_exit
@@ -118,12 +131,18 @@ class Process:
         """Do as Ctrl-C in a terminal would: SIGINT, which raises KeyboardInterrupt in the main strand, now."""
         self.send_signal(signal.SIGINT)
 
+    def handles(self, number: int) -> bool:
+        """Whether the program has a handler for a signal, its own or a library's, and can run it."""
+        hook = self.signal_hook
+        return bool(self.main_strand) and (number in self.signal_handlers or (hook is not None and hook.takes(number)))
+
     def send_signal(self, number: int) -> None:
         """Have the process get a signal: its own handler is called in the main strand, or does what Python does."""
-        handler = self.signal_handlers.get(number)
-        main = self.main_strand
-        if handler is not None and self.alive and main:
-            self._handle(handler, number, main)
+        main, hook = self.main_strand, self.signal_hook
+        if hook is not None and self.alive and hook.hear(number):
+            return
+        if self.alive and main is not None and main and number in self.signal_handlers:
+            self._handle(self.signal_handlers[number], number, main)
         elif number == signal.SIGINT:
             self._end_main(KeyboardInterrupt())
         else:

@@ -7,7 +7,6 @@ after the other, in the order in which they were woken.
 
 from __future__ import annotations
 
-import asyncio
 import sys
 import weakref
 from _thread import get_ident
@@ -17,6 +16,7 @@ from contextvars import copy_context
 from heapq import heappop, heappush
 from typing import TYPE_CHECKING, Any
 
+from .careful import loop_aside
 from .cell_context import Cell
 from .errors import SimulationError, WorldClosed
 from .interrupts import Guard
@@ -173,7 +173,8 @@ class Simulation:
                 self._cell = self._cell.now()
             if strand.cell is not self._cell:
                 self._cell.show_to(strand)
-            go()
+            with loop_aside():
+                go()
         finally:
             self.hub, self._halted, self._limit, self._raising = hub, halted, limit, raising
             if strand.dead and strand in self._ready:
@@ -200,17 +201,13 @@ class Simulation:
         self._limit = limit
         self._halted = False
         self.running = True
-        loop, hooks = asyncio._get_running_loop(), sys.get_asyncgen_hooks()
-        asyncio._set_running_loop(None)  # a simulated process is no part of Jupyter's event loop
-        sys.set_asyncgen_hooks(None, None)
-        try:
-            self._loop()
-        finally:
-            self.running = False
-            self._limit = 0
-            self._leave()
-            asyncio._set_running_loop(loop)
-            sys.set_asyncgen_hooks(*hooks)
+        with loop_aside():  # a simulated process is no part of Jupyter's event loop
+            try:
+                self._loop()
+            finally:
+                self.running = False
+                self._limit = 0
+                self._leave()
 
     def scheduled(self) -> list[tuple[int, int, Callable[[Any], object], Any]]:
         """What `at` was asked for and has not happened yet, in its order: time (ns), a number, action, argument."""

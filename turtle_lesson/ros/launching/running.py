@@ -103,9 +103,11 @@ class RunningProcess:
             raise NotImplementedError(f"{name} does not exist in this classroom; SIGINT, SIGTERM and SIGKILL do")
         if self.process is None or not self.alive:
             return
-        if name == "SIGKILL":
-            self.process.kill()
-            return
         number = signal.Signals[name]
-        self._terminated = name == "SIGTERM" and number not in self.process.signal_handlers
-        self.process.send_signal(number)
+        if name == "SIGINT":
+            self.process.interrupt()
+        elif self.process.handles(number):
+            self.process.send_signal(number)
+        else:
+            self._terminated = name == "SIGTERM"
+            self.process.kill()

@@ -13,13 +13,10 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import NeverWakes
 from ..strand import Strand
-from .hopeless_words import why_in_a_circle, why_nobody_is_left
+from .hopeless_words import IDLE, why_in_a_circle, why_nobody_is_left
 
 if TYPE_CHECKING:
     from ..process import Process
-
-IDLE = "something to do"
-"""For what a worker waits that does nothing by itself: nobody need wake it, and it wakes nobody."""
 
 
 def look_for_hope(strand: Strand) -> None:

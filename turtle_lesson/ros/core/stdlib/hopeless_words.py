@@ -12,6 +12,10 @@ CORE = __name__.rpartition(".")[0].rpartition(".")[0]
 _ROOMS = {"threading", "queue", "concurrent.futures.thread", "concurrent.futures._base"}
 
 LOCK = "the lock"
+LOOP = "its asyncio loop"
+IDLE = "something to do"
+"""For what a worker waits that does nothing by itself: nobody need wake it, and it wakes nobody."""
+
 _WHAT_ENDS_IT = {
     "Barrier.wait": "come to the barrier",
     "Condition.wait": "notify the condition",
@@ -36,6 +40,11 @@ hints: list[Callable[[Strand], str]] = []
 def why_nobody_is_left(strand: Strand) -> str:
     """Why a strand would wait for ever: because nobody else in its process can do anything."""
     what = wait_of(strand)
+    if what == LOOP:
+        return (
+            "this asyncio loop would wait for ever: all of its tasks wait, none of them for a time, and nothing is left in "
+            f"this program that could go on. {_others(strand)}"
+        )
     action = _WHAT_ENDS_IT.get(what, "release it" if what == LOCK else "end that")
     text = f"{_never(what)}: nothing is left in this program that could {action}. {_others(strand)}"
     return " ".join([text, *_hint(strand)])
@@ -92,7 +101,7 @@ def _called_in(frame: FrameType | None) -> str:
 
 
 def _others(strand: Strand) -> str:
-    others = [each for each in strand.process.strands if each is not strand and each.waits_for != "something to do"]
+    others = [each for each in strand.process.strands if each is not strand and each.waits_for != IDLE]
     waiting = [f"{name_of(each)} waits {_where(wait_of(each))}" for each in others if not each.dead and each.waits_for]
     return f"Its other threads wait, too: {', '.join(waiting)}." if waiting else "It has no other thread."
 

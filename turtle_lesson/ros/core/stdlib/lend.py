@@ -7,6 +7,7 @@ one. All replacements give whoever is no simulated process, and no cell of a lea
 from __future__ import annotations
 
 import _thread
+import asyncio
 import atexit
 import os
 import queue
@@ -20,7 +21,7 @@ from types import MethodType
 from typing import Any
 
 from ..strand import Strand, getcurrent
-from . import exits, identity, local, locks, pools, refused, signals, threads, time_of_day
+from . import exits, identity, local, locks, loops, pools, refused, signals, threads, time_of_day
 from .facade import facade
 from .home import process_here
 
@@ -34,6 +35,7 @@ def install() -> None:
     _install_locks()
     _install_threads()
     _install_pools()
+    _install_loops()
     _install_signals()
     _install_refusals()
     for function in time_of_day.REPLACEMENTS:
@@ -127,6 +129,13 @@ def _install_pools() -> None:
     replace_method(kind, "__init__", pools.init)
     replace_function(kind, "_counter", pools.next_number)
     replace(pool, "_global_shutdown_lock", pools.NotInStrands())
+
+
+def _install_loops() -> None:
+    for function in loops.REPLACEMENTS:
+        name = function.__name__
+        replace_function(asyncio.events, name, function)
+        replace(asyncio, name, getattr(asyncio.events, name))
 
 
 def _install_signals() -> None:

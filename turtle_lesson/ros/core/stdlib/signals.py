@@ -80,9 +80,9 @@ def raise_signal(real: Any, signalnum: int, /) -> None:
 
 
 def kill(real: Any, pid: int, signal: int, /) -> None:
-    """Send a process a signal: a simulated one itself, all others whom they want."""
+    """Send a process a signal: a program that was read from a file itself, all others whom they want."""
     process = _process()
-    if process is not None and pid in (os.getpid(), process.pid):
+    if process is not None and process.modules is not None and pid in (os.getpid(), process.pid):
         _send(process, signal)
     else:
         real(pid, signal)

@@ -12,26 +12,33 @@ from typing import TYPE_CHECKING, Any
 from ._blocking import drives_the_simulation, in_a_plain_cell, spin_live
 from ._missing import explain_missing
 from .context import Context
-from .signals import SignalHandlerOptions
-from .utilities import get_default_context, ok, shutdown, try_shutdown
+from .signals import SignalHandlerOptions, install_signal_handlers, uninstall_signal_handlers
+from .task import Future
+from .utilities import get_default_context, get_rmw_implementation_identifier, ok, shutdown, try_shutdown
 
 if TYPE_CHECKING:
     from .executors import Executor
     from .node import Node
-    from .task import Future
+    from .parameter import Parameter
 
 __all__ = [
     "Context",
+    "Future",
+    "Parameter",
+    "SignalHandlerOptions",
     "create_node",
     "get_default_context",
     "get_global_executor",
+    "get_rmw_implementation_identifier",
     "init",
+    "install_signal_handlers",
     "ok",
     "shutdown",
     "spin",
     "spin_once",
     "spin_until_future_complete",
     "try_shutdown",
+    "uninstall_signal_handlers",
 ]
 
 
@@ -63,10 +70,17 @@ def init(
 ) -> InitContextManager:
     """Begin to use ROS in this process. `args` defaults to the process's sys.argv.
 
-    Raises RuntimeError if it was called before without a shutdown.
+    Signals are handled as `rclpy.signals` says, unless told otherwise or the context is not the default one.
+
+    Raises RuntimeError if it was called before without a shutdown, RCLError for ROS arguments that cannot be read.
     """
-    context = get_default_context() if context is None else context
+    default = get_default_context()
+    context = default if context is None else context
+    if signal_handler_options is None:
+        signal_handler_options = SignalHandlerOptions.ALL if context is default else SignalHandlerOptions.NO
     context.init(args, domain_id=domain_id)
+    if signal_handler_options is not SignalHandlerOptions.NO:
+        install_signal_handlers(signal_handler_options)
     return InitContextManager(context)
 
 
@@ -83,11 +97,36 @@ def get_global_executor() -> Executor:
     return executor
 
 
-def create_node(node_name: str, **keywords: Any) -> Node:
+def create_node(
+    node_name: str,
+    *,
+    context: Context | None = None,
+    cli_args: list[str] | None = None,
+    namespace: str | None = None,
+    use_global_arguments: bool = True,
+    enable_rosout: bool = True,
+    start_parameter_services: bool = True,
+    parameter_overrides: list[Parameter] | None = None,
+    allow_undeclared_parameters: bool = False,
+    automatically_declare_parameters_from_overrides: bool = False,
+    enable_logger_service: bool = False,
+) -> Node:
     """Make a `Node`; the keywords are its constructor's."""
     from .node import Node
 
-    return Node(node_name, **keywords)
+    return Node(
+        node_name,
+        context=context,
+        cli_args=cli_args,
+        namespace=namespace,
+        use_global_arguments=use_global_arguments,
+        enable_rosout=enable_rosout,
+        start_parameter_services=start_parameter_services,
+        parameter_overrides=parameter_overrides,
+        allow_undeclared_parameters=allow_undeclared_parameters,
+        automatically_declare_parameters_from_overrides=automatically_declare_parameters_from_overrides,
+        enable_logger_service=enable_logger_service,
+    )
 
 
 @drives_the_simulation
@@ -134,4 +173,13 @@ def spin_until_future_complete(
         executor.remove_node(node)
 
 
-__getattr__: Callable[[str], Any] = explain_missing(__name__)
+_missing: Callable[[str], Any] = explain_missing(__name__)
+
+
+def __getattr__(name: str) -> Any:
+    """`rclpy.Parameter`, whose module reads interface definitions when it is first used, and submodules."""
+    if name == "Parameter":
+        from .parameter import Parameter
+
+        return Parameter
+    return _missing(name)

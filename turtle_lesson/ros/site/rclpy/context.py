@@ -15,6 +15,7 @@ from .exceptions import RCLError
 from .impl._console import wanted_format
 from .impl.logging_severity import LoggingSeverity
 from .impl.rcutils_logger import RcutilsLogger
+from .signals import contexts_of
 
 if TYPE_CHECKING:
     from .node import Node
@@ -28,6 +29,7 @@ class Context:
         self._initialized = False
         self.ended = False
         """Whether it was shut down."""
+        self.ended_by_signal = False
         self._callbacks: list[Callable[[], Callable[[], Any] | None]] = []
         self._nodes: list[Node] = []
         self.arguments = Arguments()
@@ -48,6 +50,7 @@ class Context:
         self.arguments = self._read(self._process.argv if args is None else args)
         self._domain_id = domain_id or 0
         self._initialized = True
+        contexts_of(self._process).append(self)
         if initialize_logging:
             self._set_up_logging()
         self._process.at_exit.append(self._end)
@@ -88,25 +91,48 @@ class Context:
         return self._domain_id
 
     def shutdown(self) -> None:
-        """End it. Raises RuntimeError if it is not initialized, or ended already."""
+        """End it. Raises RuntimeError if it is not initialized or ended already, RCLError if a signal has ended it."""
+        if self.ended_by_signal and self._end_is_told():
+            error = RCLError("failed to shutdown: rcl_shutdown already called on the given context")
+            error.add_note(
+                "Ctrl-C has shut it down already, as on a robot. rclpy.try_shutdown() does it where it is still to be done."
+            )
+            raise error
         if not self.ok():
             raise RuntimeError("Context must be initialized before it can be shutdown")
         self.try_shutdown()
 
     def try_shutdown(self) -> None:
         """End it, if it has not ended yet."""
-        if not self.ok():
-            return
-        self.ended = True
+        if self.ok():
+            self.ended = True
+            self._leave()
+        self._end_is_told()
+
+    def _end_is_told(self) -> bool:
+        """Let a later init have a new default context; whether this one has just been the default."""
+        was_default = self.shared_default
+        if was_default and self.ended:
+            del self._process.locals["rclpy.context"]
+        return was_default
+
+    def shut_down_by_signal(self) -> None:
+        """A signal ends it, at once; what hears of it does so a moment later, in a strand of its own."""
+        self.ended = self.ended_by_signal = True
+        self._process.simulation.put_back(self._process.add_strand(self._leave))
+
+    def _leave(self) -> None:
+        """Tell who wants to know of the end, and take the nodes out of the graph, for they could do nothing any more."""
+        contexts = contexts_of(self._process)
+        if self in contexts:
+            contexts.remove(self)
         for reference in list(self._callbacks):
             callback = reference()
             if callback is not None:
                 callback()
         self._callbacks.clear()
         for node in list(self._nodes):
-            node._ros_leave()  # a node without a context could do nothing, so it does not stay in the graph
-        if self.shared_default:
-            del self._process.locals["rclpy.context"]
+            node._ros_leave()
 
     def destroy(self) -> None:
         """Let go of it; in the real one this frees the C object. A context that is still up is shut down."""

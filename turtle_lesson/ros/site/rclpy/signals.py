@@ -1,6 +1,28 @@
-"""Which signals rclpy handles. In the simulation only SIGINT exists: it raises KeyboardInterrupt in the process."""
+"""Which signals rclpy handles: SIGINT, that is Ctrl-C, and SIGTERM.
 
+With its handlers in place, which `rclpy.init()` sees to, both shut all contexts of the process down. After SIGINT the
+program hears of a KeyboardInterrupt as well; SIGTERM alone ends no program (rclpy's signals.py and signal_handler.cpp).
+"""
+
+from __future__ import annotations
+
+import signal
 from enum import Enum
+from typing import TYPE_CHECKING, Any
+
+from turtle_lesson.ros.world import current_process
+
+if TYPE_CHECKING:
+    from turtle_lesson.ros.core import Process
+
+    from .context import Context
+
+__all__ = [
+    "SignalHandlerOptions",
+    "get_current_signal_handlers_options",
+    "install_signal_handlers",
+    "uninstall_signal_handlers",
+]
 
 
 class SignalHandlerOptions(Enum):
@@ -10,3 +32,52 @@ class SignalHandlerOptions(Enum):
     SIGINT = 1
     SIGTERM = 2
     ALL = 3
+
+
+class _Handlers:
+    """rclpy's handlers in one process. A handler that the program sets after them takes their place."""
+
+    def __init__(self, process: Process, options: SignalHandlerOptions) -> None:
+        self.options = options
+        self._process = process
+        self._before = dict(process.signal_handlers)
+
+    def _is_set(self, number: int) -> bool:
+        name = {signal.SIGINT: "SIGINT", signal.SIGTERM: "SIGTERM"}.get(signal.Signals(number), "")
+        unchanged = self._process.signal_handlers.get(number) is self._before.get(number)
+        return unchanged and self.options in (SignalHandlerOptions.ALL, SignalHandlerOptions.__members__.get(name))
+
+    def takes(self, number: int) -> bool:
+        """Whether a signal is dealt with here alone."""
+        return number == signal.SIGTERM and self._is_set(number)
+
+    def hear(self, number: int) -> bool:
+        """A signal comes; True if that is the end of it."""
+        if self._is_set(number):
+            for context in list(contexts_of(self._process)):
+                context.shut_down_by_signal()
+        return self.takes(number)
+
+
+def contexts_of(process: Process) -> list[Context]:
+    """The contexts of a process that are up."""
+    return process.locals.setdefault("rclpy.contexts", [])
+
+
+def install_signal_handlers(options: SignalHandlerOptions = SignalHandlerOptions.ALL) -> None:
+    """Have rclpy handle signals of this process."""
+    if not isinstance(options, SignalHandlerOptions):
+        raise TypeError(f"a SignalHandlerOptions is expected, got {options!r}: try SignalHandlerOptions.ALL")
+    process = current_process()
+    process.signal_hook = _Handlers(process, options)
+
+
+def get_current_signal_handlers_options() -> SignalHandlerOptions:
+    """Which signals rclpy handles now."""
+    hook: Any = current_process().signal_hook
+    return hook.options if isinstance(hook, _Handlers) else SignalHandlerOptions.NO
+
+
+def uninstall_signal_handlers() -> None:
+    """Leave the signals to Python."""
+    current_process().signal_hook = None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable
+from enum import Enum
 from typing import Any
 
 from turtle_lesson.ros.core import EPOCH
@@ -24,6 +25,12 @@ class Subscription(Entity):
     """Made by `Node.create_subscription`. A callback with two parameters also gets the message's times (ns)."""
 
     _kind = SUBSCRIPTION
+
+    class CallbackType(Enum):
+        """What a callback is called with (since Iron)."""
+
+        MessageOnly = 0
+        WithMessageInfo = 1
 
     def __init__(
         self,

@@ -10,6 +10,7 @@ from ._arguments import obsolete_text, without_ros_arguments
 from .constants import S_TO_NS
 from .context import Context
 from .impl.rcutils_logger import RcutilsLogger
+from .signals import uninstall_signal_handlers
 
 
 def get_default_context(*, shutting_down: bool = False) -> Context:
@@ -26,13 +27,24 @@ def ok(*, context: Context | None = None) -> bool:
 
 
 def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
-    """End ROS in this process. Raises RuntimeError if there is nothing to end."""
-    (get_default_context() if context is None else context).shutdown()
+    """End ROS in this process, and by default leave signals to Python again, if it is the default context that ends.
+
+    Raises RuntimeError if there is nothing to end, RCLError if a signal (Ctrl-C) has ended it.
+    """
+    wanted = context is None or context.shared_default if uninstall_handlers is None else uninstall_handlers
+    try:
+        (get_default_context() if context is None else context).shutdown()
+    finally:
+        if wanted:
+            uninstall_signal_handlers()
 
 
 def try_shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
-    """End ROS in this process, if it has not ended yet."""
+    """As `shutdown`, if ROS has not ended yet."""
+    wanted = context is None or context.shared_default if uninstall_handlers is None else uninstall_handlers
     (get_default_context() if context is None else context).try_shutdown()
+    if wanted:
+        uninstall_signal_handlers()
 
 
 def remove_ros_args(args: list[str] | None = None) -> list[str]:

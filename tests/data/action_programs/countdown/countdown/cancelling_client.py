@@ -1,6 +1,7 @@
 """A client that changes its mind after two and a half seconds."""
 
 import rclpy
+
 from countdown.client import CountdownClient
 
 

@@ -65,6 +65,8 @@ def run(make, args):
         rclpy.spin(make(), executor=MultiThreadedExecutor())
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
+    finally:
+        rclpy.try_shutdown()
 
 
 def main(args=None):

@@ -50,8 +50,9 @@ def main(args=None):
         rclpy.spin(node)
     except KeyboardInterrupt:
         pass
-    server.destroy()
-    node.destroy_node()
+    finally:
+        server.destroy()
+        node.destroy_node()
 
 
 if __name__ == "__main__":

@@ -64,9 +64,7 @@ def full_names(role: str, node: Node, action_name: Any) -> dict[str, str]:
             for part in (*SERVICES, *TOPICS)
         }
     except NameValidationException as error:
-        raise ValueError(
-            f"Failed to create action {role} due to invalid topic name '{action_name}': {error}"
-        ) from None
+        raise ValueError(f"Failed to create action {role} due to invalid topic name '{action_name}': {error}") from None
 
 
 def make_parts(
@@ -114,7 +112,7 @@ class ActionEntity(WaitableEntity):
         return repr(self.waitable)
 
     @property
-    def _executor(self) -> Executor | None:  # type: ignore[override]
+    def _executor(self) -> Executor | None:
         return self._runs_it
 
     @_executor.setter

@@ -1,8 +1,8 @@
 """The states of a goal, and which event leads to which (rcl_action's goal_state_machine.c).
 
-    accepted ──EXECUTE──▸ executing ──SUCCEED──▸ succeeded
-        │                  │    └────ABORT────▸ aborted
-        └──CANCEL_GOAL─────┴▸ canceling ──CANCELED──▸ canceled   (or SUCCEED, or ABORT)
+accepted ──EXECUTE──▸ executing ──SUCCEED──▸ succeeded
+    │                  │    └────ABORT────▸ aborted
+    └──CANCEL_GOAL─────┴▸ canceling ──CANCELED──▸ canceled   (or SUCCEED, or ABORT)
 """
 
 from __future__ import annotations

@@ -8,7 +8,6 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 from weakref import WeakValueDictionary
 
-from action_msgs.msg import GoalStatus
 from action_msgs.srv import CancelGoal
 
 from turtle_lesson.ros.core import running_strand
@@ -21,6 +20,7 @@ from ..qos import QoSProfile, qos_profile_action_status_default, qos_profile_ser
 from ..task import Future
 from ..waitable import NumberOfEntities, Waitable
 from ._callbacks import call_back
+from ._client_goal_handle import ClientGoalHandle
 from ._ends import ActionEntity, check_action, full_names, make_parts
 from ._goal_states import ACTIVE
 from ._goals import key_of
@@ -34,60 +34,6 @@ __all__ = ["ActionClient", "ClientGoalHandle"]
 
 FEEDBACK = QoSProfile(depth=10)
 POLL = 0.25  # how often, in s, the real one looks whether a server has appeared (client.py)
-
-
-class ClientGoalHandle:
-    """A goal, as the client sees it that has sent it. Made by ActionClient."""
-
-    def __init__(self, action_client: ActionClient, goal_id: Any, goal_response: Any) -> None:
-        self._action_client = action_client
-        self._goal_id = goal_id
-        self._goal_response = goal_response
-        self._status = GoalStatus.STATUS_UNKNOWN
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, ClientGoalHandle) and self._goal_id == other.goal_id
-
-    __hash__ = None  # type: ignore[assignment]
-
-    def __repr__(self) -> str:
-        return f"ClientGoalHandle <id={self.goal_id.uuid}, accepted={self.accepted}, status={self.status}>"
-
-    @property
-    def goal_id(self) -> Any:
-        """The goal's number, a unique_identifier_msgs.msg.UUID."""
-        return self._goal_id
-
-    @property
-    def stamp(self) -> Any:
-        """When the server accepted the goal, a builtin_interfaces.msg.Time."""
-        return self._goal_response.stamp
-
-    @property
-    def accepted(self) -> bool:
-        """Whether the server accepted the goal."""
-        return self._goal_response.accepted
-
-    @property
-    def status(self) -> int:
-        """The goal's state as last heard of, one of action_msgs.msg.GoalStatus."""
-        return self._status
-
-    def cancel_goal(self) -> Any:
-        """Ask to cancel the goal, and wait for the answer. Not for callbacks: see ActionClient.send_goal."""
-        return self._action_client._cancel_goal(self)
-
-    def cancel_goal_async(self) -> Future:
-        """Ask to cancel the goal; the future will have a CancelGoal.Response."""
-        return self._action_client._cancel_goal_async(self)
-
-    def get_result(self) -> Any:
-        """Wait for the goal's end; returns its `status` and `result`. Not for callbacks: see ActionClient.send_goal."""
-        return self._action_client._get_result(self)
-
-    def get_result_async(self) -> Future:
-        """Ask for the goal's result; the future will have its `status` and `result` when it has ended."""
-        return self._action_client._get_result_async(self)
 
 
 class ActionClient(Waitable):
@@ -220,7 +166,9 @@ class ActionClient(Waitable):
         NeverWakes, which says why, instead of hanging as a real one does.
         """
         self._check_goal(goal)
-        return self._get_result(self._wait(self._goal_client, "send_goal", lambda: self.send_goal_async(goal, **kwargs)))
+        return self._get_result(
+            self._wait(self._goal_client, "send_goal", lambda: self.send_goal_async(goal, **kwargs))
+        )
 
     def _check_goal(self, goal: Any) -> None:
         if not isinstance(goal, self._action_type.Goal):

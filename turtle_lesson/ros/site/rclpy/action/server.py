@@ -8,10 +8,9 @@ one it holds up everything, the cancelling of its own goal included, unless it i
 from __future__ import annotations
 
 from collections.abc import Callable
-from enum import Enum
 from typing import TYPE_CHECKING, Any
 
-from action_msgs.msg import GoalInfo, GoalStatus, GoalStatusArray
+from action_msgs.msg import GoalStatus, GoalStatusArray
 
 from turtle_lesson.ros.core import NANOSECONDS
 from turtle_lesson.ros.core.tracebacks import print_error
@@ -20,12 +19,19 @@ from ..callback_groups import CallbackGroup
 from ..exceptions import RCLError
 from ..qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
 from ..waitable import NumberOfEntities, Waitable
+from ._answers import (
+    CancelResponse,
+    GoalResponse,
+    default_cancel_callback,
+    default_goal_callback,
+    default_handle_accepted_callback,
+)
 from ._callbacks import call_back
-from ._cancelling import goals_to_cancel
 from ._ends import ActionEntity, check_action, full_names, make_parts
 from ._goal_handle import ServerGoalHandle
 from ._goal_states import GoalEvent
 from ._goals import Goals
+from ._requests import Requests
 from ._tracing import noted
 
 if TYPE_CHECKING:
@@ -52,36 +58,7 @@ OVERHEAD = 200_000
 was accepted before there is any feedback."""
 
 
-class GoalResponse(Enum):
-    """What a goal_callback answers."""
-
-    REJECT = 1
-    ACCEPT = 2
-
-
-class CancelResponse(Enum):
-    """What a cancel_callback answers."""
-
-    REJECT = 1
-    ACCEPT = 2
-
-
-def default_handle_accepted_callback(goal_handle: ServerGoalHandle) -> None:
-    """Execute each goal at once."""
-    goal_handle.execute()
-
-
-def default_goal_callback(goal_request: Any) -> GoalResponse:
-    """Accept every goal."""
-    return GoalResponse.ACCEPT
-
-
-def default_cancel_callback(cancel_request: Any) -> CancelResponse:
-    """Cancel no goal."""
-    return CancelResponse.REJECT
-
-
-class ActionServer(Waitable):
+class ActionServer(Requests, Waitable):
     """Offers an action.
 
     Args:
@@ -202,68 +179,6 @@ class ActionServer(Waitable):
             await self._execute_cancel_request(taken_data["cancel"])
         if "result" in taken_data:
             self._execute_result_request(taken_data["result"])
-
-    async def _execute_goal_request(self, request: Any) -> None:
-        message, logger = request.message, self._node.get_logger()
-        shown = message.goal_id.uuid
-        logger.debug(f"New goal request with ID: {shown}")
-        info = GoalInfo(goal_id=message.goal_id)
-        accepted = self._goals.get(message.goal_id) is None and await self._is_acceptable(message.goal)
-        handle = None
-        if accepted:
-            info.stamp = self._node.get_clock().now().to_msg()
-            handle = ServerGoalHandle(self, info, message.goal)
-            self._goals.add(handle)
-        response = self._action_type.Impl.SendGoalService.Response(accepted=accepted, stamp=info.stamp)
-        request.client.reply(request.number, response)
-        if handle is None:
-            logger.debug(f"New goal rejected: {shown}")
-            return
-        logger.debug(f"New goal accepted: {shown}")
-        self._publish_status()
-        await call_back("handle_accepted_callback", self._handle_accepted_callback, handle)
-
-    async def _is_acceptable(self, goal: Any) -> bool:
-        response = await call_back("goal_callback", self._goal_callback, goal)
-        if not isinstance(response, GoalResponse):
-            self._node.get_logger().warning(
-                "Goal request callback did not return a GoalResponse type. Rejecting goal."
-            )
-        return response is GoalResponse.ACCEPT
-
-    async def _execute_cancel_request(self, request: Any) -> None:
-        self._node.get_logger().debug(f"Cancel request received: {request.message}")
-        response = self._action_type.Impl.CancelGoalService.Response()
-        response.return_code, handles = goals_to_cancel(request.message.goal_info, self._goals)
-        response.goals_canceling = [handle._goal_info for handle in handles if await self._cancel(handle)]
-        request.client.reply(request.number, response)
-
-    async def _cancel(self, handle: ServerGoalHandle) -> bool:
-        """Whether the program lets this goal be cancelled."""
-        logger = self._node.get_logger()
-        response = await call_back("cancel_callback", self._cancel_callback, handle)
-        if not isinstance(response, CancelResponse):
-            logger.warning("Cancel callback did not return a CancelResponse type. Rejecting cancel request.")
-        if response is not CancelResponse.ACCEPT:
-            return False
-        try:
-            handle._update_state(GoalEvent.CANCEL_GOAL)
-        except RCLError as error:  # it has ended meanwhile
-            logger.debug(f"Failed to cancel goal in cancel callback: {error}")
-            return False
-        return True
-
-    def _execute_result_request(self, request: Any) -> None:
-        goal_id, logger = request.message.goal_id, self._node.get_logger()
-        logger.debug(f"Result request received for goal with ID: {goal_id.uuid}")
-        if self._goals.get(goal_id) is None:
-            logger.debug(f"Sending result response for unknown goal ID: {goal_id.uuid}")
-            unknown = self._action_type.Impl.GetResultService.Response(status=GoalStatus.STATUS_UNKNOWN)
-            request.client.reply(request.number, unknown)
-            return
-        response = self._goals.ask(goal_id, request)
-        if response is not None:
-            request.client.reply(request.number, response)
 
     # -- executing goals -------------------------------------------------------------------------------------------
 

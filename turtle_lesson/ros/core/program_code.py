@@ -1,0 +1,46 @@
+"""The code of a program's modules. It is compiled once, however many processes run it.
+
+Each process gets a copy of the code: Python notes in it what it has learned about the globals that it runs with.
+"""
+
+from __future__ import annotations
+
+import marshal
+import os
+from importlib.machinery import SourceFileLoader
+from types import CodeType, ModuleType
+from typing import Any
+
+_compiled: dict[str, tuple[tuple[int, int], bytes]] = {}
+
+
+def code_of(path: str, text: str | None = None) -> CodeType:
+    """The code of a file as it is now, or of a text in its place."""
+    if text is not None:
+        return compile(text, path, "exec", dont_inherit=True)
+    status = os.stat(path)
+    version = (status.st_mtime_ns, status.st_size)
+    known = _compiled.get(path)
+    if known is None or known[0] != version:
+        with open(path, "rb") as file:
+            code = compile(file.read(), path, "exec", dont_inherit=True)
+        known = _compiled[path] = (version, marshal.dumps(code))
+    copy: CodeType = marshal.loads(known[1])
+    return copy
+
+
+class ProgramLoader(SourceFileLoader):
+    """Makes a module of a program from its file."""
+
+    def __init__(self, fullname: str, path: str, builtins: dict[str, Any]) -> None:
+        super().__init__(fullname, path)
+        self._builtins = builtins
+
+    def exec_module(self, module: ModuleType) -> None:
+        """Run the module's code with the program's own builtins."""
+        module.__dict__["__builtins__"] = self._builtins
+        exec(code_of(self.path), module.__dict__)
+
+    def get_code(self, fullname: str) -> CodeType:
+        """The module's code."""
+        return code_of(self.path)
