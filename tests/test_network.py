@@ -16,7 +16,9 @@ from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from std_msgs.msg import Int32
 
+from turtle_lesson.ros.core import NeverWakes, Simulation
 from turtle_lesson.ros.graph.network import Network, conditions
+from turtle_lesson.ros.graph.watchdog import Watchdog
 from turtle_lesson.ros.world import World, open_world
 
 Run = Callable[..., list[Any]]
@@ -333,7 +335,7 @@ def calls(run: Run) -> list[tuple[int, float]]:
     def server(found: list[Any]) -> None:
         rclpy.init()
         node = rclpy.create_node("server")
-        node.create_service(AddTwoInts, "add", lambda request, response: _sum(request, response))
+        node.create_service(AddTwoInts, "add", _sum)
         rclpy.spin(node)
 
     def client(found: list[Any]) -> None:
@@ -367,6 +369,23 @@ def test_a_service_is_reliable_only_later(run: Run, world: World) -> None:
     assert {seconds for _, seconds in calls(run)} == {0.0}
 
 
+def test_a_cell_that_calls_a_service_which_is_cut_off_is_told_so(run: Run, world: World) -> None:
+    def server(found: list[Any]) -> None:
+        rclpy.init()
+        node = rclpy.create_node("server")
+        node.create_service(AddTwoInts, "add", _sum)
+        rclpy.spin(node)
+
+    run(server, seconds=1.0)
+    rclpy.init()
+    client = rclpy.create_node("client").create_client(AddTwoInts, "add")
+    world.graph.set_network("/add", conditions(loss=1))
+    with pytest.raises(NeverWakes, match=r"lesson\.network has all transmissions of this service lost"):
+        client.call(AddTwoInts.Request(a=1, b=2))
+    world.graph.set_network("/add", None)
+    assert client.call(AddTwoInts.Request(a=1, b=2)).sum == 3
+
+
 # ---------------------------------------------------------------- names
 
 
@@ -385,3 +404,19 @@ def test_a_name_goes_before_patterns_and_a_later_pattern_before_an_earlier_one()
     assert list(network.rules()) == ["/turtle?/pose"]
     network.clear()
     assert network.of("/turtle1/pose") is None
+
+
+# ---------------------------------------------------------------- the watchdog behind deadlines and leases
+
+
+@settings(deadline=None)
+@given(span=st.integers(1, 5_000_000), gaps=st.lists(st.integers(1, 20_000_000), min_size=1, max_size=20))
+def test_every_span_that_is_over_is_counted_once(span: int, gaps: list[int]) -> None:
+    simulation, alarms = Simulation(), []
+    watchdog = Watchdog(simulation, span, alarms.append, repeats=True)
+    for gap in gaps:
+        watchdog.renew()
+        simulation.run_until(simulation.now + gap)
+    watchdog.renew()
+    assert sum(alarms) == sum((gap - 1) // span for gap in gaps)
+    assert len(alarms) <= len(gaps) + sum(gaps) // min(1_000_000, span) and len(alarms) <= 21 * len(gaps)

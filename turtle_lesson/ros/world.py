@@ -7,11 +7,13 @@ process lives in; a notebook cell sees the current one, and is itself the proces
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from .core import EPOCH, Process, Simulation, running_strand, virtual_random, virtual_time
 from .core.process import Output
+from .core.program_modules import run_program
 from .core.stdlib import home, lend
 from .graph import Graph
 from .trace import Trace
@@ -84,12 +86,7 @@ class World:
 
 def _program(path: Path) -> Callable[[], object]:
     """What runs a Python file as the main program of a process."""
-
-    def run() -> None:
-        code = compile(path.read_bytes(), str(path), "exec")
-        exec(code, {"__name__": "__main__", "__file__": str(path), "__builtins__": __builtins__})
-
-    return run
+    return partial(run_program, path)
 
 
 _current: World | None = None

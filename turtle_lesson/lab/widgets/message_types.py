@@ -98,20 +98,37 @@ def limits_of(base: str) -> tuple[int, int]:
     return (0, 2**bits - 1) if base.startswith("u") else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
 
 
+ACTION_PARTS = {"_FeedbackMessage": "FeedbackMessage", "_SendGoal": "SendGoalService", "_GetResult": "GetResultService"}
+"""What an action's topics and services carry: the end of the type's name, and where its class is (in `Impl`)."""
+
+
 def find_class(type_name: str) -> Any:
-    """The class of "geometry_msgs/msg/Twist", "geometry_msgs/Twist" or "turtlesim/srv/Spawn".
+    """The class of "geometry_msgs/msg/Twist", "geometry_msgs/Twist", "turtlesim/srv/Spawn" or of an action's part.
+
+    Those behind an action, such as "turtlesim/action/RotateAbsolute_FeedbackMessage", are found in it.
 
     Raises ValueError where it cannot be imported, with what to try.
     """
     package, _, rest = type_name.partition("/")
     folder, _, name = rest.rpartition("/")
     try:
+        if "_" in name and folder in ("", "action"):
+            return _part_of_an_action(package, name)
         return getattr(importlib.import_module(f"{package}.{folder or 'msg'}"), name)
     except (ImportError, AttributeError):
         raise ValueError(
             f"the type {type_name} cannot be imported here: is its package built and sourced? Try "
             f"colcon build --packages-select {package}, then source install/setup.bash"
         ) from None
+
+
+def _part_of_an_action(package: str, name: str) -> Any:
+    """X.Goal for "X_Goal"; what carries it, such as X_FeedbackMessage or X_SendGoal, is in X.Impl."""
+    action_name, _, part = name.partition("_")
+    action = getattr(importlib.import_module(f"{package}.action"), action_name)
+    if hasattr(action, part):
+        return getattr(action, part)
+    return getattr(action.Impl, part if hasattr(action.Impl, part) else f"{part}Service")
 
 
 def plain(value: Any, kind: Kind | None = None) -> Any:

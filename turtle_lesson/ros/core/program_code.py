@@ -6,25 +6,24 @@ Each process gets a copy of the code: Python notes in it what it has learned abo
 from __future__ import annotations
 
 import marshal
-import os
 from importlib.machinery import SourceFileLoader
 from types import CodeType, ModuleType
 from typing import Any
 
-_compiled: dict[str, tuple[tuple[int, int], bytes]] = {}
+_compiled: dict[str, tuple[bytes, bytes]] = {}
+"""By path: the text of a file, and its code."""
 
 
 def code_of(path: str, text: str | None = None) -> CodeType:
     """The code of a file as it is now, or of a text in its place."""
     if text is not None:
         return compile(text, path, "exec", dont_inherit=True)
-    status = os.stat(path)
-    version = (status.st_mtime_ns, status.st_size)
+    with open(path, "rb") as file:
+        source = file.read()
     known = _compiled.get(path)
-    if known is None or known[0] != version:
-        with open(path, "rb") as file:
-            code = compile(file.read(), path, "exec", dont_inherit=True)
-        known = _compiled[path] = (version, marshal.dumps(code))
+    if known is None or known[0] != source:
+        code = compile(source, path, "exec", dont_inherit=True)
+        known = _compiled[path] = (source, marshal.dumps(code))
     copy: CodeType = marshal.loads(known[1])
     return copy
 

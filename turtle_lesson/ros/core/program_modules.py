@@ -12,21 +12,22 @@ from __future__ import annotations
 
 import builtins
 import importlib.util
+import os
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from importlib.machinery import ModuleSpec, PathFinder
+from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from .program_code import ProgramLoader, code_of
+from .strand import running_strand
 
 if TYPE_CHECKING:
     from .process import Process
 
-_real_import = builtins.__import__
-
 on_import: dict[str, Callable[[], ModuleType | None]] = {}
-"""What a program gets for the import of a module of the standard library, if it is not to be that one."""
+"""By the first name of a module of the standard library: called when a program imports it, and may give another."""
 
 
 class ProgramModules:
@@ -51,14 +52,18 @@ class ProgramModules:
 
     # -- what is in sys.modules --------------------------------------------------------------------------------------------
 
+    @property
+    def shown(self) -> bool:
+        """Whether they are in `sys.modules` now."""
+        return self._process.simulation.modules_shown is self
+
     def show(self) -> None:
         """Have `sys.modules` hold this program's modules, until another's are shown or the cell goes on."""
         simulation = self._process.simulation
-        shown = simulation.modules_shown
-        if shown is self:
+        if self.shown:
             return
-        if shown is not None:
-            shown.hide()
+        if simulation.modules_shown is not None:
+            simulation.modules_shown.hide()
         simulation.modules_shown = self
         self._hidden = _take_out(self._tops())
         sys.modules.update(self._modules)
@@ -78,8 +83,8 @@ class ProgramModules:
         top = name.partition(".")[0]
         own = self._own.get(top)
         if own is None:
-            own = self._own[top] = self._find(top) is not None
-            if own and self._process.simulation.modules_shown is self:
+            own = self._own[top] = self._find(top, self.folders) is not None
+            if own and self.shown:
                 self._hidden.update(_take_out({top}))
         return own
 
@@ -88,21 +93,16 @@ class ProgramModules:
     def find_spec(self, name: str, path: Sequence[str] | None) -> ModuleSpec | None:
         """Where a module of this program is, None if it is none."""
         if path is None:
-            return self._find(name) if self.owns(name) else None
+            return self._find(name, self.folders) if self.owns(name) else None
         parent = sys.modules.get(name.rpartition(".")[0])
-        if parent is None or parent.__dict__.get("__builtins__") is not self.builtins and not _is_folder(parent):
+        if parent is None or not (_is_folder(parent) or vars(parent).get("__builtins__") is self.builtins):
             return None
-        return self._ours(PathFinder.find_spec(name, path))
+        return self._find(name, path)
 
-    def _find(self, name: str) -> ModuleSpec | None:
-        spec = PathFinder.find_spec(name, self.folders)
-        if spec is not None and spec.origin is None and _is_found_elsewhere(name):
-            return None  # a mere folder hides no package
-        return self._ours(spec)
-
-    def _ours(self, spec: ModuleSpec | None) -> ModuleSpec | None:
+    def _find(self, name: str, path: Sequence[str]) -> ModuleSpec | None:
+        spec = PathFinder.find_spec(name, path)
         if spec is None or spec.origin is None or not spec.origin.endswith(".py"):
-            return spec
+            return None if spec is None or _is_found_elsewhere(name, path) else spec
         loader = ProgramLoader(spec.name, spec.origin, self.builtins)
         return importlib.util.spec_from_file_location(
             spec.name, spec.origin, loader=loader, submodule_search_locations=spec.submodule_search_locations
@@ -121,11 +121,11 @@ class ProgramModules:
         """What the import statements of this program call."""
         if sys.path != self._path:
             self._take_path()
-        if level == 0 and name in on_import and (module := on_import[name]()) is not None:
-            return module
         if level or self.owns(name):
             self.show()
-        return _real_import(name, globals, locals, fromlist or (), level)
+        elif (top := name.partition(".")[0]) in on_import and (module := on_import[top]()) is not None:
+            return module
+        return builtins.__import__(name, globals, locals, fromlist or (), level)
 
     def _take_path(self) -> None:
         """What the program has added to `sys.path` is looked through for this program alone."""
@@ -154,12 +154,14 @@ def _take_out(tops: set[str]) -> dict[str, ModuleType]:
     return {name: sys.modules.pop(name) for name in names}
 
 
-def _is_found_elsewhere(name: str) -> bool:
+def _is_found_elsewhere(name: str, path: Sequence[str]) -> bool:
+    """Whether somebody else has a module of this name: then a mere folder, or compiled code, does not hide it."""
     for finder in sys.meta_path:
         find = getattr(finder, "find_spec", None)
-        if finder is not ProgramFinder and find is not None and find(name, None) is not None:
-            return True
-    return False
+        if finder is not ProgramFinder and finder is not PathFinder and find is not None:
+            if find(name, path) is not None:
+                return True
+    return PathFinder.find_spec(name) is not None if "." not in name else False
 
 
 class ProgramFinder:
@@ -168,10 +170,25 @@ class ProgramFinder:
     @staticmethod
     def find_spec(name: str, path: Sequence[str] | None = None, target: object = None) -> ModuleSpec | None:
         """Where a module of the running program is; None where no program is importing."""
-        from .strand import running_strand
-
-        strand = running_strand()
-        modules = None if strand is None else strand.process.modules
-        if modules is None or strand is None or strand.simulation.modules_shown is not modules:
+        modules = running_modules()
+        if modules is None or not modules.shown:
             return None
         return modules.find_spec(name, path)
+
+
+def running_modules() -> ProgramModules | None:
+    """The modules of the program that runs, if it was read from a file."""
+    strand = running_strand()
+    return None if strand is None else strand.process.modules
+
+
+def run_program(path: Path, folders: Iterable[Path] = (), text: str | None = None) -> None:
+    """Run a file, or a text that stands for it, as the main program of the running process.
+
+    `folders` are those of its modules, beside the one that the file itself lies in.
+    """
+    strand = running_strand()
+    assert strand is not None
+    own = os.path.dirname(os.path.realpath(path))
+    modules = strand.process.modules = ProgramModules(strand.process, [own, *map(str, folders)])
+    modules.run(str(path), text)

@@ -24,6 +24,7 @@ from .strand import GreenletExit, Strand, running_greenlet, running_strand
 
 if TYPE_CHECKING:
     from .process import Process
+    from .program_modules import ProgramModules
 
 NANOSECONDS = 1_000_000_000
 EPOCH = 1_800_000_000 * NANOSECONDS
@@ -59,6 +60,10 @@ class Simulation:
         self._strands: weakref.WeakSet[Strand] = weakref.WeakSet()
         self._forgotten: list[Strand] = []
         self._face: Process | None = None
+        self.modules_shown: ProgramModules | None = None
+        """Whose modules are in `sys.modules`, if a program has been importing."""
+        self.path_before: list[str] = []
+        """What `sys.path` was when this run began."""
 
     # -- asking for things to happen -------------------------------------------------------------------------
 
@@ -287,6 +292,7 @@ class Simulation:
     def _enter(self, process: Process) -> None:
         if self._face is None:
             self._cell_face = (sys.argv, sys.stdout, sys.stderr)
+            self.path_before = sys.path.copy()
         self._face = process
         sys.argv = process.argv
         sys.stdout = process.stdout or self._cell_face[1]
@@ -296,6 +302,8 @@ class Simulation:
         if self._face is not None:
             sys.argv, sys.stdout, sys.stderr = self._cell_face
             self._face = None
+            if self.modules_shown is not None:
+                self.modules_shown.hide()
 
     def _unwind(self, strand: Strand) -> None:
         try:

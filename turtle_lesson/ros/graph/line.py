@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
+from itertools import islice
 from random import Random
 from typing import TYPE_CHECKING, Any
 
@@ -26,6 +27,9 @@ if TYPE_CHECKING:
 NOTICED_AFTER = 10_000_000
 """How long it takes, in ns and beside two ways, until a lost message is asked for and sent again: the delays that DDS
 implementations have for their answers to heartbeats are 5 to 10 ms."""
+
+ASKED_FOR_AT_ONCE = 256
+"""How many missing messages one answer to a heartbeat can name (RTPS's SequenceNumberSet)."""
 
 LINGER = 1_000_000_000
 """How long, in ns, a publisher that goes still repeats what was lost: as long as one of Cyclone DDS."""
@@ -209,10 +213,12 @@ class ReliableLine(Line):
 
     def _repeat(self, _: object) -> None:
         self._asks = False
-        for parcel in list(self._parcels):
-            if parcel.missing:
-                self._transmit(parcel)
+        missing = (parcel for parcel in list(self._parcels) if parcel.missing)
+        for parcel in islice(missing, ASKED_FOR_AT_ONCE):
+            self._transmit(parcel)
         self._hand_over()
+        if any(parcel.missing for parcel in self._parcels):
+            self._ask_again()
 
     def _give_up_old_ones(self) -> None:
         """With KEEP_LAST the sender has overwritten what is too old: what is missing of it can never be sent again."""

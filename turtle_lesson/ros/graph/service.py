@@ -97,6 +97,12 @@ class ClientEnd:
         for line in (self._lines or {}).values():
             line.use(conditions)
 
+    @property
+    def cut_off(self) -> bool:
+        """Whether nothing comes through."""
+        conditions = self._network.of(self.name)
+        return conditions is not None and conditions.loss >= 1
+
     def _line_to(self, receive: Callable[[Any], object], node: NodeEntry) -> ReliableLine:
         """The way of requests to a server, or of answers to this client, in a network that is not the usual one."""
         assert self._lines is not None

@@ -209,7 +209,7 @@ class Writer(End):
                 for reader in self.readers:
                     reader.will_happen(LIVELINESS, (1, -1))
 
-    def _fall_silent(self) -> None:
+    def _fall_silent(self, _: int) -> None:
         """The lease is over: this publisher counts as dead until it shows that it lives."""
         self.alive = False
         self.happens(LIVELINESS)

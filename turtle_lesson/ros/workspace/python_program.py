@@ -1,4 +1,4 @@
-"""A program of a package with Python modules of its own: each start imports them afresh, as a process of its own would."""
+"""A program of a package with Python modules of its own."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ import sys
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
+
+from ..core.program_modules import run_program
 
 
 @dataclass(frozen=True)
@@ -24,9 +26,7 @@ class PythonProgram:
     text: str | None = None
 
     def __call__(self) -> None:
-        forget_below(self.folders)
-        code = compile(self.path.read_bytes() if self.text is None else self.text, str(self.path), "exec")
-        exec(code, {"__name__": "__main__", "__file__": str(self.path), "__builtins__": __builtins__})
+        run_program(self.path, self.folders, self.text)
 
 
 def forget_below(folders: Iterable[Path]) -> None:

@@ -33,6 +33,15 @@ def look_for_hope(strand: Strand) -> None:
         _tell(last if last.waits_for is not IDLE else strand, strand)
 
 
+def wait_in_vain(strand: Strand, what: str) -> None:
+    """Note that a strand waits without a time limit for what only another strand of its process can bring.
+
+    Raises NeverWakes if that can never be. `waits_for` is to be None again when the wait is over.
+    """
+    strand.waits_for = what
+    look_for_hope(strand)
+
+
 def look_after(ended: Strand) -> None:
     """Called when a strand has ended, or does nothing by itself any more: is there hope for those who wait?"""
     process = ended.process
@@ -108,4 +117,4 @@ def _tell_later(victim: Strand) -> None:
         victim.simulation.raise_in(victim, NeverWakes(why_nobody_is_left(victim)))
 
 
-__all__ = ["IDLE", "look_after", "look_for_hope"]
+__all__ = ["IDLE", "look_after", "look_for_hope", "wait_in_vain"]

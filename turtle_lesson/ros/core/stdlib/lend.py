@@ -9,6 +9,7 @@ from __future__ import annotations
 import _thread
 import asyncio
 import atexit
+import importlib
 import os
 import queue
 import signal
@@ -21,7 +22,8 @@ from types import MethodType
 from typing import Any
 
 from ..strand import Strand, getcurrent
-from . import exits, identity, local, locks, loops, pools, refused, signals, threads, time_of_day
+from ..program_modules import ProgramFinder, on_import
+from . import dates, exits, identity, local, locks, loops, own_modules, pools, refused, signals, threads, time_of_day
 from .facade import facade
 from .home import process_here
 
@@ -38,6 +40,7 @@ def install() -> None:
     _install_loops()
     _install_signals()
     _install_refusals()
+    _install_modules()
     for function in time_of_day.REPLACEMENTS:
         replace_function(time, function.__name__, function)
     atexit.register(_restore)  # nothing may ask which greenlet runs while Python takes itself apart
@@ -76,6 +79,8 @@ def named(function: Any, name: str, real: Any) -> Any:
 
 def _restore() -> None:
     """Python ends: the real ones are back, and who still holds one of ours gets what the real one gives."""
+    if ProgramFinder in sys.meta_path:
+        sys.meta_path.remove(ProgramFinder)
     room = __name__.rpartition(".")[0]
     for name, module in list(sys.modules.items()):
         if name.startswith(room) and hasattr(module, "getcurrent"):
@@ -151,11 +156,20 @@ def _install_refusals() -> None:
         replace_function(signal, name, refused.signals(f"signal.{name}()"))
 
 
-def refuse_multiprocessing() -> None:
-    """Refuse `multiprocessing` in simulated processes, once it has been imported."""
-    kind: Any = getattr(sys.modules.get("multiprocessing.process"), "BaseProcess", None)
-    if kind is not None and (kind, "start") not in [(owner, name) for owner, name, _ in _replaced]:
+def _install_modules() -> None:
+    sys.meta_path.insert(0, ProgramFinder)
+    for owner, name in own_modules.LOOKS_INTO_SYS_MODULES:
+        replace_function(owner, name, own_modules.showing())
+    dates_module = dates.make_module()
+    on_import["datetime"] = lambda: dates_module
+    on_import["multiprocessing"] = on_import["concurrent"] = _refuse_multiprocessing
+
+
+def _refuse_multiprocessing() -> None:
+    """Refuse `multiprocessing` in simulated processes; it is imported for that."""
+    kind: Any = importlib.import_module("multiprocessing.process").BaseProcess
+    if (kind, "start") not in [(owner, name) for owner, name, _ in _replaced]:
         replace_method(kind, "start", refused.start_process(kind.start))
 
 
-__all__ = ["install", "refuse_multiprocessing"]
+__all__ = ["install"]

@@ -30,8 +30,11 @@ _real_init = pool.ThreadPoolExecutor.__init__
 def next_number(real: Any) -> int:
     """Numbers the pools, those of each simulated process by themselves."""
     process = process_here()
-    if process is None:
-        return real()
+    return real() if process is None else number_of_pool(process)
+
+
+def number_of_pool(process: Process) -> int:
+    """The number of one more pool of a process."""
     process.locals["pools"] = number = process.locals.get("pools", -1) + 1
     return number
 

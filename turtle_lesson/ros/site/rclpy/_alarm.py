@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from turtle_lesson.ros.core import Strand, running_strand
+from turtle_lesson.ros.core.stdlib.hopeless import wait_in_vain
 
 from ._deadlock import executor_of_worker
 from ._notebook import is_notebook
@@ -40,8 +41,11 @@ class Alarm:
             simulation.at(deadline, simulation.wake, strand)
         try:
             while not self.rung and (deadline is None or simulation.now < deadline):
+                if deadline is None:
+                    wait_in_vain(strand, "a tick of its clock")
                 simulation.park(strand)
         finally:
+            strand.waits_for = None
             self._context.forget_callback(self.ring)
         return self.rung
 

@@ -43,6 +43,12 @@ def in_a_callback(words: Words) -> str:
     )
 
 
+CUT_OFF = (
+    "lesson.network has all transmissions of this service lost, and nobody can change that while this cell waits. Give "
+    "a timeout, or let the network work again first."
+)
+
+
 def callbacks_around() -> list[Any]:
     """The entities whose callbacks the running code is inside, innermost first.
 
@@ -77,13 +83,27 @@ def executor_of_worker(strand: Strand) -> Executor | None:
     return strand.process.locals.get("rclpy.workers", {}).get(strand)
 
 
-def main_may_go_on(strand: Strand) -> bool:
-    """Whether the main program may still do anything, such as spin once more, while this strand waits.
+def others_may_act(strand: Strand) -> bool:
+    """Whether another thread of the program may still do anything, such as spin once more, while this strand waits.
 
-    It may if this is a worker, and its executor is not in `spin`, but spun now and then.
+    The main program may if this is a worker whose executor is not in `spin`, but spun now and then. A thread may that
+    neither waits in vain itself nor is in `spin`, where it does nothing else.
     """
     executor = executor_of_worker(strand)
-    return executor is not None and not executor._spins_to_the_end
+    if executor is not None and not executor._spins_to_the_end:
+        return True
+    return any(each is not strand and _is_free(each) for each in strand.process.strands)
+
+
+def _is_free(strand: Strand) -> bool:
+    if strand.dead or strand.waits_for is not None or executor_of_worker(strand) is not None:
+        return False
+    return not is_in_spin(strand)
+
+
+def is_in_spin(strand: Strand) -> bool:
+    """Whether a strand is in the `spin` of an executor, and so does nothing else before the shutdown."""
+    return strand in strand.process.locals.get("rclpy.spinning", ())
 
 
 def why_never_answered(client: Client, strand: Strand) -> str:
@@ -92,6 +112,8 @@ def why_never_answered(client: Client, strand: Strand) -> str:
     if not servers:
         return _why_nobody_serves(client)
     drives = is_notebook(strand.process) and not callbacks_around()
+    if drives and client._end.cut_off:
+        return CUT_OFF
     return _why_not_taken(client, strand, drives) or _why_not_served(client, servers, strand, drives)
 
 
@@ -115,7 +137,7 @@ def _why_not_taken(client: Client, strand: Strand, drives: bool) -> str:
             f"this callback waits for it and so keeps its callback group, and the {words.client} that would take the "
             f"answer is in the same group. {in_a_callback(words)}"
         )
-    if drives or client._taken_elsewhere(strand) or (client._executor is None and main_may_go_on(strand)):
+    if drives or client._taken_elsewhere(strand) or (client._executor is None and others_may_act(strand)):
         return ""
     if callbacks_around():
         return f"the thread that would take the answer is the one that waits here. {in_a_callback(words)}"
@@ -135,7 +157,7 @@ def _why_not_served(client: Client, servers: list[ServerEnd], strand: Strand, dr
             service._node is client._of_node or service._executor is client._executor is not None
         )
         executor = service._executor
-        spun = by_this_call or (main_may_go_on(strand) if executor is None else executor._spun_by_another(strand))
+        spun = by_this_call or (others_may_act(strand) if executor is None else executor._spun_by_another(strand))
         if spun and not keeps_taken(service.callback_group):
             return ""
     words, place = client._words, "notebook" if is_notebook(strand.process) else "process"
@@ -156,7 +178,7 @@ def why_never_done(future: Future, executor: Executor, strand: Strand) -> str:
     client = future._answered_by
     if client is None or future._done or not keeps_taken(client.callback_group):
         return ""
-    if main_may_go_on(strand) or _somebody_may_complete(future, executor, keeps_taken):
+    if others_may_act(strand) or _somebody_may_complete(future, executor, keeps_taken):
         return ""
     return (
         f"this callback spins until {client.service_name} has answered, which can never be: the callback keeps its "

@@ -10,7 +10,7 @@ import inspect
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from .callback_groups import CallbackGroup
+from .callback_groups import CallbackGroup, begin_of
 from .exceptions import refuse_destroyed
 
 if TYPE_CHECKING:
@@ -32,6 +32,8 @@ class Entity:
     def __init__(self, callback: Callable[..., Any] | None, callback_group: CallbackGroup | None) -> None:
         self.callback: Any = callback
         self.callback_group: Any = callback_group
+        self._begin = begin_of(callback_group)
+        """Asks the group whether the callback may run, and takes it."""
         self._is_async = inspect.iscoroutinefunction(callback)
         self._executor: Executor | None = None
         self._node: Node | None = None

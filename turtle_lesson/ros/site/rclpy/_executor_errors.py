@@ -1,4 +1,4 @@
-"""What ends an executor's wait. Everybody knows these as `rclpy.executors.…`."""
+"""What ends an executor's wait, and how long it may be. Everybody knows these as `rclpy.executors.…`."""
 
 from __future__ import annotations
 
@@ -25,3 +25,12 @@ class ConditionReachedException(Exception):
     """What was waited for has happened."""
 
     __module__ = "rclpy.executors"
+
+
+class TimeoutObject:
+    """A timeout (s) that can be changed while somebody has it."""
+
+    __module__ = "rclpy.executors"
+
+    def __init__(self, timeout: float) -> None:
+        self.timeout = timeout

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import warnings
 
-from turtle_lesson.ros.core import Strand
+from turtle_lesson.ros.core import NeverWakes, Strand, running_strand
+from turtle_lesson.ros.core.stdlib.hopeless import IDLE, look_after, wait_in_vain
+from turtle_lesson.ros.core.stdlib.pools import number_of_pool
 from turtle_lesson.ros.core.strand import GreenletExit
+from turtle_lesson.ros.core.tracebacks import print_error
 
 from ._deadlock import executor_of_worker, know_worker
 from ._executor import Condition, Executor, Job
@@ -79,21 +82,46 @@ class MultiThreadedExecutor(Executor):
         if self._idle:
             worker = self._idle.pop()
         else:
-            self._threads += 1
-            worker = _Worker(self)
-            know_worker(worker._strand, self)
+            worker = self._new_worker()
         worker.give(job)
+
+    def _new_worker(self) -> _Worker:
+        if not self._threads:
+            self._pool = number_of_pool(self._process)
+            self._process.before_exit.append(self._let_callbacks_end)
+        worker = _Worker(self, f"ThreadPoolExecutor-{self._pool}_{self._threads}")
+        self._threads += 1
+        know_worker(worker._strand, self)
+        return worker
 
     def _execute_here(self, job: Job) -> None:
         super()._execute(job)
+
+    def _let_callbacks_end(self) -> None:
+        """The main program has ended: callbacks that are in their middle go on to their end, as in Python's pools."""
+        strand = running_strand()
+        assert strand is not None
+        self._begin_waiting(strand)
+        try:
+            while len(self._idle) < self._threads:
+                wait_in_vain(strand, "the callbacks that still run")
+                strand.park()
+        finally:
+            strand.waits_for = None
+            self._end_waiting(strand)
+        for error in self._failures:
+            if isinstance(error, NeverWakes):
+                print_error(error)
 
 
 class _Worker:
     """One thread of a multi-threaded executor: a strand that runs the jobs it is given."""
 
-    def __init__(self, executor: MultiThreadedExecutor) -> None:
+    def __init__(self, executor: MultiThreadedExecutor, name: str) -> None:
         self._executor = executor
         self._strand = executor._process.add_strand(self._loop)
+        self._strand.name = name
+        self._strand.waits_for = IDLE
         self._strand.parked = True
         self._job: Job | None = None
 
@@ -105,7 +133,11 @@ class _Worker:
         executor = self._executor
         while True:
             while self._job is None:
+                self._strand.waits_for = IDLE
+                if executor._waiter is None:
+                    look_after(self._strand)  # nobody spins: may those who wait still hope for anything?
                 self._strand.park()
+            self._strand.waits_for = None
             job, self._job = self._job, None
             try:
                 executor._execute_here(job)

@@ -115,20 +115,20 @@ class NodeGraph:
         return _actions(self.get_publisher_names_and_types_by_node(node_name, node_namespace))
 
     def count_publishers(self, topic_name: str) -> int:
-        """How many publishers a topic has."""
-        return len(self._ros_graph.topic(self._ros_full_name_of(topic_name)).writers)
+        """How many publishers a topic has. The name is not remapped, nor in the next three."""
+        return len(self._ros_graph.topic(self._ros_full_name_of(topic_name, only_expand=True)).writers)
 
     def count_subscribers(self, topic_name: str) -> int:
         """How many subscriptions a topic has."""
-        return len(self._ros_graph.topic(self._ros_full_name_of(topic_name)).readers)
+        return len(self._ros_graph.topic(self._ros_full_name_of(topic_name, only_expand=True)).readers)
 
     def count_services(self, service_name: str) -> int:
         """How many servers a service has."""
-        return len(self._ros_graph.servers(self._ros_full_name_of(service_name, is_service=True)))
+        return len(self._ros_graph.servers(self._ros_full_name_of(service_name, only_expand=True, is_service=True)))
 
     def count_clients(self, service_name: str) -> int:
         """How many clients a service has."""
-        return len(self._ros_graph.clients(self._ros_full_name_of(service_name, is_service=True)))
+        return len(self._ros_graph.clients(self._ros_full_name_of(service_name, only_expand=True, is_service=True)))
 
     def get_publishers_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[TopicEndpointInfo]:
         """The publishers of a topic, one by one."""

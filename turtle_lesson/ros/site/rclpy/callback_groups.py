@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 from weakref import WeakSet
+
+__all__ = ["CallbackGroup", "MutuallyExclusiveCallbackGroup", "ReentrantCallbackGroup"]
 
 
 class CallbackGroup:
@@ -69,3 +72,19 @@ class MutuallyExclusiveCallbackGroup(CallbackGroup):
     def ending_execution(self, entity: Any) -> None:
         """Free the group."""
         self._active_entity = None
+
+
+def begin_of(group: CallbackGroup | None) -> Callable[[Any], bool]:
+    """What an executor asks before it runs a callback of a group. It is settled once, when an entity is made.
+
+    Groups of rclpy's own need one question, for theirs are the same two; a program's own group is asked both.
+    """
+    if group is None:
+        return _always
+    if type(group).can_execute in (ReentrantCallbackGroup.can_execute, MutuallyExclusiveCallbackGroup.can_execute):
+        return group.beginning_execution
+    return lambda entity: group.can_execute(entity) and group.beginning_execution(entity)
+
+
+def _always(entity: Any) -> bool:
+    return True

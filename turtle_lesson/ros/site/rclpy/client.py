@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from turtle_lesson.ros.core import NANOSECONDS, NeverWakes, running_strand
+from turtle_lesson.ros.core.stdlib.hopeless import wait_in_vain
 from turtle_lesson.ros.graph import ClientEnd
 
 from ._blocking import drives_the_simulation
@@ -14,11 +15,13 @@ from ._mistakes import shown
 from ._notebook import is_notebook
 from .callback_groups import CallbackGroup
 from .qos import QoSProfile
+from .service_introspection import ServiceIntrospectionState, refuse
 from .task import Future, at_once
 
 if TYPE_CHECKING:
     from turtle_lesson.ros.core import Strand
 
+    from .context import Context
     from .node import Node
 
 POLL = 250_000_000  # how often, in ns, the real one looks whether a service has appeared (client.py)
@@ -55,6 +58,22 @@ class Client(Entity):
     def service_name(self) -> str:
         """The service's full name."""
         return self._end.name
+
+    @property
+    def context(self) -> Context:
+        """The context that the client's node lives in."""
+        return self._of_node.context
+
+    @property
+    def logger_name(self) -> str:
+        """The name of the node's logger."""
+        return self._of_node.get_logger().name
+
+    def configure_introspection(
+        self, clock: Any, service_event_qos_profile: QoSProfile, introspection_state: ServiceIntrospectionState
+    ) -> None:
+        """Publish what is asked and answered, which is not built here: NotImplementedError for anything but OFF."""
+        refuse(introspection_state)
 
     def service_is_ready(self) -> bool:
         """Whether somebody offers the service now."""
@@ -143,8 +162,11 @@ class Client(Entity):
         calls.append(future)
         try:
             while not future.done() and (deadline is None or simulation.now < deadline):
+                if deadline is None:
+                    wait_in_vain(strand, strand.activity)
                 strand.park()
         finally:
+            strand.waits_for = None
             calls.remove(future)
 
     def _taken_elsewhere(self, strand: Any) -> bool:

@@ -174,9 +174,10 @@ class Context:
 
     def _end(self) -> None:
         """The process ends: what it leaves behind disappears."""
+        if not self.ended_by_signal:
+            self._callbacks.clear()
         self.ended = True
-        for node in list(self._nodes):
-            node._ros_leave()
+        self._leave()
 
     def __enter__(self) -> Context:
         if not self._initialized:

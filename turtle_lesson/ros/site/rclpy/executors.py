@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import inspect
+from collections.abc import Callable
+from typing import Any
+
 from ._executor import Executor
 from ._executor_errors import (
     ConditionReachedException,
     ExternalShutdownException,
     ShutdownException,
     TimeoutException,
+    TimeoutObject,
 )
 from ._multi_threaded import MultiThreadedExecutor
 
@@ -19,7 +24,14 @@ __all__ = [
     "ShutdownException",
     "SingleThreadedExecutor",
     "TimeoutException",
+    "TimeoutObject",
+    "await_or_execute",
 ]
+
+
+async def await_or_execute(callback: Callable[..., Any], *args: Any) -> Any:
+    """Call a function, and if it is a coroutine's wait for its end."""
+    return await callback(*args) if inspect.iscoroutinefunction(callback) else callback(*args)
 
 
 class SingleThreadedExecutor(Executor):

@@ -4,12 +4,16 @@ from typing import Any
 
 from turtle_lesson.ros.interfaces import cdr
 
+from .type_support import check_for_type_support
+
 
 def serialize_message(message: Any) -> bytes:
-    """The message's CDR bytes, little endian, with their four-byte header."""
+    """The message's CDR bytes, little endian, with their four-byte header. Raises AttributeError for no message."""
+    check_for_type_support(type(message))
     return cdr.serialize(message)
 
 
 def deserialize_message(serialized_message: bytes, message_type: type) -> Any:
-    """The message of CDR bytes; ValueError if they are none."""
+    """The message of CDR bytes; ValueError if they are none, AttributeError for a type that is no message's."""
+    check_for_type_support(message_type)
     return cdr.deserialize(serialized_message, message_type)

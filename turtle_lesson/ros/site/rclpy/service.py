@@ -10,6 +10,7 @@ from turtle_lesson.ros.graph import ServerEnd
 from ._entity import SERVICE, Entity
 from .callback_groups import CallbackGroup
 from .qos import QoSProfile
+from .service_introspection import ServiceIntrospectionState, refuse
 
 
 class Service(Entity):
@@ -41,6 +42,17 @@ class Service(Entity):
     def service_name(self) -> str:
         """The service's full name."""
         return self._server.name
+
+    @property
+    def logger_name(self) -> str:
+        """The name of the node's logger."""
+        return self._server.node.logger_name
+
+    def configure_introspection(
+        self, clock: Any, service_event_qos_profile: QoSProfile, introspection_state: ServiceIntrospectionState
+    ) -> None:
+        """Publish what is asked and answered, which is not built here: NotImplementedError for anything but OFF."""
+        refuse(introspection_state)
 
     def _has_work(self) -> bool:
         return bool(self._server.queue)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import inspect
+import sys
 import warnings
+import weakref
 from collections.abc import Callable, Generator
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -36,6 +38,7 @@ class Future:
         self._executor = executor
         self._answered_by: Any = None  # the client whose response this waits for, if any
         self._request_number = 0
+        self._never_retrieved: weakref.finalize | None = None
 
     def __repr__(self) -> str:
         state = "cancelled" if self._cancelled else "done" if self._done else "waiting"
@@ -63,11 +66,18 @@ class Future:
     def result(self) -> Any:
         """The result, None while there is none; raises the exception if there is one."""
         if self._exception is not None:
-            raise self._exception
+            raise self._exception_fetched()
         return self._result
 
     def exception(self) -> BaseException | None:
         """The exception, if there is one."""
+        return None if self._exception is None else self._exception_fetched()
+
+    def _exception_fetched(self) -> BaseException:
+        """The exception, for somebody who deals with it."""
+        if self._never_retrieved is not None:
+            self._never_retrieved.detach()
+        assert self._exception is not None
         return self._exception
 
     def set_result(self, result: Any) -> None:
@@ -78,8 +88,10 @@ class Future:
         self._call_callbacks()
 
     def set_exception(self, exception: BaseException) -> None:
-        """Now it is done, and has failed."""
+        """Now it is done, and has failed. If nobody ever asks for the exception, it is told of at the end."""
         self._exception = exception
+        self._never_retrieved = weakref.finalize(self, _tell_never_retrieved, str(exception))
+        self._never_retrieved.atexit = False
         self._done = True
         self._cancelled = False
         self._call_callbacks()
@@ -90,6 +102,13 @@ class Future:
             self._call(callback)
         else:
             self._callbacks.append(callback)
+
+    def remove_done_callback(self, callback: Callable[[Future], Any]) -> bool:
+        """No longer call a callback; whether it was to be called (newer releases)."""
+        if callback not in self._callbacks:
+            return False
+        self._callbacks.remove(callback)
+        return True
 
     def _call_callbacks(self) -> None:
         callbacks, self._callbacks = self._callbacks, []
@@ -116,6 +135,10 @@ class Future:
 
     def _set_executor(self, executor: Executor) -> None:
         self._executor = executor
+
+
+def _tell_never_retrieved(text: str) -> None:
+    print(f"The following exception was never retrieved: {text}", file=sys.stderr)
 
 
 class Task(Future):

@@ -1,6 +1,15 @@
 """Checks that a type is what it should be: a message, or a service."""
 
-from typing import Any
+from __future__ import annotations
+
+from typing import Any, TypeVar
+
+MsgT = TypeVar("MsgT")
+SrvT = TypeVar("SrvT")
+SrvRequestT = TypeVar("SrvRequestT")
+SrvResponseT = TypeVar("SrvResponseT")
+SrvEventT = TypeVar("SrvEventT")
+"""Type variables for hints, as newer releases have them."""
 
 
 def check_for_type_support(msg_or_srv_type: Any) -> None:

@@ -1,0 +1,76 @@
+"""`Parser`: the text of a YAML launch file becomes entities that know their line."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, TextIO
+
+import yaml
+from launch import frontend
+from launch.frontend.parser import read
+
+from .entity import Entity, Mapping
+
+
+class Parser(frontend.Parser):
+    """Reads YAML."""
+
+    @classmethod
+    def load(cls, file: str | TextIO) -> tuple[Entity, Parser]:
+        """The root entity of a file."""
+        name, text = read(file)
+        return cls.load_text(text, name)
+
+    @classmethod
+    def load_text(cls, text: str, name: str) -> tuple[Entity, Parser]:
+        """The root entity of a text.
+
+        Raises:
+            yaml.YAMLError: if it is no YAML.
+            RuntimeError: if it has not exactly one root.
+        """
+        try:
+            tree = yaml.load(text, _Loader)
+        except yaml.MarkedYAMLError as error:
+            if error.problem_mark is not None:
+                error.place = (name, error.problem_mark.line + 1)  # type: ignore[attr-defined]
+            error.hint = _hint(error)  # type: ignore[attr-defined]
+            raise
+        if not isinstance(tree, dict) or len(tree) != 1:
+            wrong = RuntimeError("Expected only one root")
+            wrong.place = (name, 1)  # type: ignore[attr-defined]
+            wrong.hint = "The file begins with launch: and all actions are a list below it."  # type: ignore[attr-defined]
+            raise wrong
+        root = next(iter(tree))
+        return Entity(tree[root], str(root), file=name, line=tree.lines.get(root, 1)), cls()
+
+    @classmethod
+    def get_file_extensions(cls) -> set[str]:
+        """How such files end."""
+        return {"launch.yaml", "launch.yml"}
+
+
+class _Loader(yaml.SafeLoader):
+    """Reads mappings as `Mapping`s, which know the lines of their keys."""
+
+
+def _mapping(loader: _Loader, node: yaml.MappingNode) -> Iterator[Mapping]:
+    found = Mapping()
+    yield found
+    found.update(loader.construct_mapping(node))
+    for key, _ in node.value:
+        found.lines.setdefault(getattr(key, "value", ""), key.start_mark.line + 1)
+
+
+_Loader.add_constructor("tag:yaml.org,2002:map", _mapping)
+
+
+def _hint(error: Any) -> str:
+    problem = str(error.problem or "")
+    if "\\t" in problem:
+        return "YAML is indented with spaces, never with tabs."
+    if "mapping values are not allowed" in problem or "found character '%'" in problem:
+        return "A value with ': ' in it stands in quotation marks; items at one level are indented alike."
+    if "expected <block end>" in problem or "could not find expected ':'" in problem:
+        return "Look at the indentation of this line and of the one before."
+    return ""

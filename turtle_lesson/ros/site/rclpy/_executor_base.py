@@ -1,0 +1,249 @@
+"""What executors have in common beneath their spinning: they know nodes, choose what is next, and run it.
+
+One *cycle* takes everything that is ready at that moment and runs one callback of each: first waitables and tasks that
+can go on, then node by node timers, subscriptions, guard conditions, clients and services, each kind in order of creation.
+What becomes ready meanwhile waits for the next cycle. These are the rules of rclpy's executors.py; but where the real one
+builds a wait set for every cycle, entities here signal their executor, so that nothing is ever polled.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from turtle_lesson.ros.core import Strand
+from turtle_lesson.ros.world import current_process, current_world
+
+from ._entity import SERVICE, WAITABLE, Entity
+from ._executor_errors import ExternalShutdownException, ShutdownException
+from ._mistakes import explain_call, no_node
+from ._tracing import trace_entity
+from .context import Context
+from .exceptions import refuse_destroyed
+from .task import Future, Task
+from .utilities import get_default_context
+
+if TYPE_CHECKING:
+    from .node import Node
+
+Job = Any  # an Entity, or a Task
+Condition = Callable[[], bool] | None
+
+
+class ExecutorBase:
+    """Nodes, tasks, what is ready, and running it."""
+
+    _in_order_of_arrival = False
+    _runs_in = "_execute"
+    """The method that runs a callback: a world that keeps a trace puts another in its place."""
+
+    def __init__(self, *, context: Context | None = None) -> None:
+        self._context = get_default_context() if context is None else context
+        self._simulation = current_world().sim
+        self._trace = current_world().trace
+        self._process = current_process()
+        self._nodes: list[Node] = []
+        self._nodes_seen = 0
+        self._signalled: list[Entity] = []
+        self._batch: list[Job] = []
+        self._resumed: list[Task] = []
+        self._polled: list[Task] = []
+        self._held_up: list[Entity] = []
+        self._waiter: Strand | None = None  # whom a signal wakes: the last of those who wait
+        self._waiters: list[Strand] = []
+        self._make_ready = self._simulation.make_ready
+        self._spinning: list[Strand] = []
+        self._spins_to_the_end: list[Strand] = []  # who is in `spin`, and does nothing else before the shutdown
+        self._calls: list[Future] = []  # for what strands wait, without a timeout, in Client.call
+        self._is_shutdown = False
+        self._context.on_shutdown(self.wake)
+
+    @property
+    def context(self) -> Context:
+        """The context whose shutdown ends the spinning."""
+        return self._context
+
+    # -- nodes ---------------------------------------------------------------------------------------------------
+
+    def add_node(self, node: Node) -> bool:
+        """Run this node's callbacks from now on; False if it does so already. A node has one executor at a time."""
+        if node in self._nodes:
+            return False
+        if not hasattr(node, "_ros_waiting_entities"):
+            raise no_node(node)
+        if node._ros_simulation.closed:
+            refuse_destroyed(node._ros_simulation)
+        if node.executor is not None:
+            node.executor.remove_node(node)
+        self._nodes.append(node)
+        self._nodes_seen += 1
+        node._ros_executor, node._ros_place = self, self._nodes_seen  # type: ignore[assignment]
+        for entity in node._ros_entities():
+            self._adopt(entity, node)
+        return True
+
+    def _adopt(self, entity: Entity, node: Node) -> None:
+        entity._executor = self  # type: ignore[assignment]
+        entity._turn = (0 if entity._kind == WAITABLE else node._ros_place, entity._kind, entity._number)
+        if self._trace is not None:
+            trace_entity(entity, node, self, self._trace)  # type: ignore[arg-type]
+        if entity._has_work():
+            entity._signal()
+
+    def remove_node(self, node: Node) -> None:
+        """No longer run this node's callbacks."""
+        if node in self._nodes:
+            self._nodes.remove(node)
+            node._ros_executor = None
+            for entity in node._ros_entities():
+                entity._executor = None
+
+    def get_nodes(self) -> list[Node]:
+        """The nodes of this executor, in the order in which they were added."""
+        return list(self._nodes)
+
+    # -- tasks ---------------------------------------------------------------------------------------------------
+
+    def create_task(self, callback: Any, *args: Any, **kwargs: Any) -> Task:
+        """Have a function called, or a coroutine run, by this executor; the task is a future of its result."""
+        task = Task(callback, args, kwargs, executor=self)  # type: ignore[arg-type]
+        self._resume_task(task)
+        return task
+
+    def create_future(self) -> Future:
+        """A future whose callbacks this executor calls."""
+        return Future(executor=self)  # type: ignore[arg-type]
+
+    def _resume_task(self, task: Task) -> None:
+        self._resumed.append(task)
+        self.wake()
+
+    def _poll_task(self, task: Task) -> None:
+        self._polled.append(task)
+
+    def wake(self) -> None:
+        """Have a waiting `spin_once` look again at what it waits for."""
+        if self._waiter is not None:
+            self._simulation.wake(self._waiter)
+
+    # -- choosing ------------------------------------------------------------------------------------------------
+
+    def _next(self, strand: Strand, deadline: int | None, condition: Condition) -> Job | None:
+        """The next thing to run, its callback group taken; None at the deadline (ns) or when the condition holds."""
+        while True:
+            batch = self._batch
+            while batch:
+                job = batch.pop()
+                if job.__class__ is Task:
+                    if not job._done:
+                        return job
+                elif job._executor is self and job._has_work():
+                    if job._begin(job):
+                        return job
+                    self._held_up.append(job)
+            if condition is not None and condition():
+                return None
+            if self._signalled or self._resumed:
+                self._begin_cycle()
+                continue
+            if self._is_shutdown or not self._context.ok():
+                self._say_it_is_shut_down()
+            if deadline is not None and self._simulation.now >= deadline:
+                return None
+            self._wait(strand, deadline)
+
+    def _begin_cycle(self) -> None:
+        """Take all that is ready now as the next batch."""
+        if self._in_order_of_arrival:
+            batch: list[Job] = self._signalled[::-1]  # taken from the end
+        else:
+            batch = sorted(self._signalled, key=_turn, reverse=True)
+        for entity in batch:
+            entity._listed_in = None
+        self._signalled.clear()
+        if self._resumed or self._polled:
+            batch += reversed([*self._polled, *self._resumed])
+            self._polled, self._resumed = [], []
+        self._batch = batch
+
+    def _say_it_is_shut_down(self) -> None:
+        raise ShutdownException if self._is_shutdown else ExternalShutdownException
+
+    def _wait(self, strand: Strand, deadline: int | None) -> None:
+        simulation = self._simulation
+        if deadline is not None:
+            simulation.at(deadline, simulation.wake, strand)
+        self._begin_waiting(strand)
+        try:
+            simulation.park(strand)
+        finally:
+            self._end_waiting(strand)
+
+    def _begin_waiting(self, strand: Strand) -> None:
+        self._waiters.append(strand)
+        self._waiter = strand
+
+    def _end_waiting(self, strand: Strand) -> None:
+        self._waiters.remove(strand)
+        self._waiter = self._waiters[-1] if self._waiters else None
+
+    # -- running -------------------------------------------------------------------------------------------------
+
+    def _execute(self, job: Job) -> None:
+        """Run a job, whose callback group has been taken, in this strand."""
+        if job.__class__ is Task:
+            self._run_task(job)
+        elif job._is_async:
+            self._run_task(self._as_task(job))
+        else:
+            try:
+                arguments = job._take()
+                if arguments is not None:
+                    result = job.callback(*arguments)
+                    if job._kind == SERVICE:
+                        job._done_with(arguments, result)
+            except TypeError as error:
+                explain_call(job, arguments, error)
+                raise
+            finally:
+                job.callback_group.ending_execution(job)
+                if self._held_up:
+                    self._release_held_up()
+
+    def _release_held_up(self) -> None:
+        """Let those look again who waited for a callback group."""
+        held_up, self._held_up = self._held_up, []
+        for waiting in held_up:
+            waiting._signal()
+
+    def _free(self, entity: Any) -> None:
+        entity.callback_group.ending_execution(entity)
+        self._release_held_up()
+
+    def _as_task(self, entity: Any) -> Task:
+        task = Task(_call_and_await, (entity, entity._take()), executor=self)  # type: ignore[arg-type]
+        task._entity, task._node = entity, entity._node
+        task._finally = lambda: self._free(entity)
+        return task
+
+    def _run_task(self, task: Task) -> None:
+        task()
+        if task._done and task._exception is not None:
+            raise task._exception_fetched()
+
+
+async def _call_and_await(entity: Any, arguments: tuple[Any, ...] | None) -> None:
+    if arguments is not None:
+        try:
+            result = entity.callback(*arguments)
+        except TypeError as error:
+            explain_call(entity, arguments, error)
+            raise
+        if entity._is_async:
+            result = await result
+        if entity._kind == SERVICE:
+            entity._done_with(arguments, result)
+
+
+def _turn(entity: Entity) -> tuple[int, int, int]:
+    return entity._turn

@@ -1,0 +1,43 @@
+"""`wait_for_message`: the next message of a topic, without a callback."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from turtle_lesson.ros.core import NANOSECONDS, running_strand
+
+from ._alarm import Alarm
+from ._blocking import drives_the_simulation
+
+if TYPE_CHECKING:
+    from .node import Node
+    from .qos import QoSProfile
+
+__all__ = ["wait_for_message"]
+
+
+@drives_the_simulation
+def wait_for_message(
+    msg_type: Any, node: Node, topic: str, time_to_wait: float = -1, *, qos_profile: QoSProfile | int = 1
+) -> tuple[bool, Any]:
+    """(True, message) for the next message that comes, or (False, None) after `time_to_wait` (s; -1 waits for ever).
+
+    Also (False, None) if ROS is shut down meanwhile. The node need not be spun, and none of its callbacks is called.
+    """
+    strand = running_strand()
+    assert strand is not None
+    strand.activity = f"wait_for_message on {topic}"
+    simulation = strand.simulation
+    subscription = node.create_subscription(msg_type, topic, _not_called, qos_profile)
+    subscription._executor = None  # nobody else is to take what comes
+    alarm = Alarm(node.context)
+    subscription._reader.wake = alarm.ring
+    try:
+        alarm.wait(None if time_to_wait < 0 else simulation.now + int(time_to_wait * NANOSECONDS))
+        return (True, subscription._take()[0]) if subscription._has_work() else (False, None)
+    finally:
+        node.destroy_subscription(subscription)
+
+
+def _not_called(message: Any) -> None:
+    """The callback of a subscription whose messages are taken by hand."""
