@@ -89,6 +89,7 @@ class Node(NodeEntities, NodeNews, NodeParameters):
         self._ros_waiting_entities: list[Entity] = []
         self._ros_events: QoSEvents | None = None
         self._ros_destroyed = False
+        self._ros_rosout: Publisher | None = None  # an interrupted __init__ leaves a node that is destroyed all the same
         self._ros_default_callback_group = MutuallyExclusiveCallbackGroup()
         self._ros_rate_group: CallbackGroup | None = None
         self._ros_clock = ROSClock()
