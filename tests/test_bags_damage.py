@@ -11,7 +11,7 @@ import pytest
 import yaml
 from bag_help import write_bag
 from hypothesis import HealthCheck, example, given, settings
-from hypothesis import strategies as st
+from hypothesis import HealthCheck, example, given, settings
 
 from turtle_lesson.ros.bags import BagError
 from turtle_lesson.ros.bags.bag import Bag, open_bag
@@ -124,6 +124,7 @@ def test_cut_short_anywhere(sound: Sound, tmp_path: Path, part: float) -> None:
 
 
 @settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@example(places=[(0.75, 1), (0.6328604590396264, 56)])
 @given(places=st.lists(st.tuples(st.floats(0, 1), st.integers(1, 255)), min_size=1, max_size=20))
 def test_spoiled_bytes_anywhere(sound: Sound, tmp_path: Path, places: list[tuple[float, int]]) -> None:
     def change(data: bytearray) -> bytearray:

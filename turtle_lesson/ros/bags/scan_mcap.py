@@ -133,7 +133,8 @@ class _Scan:
         if not cut_short and packed_size != len(body) - begin:
             self._flaw(f"the chunk at byte {place} gives a wrong length")  # its checksum tells whether that is all
         records = _decompressed(compression, body[begin:], size)
-        if not cut_short and (len(records) != size or (checksum and zlib.crc32(records) != checksum)):
+        whole = len(records) == size  # also where only the record's length is spoiled, so that it seems cut short
+        if (whole and checksum and zlib.crc32(records) != checksum) or not (whole or cut_short):
             self._flaw(f"the chunk at byte {place} is spoiled (its checksum is wrong), so its messages are left out")
             return
         view, at = memoryview(records), 0

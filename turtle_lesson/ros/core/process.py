@@ -193,6 +193,8 @@ class Process:
                 from .stdlib.ending import wind_down
 
                 wind_down(self)
+        except Killed:  # while it was waiting for its threads
+            pass
         finally:
             self._finish(KILLED if code is None else code)
 

@@ -33,6 +33,7 @@ class Strand(greenlet):
         warned: whether it was told once that it computes without end.
         cell: the cell that it prints to.
         waits_for: for what it waits without a time limit, and in vain if all others of its process do; None else.
+        may_act: asks whether anything that it waits for could have it go on; None if that is not known.
         name: what it is called, if nobody gives it another name.
         thread: the `threading.Thread` that it is, once somebody has asked.
         calls: functions to be called in it where it waits, such as handlers of signals.
@@ -45,6 +46,7 @@ class Strand(greenlet):
     warned: bool
     cell: Cell | None = None
     waits_for: Any = None
+    may_act: Callable[[], bool] | None = None
     name: str = ""
     thread: Any = None
     calls: Sequence[Callable[[], object]] = ()

@@ -73,7 +73,9 @@ def _sure_owner(strand: Strand) -> Strand | None:
 
 
 def _waits_in_vain(strand: Strand) -> bool:
-    return strand.dead or (strand.parked and strand.waits_for is not None)
+    if strand.dead or not strand.parked:
+        return strand.dead
+    return strand.waits_for is not None or (strand.may_act is not None and not strand.may_act())
 
 
 def _nobody_can_act(process: Process, this: Strand | None) -> bool:

@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import sys
 import threading
+from traceback import format_exception_only
 from typing import TYPE_CHECKING, Any
 
 from ..strand import GreenletExit, Strand, running_strand
-from ..tracebacks import format_error
+from ..tracebacks import format_error, learners_frames
 from .home import process_here
 from .hopeless import look_after
 from .identity import become, end
@@ -73,7 +74,8 @@ def _tell(thread: threading.Thread, error: BaseException) -> None:
         hook: Any = threading.excepthook
         hook(threading.ExceptHookArgs((type(error), error, error.__traceback__, thread)))
         return
-    print(f"Exception in thread {thread.name}:\n{format_error(error)}", end="", file=sys.stderr)
+    lines = [format_error(error)] if learners_frames(error.__traceback__) else format_exception_only(error)
+    print(f"Exception in thread {thread.name}:\n{''.join(lines)}", end="", file=sys.stderr)
 
 
 def wait_for_end(real: Any) -> Any:

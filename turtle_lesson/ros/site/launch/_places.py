@@ -6,8 +6,11 @@ import sys
 
 from turtle_lesson.ros.core.tracebacks import is_ours
 
+Place = tuple[str, int]
+"""A file and a line in it, counted from 1."""
 
-def written_at() -> tuple[str, int] | None:
+
+def written_at() -> Place | None:
     """The file and line of the innermost caller that is not part of the classroom's own code."""
     frame = sys._getframe(1)
     while frame is not None:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ._places import written_at
 from .condition import Condition
 from .launch_description_entity import LaunchDescriptionEntity
 
 if TYPE_CHECKING:
+    from .frontend import Entity, Parser
     from .launch_context import LaunchContext
 
 
@@ -20,6 +21,25 @@ class Action(LaunchDescriptionEntity):
     def __init__(self, *, condition: Condition | None = None) -> None:
         self.__condition = condition
         self._written_at = written_at()
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type, dict[str, Any]]:
+        """The class and its arguments for a tag of an XML or YAML file; here those that every action has.
+
+        Raises:
+            RuntimeError: if it has both `if` and `unless`.
+        """
+        from .conditions import IfCondition, UnlessCondition
+
+        if_text = entity.get_attr("if", optional=True)
+        unless_text = entity.get_attr("unless", optional=True)
+        if if_text is not None and unless_text is not None:
+            raise RuntimeError("if and unless conditions can't be used simultaneously")
+        if if_text is not None:
+            return cls, {"condition": IfCondition(parser.parse_substitution(if_text))}
+        if unless_text is not None:
+            return cls, {"condition": UnlessCondition(parser.parse_substitution(unless_text))}
+        return cls, {}
 
     @property
     def condition(self) -> Condition | None:

@@ -10,7 +10,11 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
+from types import FrameType
 from typing import TYPE_CHECKING, Any
+
+from turtle_lesson.ros.core import running_strand
+from turtle_lesson.ros.core.stdlib.hopeless_words import hints
 
 from ._entity import CLIENT, WAITABLE
 from ._mistakes import did_you_mean
@@ -49,22 +53,38 @@ CUT_OFF = (
 )
 
 
-def callbacks_around() -> list[Any]:
-    """The entities whose callbacks the running code is inside, innermost first.
+def callbacks_around(frame: FrameType | None = None) -> list[Any]:
+    """The entities whose callbacks the running code, or that of a frame, is inside, innermost first.
 
-    They are found in the running frames, so that calling a callback costs nothing for this.
+    They are found in the frames, so that calling a callback costs nothing for this.
     """
     from .executors import Executor
     from .task import Task
 
     places = {Executor._execute.__code__: "job", Task.__call__.__code__: "self"}
-    found, frame = [], sys._getframe(1)
+    found: list[Any] = []
+    frame = frame or sys._getframe(1)
     while frame is not None:
         if frame.f_code in places:
             job = frame.f_locals[places[frame.f_code]]
             found.append(getattr(job, "_entity", job))
-        frame = frame.f_back  # type: ignore[assignment]
+        frame = frame.f_back
     return found
+
+
+def advice_for_callbacks(strand: Strand) -> str:
+    """What to do if it is a callback that waits in vain for another one."""
+    frame = sys._getframe(1) if strand is running_strand() else strand.gr_frame
+    if not callbacks_around(frame):
+        return ""
+    return (
+        "While a callback waits, a single-threaded executor calls no other, and no executor calls another one of the same "
+        "mutually exclusive callback group. Let what is to be waited for call what comes next; or spin with a "
+        "MultiThreadedExecutor, the callbacks in groups of their own."
+    )
+
+
+hints.append(advice_for_callbacks)
 
 
 def keeps_taken(group: Any) -> bool:

@@ -50,6 +50,7 @@ class Executor(ExecutorBase):
         assert strand is not None
         self._spins_to_the_end.append(strand)
         self._process.locals["rclpy.spinning"] = [*self._process.locals.get("rclpy.spinning", ()), strand]
+        strand.may_act, before = self._may_run_anything, strand.may_act
         try:
             if type(self).spin_once is Executor.spin_once and type(self)._execute is Executor._execute:
                 self._spin_fast(strand)
@@ -57,6 +58,7 @@ class Executor(ExecutorBase):
                 while self._context.ok() and not self._is_shutdown:
                     self.spin_once()
         finally:
+            strand.may_act = before
             self._spins_to_the_end.remove(strand)
             self._process.locals["rclpy.spinning"].remove(strand)
 
@@ -201,6 +203,13 @@ class Executor(ExecutorBase):
         if any(spinner is not strand for spinner in self._spinning):
             return True
         return strand not in self._spins_to_the_end and others_may_act(strand)
+
+    def _may_run_anything(self) -> bool:
+        """Whether there is a callback that could be run, or whether all are held up by callbacks that wait."""
+        if self._batch or self._resumed or self._polled:
+            return True
+        entities = [entity for node in self._nodes for entity in node._ros_entities()]
+        return not entities or any(entity.callback_group.can_execute(entity) for entity in entities)
 
     def _is_worker(self, strand: Strand) -> bool:
         """Whether this strand is a thread of this executor, which takes nothing while it waits."""

@@ -5,9 +5,11 @@ from __future__ import annotations
 import zlib
 from typing import TYPE_CHECKING, Any
 
+from turtle_lesson.ros.core import NANOSECONDS
 from turtle_lesson.ros.graph import Graph, NodeEntry, Reader, Writer
 from turtle_lesson.ros.graph.names import expand, remap
 
+from ._blocking import drives_the_simulation
 from .exceptions import NodeNameNonExistentError, RCLError
 from .topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 from .validate_full_topic_name import validate_full_topic_name
@@ -15,6 +17,9 @@ from .validate_topic_name import validate_topic_name
 
 if TYPE_CHECKING:
     from turtle_lesson.ros.graph.names import Remap
+
+LOOK_AGAIN = 100_000_000
+"""How often, in ns, `wait_for_node` looks."""
 
 NamesAndTypes = list[tuple[str, list[str]]]
 FEEDBACK = "/_action/feedback"
@@ -113,6 +118,21 @@ class NodeGraph:
     def get_action_server_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
         """The actions that a node offers (newer releases). Raises NodeNameNonExistentError."""
         return _actions(self.get_publisher_names_and_types_by_node(node_name, node_namespace))
+
+    @drives_the_simulation
+    def wait_for_node(self, fully_qualified_node_name: str, timeout: float) -> bool:
+        """Wait until there is a node of this full name; False if there is none within the timeout (s; negative: none).
+
+        Newer than Humble.
+        """
+        simulation = self._ros_graph.simulation
+        name = f"/{fully_qualified_node_name.lstrip('/')}"
+        deadline = None if timeout < 0 else simulation.now + int(timeout * NANOSECONDS)
+        while name not in self.get_fully_qualified_node_names():
+            if deadline is not None and simulation.now >= deadline:
+                return False
+            simulation.sleep_until(simulation.now + LOOK_AGAIN)
+        return True
 
     def count_publishers(self, topic_name: str) -> int:
         """How many publishers a topic has. The name is not remapped, nor in the next three."""

@@ -42,7 +42,10 @@ from .validate_node_name import validate_node_name
 if TYPE_CHECKING:
     from .executors import Executor
 
-__all__ = ["Node", "NodeNameNonExistentError"]
+__all__ = ["HIDDEN_NODE_PREFIX", "Node", "NodeNameNonExistentError"]
+
+HIDDEN_NODE_PREFIX = "_"
+"""What the name of a node begins with that tools leave out of their lists."""
 
 
 class Node(NodeEntities, NodeNews, NodeParameters):
@@ -89,7 +92,9 @@ class Node(NodeEntities, NodeNews, NodeParameters):
         self._ros_waiting_entities: list[Entity] = []
         self._ros_events: QoSEvents | None = None
         self._ros_destroyed = False
-        self._ros_rosout: Publisher | None = None  # an interrupted __init__ leaves a node that is destroyed all the same
+        self._ros_rosout: Publisher | None = (
+            None  # an interrupted __init__ leaves a node that is destroyed all the same
+        )
         self._ros_default_callback_group = MutuallyExclusiveCallbackGroup()
         self._ros_rate_group: CallbackGroup | None = None
         self._ros_clock = ROSClock()

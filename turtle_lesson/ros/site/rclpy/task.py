@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import inspect
 import sys
 import warnings
@@ -11,6 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from turtle_lesson.ros.core import NeverWakes, running_strand
 
+from ._asyncio import called_by_its_loop, refuse_in_a_cell
 from ._deadlock import why_never_awaited
 from ._mistakes import explain_event_loop
 
@@ -29,6 +31,9 @@ def at_once(callback: Function) -> Function:
 class Future:
     """Something that will be known later. States: waiting, then done with a result or an exception, or cancelled."""
 
+    _asyncio_future_blocking = False
+    """Tells asyncio that this can be awaited in its coroutines."""
+
     def __init__(self, *, executor: Executor | None = None) -> None:
         self._done = False
         self._cancelled = False
@@ -45,9 +50,15 @@ class Future:
         return f"<rclpy.task.{type(self).__name__} {state}>"
 
     def __await__(self) -> Generator[Future, None, Any]:
+        refuse_in_a_cell()
         while not self._done:
+            self._asyncio_future_blocking = True
             yield self
         return self.result()
+
+    def get_loop(self) -> Any:
+        """The asyncio loop whose coroutine awaits this: asyncio asks for it."""
+        return asyncio.get_running_loop()
 
     def cancel(self) -> None:
         """Give up waiting: the future counts as cancelled, its callbacks are called."""
@@ -96,8 +107,13 @@ class Future:
         self._cancelled = False
         self._call_callbacks()
 
-    def add_done_callback(self, callback: Callable[[Future], Any]) -> None:
-        """Have `callback(future)` called when it is done: by the executor if there is one; at once if it is done."""
+    def add_done_callback(self, callback: Callable[[Future], Any], *, context: Any = None) -> None:
+        """Have `callback(future)` called when it is done: by the executor if there is one; at once if it is done.
+
+        Only asyncio gives a `context`: then its loop calls the callback.
+        """
+        if context is not None:
+            callback = called_by_its_loop(callback, context)
         if self._done:
             self._call(callback)
         else:

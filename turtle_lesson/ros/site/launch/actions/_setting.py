@@ -6,6 +6,7 @@ from collections.abc import MutableMapping
 from typing import Any
 
 from ..action import Action
+from ..frontend import Entity, Parser
 from ..launch_context import LaunchContext
 from ..launch_description_entity import LaunchDescriptionEntity
 from ..some_types import SomeSubstitutionsType
@@ -20,6 +21,14 @@ class Setting(Action):
         super().__init__(**kwargs)
         self.__name = normalize_to_list_of_substitutions(name)
         self.__value = normalize_to_list_of_substitutions(value)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type, dict[str, Any]]:
+        """Its arguments from `name` and `value`."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
+        kwargs["value"] = parser.parse_substitution(entity.get_attr("value"))
+        return cls, kwargs
 
     @property
     def name(self) -> list[Substitution]:
@@ -48,6 +57,18 @@ class Unsetting(Action):
     def __init__(self, name: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.__name = normalize_to_list_of_substitutions(name)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type, dict[str, Any]]:
+        """Its argument from `name`."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
+        return cls, kwargs
+
+    @property
+    def name(self) -> list[Substitution]:
+        """The name of what is forgotten."""
+        return self.__name
 
     def kept_in(self, context: LaunchContext) -> MutableMapping[str, str]:
         """Where the context keeps such values."""

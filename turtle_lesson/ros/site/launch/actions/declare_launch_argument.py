@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, List
 
 from ..action import Action
+from ..frontend import Entity, Parser, expose_action
 from ..launch_context import LaunchContext
 from ..launch_description_entity import LaunchDescriptionEntity
 from ..some_types import SomeSubstitutionsType
@@ -12,6 +13,7 @@ from ..substitution import Substitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 
+@expose_action("arg")
 class DeclareLaunchArgument(Action):
     """Names an argument, with its default, what it is for, and which values it may have."""
 
@@ -32,6 +34,24 @@ class DeclareLaunchArgument(Action):
         self.__choices = choices
         self.__description = _describe(description, choices)
         self._conditionally_included = False
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type, dict[str, Any]]:
+        """Its arguments from `name`, `default`, `description` and nested `choice` tags."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["name"] = parser.escape_characters(entity.get_attr("name"))
+        default = entity.get_attr("default", optional=True)
+        if default is not None:
+            kwargs["default_value"] = parser.parse_substitution(default)
+        description = entity.get_attr("description", optional=True)
+        if description is not None:
+            kwargs["description"] = parser.escape_characters(description)
+        choices = entity.get_attr("choice", data_type=List[Entity], optional=True)  # noqa: UP006
+        if choices is not None:
+            kwargs["choices"] = [parser.escape_characters(choice.get_attr("value")) for choice in choices]
+            for choice in choices:
+                choice.assert_entity_completely_parsed()
+        return cls, kwargs
 
     @property
     def name(self) -> str:

@@ -7,6 +7,7 @@ from collections.abc import MutableMapping
 from typing import Any
 
 from ..action import Action
+from ..frontend import Entity, Parser, expose_action
 from ..launch_context import LaunchContext
 from ..launch_description_entity import LaunchDescriptionEntity
 from ..some_types import SomeSubstitutionsType
@@ -14,6 +15,7 @@ from ..utilities import normalize_to_list_of_substitutions, perform_substitution
 from ._setting import Setting, Unsetting
 
 
+@expose_action("set_env")
 class SetEnvironmentVariable(Setting):
     """Gives an environment variable a value."""
 
@@ -22,6 +24,7 @@ class SetEnvironmentVariable(Setting):
         return context.environment
 
 
+@expose_action("unset_env")
 class UnsetEnvironmentVariable(Unsetting):
     """Forgets an environment variable."""
 
@@ -30,6 +33,7 @@ class UnsetEnvironmentVariable(Unsetting):
         return context.environment
 
 
+@expose_action("append_env")
 class AppendEnvironmentVariable(Action):
     """Adds something to an environment variable that is a list, such as a path."""
 
@@ -46,6 +50,20 @@ class AppendEnvironmentVariable(Action):
         self.__value = normalize_to_list_of_substitutions(value)
         self.__prepend = normalize_to_list_of_substitutions(str(prepend) if isinstance(prepend, bool) else prepend)
         self.__separator = normalize_to_list_of_substitutions(separator)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type, dict[str, Any]]:
+        """Its arguments from `name`, `value`, `prepend` and `separator`."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
+        kwargs["value"] = parser.parse_substitution(entity.get_attr("value"))
+        prepend = entity.get_attr("prepend", optional=True, data_type=bool, can_be_str=True)
+        if prepend is not None:
+            kwargs["prepend"] = parser.parse_if_substitutions(prepend)
+        separator = entity.get_attr("separator", optional=True)
+        if separator is not None:
+            kwargs["separator"] = parser.parse_substitution(separator)
+        return cls, kwargs
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Add it."""

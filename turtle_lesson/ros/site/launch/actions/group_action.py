@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from ..action import Action
+from ..frontend import Entity, Parser, expose_action
 from ..launch_context import LaunchContext
 from ..launch_description_entity import LaunchDescriptionEntity
 from ..some_types import SomeSubstitutionsType
@@ -15,9 +16,11 @@ from .launch_configurations import (
     PushLaunchConfigurations,
     ResetLaunchConfigurations,
     SetLaunchConfiguration,
+    kept,
 )
 
 
+@expose_action("group")
 class GroupAction(Action):
     """Gives its actions; in a scope, what they set is forgotten at the end.
 
@@ -42,6 +45,19 @@ class GroupAction(Action):
         self.__scoped = scoped
         self.__forwarding = forwarding
         self.__launch_configurations = dict(launch_configurations or {})
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type, dict[str, Any]]:
+        """Its arguments from `scoped`, `forwarding`, nested `keep` tags and the actions in it."""
+        _, kwargs = super().parse(entity, parser)
+        for name in ("scoped", "forwarding"):
+            value = entity.get_attr(name, data_type=bool, optional=True, can_be_str=False)
+            if value is not None:
+                kwargs[name] = value
+        if configurations := kept(entity, parser):
+            kwargs["launch_configurations"] = configurations
+        kwargs["actions"] = [parser.parse_action(child) for child in entity.children if child.type_name != "keep"]
+        return cls, kwargs
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """What it gives."""

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import Any, List
 
 from ..action import Action
+from ..frontend import Entity, Parser, expose_action
 from ..launch_context import LaunchContext
 from ..launch_description import LaunchDescription
 from ..launch_description_entity import LaunchDescriptionEntity
@@ -29,6 +30,7 @@ class MissingLaunchArgumentError(RuntimeError):
         self.argument = argument
 
 
+@expose_action("include")
 class IncludeLaunchDescription(Action):
     """Includes a launch description; its arguments are given as pairs of name and value."""
 
@@ -49,6 +51,21 @@ class IncludeLaunchDescription(Action):
             raise error
         self.__launch_arguments = list(launch_arguments or [])
         self.__places: dict[str, Any] = {}
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type, dict[str, Any]]:
+        """Its arguments from `file` and nested `arg` (or `let`) tags."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["launch_description_source"] = parser.parse_substitution(entity.get_attr("file"))
+        given = []
+        for tag in ("arg", "let"):
+            for argument in entity.get_attr(tag, data_type=List[Entity], optional=True) or []:  # noqa: UP006
+                name = parser.parse_substitution(argument.get_attr("name"))
+                given.append((name, parser.parse_substitution(argument.get_attr("value"))))
+                argument.assert_entity_completely_parsed()
+        if given:
+            kwargs["launch_arguments"] = given
+        return cls, kwargs
 
     @property
     def launch_description_source(self) -> LaunchDescriptionSource:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, MutableMapping
-from typing import Any
+from typing import Any, List
 
 from ..action import Action
+from ..frontend import Entity, Parser, expose_action
 from ..launch_context import LaunchContext
 from ..launch_description_entity import LaunchDescriptionEntity
 from ..some_types import SomeSubstitutionsType
@@ -13,6 +14,7 @@ from ..utilities import normalize_to_list_of_substitutions, perform_substitution
 from ._setting import Setting, Unsetting
 
 
+@expose_action("let")
 class SetLaunchConfiguration(Setting):
     """Gives a launch configuration a value."""
 
@@ -21,6 +23,7 @@ class SetLaunchConfiguration(Setting):
         return context.launch_configurations
 
 
+@expose_action("unset")
 class UnsetLaunchConfiguration(Unsetting):
     """Forgets a launch configuration."""
 
@@ -47,6 +50,7 @@ class PopLaunchConfigurations(Action):
         return None
 
 
+@expose_action("reset")
 class ResetLaunchConfigurations(Action):
     """Forgets all launch configurations but the given ones."""
 
@@ -57,6 +61,13 @@ class ResetLaunchConfigurations(Action):
     ) -> None:
         super().__init__(**kwargs)
         self.__kept = dict(launch_configurations or {})
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type, dict[str, Any]]:
+        """Its arguments; each `keep` names a configuration with its value."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["launch_configurations"] = kept(entity, parser)
+        return cls, kwargs
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Forget them."""
@@ -69,3 +80,13 @@ class ResetLaunchConfigurations(Action):
         context.launch_configurations.clear()
         context.launch_configurations.update(kept)
         return None
+
+
+def kept(entity: Entity, parser: Parser) -> dict[Any, Any]:
+    """The names and values of the `keep` tags in a tag."""
+    found = {}
+    for keep in entity.get_attr("keep", data_type=List[Entity], optional=True) or []:  # noqa: UP006
+        name = tuple(parser.parse_substitution(keep.get_attr("name")))
+        found[name] = parser.parse_substitution(keep.get_attr("value"))
+        keep.assert_entity_completely_parsed()
+    return found

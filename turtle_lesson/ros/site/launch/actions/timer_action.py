@@ -9,12 +9,14 @@ from ..action import Action
 from ..event_handler import EventHandler
 from ..event_handlers import OnShutdown
 from ..events import TimerEvent
+from ..frontend import Entity, Parser, expose_action
 from ..launch_context import LaunchContext
 from ..launch_description_entity import LaunchDescriptionEntity
 from ..some_types import SomeSubstitutionsType
 from ..utilities import ensure_argument_type, normalize_to_list_of_substitutions, perform_substitutions
 
 
+@expose_action("timer")
 class TimerAction(Action):
     """Gives its actions when `period` seconds have passed, once, unless it is cancelled before."""
 
@@ -35,6 +37,19 @@ class TimerAction(Action):
         self.__cancel_on_shutdown = str(cancel_on_shutdown).lower() not in {"false", "0"}
         self.__cancelled = False
         self.__locals: dict[str, Any] = {}
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type, dict[str, Any]]:
+        """Its arguments from `period`, `cancel_on_shutdown` and the actions in it."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["period"] = parser.parse_if_substitutions(
+            entity.get_attr("period", data_type=float, can_be_str=True)
+        )
+        cancel = entity.get_attr("cancel_on_shutdown", data_type=bool, optional=True, can_be_str=True)
+        if cancel is not None:
+            kwargs["cancel_on_shutdown"] = parser.parse_if_substitutions(cancel)
+        kwargs["actions"] = [parser.parse_action(child) for child in entity.children]
+        return cls, kwargs
 
     @property
     def period(self) -> Any:
