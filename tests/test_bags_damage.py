@@ -11,7 +11,7 @@ import pytest
 import yaml
 from bag_help import write_bag
 from hypothesis import HealthCheck, example, given, settings
-from hypothesis import HealthCheck, example, given, settings
+from hypothesis import strategies as st
 
 from turtle_lesson.ros.bags import BagError
 from turtle_lesson.ros.bags.bag import Bag, open_bag

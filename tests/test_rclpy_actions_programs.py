@@ -206,6 +206,25 @@ def test_a_client_that_spins_while_it_waits(say: Say) -> None:
     ]
 
 
+def test_a_client_that_blocks_while_another_thread_spins(say: Say) -> None:
+    assert say(*run("simple_server", "blocking_client"), seconds=5)[1:] == [
+        "feedback 2",
+        "feedback 1",
+        "result [2, 1] status 4",
+        "shut down",
+    ]
+
+
+def test_a_client_in_asyncios_loop(say: Say) -> None:
+    printed = say(*run("parallel_server", "asyncio_client"), seconds=6)
+    assert [line for line in printed if "parallel_server" not in line] == ["together [[2, 1], [3, 2, 1]]", "alone [1]"]
+
+
+def test_a_server_that_runs_asyncios_loop_for_each_goal(say: Say) -> None:
+    printed = say(*run("asyncio_server", "asyncio_client"), seconds=6)
+    assert [line for line in printed if "asyncio_server" not in line] == ["together [[2, 1], [3, 2, 1]]", "alone [1]"]
+
+
 def test_a_node_that_is_server_and_client_in_one_thread(say: Say) -> None:
     say(*run("plain_server", "relay", "client 2 --ros-args -r countdown:=double_countdown"))
     assert say(seconds=6)[-2:] == ["3 relay: 1 left", "4 client: Goal succeeded: [2, 1, 2, 1]"]

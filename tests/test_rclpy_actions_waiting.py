@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import time
 from collections.abc import Callable
 from typing import Any
@@ -427,3 +428,36 @@ def test_a_timeline_shows_execute_callbacks(world: World) -> None:
     with pytest.raises(ValueError, match=r"and the topics none\.|nor a node") as caught:
         plot_timeline(world.trace, node, "/nope")
     assert "_action" not in str(caught.value)
+
+
+# ---------------------------------------------------------------- in asyncio's loop
+
+
+def test_a_future_is_awaited_in_a_loop_of_asyncio_and_can_be_given_up(run: Run) -> None:
+    async def steps(node: Node, client: ActionClient, found: list[Any]) -> None:
+        async def spin() -> None:
+            while True:
+                rclpy.spin_once(node, timeout_sec=0.01)
+                await asyncio.sleep(0.001)
+
+        spinning = asyncio.get_running_loop().create_task(spin())
+        goal = await client.send_goal_async(Goal(order=2))
+        future = goal.get_result_async()
+        with pytest.raises(asyncio.TimeoutError):
+            await asyncio.wait_for(future, 0.5)
+        found.append((future.cancelled(), (await future).status, future.done()))
+        spinning.cancel()
+
+    def program(found: list[Any]) -> None:
+        node, client = start()
+        asyncio.run(steps(node, client, found))
+
+    assert run(server, program) == [(False, 4, True)]
+
+
+def test_in_a_cells_own_loop_it_is_explained() -> None:
+    async def cell() -> None:
+        await Future()
+
+    with pytest.raises(RuntimeError, match="cannot be awaited in a cell: no robot time would pass meanwhile"):
+        asyncio.run(cell())

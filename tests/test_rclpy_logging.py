@@ -316,3 +316,111 @@ def test_two_nodes_of_one_name_share_a_publisher_and_lose_it_together(run: Run, 
     lines = capsys.readouterr().err.splitlines()
     assert "Publisher already registered for provided node name." in lines[0]
     assert len(lines) == 4
+
+
+# ---------------------------------------------------------------- throttling by a clock, formats, services
+
+
+def test_throttling_may_go_by_a_clock_of_ones_own(run: Run, capsys: Capture) -> None:
+    from rclpy.clock import ROSClock
+    from rclpy.time import Time
+
+    def program(found: list[Any]) -> None:
+        logger, clock = demo_logger(), ROSClock()
+        clock._set_ros_time_is_active(True)
+        for second in (1.0, 1.4, 1.5, 1.9, 2.1):
+            clock.set_ros_time_override(Time(seconds=second))
+            time.sleep(10.0)
+            logger.info(f"at {second}", throttle_duration_sec=0.5, throttle_time_source_type=clock)
+
+    run(program, seconds=100.0)
+    assert [line.rpartition(": ")[2] for line in capsys.readouterr().err.splitlines()] == ["at 1.0", "at 1.5", "at 2.1"]
+
+
+@pytest.mark.parametrize(
+    ("options", "kind", "text"),
+    [
+        (
+            {"speed": 1},
+            TypeError,
+            'parameter "speed" is not one of the recognized logging options "[\'throttle_duration_sec\', '
+            "'throttle_time_source_type', 'skip_first', 'once']\"",
+        ),
+        (
+            {"throttle_time_source_type": object},
+            TypeError,
+            'required parameter "throttle_duration_sec" not specified but is required for the the logging filter "throttle"',
+        ),
+        (
+            {"throttle_time_source_type": "RCUTILS_STEADY_TIME", "throttle_duration_sec": 1.0},
+            ValueError,
+            'Received throttle_time_source_type of "RCUTILS_STEADY_TIME" is not a clock instance: hand over node.get_clock()',
+        ),
+    ],
+)
+def test_options_that_do_not_go_together(
+    world: World, options: dict[str, Any], kind: type[Exception], text: str
+) -> None:
+    assert message_of(kind, lambda: demo_logger().info("x", **options)) == text
+
+
+def test_the_environment_may_ask_for_another_format(run: Run, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(
+        "RCUTILS_CONSOLE_OUTPUT_FORMAT",
+        "{severity}|{name}|{message}|{function_name}|{short_file_name}|{time_as_nanoseconds}|{date_time_with_ms}|{odd}|{{x}",
+    )
+
+    def program(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        rclpy.logging.get_logger("a.b").warning("hello {name}")
+
+    run(program)
+    assert capsys.readouterr().err == (
+        "WARN|a.b|hello {name}|program|test_rclpy_logging.py|1800000000000000000|2027-01-15 08:00:00.000|{odd}|{{x}\n"
+    )
+
+
+def test_levels_are_read_and_forgotten(world: World) -> None:
+    logging = rclpy.logging
+    logging.set_logger_level("a", logging.LoggingSeverity.ERROR)
+    logging.set_logger_level("", 10)
+    assert logging.get_logger_level("a") == 40
+    assert logging.get_logger_level("a.b") == logging.LoggingSeverity.UNSET
+    assert logging.get_logger_effective_level("a.b") == 40
+    assert logging.get_logger_effective_level("other") == logging.LoggingSeverity.DEBUG
+    assert logging.get_logger("a").get_child("b").is_enabled_for(40)
+    logging.clear_config()
+    assert logging.get_logger_effective_level("a.b") == logging.LoggingSeverity.INFO
+    assert logging.get_logger_level("") == logging.LoggingSeverity.INFO
+    assert logging.get_logging_severity_from_string("Warn") == 30
+
+
+def test_where_a_robot_would_keep_its_log_files(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROS_HOME", "/ros")
+    assert str(rclpy.logging.get_logging_directory()) == "/ros/log"
+    monkeypatch.setenv("ROS_LOG_DIR", "/logs")
+    assert str(rclpy.logging.get_logging_directory()) == "/logs"
+
+
+def test_levels_are_asked_for_and_set_by_services(world: World) -> None:
+    from rcl_interfaces.msg import LoggerLevel
+    from rcl_interfaces.srv import GetLoggerLevels, SetLoggerLevels
+
+    def program() -> None:
+        rclpy.init(args=[])
+        rclpy.spin(Node("demo", namespace="ns", enable_logger_service=True))
+
+    world.spawn(program, name="demo")
+    rclpy.init(args=[])
+    node = rclpy.create_node("asker")
+    world.sim.run_until(100_000_000)
+    setter = node.create_client(SetLoggerLevels, "/ns/demo/set_logger_levels")
+    wishes = [LoggerLevel(name="ns.demo", level=10), LoggerLevel(name="x", level=15)]
+    results = setter.call(SetLoggerLevels.Request(levels=wishes)).results
+    assert [(each.successful, each.reason) for each in results] == [
+        (True, ""),
+        (False, "Failed reason: Invalid logger level."),
+    ]
+    getter = node.create_client(GetLoggerLevels, "/ns/demo/get_logger_levels")
+    levels = getter.call(GetLoggerLevels.Request(names=["ns.demo", "y"])).levels
+    assert [(each.name, each.level) for each in levels] == [("ns.demo", 10), ("y", 0)]

@@ -15,6 +15,7 @@ from .core import EPOCH, Process, Simulation, running_strand, virtual_random, vi
 from .core.process import Output
 from .core.program_modules import run_program
 from .core.stdlib import home, lend
+from .core.tracebacks import is_library
 from .graph import Graph
 from .trace import Trace
 from .workspace.index import PackageIndex
@@ -97,7 +98,16 @@ def _notebook() -> Process | None:
     return None if _current is None else _current.notebook
 
 
+def _is_learners(filename: str) -> bool:
+    """Whether a file is a learner's own: it lies beside the notebook, or is a module of a package that was sourced."""
+    if is_library(filename) or _current is None:
+        return False
+    folders = [folder for package in _current.packages for folder in (*package.modules, package.prefix) if folder]
+    return Path(filename).parent == Path.cwd() or any(Path(filename).is_relative_to(folder) for folder in folders)
+
+
 home.Notebook.process = staticmethod(_notebook)
+home.Notebook.is_learners = staticmethod(_is_learners)
 
 
 def current_process() -> Process:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ..core.process import Output
     from ..world import World
 
-__all__ = ["live_rate", "run"]
+__all__ = ["live_rate", "run", "run_here"]
 
 BACKGROUND = "background"
 """The mark of a process that goes on in the background: its verb never ends by itself."""
@@ -65,6 +65,22 @@ def run(
         if background:
             return _start_in_background(world, call, words)
         return _run_as_process(world, call, words, out_to, error_to)
+
+
+def run_here(words: Sequence[str]) -> int:
+    """Run one command as part of the running process, as a launch file does; what has no end goes on until Ctrl-C."""
+    from ..world import current_process
+
+    try:
+        call = parse(words[1:])
+    except Stop as stop:
+        print(stop.text, file=sys.stderr if stop.code else sys.stdout)
+        return stop.code
+    current_process().locals.update({"cwd": Path.cwd(), BACKGROUND: True})
+    try:
+        return _guarded(call)
+    except KeyboardInterrupt:
+        return INTERRUPTED
 
 
 def _run_in_cell(call: Call, stdout: Any, stderr: Any) -> int:

@@ -72,9 +72,17 @@ def drive(simulation: Simulation, process: Process, function: Callable[..., T], 
     return call.value
 
 
+def waiting_for(strand: Strand) -> str:
+    """What a strand waits for that nobody has named."""
+    from .stdlib.hopeless_words import LOCK, wait_of
+
+    what = wait_of(strand)
+    return "this call" if what == LOCK and strand.waits_for is None else what
+
+
 def why_not_done(simulation: Simulation, strand: Strand) -> SimulationError:
     """What to tell somebody whose call did not end: that nothing is left that could end it, or that it took too long."""
-    what = strand.activity or "this call"
+    what = strand.activity or waiting_for(strand)
     if not simulation.busy:
         return NeverWakes(
             f"{what} waits for something that can never happen: nothing in this world is running any more. "

@@ -8,9 +8,11 @@ from __future__ import annotations
 
 import os
 import re
+import site
 import sys
 import traceback
 from pathlib import Path
+from sysconfig import get_path
 from types import TracebackType
 from typing import TextIO
 
@@ -18,6 +20,9 @@ OUR_FOLDER = str(Path(__file__).resolve().parents[2]) + os.sep
 FINISHED_FOLDER = os.path.join(OUR_FOLDER, "robot_controller", "")
 PACKAGE_FOLDER = str(Path(__file__).resolve().parents[3]) + os.sep
 LIBRARY_FOLDER = os.path.dirname(os.__file__) + os.sep
+INSTALLED_FOLDERS = tuple(
+    os.path.join(folder, "") for folder in (*site.getsitepackages(), site.getusersitepackages(), get_path("purelib"))
+)
 FAR = 1
 """A file that is further up than that is not in the learner's workspace: its whole path is clearer."""
 
@@ -35,7 +40,7 @@ def is_ours(filename: str) -> bool:
 
 def is_library(filename: str) -> bool:
     """Whether a file is part of Python itself, of a package that was installed, or of this one."""
-    return is_ours(filename) or "site-packages" in filename or "dist-packages" in filename
+    return is_ours(filename) or filename.startswith(INSTALLED_FOLDERS)
 
 
 def traceback_entries(trace: TracebackType | None) -> list[TracebackType]:

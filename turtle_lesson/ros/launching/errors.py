@@ -47,9 +47,13 @@ class LaunchError(Exception):
 
 
 def place_of(error: BaseException, written_at: Place | None = None) -> Place | None:
-    """The line to look at: a syntax error's, else the learner's innermost one, else the action's own."""
+    """The line to look at: the one that an XML or YAML file's reader names, a syntax error's, else the learner's innermost one, else the action's own."""
     linecache.checkcache()
     causes = _causes(error)
+    for cause in reversed(causes):
+        place: Place | None = getattr(cause, "place", None)
+        if place is not None:
+            return place
     for cause in causes:
         if isinstance(cause, SyntaxError) and cause.filename and cause.lineno and not is_ours(cause.filename):
             return cause.filename, cause.lineno

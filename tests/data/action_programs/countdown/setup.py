@@ -8,9 +8,12 @@ PROGRAMS = [
     "queue_server",
     "deferring_server",
     "plain_server",
+    "asyncio_server",
     "client",
     "cancelling_client",
     "plain_client",
+    "blocking_client",
+    "asyncio_client",
     "relay",
 ]
 

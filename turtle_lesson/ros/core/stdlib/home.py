@@ -2,7 +2,8 @@
 
 Locks, threads and their kin belong to the simulation if they are made
 
-- by code that runs in a simulated process, whatever code that is, or
+- by code that runs in a simulated process, whatever code that is, except for what the module of a library makes while it
+  is imported: it is there for everybody; or
 - in the notebook, while a world is open and in the thread that the world lives in, directly by code of a cell (of the
   module `__main__`) or of a file of the learner's own. What the modules `threading`, `queue` and `concurrent.futures`
   make on the way counts as made by whoever called them.
@@ -15,10 +16,12 @@ from __future__ import annotations
 import sys
 from _thread import get_ident
 from collections.abc import Callable
+from inspect import CO_OPTIMIZED
 from types import FrameType
 from typing import TYPE_CHECKING
 
 from ..strand import Strand, getcurrent
+from ..tracebacks import is_library
 
 if TYPE_CHECKING:
     from ..process import Process
@@ -48,7 +51,7 @@ def process_here() -> Process | None:
     """The simulated process that a thing made here belongs to; None if it is to be Python's own."""
     strand = getcurrent()
     if type(strand) is Strand:
-        return strand.process
+        return None if _is_library_imported() else strand.process
     notebook = notebook_here()
     return notebook if notebook is not None and _is_called_by_learner() else None
 
@@ -59,6 +62,14 @@ def notebook_here() -> Process | None:
     if process is None or process.simulation.closed or get_ident() != process.simulation.thread:
         return None
     return process
+
+
+def _is_library_imported() -> bool:
+    """Whether it is the module of a library, or the body of a class in it, that makes something."""
+    frame = maker(sys._getframe(1))
+    if frame is None or frame.f_code.co_flags & CO_OPTIMIZED:  # as all functions are
+        return False
+    return is_library(frame.f_code.co_filename)
 
 
 def _is_called_by_learner() -> bool:
@@ -77,3 +88,16 @@ def maker(frame: FrameType | None) -> FrameType | None:
             return frame
         frame = frame.f_back
     return None
+
+
+def in_no_strand(real: Callable[..., Any]) -> Callable[..., Any]:
+    """A function that does as in plain code, also where a strand calls it: it waits for real threads, in real time."""
+
+    def call(*arguments: Any, **keywords: Any) -> Any:
+        if type(getcurrent()) is not Strand:
+            return real(*arguments, **keywords)
+        aside = greenlet(real)
+        aside.gr_context = copy_context()
+        return aside.switch(*arguments, **keywords)
+
+    return call

@@ -24,6 +24,8 @@ def look_for_hope(strand: Strand) -> None:
 
     Raises NeverWakes if that can never end; if the fault is another strand's, it is raised there.
     """
+    if _has_it_itself(strand):
+        raise NeverWakes(why_in_a_circle(strand, [strand], strand))
     chain = list(_waited_for(strand))
     last = chain[-1]
     owner = _sure_owner(last)
@@ -70,6 +72,14 @@ def _sure_owner(strand: Strand) -> Strand | None:
     """The only strand that can end the wait of this one, if there is only one."""
     lock = strand.waits_for
     return lock.owner if getattr(lock, "surely", False) else None
+
+
+def _has_it_itself(strand: Strand) -> bool:
+    """Whether a cell waits for a lock that it has taken itself, by `with`, before it let the simulation run."""
+    lock = strand.waits_for
+    if strand is not strand.simulation.driven or not getattr(lock, "surely", False):
+        return False
+    return lock.owner is None
 
 
 def _waits_in_vain(strand: Strand) -> bool:

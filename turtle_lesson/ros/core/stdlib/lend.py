@@ -25,7 +25,7 @@ from ..strand import Strand, getcurrent
 from ..program_modules import ProgramFinder, on_import
 from . import dates, exits, identity, local, locks, loops, own_modules, pools, refused, signals, threads, time_of_day
 from .facade import facade
-from .home import process_here
+from .home import in_no_strand, process_here
 
 _replaced: list[tuple[Any, str, Any]] = []
 
@@ -41,6 +41,7 @@ def install() -> None:
     _install_signals()
     _install_refusals()
     _install_modules()
+    _install_streams()
     for function in time_of_day.REPLACEMENTS:
         replace_function(time, function.__name__, function)
     atexit.register(_restore)  # nothing may ask which greenlet runs while Python takes itself apart
@@ -134,6 +135,7 @@ def _install_pools() -> None:
     replace_method(kind, "__init__", pools.init)
     replace_function(kind, "_counter", pools.next_number)
     replace(pool, "_global_shutdown_lock", pools.NotInStrands())
+    replace(pool, "_threads_queues", pools.Queues(pool._threads_queues))  # type: ignore[attr-defined]
 
 
 def _install_loops() -> None:
@@ -141,6 +143,13 @@ def _install_loops() -> None:
         name = function.__name__
         replace_function(asyncio.events, name, function)
         replace(asyncio, name, getattr(asyncio.events, name))
+
+
+def _install_streams() -> None:
+    """Jupyter's streams wait for a thread of their own where they are flushed: no robot time passes meanwhile."""
+    streams: Any = sys.modules.get("ipykernel.iostream")
+    if streams is not None:
+        replace_method(streams.OutStream, "flush", in_no_strand(streams.OutStream.flush))
 
 
 def _install_signals() -> None:

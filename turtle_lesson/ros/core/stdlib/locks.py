@@ -13,6 +13,7 @@ from collections import deque
 from typing import Any
 
 from ..driving import drive
+from ..errors import WorldClosed
 from ..simulation import NANOSECONDS
 from ..strand import Strand, getcurrent, running_strand
 from .home import notebook_here
@@ -116,10 +117,18 @@ class VirtualLock:
         """Wait where no simulated process runs: in a cell by running the simulation, in another thread really."""
         notebook = notebook_here()
         if notebook is None:
+            self._refuse_if_closed()
             return self._lock.acquire(True, timeout)
         taken = drive(notebook.simulation, notebook, self.acquire, True, timeout)
         self.owner = None  # the cell has it now, and not the strand that waited for the cell
         return taken
+
+    def _refuse_if_closed(self) -> None:
+        if self.owner is not None and self.owner.simulation.closed:
+            raise WorldClosed(
+                "this would wait for a thread of a world that was closed by a later start(), and so for ever: make new "
+                "locks, queues and threads in the new world"
+            )
 
     def _at_fork_reinit(self) -> None:
         self._lock._at_fork_reinit()  # type: ignore[attr-defined]

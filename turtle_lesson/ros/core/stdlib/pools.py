@@ -7,6 +7,7 @@ its names by process. When the main program ends, pools finish what they have be
 from __future__ import annotations
 
 import queue
+import weakref
 from _thread import allocate_lock
 from concurrent.futures import thread as pool
 from typing import TYPE_CHECKING, Any
@@ -71,7 +72,6 @@ def remember(process: Process) -> None:
     if "pools.end" not in process.locals:
         process.locals["pools.end"] = True
         process.before_exit.append(lambda: end_pools(process))
-        process.at_exit.append(lambda: _forget(process))
 
 
 def end_pools(process: Process) -> None:
@@ -88,13 +88,19 @@ def end_pools(process: Process) -> None:
 
 
 def _workers(process: Process) -> list[tuple[threading.Thread, Any]]:
-    own = [strand.thread for strand in process.strands if strand.thread is not None and is_worker(strand.thread)]
-    queues: Any = pool._threads_queues  # type: ignore[attr-defined]
-    return [(thread, queues[thread]) for thread in own if thread in queues and thread.is_alive()]
+    queues = process.locals.get("pools.queues", {})
+    return [(thread, work) for thread, work in queues.items() if thread.is_alive()]
 
 
-def _forget(process: Process) -> None:
-    """Nobody waits for these threads when Python itself ends."""
-    queues: Any = pool._threads_queues  # type: ignore[attr-defined]
-    for thread in [strand.thread for strand in process.strands if strand.thread is not None]:
-        queues.pop(thread, None)
+class Queues(weakref.WeakKeyDictionary[Any, Any]):
+    """By thread, the queue from which it gets its work. Python waits for these threads when it ends.
+
+    It need not wait for those of simulated processes: they are kept by the process.
+    """
+
+    def __setitem__(self, thread: Any, work: Any) -> None:
+        strand = vars(thread).get("_strand")
+        if strand is None:
+            super().__setitem__(thread, work)
+        else:
+            strand.process.locals.setdefault("pools.queues", {})[thread] = work

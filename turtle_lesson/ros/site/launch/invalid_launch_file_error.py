@@ -5,10 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 
-class InvalidFrontendLaunchFileError(Exception):
-    """A launch file that is neither XML nor YAML."""
-
-
 class InvalidLaunchFileError(Exception):
     """A launch file could not be loaded; the text lists what each loader said."""
 
@@ -18,7 +14,7 @@ class InvalidLaunchFileError(Exception):
         super().__init__(self._text())
 
     def _text(self) -> str:
-        if not self.likely_errors:
+        if not self.likely_errors or not self.extension:
             return "The launch file may have a syntax error, or its format is unknown"
         if len(self.likely_errors) == 1:
             what = f"Caught exception when trying to load file of format [{self.extension}]"
@@ -26,6 +22,10 @@ class InvalidLaunchFileError(Exception):
         lines = [f" - {type(error).__name__}: {_text(error)}" for error in self.likely_errors]
         what = f"Caught multiple exceptions when trying to load file of format [{self.extension}]:"
         return "\n".join([what, *lines])
+
+
+class InvalidFrontendLaunchFileError(InvalidLaunchFileError):
+    """A launch file that is neither XML nor YAML."""
 
 
 def _text(error: BaseException) -> str:

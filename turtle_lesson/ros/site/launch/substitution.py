@@ -15,6 +15,9 @@ class Substitution:
         """The text, in this context."""
         raise NotImplementedError(f"{type(self).__name__} must define perform(self, context)")
 
+    def __repr__(self) -> str:
+        return self.describe()
+
     def describe(self) -> str:
         """How `--show-args` shows it."""
         return f"{type(self).__name__}()"

@@ -62,7 +62,7 @@ def _hint(error: expat.ExpatError) -> str:
     said = expat.ErrorString(error.code)
     return {
         "mismatched tag": "Every <tag> needs its </tag>, in the right order, or ends with />.",
-        "not well-formed (invalid token)": 'Values stand in quotation marks; & is written &amp; and < is &lt;.',
+        "not well-formed (invalid token)": "Values stand in quotation marks; & is written &amp; and < is &lt;.",
         "no element found": "The file ends too early: is </launch> missing?",
         "junk after document element": "Everything stands between <launch> and </launch>.",
         "unclosed token": "A tag is not closed: is > or a quotation mark missing?",

@@ -123,9 +123,7 @@ class Entity(BaseEntity):
 
     def _nested(self, name: str, value: Any) -> list[Entity]:
         if not isinstance(value, list) or not all(isinstance(item, dict) for item in value):
-            error = TypeError(
-                f"Attribute '{name}' of Entity '{self.type_name}' expected to be a list of dictionaries."
-            )
+            error = TypeError(f"Attribute '{name}' of Entity '{self.type_name}' expected to be a list of dictionaries.")
             error.hint = f"Begin each {name} with a hyphen."  # type: ignore[attr-defined]
             raise error
         lines = [min(getattr(item, "lines", {}).values(), default=None) for item in value]

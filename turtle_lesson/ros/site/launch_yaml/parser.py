@@ -9,6 +9,8 @@ import yaml
 from launch import frontend
 from launch.frontend.parser import read
 
+from turtle_lesson.ros.core.tracebacks import shown_path
+
 from .entity import Entity, Mapping
 
 
@@ -30,7 +32,7 @@ class Parser(frontend.Parser):
             RuntimeError: if it has not exactly one root.
         """
         try:
-            tree = yaml.load(text, _Loader)
+            tree = _tree(text, name)
         except yaml.MarkedYAMLError as error:
             if error.problem_mark is not None:
                 error.place = (name, error.problem_mark.line + 1)  # type: ignore[attr-defined]
@@ -48,6 +50,15 @@ class Parser(frontend.Parser):
     def get_file_extensions(cls) -> set[str]:
         """How such files end."""
         return {"launch.yaml", "launch.yml"}
+
+
+def _tree(text: str, name: str) -> Any:
+    loader = _Loader(text)
+    loader.name = shown_path(name) or loader.name
+    try:
+        return loader.get_single_data()
+    finally:
+        loader.dispose()
 
 
 class _Loader(yaml.SafeLoader):

@@ -34,15 +34,18 @@ class Alarm:
         self.rung = True
         self.strand.simulation.wake(self.strand)
 
-    def wait(self, deadline: int | None) -> bool:
-        """Wait until the deadline (ns of the simulation; None for ever); whether it rang before."""
+    def wait(self, deadline: int | None, *, only_from_within: bool = True) -> bool:
+        """Wait until the deadline (ns of the simulation; None for ever); whether it rang before.
+
+        `only_from_within`: nobody but another thread of this process can ring it.
+        """
         simulation, strand = self.strand.simulation, self.strand
         if deadline is not None and simulation.now < deadline:
             simulation.at(deadline, simulation.wake, strand)
         try:
             while not self.rung and (deadline is None or simulation.now < deadline):
-                if deadline is None:
-                    wait_in_vain(strand, "a tick of its clock")
+                if deadline is None and only_from_within:
+                    wait_in_vain(strand, "the next tick")
                 simulation.park(strand)
         finally:
             strand.waits_for = None

@@ -15,6 +15,10 @@ if TYPE_CHECKING:
     from .task import Future
 
 
+FOR_ALL = object()
+"""Stands for a future that is cancelled for good, not only for one of asyncio's coroutines."""
+
+
 def refuse_in_a_cell() -> None:
     """Raise RuntimeError in a coroutine of the notebook's own loop: while that one waits, no robot time passes."""
     if running_strand() is None and asyncio._get_running_loop() is not None:
@@ -31,5 +35,14 @@ def called_by_its_loop(callback: Callable[..., Any], context: Any) -> Callable[[
     def call(future: Future) -> None:
         loop.call_soon_threadsafe(callback, future, context=context)
 
-    call._at_once = True  # type: ignore[attr-defined]
+    call._at_once = call._of_asyncio = True  # type: ignore[attr-defined]
     return call
+
+
+def let_asyncio_go_on(future: Future) -> bool:
+    """Wake the coroutines of asyncio's that await a future: one of them is cancelled, the others wait on."""
+    callbacks = [each for each in future._callbacks if getattr(each, "_of_asyncio", False)]
+    for callback in callbacks:
+        future._callbacks.remove(callback)
+        callback(future)
+    return False

@@ -140,10 +140,15 @@ def get_parameter_value(string_value: str) -> Any:
     except (yaml.YAMLError, ValueError):
         value = string_value
     for kind in (Parameter.Type[name] for name in _TRIED):
-        if kind.check(value):
+        if kind.check(value) and (kind.name not in ("INTEGER", "INTEGER_ARRAY") or _fits(value)):
             return Parameter("", kind, value).get_parameter_value()
     text = value if isinstance(value, str) else string_value
     return Parameter("", Parameter.Type.STRING, text).get_parameter_value()
+
+
+def _fits(value: Any) -> bool:
+    """Whether whole numbers are not too large for a parameter."""
+    return all(-(2**63) <= number < 2**63 for number in (value if isinstance(value, list) else [value]))
 
 
 _TRIED = ("BOOL", "INTEGER", "DOUBLE", "BOOL_ARRAY", "INTEGER_ARRAY", "DOUBLE_ARRAY", "STRING_ARRAY")

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from turtle_lesson.ros.core import NeverWakes, running_strand
 
-from ._asyncio import called_by_its_loop, refuse_in_a_cell
+from ._asyncio import FOR_ALL, called_by_its_loop, let_asyncio_go_on, refuse_in_a_cell
 from ._deadlock import why_never_awaited
 from ._mistakes import explain_event_loop
 
@@ -30,9 +30,6 @@ def at_once(callback: Function) -> Function:
 
 class Future:
     """Something that will be known later. States: waiting, then done with a result or an exception, or cancelled."""
-
-    _asyncio_future_blocking = False
-    """Tells asyncio that this can be awaited in its coroutines."""
 
     def __init__(self, *, executor: Executor | None = None) -> None:
         self._done = False
@@ -52,7 +49,7 @@ class Future:
     def __await__(self) -> Generator[Future, None, Any]:
         refuse_in_a_cell()
         while not self._done:
-            self._asyncio_future_blocking = True
+            self._asyncio_future_blocking = True  # for asyncio's tasks, should this be awaited in one of them
             yield self
         return self.result()
 
@@ -60,11 +57,17 @@ class Future:
         """The asyncio loop whose coroutine awaits this: asyncio asks for it."""
         return asyncio.get_running_loop()
 
-    def cancel(self) -> None:
-        """Give up waiting: the future counts as cancelled, its callbacks are called."""
+    def cancel(self, msg: Any = FOR_ALL) -> bool | None:
+        """Give up waiting: the future counts as cancelled, its callbacks are called.
+
+        Only asyncio gives a `msg`: then its coroutines give up waiting, and nothing becomes of the future.
+        """
+        if msg is not FOR_ALL:
+            return let_asyncio_go_on(self)
         if not self._done:
             self._cancelled = True
             self._call_callbacks()
+        return None
 
     def cancelled(self) -> bool:
         """Whether it was cancelled."""
@@ -185,12 +188,15 @@ class Task(Future):
         """Whether a step of it runs right now."""
         return self._executing
 
-    def cancel(self) -> None:
+    def cancel(self, msg: Any = FOR_ALL) -> bool | None:
         """Stop the coroutine where it waits."""
+        if msg is not FOR_ALL:
+            return super().cancel(msg)
         if inspect.iscoroutine(self._handler) and not self._executing:
             self._handler.close()
         super().cancel()
         self._end()
+        return None
 
     def __call__(self) -> None:
         """Do one step: until the coroutine waits for something, or ends. Errors are kept for `result()`."""

@@ -33,7 +33,8 @@ def wait_for_message(
     alarm = Alarm(node.context)
     subscription._reader.wake = alarm.ring
     try:
-        alarm.wait(None if time_to_wait < 0 else simulation.now + int(time_to_wait * NANOSECONDS))
+        deadline = None if time_to_wait < 0 else simulation.now + int(time_to_wait * NANOSECONDS)
+        alarm.wait(deadline, only_from_within=False)
         return (True, subscription._take()[0]) if subscription._has_work() else (False, None)
     finally:
         node.destroy_subscription(subscription)

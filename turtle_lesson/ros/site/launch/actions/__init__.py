@@ -13,6 +13,7 @@ from .environment import (
 )
 from .execute_local import ExecuteLocal
 from .execute_process import ExecuteProcess
+from .for_loop import ForEach, ForLoop
 from .group_action import GroupAction
 from .include_launch_description import IncludeLaunchDescription
 from .launch_configurations import (
@@ -22,7 +23,8 @@ from .launch_configurations import (
     SetLaunchConfiguration,
     UnsetLaunchConfiguration,
 )
-from .log_info import LogInfo
+from .log import Log, LogDebug, LogError, LogInfo, LogWarning
+from .opaque_coroutine import OpaqueCoroutine
 from .opaque_function import OpaqueFunction
 from .register_event_handler import RegisterEventHandler, UnregisterEventHandler
 from .shutdown_action import Shutdown
@@ -34,9 +36,16 @@ __all__ = [
     "EmitEvent",
     "ExecuteLocal",
     "ExecuteProcess",
+    "ForEach",
+    "ForLoop",
     "GroupAction",
     "IncludeLaunchDescription",
+    "Log",
+    "LogDebug",
+    "LogError",
     "LogInfo",
+    "LogWarning",
+    "OpaqueCoroutine",
     "OpaqueFunction",
     "PopEnvironment",
     "PopLaunchConfigurations",
@@ -57,14 +66,7 @@ __all__ = [
 __getattr__ = explain_missing(
     __name__,
     {
-        "ForEach": "write a Python loop that makes the list of actions",
-        "ForLoop": "write a Python loop that makes the list of actions",
-        "Log": "use LogInfo",
-        "LogDebug": "use LogInfo",
-        "LogError": "use LogInfo",
-        "LogWarning": "use LogInfo",
-        "OpaqueCoroutine": "use OpaqueFunction, or a TimerAction",
-        "SetROSLogDir": "there are no log files here",
+        "SetROSLogDir": "it is in launch_ros: from launch_ros.actions import SetROSLogDir",
         "Node": "it is in launch_ros: from launch_ros.actions import Node",
     },
 )

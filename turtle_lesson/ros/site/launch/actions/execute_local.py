@@ -41,7 +41,7 @@ class Program:
 
 
 class ExecuteLocal(Action):
-    """Base of the actions that run a program; in this classroom that can be a node's only."""
+    """Base of the actions that run a program: in this classroom a node, a `ros2` command or a Python file."""
 
     _completes_later = True
 
@@ -117,16 +117,16 @@ class ExecuteLocal(Action):
                 "prefix= puts another program (xterm, gdb, …) before the node; in this classroom nodes run "
                 "inside the notebook, so there is no command to put anything before. Leave prefix out"
             )
-        if self.shell:
-            raise NotImplementedError("shell=True needs a shell, and this classroom has none yet")
 
     def _find_program(self, context: LaunchContext) -> Program:
-        """What to run, for subclasses to say."""
-        command = " ".join(self.process_description.final_cmd)
-        raise NotImplementedError(
-            f"ExecuteProcess(cmd='{command}') would run a program of the operating system; this classroom "
-            "starts ROS nodes only, yet. Use Node(package=…, executable=…)"
-        )
+        """What to run: a command of this classroom, unless a subclass knows better.
+
+        Raises:
+            UnknownCommand: if there is none of this name here.
+        """
+        from turtle_lesson.ros.launching.commands import program
+
+        return program(self.process_description.final_cmd, shell=self.shell)
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Have the process started."""

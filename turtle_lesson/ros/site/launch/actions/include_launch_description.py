@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping
-from typing import Any, List
+from typing import Any
 
 from ..action import Action
 from ..frontend import Entity, Parser, expose_action
@@ -59,7 +59,7 @@ class IncludeLaunchDescription(Action):
         kwargs["launch_description_source"] = parser.parse_substitution(entity.get_attr("file"))
         given = []
         for tag in ("arg", "let"):
-            for argument in entity.get_attr(tag, data_type=List[Entity], optional=True) or []:  # noqa: UP006
+            for argument in entity.get_attr(tag, data_type=list[Entity], optional=True) or []:
                 name = parser.parse_substitution(argument.get_attr("name"))
                 given.append((name, parser.parse_substitution(argument.get_attr("value"))))
                 argument.assert_entity_completely_parsed()

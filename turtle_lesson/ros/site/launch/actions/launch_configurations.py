@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, MutableMapping
-from typing import Any, List
+from typing import Any
 
 from ..action import Action
 from ..frontend import Entity, Parser, expose_action
@@ -85,7 +85,7 @@ class ResetLaunchConfigurations(Action):
 def kept(entity: Entity, parser: Parser) -> dict[Any, Any]:
     """The names and values of the `keep` tags in a tag."""
     found = {}
-    for keep in entity.get_attr("keep", data_type=List[Entity], optional=True) or []:  # noqa: UP006
+    for keep in entity.get_attr("keep", data_type=list[Entity], optional=True) or []:
         name = tuple(parser.parse_substitution(keep.get_attr("name")))
         found[name] = parser.parse_substitution(keep.get_attr("value"))
         keep.assert_entity_completely_parsed()

@@ -30,7 +30,12 @@ class Log(Action):
     """Prints `[LEVEL] [launch.user]: …`. Debug lines are dropped, as at launch's default verbosity."""
 
     def __init__(
-        self, *, msg: SomeSubstitutionsType, level: SomeSubstitutionsType, logger_name: str = "launch.user", **kwargs: Any
+        self,
+        *,
+        msg: SomeSubstitutionsType,
+        level: SomeSubstitutionsType,
+        logger_name: str = "launch.user",
+        **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
         self.__msg = normalize_to_list_of_substitutions(msg)

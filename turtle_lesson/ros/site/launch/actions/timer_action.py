@@ -42,9 +42,7 @@ class TimerAction(Action):
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type, dict[str, Any]]:
         """Its arguments from `period`, `cancel_on_shutdown` and the actions in it."""
         _, kwargs = super().parse(entity, parser)
-        kwargs["period"] = parser.parse_if_substitutions(
-            entity.get_attr("period", data_type=float, can_be_str=True)
-        )
+        kwargs["period"] = parser.parse_if_substitutions(entity.get_attr("period", data_type=float, can_be_str=True))
         cancel = entity.get_attr("cancel_on_shutdown", data_type=bool, optional=True, can_be_str=True)
         if cancel is not None:
             kwargs["cancel_on_shutdown"] = parser.parse_if_substitutions(cancel)

@@ -85,6 +85,4 @@ def _parse_method(exposed: Any, name: str, kind: str) -> Callable[..., Any]:
         return method
     if inspect.isfunction(exposed):
         return exposed
-    raise RuntimeError(
-        f"Exposed {kind} parser for {name} is not a callable or a class containing a parse method"
-    )
+    raise RuntimeError(f"Exposed {kind} parser for {name} is not a callable or a class containing a parse method")

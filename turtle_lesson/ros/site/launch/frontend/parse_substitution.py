@@ -146,7 +146,9 @@ class _Reader:
         return self._text.startswith("$(", self._at)
 
     def _wrong(self, hint: str) -> SubstitutionSyntaxError:
-        what = f"No terminal matches {self._here!r} in the current parser context" if self._here else (
-            "Unexpected end-of-input"
+        what = (
+            f"No terminal matches {self._here!r} in the current parser context"
+            if self._here
+            else ("Unexpected end-of-input")
         )
         return SubstitutionSyntaxError(f"{what}, at line 1 col {self._at + 1} of {self._text!r}", hint)

@@ -1,18 +1,23 @@
-"""`AnyLaunchDescriptionSource`: a launch file of any kind, of which Python ones can be read here."""
+"""`AnyLaunchDescriptionSource`: a launch file of any kind; this is what `ros2 launch` uses."""
 
 from __future__ import annotations
 
 import os
 
+from ..frontend import Parser
 from ..invalid_launch_file_error import InvalidFrontendLaunchFileError, InvalidLaunchFileError
 from ..launch_description import LaunchDescription
 from ..launch_description_source import LaunchDescriptionSource
 from ..some_types import SomeSubstitutionsType
-from .python_launch_file_utilities import get_launch_description_from_python_launch_file
+from .frontend_launch_file_utilities import get_launch_description_from_frontend_launch_file
+from .python_launch_file_utilities import get_launch_description_from_python_launch_file, why_no_python
+
+ENDINGS = ("launch.xml", "launch.yaml", "launch.yml")
+"""How the names of XML and YAML launch files end, with a dot or an underscore before."""
 
 
 class AnyLaunchDescriptionSource(LaunchDescriptionSource):
-    """Gets the description from a launch file, whatever its format; this is what `ros2 launch` uses."""
+    """Gets the description from a launch file, whatever its format."""
 
     def __init__(self, launch_file_path: SomeSubstitutionsType) -> None:
         super().__init__(None, launch_file_path, "interpreted launch file")
@@ -21,20 +26,35 @@ class AnyLaunchDescriptionSource(LaunchDescriptionSource):
         return get_launch_description_from_any_launch_file(location)
 
 
-def get_launch_description_from_any_launch_file(launch_file_path: str) -> LaunchDescription:
+def get_launch_description_from_any_launch_file(
+    launch_file_path: str, *, parser: type[Parser] = Parser
+) -> LaunchDescription:
     """The description in a launch file.
 
     Raises:
         InvalidLaunchFileError: caused by what went wrong in the file; its text is the real one.
     """
     extension = os.path.splitext(launch_file_path)[1].lstrip(".")
-    if extension in {"xml", "yaml", "yml"}:
-        what = f"{extension.upper()} launch files cannot be read in this classroom yet, Python ones can"
-        raise InvalidLaunchFileError(extension, likely_errors=[NotImplementedError(what)])
+    if extension not in {"xml", "yaml", "yml"}:
+        return _from_python(launch_file_path, extension)
     try:
-        return get_launch_description_from_python_launch_file(launch_file_path)
+        return get_launch_description_from_frontend_launch_file(launch_file_path, parser=parser)
     except FileNotFoundError as error:
         if error.filename == launch_file_path:
+            raise
+        wrong: Exception = error
+    except Exception as error:
+        wrong = error
+    python = why_no_python(launch_file_path)
+    known = extension if os.path.basename(launch_file_path).endswith(ENDINGS) else ""
+    raise InvalidLaunchFileError(known, likely_errors=[wrong, python] if known else []) from wrong
+
+
+def _from_python(path: str, extension: str) -> LaunchDescription:
+    try:
+        return get_launch_description_from_python_launch_file(path)
+    except FileNotFoundError as error:
+        if error.filename == path:
             raise
         raise _invalid(extension, error) from error
     except Exception as error:
@@ -42,5 +62,5 @@ def get_launch_description_from_any_launch_file(launch_file_path: str) -> Launch
 
 
 def _invalid(extension: str, error: Exception) -> InvalidLaunchFileError:
-    no_frontend = InvalidFrontendLaunchFileError(str(InvalidLaunchFileError()))
+    no_frontend = InvalidFrontendLaunchFileError()
     return InvalidLaunchFileError(extension, likely_errors=[error, no_frontend])

@@ -54,3 +54,13 @@ def _hint(module: ModuleType) -> str:
     if close:
         return f"Rename {close[0]}() to generate_launch_description()."
     return "Write: def generate_launch_description(): return LaunchDescription([…])"
+
+
+def why_no_python(path: str) -> Exception:
+    """What the real tool says besides of an XML or YAML file that is wrong, since it tries it as Python, too."""
+    try:
+        compile(Path(path).read_bytes(), path, "exec")
+    except (SyntaxError, ValueError) as error:
+        return error
+    missing = "does not contain the required function 'generate_launch_description()'"
+    return InvalidPythonLaunchFileError(f"launch file at '{shown_path(path)}' {missing}")

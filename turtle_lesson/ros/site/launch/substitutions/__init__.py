@@ -9,13 +9,18 @@ from .boolean_substitution import (
     NotSubstitution,
     OrSubstitution,
 )
+from .command import Command
 from .environment_variable import EnvironmentVariable
 from .equals_substitution import EqualsSubstitution, IfElseSubstitution, NotEqualsSubstitution
+from .file_content import FileContent
 from .find_executable import FindExecutable
+from .for_loop_var import ForEachVar, ForLoopIndex
 from .launch_configuration import LaunchConfiguration
+from .launch_log_dir import LaunchLogDir
 from .local_substitution import LocalSubstitution
-from .path_join_substitution import PathJoinSubstitution
+from .path_join_substitution import PathJoinSubstitution, PathSubstitution
 from .python_expression import PythonExpression
+from .string_join_substitution import StringJoinSubstitution
 from .substitution_failure import SubstitutionFailure
 from .text_substitution import TextSubstitution
 from .this_launch_file import ThisLaunchFile, ThisLaunchFileDir
@@ -25,32 +30,28 @@ __all__ = [
     "AndSubstitution",
     "AnonName",
     "AnySubstitution",
+    "Command",
     "EnvironmentVariable",
     "EqualsSubstitution",
+    "FileContent",
     "FindExecutable",
+    "ForEachVar",
+    "ForLoopIndex",
     "IfElseSubstitution",
     "LaunchConfiguration",
+    "LaunchLogDir",
     "LocalSubstitution",
     "NotEqualsSubstitution",
     "NotSubstitution",
     "OrSubstitution",
     "PathJoinSubstitution",
+    "PathSubstitution",
     "PythonExpression",
+    "StringJoinSubstitution",
     "SubstitutionFailure",
     "TextSubstitution",
     "ThisLaunchFile",
     "ThisLaunchFileDir",
 ]
 
-__getattr__ = explain_missing(
-    __name__,
-    {
-        "Command": "it runs a program of the operating system, and here everything runs inside the notebook",
-        "FileContent": "read the file in Python: open(path).read()",
-        "LaunchLogDir": "there are no log files here",
-        "ThisLaunchFileName": "",
-        "ForEachVar": "",
-        "ForLoopIndex": "",
-        "StringJoinSubstitution": "join the texts in a list: ['a', LaunchConfiguration('b')]",
-    },
-)
+__getattr__ = explain_missing(__name__, {"ThisLaunchFileName": "use ThisLaunchFile"})

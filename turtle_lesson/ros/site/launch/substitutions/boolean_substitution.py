@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from functools import partial
+from typing import Any
+
+from ..frontend.expose import expose_substitution
 from ..launch_context import LaunchContext
 from ..some_types import SomeSubstitutionsType
 from ..substitution import Substitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
+from ._parsing import arguments
 from .substitution_failure import SubstitutionFailure
 
 
@@ -42,8 +47,14 @@ class _Combination(Substitution):
         raise NotImplementedError
 
 
+@expose_substitution("not")
 class NotSubstitution(_Combination):
     """True if its part is false."""
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type, dict[str, Any]]:
+        """Its arguments as they stand behind `$(not `."""
+        return cls, arguments("not", data, ["value"], 1)
 
     def __init__(self, value: SomeSubstitutionsType) -> None:
         super().__init__(value)
@@ -52,8 +63,14 @@ class NotSubstitution(_Combination):
         return not values[0]
 
 
+@expose_substitution("and")
 class AndSubstitution(_Combination):
     """True if both are."""
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type, dict[str, Any]]:
+        """Its arguments as they stand behind `$(and `."""
+        return cls, arguments("and", data, ["left", "right"], 2)
 
     def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
         super().__init__(left, right)
@@ -62,8 +79,14 @@ class AndSubstitution(_Combination):
         return all(values)
 
 
+@expose_substitution("or")
 class OrSubstitution(_Combination):
     """True if one is."""
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type, dict[str, Any]]:
+        """Its arguments as they stand behind `$(or `."""
+        return cls, arguments("or", data, ["left", "right"], 2)
 
     def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
         super().__init__(left, right)
@@ -72,15 +95,27 @@ class OrSubstitution(_Combination):
         return any(values)
 
 
+@expose_substitution("all")
 class AllSubstitution(_Combination):
     """True if all are."""
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type, dict[str, Any]]:
+        """Its parts as they stand behind `$(all `."""
+        return partial(cls, *data), {}  # type: ignore[return-value]
 
     def _combine(self, values: list[bool]) -> bool:
         return all(values)
 
 
+@expose_substitution("any")
 class AnySubstitution(_Combination):
     """True if at least one is."""
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type, dict[str, Any]]:
+        """Its parts as they stand behind `$(any `."""
+        return partial(cls, *data), {}  # type: ignore[return-value]
 
     def _combine(self, values: list[bool]) -> bool:
         return any(values)

@@ -2,15 +2,25 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+from ..frontend.expose import expose_substitution
 from ..launch_context import LaunchContext
 from ..some_types import SomeSubstitutionsType
 from ..substitution import Substitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
+from ._parsing import arguments
 from .substitution_failure import SubstitutionFailure
 
 
+@expose_substitution("env")
 class EnvironmentVariable(Substitution):
     """Stands for the environment variable of a name, as this launch sees it."""
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type, dict[str, Any]]:
+        """Its arguments as they stand behind `$(env `."""
+        return cls, arguments("env", data, ["name", "default_value"], 1)
 
     def __init__(self, name: SomeSubstitutionsType, *, default_value: SomeSubstitutionsType | None = None) -> None:
         self.__name = normalize_to_list_of_substitutions(name)

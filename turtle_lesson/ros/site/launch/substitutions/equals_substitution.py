@@ -5,17 +5,25 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from ..frontend.expose import expose_substitution
 from ..launch_context import LaunchContext
 from ..some_types import SomeSubstitutionsType
 from ..substitution import Substitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
+from ._parsing import arguments
 from .boolean_substitution import truth
 
 Comparable = SomeSubstitutionsType | int | float | bool | None
 
 
+@expose_substitution("equals")
 class EqualsSubstitution(Substitution):
     """`true` if both sides are the same text, the same truth value, or numbers that are nearly equal."""
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type, dict[str, Any]]:
+        """Its arguments as they stand behind `$(equals `."""
+        return cls, arguments("equals", data, ["left", "right"], 2)
 
     def __init__(self, left: Comparable, right: Comparable) -> None:
         self.__sides = [normalize_to_list_of_substitutions(_text(side)) for side in (left, right)]
@@ -39,16 +47,28 @@ class EqualsSubstitution(Substitution):
         return str(self._same(context)).lower()
 
 
+@expose_substitution("not-equals")
 class NotEqualsSubstitution(EqualsSubstitution):
     """The opposite."""
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type, dict[str, Any]]:
+        """Its arguments as they stand behind `$(not-equals `."""
+        return cls, arguments("not-equals", data, ["left", "right"], 2)
 
     def perform(self, context: LaunchContext) -> str:
         """`true` or `false`."""
         return str(not self._same(context)).lower()
 
 
+@expose_substitution("if")
 class IfElseSubstitution(Substitution):
     """One of two texts, by a condition."""
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type, dict[str, Any]]:
+        """Its arguments as they stand behind `$(if `."""
+        return cls, arguments("if", data, ["condition", "if_value", "else_value"], 1)
 
     def __init__(
         self,

@@ -5,15 +5,23 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+from ..frontend.expose import expose_substitution
 from ..launch_context import LaunchContext
 from ..some_types import SomeSubstitutionsType
 from ..substitution import Substitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
+from ._parsing import arguments
 from .substitution_failure import SubstitutionFailure
 
 
+@expose_substitution("var")
 class LaunchConfiguration(Substitution):
     """Stands for the launch argument or configuration of a name."""
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type, dict[str, Any]]:
+        """Its arguments as they stand behind `$(var `."""
+        return cls, arguments("var", data, ["variable_name", "default"], 1)
 
     def __init__(
         self,
@@ -63,4 +71,7 @@ def _hint(name: str, context: LaunchContext) -> str:
     close = difflib.get_close_matches(name, list(context.launch_configurations), n=1)
     if close:
         return f"Did you mean LaunchConfiguration('{close[0]}')?"
-    return f"Put DeclareLaunchArgument('{name}', default_value='…') before its first use."
+    return (
+        f"Before its first use put DeclareLaunchArgument('{name}', default_value='…'), "
+        f"in XML <arg name=\"{name}\" default=\"…\"/>."
+    )

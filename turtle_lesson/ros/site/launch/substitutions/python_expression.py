@@ -5,15 +5,23 @@ from __future__ import annotations
 import importlib
 from typing import Any
 
+from ..frontend.expose import expose_substitution
 from ..launch_context import LaunchContext
 from ..some_types import SomeSubstitutionsType
 from ..substitution import Substitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
+from ._parsing import arguments
 from .substitution_failure import SubstitutionFailure
 
 
+@expose_substitution("eval")
 class PythonExpression(Substitution):
     """Evaluates an expression; the names of the modules, and what `math` has in it, may be used."""
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type, dict[str, Any]]:
+        """Its arguments as they stand behind `$(eval `."""
+        return cls, arguments("eval", data, ["expression", "python_modules"], 1)
 
     def __init__(
         self,

@@ -4,13 +4,21 @@ from __future__ import annotations
 
 from typing import Any
 
+from ..frontend.expose import expose_substitution
 from ..launch_context import LaunchContext
 from ..substitution import Substitution
+from ._parsing import arguments
 from .substitution_failure import SubstitutionFailure
 
 
+@expose_substitution("filename")
 class ThisLaunchFile(Substitution):
     """The path of the launch file."""
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type, dict[str, Any]]:
+        """Its arguments as they stand behind `$(filename `."""
+        return cls, arguments("filename", data, [], 0)
 
     def describe(self) -> str:
         """Its name."""
@@ -25,8 +33,14 @@ class ThisLaunchFile(Substitution):
         return _local(context, "current_launch_file_path", "ThisLaunchFile")
 
 
+@expose_substitution("dirname")
 class ThisLaunchFileDir(Substitution):
     """The folder of the launch file."""
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type, dict[str, Any]]:
+        """Its arguments as they stand behind `$(dirname `."""
+        return cls, arguments("dirname", data, [], 0)
 
     def describe(self) -> str:
         """Its name."""

@@ -10,6 +10,7 @@ from typing import Any
 from launch import LaunchContext, LaunchDescriptionEntity, logging
 from launch.actions import ExecuteProcess
 from launch.actions.execute_local import Program
+from launch.frontend import Entity, Parser, expose_action
 from launch.some_types import SomeSubstitutionsType
 from launch.substitution import Substitution
 from launch.substitutions import SubstitutionFailure
@@ -21,6 +22,7 @@ from launch.utilities import (
 
 from turtle_lesson.ros.core.tracebacks import shown_path
 
+from .._parsing import nested_parameters, remap_rules
 from .._names import check_namespace, check_node_name, in_namespace
 from .._values import as_argument, parameters_in
 from ..parameter_descriptions import Parameter, ParameterFile
@@ -29,6 +31,7 @@ from ..substitutions import ExecutableInPackage
 Remapping = tuple[SomeSubstitutionsType, SomeSubstitutionsType]
 
 
+@expose_action("node")
 class Node(ExecuteProcess):
     """Starts an executable of a package, with its name, namespace, parameters and remappings.
 
@@ -80,6 +83,27 @@ class Node(ExecuteProcess):
         self.expanded_remapping_rules: list[tuple[str, str]] = []
         self._ros_words: list[str] = []
 
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser, ignore: list[str] | None = None) -> tuple[type, dict[str, Any]]:
+        """Its arguments from the attributes of a tag and from nested `param`, `remap` and `env` tags."""
+        _, kwargs = super().parse(entity, parser, ignore=[*(ignore or []), "cmd"])
+        for name, attribute in {"arguments": "args", "ros_arguments": "ros_args"}.items():
+            text = entity.get_attr(attribute, optional=True)
+            if text is not None:
+                kwargs[name] = cls._parse_cmdline(text, parser)
+        kwargs["executable"] = parser.parse_substitution(entity.get_attr("exec"))
+        for name, attribute in {"package": "pkg", "namespace": "namespace", "exec_name": "exec_name"}.items():
+            text = entity.get_attr(attribute, optional=True)
+            if text is not None:
+                kwargs[name] = parser.parse_substitution(text)
+        remaps = entity.get_attr("remap", data_type=list[Entity], optional=True)
+        if remaps is not None:
+            kwargs["remappings"] = remap_rules(remaps, parser)
+        parameters = entity.get_attr("param", data_type=list[Entity], optional=True)
+        if parameters is not None:
+            kwargs["parameters"] = nested_parameters(parameters, parser)
+        return cls, kwargs
+
     @property
     def node_package(self) -> SomeSubstitutionsType | None:
         """The package, as it was given."""
@@ -129,7 +153,10 @@ class Node(ExecuteProcess):
     def _parameter_words(self, context: LaunchContext) -> list[str]:
         words = []
         for entry in [*context.launch_configurations.get("global_params", []), *self.__parameters]:
-            if isinstance(entry, Mapping):
+            if isinstance(entry, tuple):  # SetParametersFromFile for nodes of one name
+                if entry[0] == self.expanded_node_name:
+                    words += ["--params-file", str(_parameter_file(context, entry[1]))]
+            elif isinstance(entry, Mapping):
                 for name, value in parameters_in(context, entry):
                     words += ["-p", f"{name}:={as_argument(value)}"]
             elif isinstance(entry, Parameter):

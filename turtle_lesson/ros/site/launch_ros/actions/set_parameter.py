@@ -6,12 +6,15 @@ from os import PathLike
 from typing import Any
 
 from launch import Action, LaunchContext, LaunchDescriptionEntity
+from launch.frontend import Entity, Parser, expose_action
 from launch.some_types import SomeSubstitutionsType
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
+from .._parsing import typed_value
 from ..parameter_descriptions import ParameterFile
 
 
+@expose_action("set_parameter")
 class SetParameter(Action):
     """Gives a parameter to every node that is started from here on in the same group."""
 
@@ -19,6 +22,14 @@ class SetParameter(Action):
         super().__init__(**kwargs)
         self.__name = name
         self.__value = value
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type, dict[str, Any]]:
+        """Its arguments from `name` and `value`."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
+        kwargs["value"] = typed_value(entity.get_attr("value", data_type=None), parser)
+        return cls, kwargs
 
     @property
     def name(self) -> SomeSubstitutionsType:
@@ -36,26 +47,54 @@ class SetParameter(Action):
         return None
 
 
+@expose_action("set_parameters_from_file")
 class SetParametersFromFile(Action):
     """Gives a file of parameters to every node that is started from here on in the same group."""
 
-    def __init__(self, filename: PathLike[str] | SomeSubstitutionsType, **kwargs: Any) -> None:
+    def __init__(
+        self,
+        filename: PathLike[str] | SomeSubstitutionsType,
+        node_name: SomeSubstitutionsType | None = None,
+        **kwargs: Any,
+    ) -> None:
         super().__init__(**kwargs)
         self.__file = ParameterFile(filename)
+        self.__node_name = None if node_name is None else normalize_to_list_of_substitutions(node_name)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type, dict[str, Any]]:
+        """Its arguments from `filename` and `node`."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["filename"] = parser.parse_substitution(entity.get_attr("filename"))
+        node_name = entity.get_attr("node", optional=True)
+        if node_name is not None:
+            kwargs["node_name"] = parser.parse_substitution(node_name)
+        return cls, kwargs
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Remember it."""
-        _append(context, "global_params", self.__file.evaluate(context))
+        path = self.__file.evaluate(context)
+        name = None if self.__node_name is None else perform_substitutions(context, self.__node_name)
+        _append(context, "global_params", path if name is None else (name, path))
         return None
 
 
+@expose_action("set_use_sim_time")
 class SetUseSimTime(SetParameter):
     """Has every node that is started from here on use simulated time, or not."""
 
     def __init__(self, value: bool | SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__("use_sim_time", value, **kwargs)
 
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type, dict[str, Any]]:
+        """Its argument from `value`."""
+        _, kwargs = super(SetParameter, cls).parse(entity, parser)
+        kwargs["value"] = typed_value(entity.get_attr("value", data_type=bool), parser)
+        return cls, kwargs
 
+
+@expose_action("set_remap")
 class SetRemap(Action):
     """Gives a remapping to every node that is started from here on in the same group."""
 
@@ -63,6 +102,14 @@ class SetRemap(Action):
         super().__init__(**kwargs)
         self.src = normalize_to_list_of_substitutions(src)
         self.dst = normalize_to_list_of_substitutions(dst)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type, dict[str, Any]]:
+        """Its arguments from `from` and `to`."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["src"] = parser.parse_substitution(entity.get_attr("from"))
+        kwargs["dst"] = parser.parse_substitution(entity.get_attr("to"))
+        return cls, kwargs
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Remember it."""

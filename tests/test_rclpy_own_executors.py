@@ -1,0 +1,266 @@
+"""Executors and callback groups of a program's own, the executor of events, and futures by hand."""
+
+from __future__ import annotations
+
+import gc
+import time
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+import rclpy
+from rclpy.callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
+from rclpy.executors import (
+    ConditionReachedException,
+    Executor,
+    MultiThreadedExecutor,
+    SingleThreadedExecutor,
+    TimeoutException,
+    TimeoutObject,
+    await_or_execute,
+)
+from rclpy.experimental import EventsExecutor
+from rclpy.node import Node
+from rclpy.task import Future
+from std_msgs.msg import String
+
+from turtle_lesson.ros.world import World
+
+Run = Callable[..., list[Any]]
+Capture = pytest.CaptureFixture[str]
+
+
+class Priority(Executor):
+    """Runs the callbacks of some nodes before those of others."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.first: list[Node] = []
+        self.ran: list[str] = []
+
+    def spin_once(self, timeout_sec: float | None = None) -> None:
+        for nodes, patience in ((self.first, 0.0), (None, timeout_sec)):
+            try:
+                handler, _, node = self.wait_for_ready_callbacks(timeout_sec=patience, nodes=nodes)
+            except TimeoutException:
+                continue
+            self.ran.append(node.get_name())
+            handler()
+            return
+
+
+def test_an_executor_may_prefer_some_nodes(run: Run) -> None:
+    def program(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        executor = Priority()
+        for name in ("common", "urgent"):
+            node = rclpy.create_node(name)
+            executor.add_node(node)
+            for _ in range(2):
+                node.create_timer(0.1, lambda name=name: None)
+        executor.first = [executor.get_nodes()[1]]
+        time.sleep(0.15)
+        for _ in range(5):
+            executor.spin_once(timeout_sec=0.0)
+        found += executor.ran
+
+    assert run(program) == ["urgent", "urgent", "common", "common"]
+
+
+def test_an_executor_of_ones_own_spins_too_and_in_a_cell_as_well(world: World) -> None:
+    rclpy.init(args=[])
+    executor = Priority()
+    node = rclpy.create_node("n")
+    executor.add_node(node)
+    node.create_timer(0.5, lambda: None)
+    for _ in range(3):
+        executor.spin_once(timeout_sec=0.4)
+    assert executor.ran == ["n"]
+    assert world.now == pytest.approx(900_000_000, abs=10)
+    future = executor.create_task(lambda: "done")
+    executor.spin_until_future_complete(future, timeout_sec=1.0)
+    assert future.result() == "done"
+
+
+def test_waiting_for_a_callback_ends_with_a_timeout_or_when_a_condition_holds(run: Run) -> None:
+    def program(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        executor = SingleThreadedExecutor()
+        patience = TimeoutObject(5.0)
+        patience.timeout = 0.5
+        for options in ({"timeout_sec": patience}, {"condition": lambda: True}):
+            with pytest.raises((TimeoutException, ConditionReachedException)) as caught:
+                executor.wait_for_ready_callbacks(**options)
+            found.append((caught.type.__name__, round(time.monotonic(), 2)))
+
+    assert run(program) == [("TimeoutException", 0.5), ("ConditionReachedException", 0.5)]
+
+
+# ---------------------------------------------------------------- callback groups
+
+
+class Counting(CallbackGroup):
+    """Lets two callbacks at a time run, and none while it is closed."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.running = 0
+        self.most = 0
+        self.closed = False
+
+    def can_execute(self, entity: Any) -> bool:
+        return not self.closed and self.running < 2
+
+    def beginning_execution(self, entity: Any) -> bool:
+        self.running += 1
+        self.most = max(self.most, self.running)
+        return True
+
+    def ending_execution(self, entity: Any) -> None:
+        self.running -= 1
+
+
+def test_a_group_of_ones_own_decides_who_runs(run: Run) -> None:
+    def program(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        node, group = rclpy.create_node("n"), Counting()
+        for name in "abc":
+
+            def nap(name: str = name) -> None:
+                found.append((name, round(time.monotonic(), 1)))
+                time.sleep(1.0)
+
+            node.create_timer(0.5, nap, callback_group=group)
+        executor = MultiThreadedExecutor(4)
+        executor.add_node(node)
+        node.create_timer(2.0, lambda: setattr(group, "closed", True), callback_group=ReentrantCallbackGroup())
+        while time.monotonic() < 4.0:
+            executor.spin_once(timeout_sec=0.5)
+        assert executor.can_execute(next(iter(node.timers))) is False
+        found.append(group.most)
+
+    found = run(program)
+    assert sorted(found[:4]) == [("a", 0.5), ("a", 1.5), ("b", 0.5), ("b", 1.5)]  # c starves, as in any group
+    assert found[4:] == [2]
+
+
+def test_a_group_may_only_be_a_little_different_from_one_of_rclpys(run: Run) -> None:
+    class Noting(MutuallyExclusiveCallbackGroup):
+        def __init__(self) -> None:
+            super().__init__()
+            self.noted: list[str] = []
+
+        def beginning_execution(self, entity: Any) -> bool:
+            self.noted.append("begin")
+            return super().beginning_execution(entity)
+
+        def ending_execution(self, entity: Any) -> None:
+            self.noted.append("end")
+            super().ending_execution(entity)
+
+    def program(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        node, group = rclpy.create_node("n"), Noting()
+        node.create_timer(0.1, lambda: group.noted.append("tick"), callback_group=group)
+        rclpy.spin_once(node)
+        found += group.noted
+        assert group.has_entity(next(iter(node.timers)))
+
+    assert run(program) == ["begin", "tick", "end"]
+
+
+# ---------------------------------------------------------------- the executor of events
+
+
+def test_the_executor_of_events_keeps_to_the_order_in_which_work_comes(run: Run) -> None:
+    def program(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        for executor in (SingleThreadedExecutor(), EventsExecutor()):
+            node = rclpy.create_node("n")
+            executor.add_node(node)
+            node.create_timer(0.2, lambda: found.append("timer"))
+            node.create_subscription(String, "t", lambda message: found.append(message.data), 10)
+            node.create_publisher(String, "t", 10).publish(String(data="message"))
+            time.sleep(0.2)
+            for _ in range(2):
+                executor.spin_once(timeout_sec=0.0)
+            node.destroy_node()
+
+    assert run(program) == ["timer", "message", "message", "timer"]
+
+
+# ---------------------------------------------------------------- futures
+
+
+def test_an_executor_makes_futures_whose_callbacks_it_calls(run: Run) -> None:
+    def program(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        executor = SingleThreadedExecutor()
+        future = executor.create_future()
+        future.add_done_callback(lambda done: found.append(done.result()))
+        future.set_result(5)
+        assert found == []
+        executor.spin_once(timeout_sec=0.0)
+
+    assert run(program) == [5]
+
+
+def test_a_callback_can_be_taken_away_before_it_is_called() -> None:
+    heard: list[Any] = []
+    future = Future()
+    future.add_done_callback(heard.append)
+    assert future.remove_done_callback(heard.append)
+    assert not future.remove_done_callback(heard.append)
+    future.set_result(None)
+    assert heard == []
+
+
+def test_an_exception_that_nobody_asks_for_is_told_at_the_end(capsys: Capture) -> None:
+    for asked in (False, True):
+        future = Future()
+        future.set_exception(ValueError(f"asked: {asked}"))
+        if asked:
+            assert isinstance(future.exception(), ValueError)
+            with pytest.raises(ValueError, match="asked: True"):
+                future.result()
+        del future
+    gc.collect()
+    assert capsys.readouterr().err == "The following exception was never retrieved: asked: False\n"
+
+
+def test_functions_and_coroutines_are_run_alike() -> None:
+    async def slow(text: str) -> str:
+        return f"awaited {text}"
+
+    def result_of(coroutine: Any) -> Any:
+        with pytest.raises(StopIteration) as caught:
+            coroutine.send(None)
+        return caught.value.value
+
+    assert result_of(await_or_execute(slow, "x")) == "awaited x"
+    assert result_of(await_or_execute(str.upper, "x")) == "X"
+
+
+# ---------------------------------------------------------------- waiting for nodes
+
+
+def test_a_node_that_comes_is_waited_for(run: Run) -> None:
+    def late(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        time.sleep(1.05)
+        rclpy.spin(Node("late", namespace="robots"))
+
+    def program(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        node = rclpy.create_node("n")
+        found.append((node.wait_for_node("/robots/late", 0.5), round(time.monotonic(), 1)))
+        found.append((node.wait_for_node("robots/late", -1), round(time.monotonic(), 1)))
+
+    assert run(program, late) == [(False, 0.5), (True, 1.1)]
+
+
+def test_a_count_goes_by_the_name_as_it_is_given_and_not_as_it_is_remapped(world: World) -> None:
+    rclpy.init(args=["prog", "--ros-args", "-r", "a:=b"])
+    node = rclpy.create_node("n")
+    node.create_publisher(String, "a", 10)
+    assert (node.count_publishers("a"), node.count_publishers("b"), node.count_subscribers("/b")) == (0, 1, 0)

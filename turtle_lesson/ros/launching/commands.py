@@ -1,0 +1,207 @@
+"""What `ExecuteProcess` can run here: `ros2 …`, Python files, and a few small commands, all in robot time.
+
+A command's words, or a shell's text, become a program: a file or a function that is the main program of a process.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path, PurePath
+from typing import Any
+
+from launch.actions.execute_local import Program
+
+from ..workspace.current import current_packages
+from ..workspace.errors import ExecutableNotFoundError, PackageNotFoundError
+
+SHELLS = {"bash", "sh", "dash", "zsh"}
+Main = Callable[[], int | None]
+
+
+class UnknownCommand(NotImplementedError):
+    """A command that this classroom does not have. `hint` says what to do instead."""
+
+    def __init__(self, message: str, hint: str = "") -> None:
+        super().__init__(message)
+        self.hint = hint
+
+
+def program(words: Sequence[str], *, shell: bool = False) -> Program:
+    """What these words run.
+
+    Args:
+        words: a command and its arguments, or, for a shell, pieces of a script.
+        shell: whether a shell takes them apart.
+
+    Raises:
+        UnknownCommand: if it is no command of this classroom.
+        PackageNotFoundError, ExecutableNotFoundError: if `ros2 run` names what is not there.
+    """
+    shown = " ".join(words)
+    if shell:
+        return _script(shown, list(words), shown)
+    name = PurePath(words[0]).name if words[0] else ""
+    if name in SHELLS and len(words) == 3 and words[1] == "-c":
+        return _script(words[2], list(words), shown)
+    return _simple(list(words), shown)
+
+
+def _script(text: str, argv: list[str], shown: str) -> Program:
+    """A shell's text: one command, or several one after the other."""
+    commands = _taken_apart(text)
+    if len(commands) == 1:
+        only = _simple(commands[0][1], shown)
+        return Program(only.target, only.argv, shown)
+    mains = [(sign, _main(words)) for sign, words in commands]
+
+    def main() -> None:
+        code = 0
+        for sign, run in mains:
+            if (sign == "&&" and code) or (sign == "||" and not code):
+                continue
+            code = run() or 0
+        sys.exit(code)
+
+    return Program(main, argv, shown)
+
+
+def _taken_apart(text: str) -> list[tuple[str, list[str]]]:
+    """The commands of a shell's text, each with the sign before it."""
+    from ..command.script import ShellSyntaxError, expand, pipelines
+    from ..command.words import UnfinishedError, tokens
+
+    try:
+        plan = list(pipelines(list(tokens(text))))
+    except (UnfinishedError, ShellSyntaxError) as mistake:
+        raise UnknownCommand(f"syntax error in the command {text!r}: {mistake}") from None
+    found = []
+    for sign, pipeline in plan:
+        command = pipeline[0]
+        if len(pipeline) > 1 or command.stdout or command.stderr or command.given or command.background:
+            raise UnknownCommand(
+                f"the command {text!r} uses '|', '>' or '&', which launched commands do not have in this classroom",
+                "One command, or several with '&&' or ';' between them, can be run.",
+            )
+        found.append((sign, [part for word in command.words for part in expand(word, home=Path.home(), exit_code=0)]))
+    if not found:
+        raise UnknownCommand("there is no command in cmd=[…]")
+    return found
+
+
+def _simple(words: list[str], shown: str) -> Program:
+    """One command: a program of a package, a Python file, or a function of this module."""
+    if words[:2] == ["ros2", "run"] and len(words) > 2:
+        return _ros2_run(words, shown)
+    name = PurePath(words[0]).name
+    if (words[0] == sys.executable or name in {"python", "python3"}) and len(words) > 1:
+        return Program(_python_file(words[1], shown), words[1:], shown)
+    if name.endswith(".py") and "/" in words[0]:
+        return Program(_python_file(words[0], shown), words, shown)
+    main = _main(words)
+    return Program(lambda: sys.exit(main() or 0), words, shown)
+
+
+def _python_file(name: str, shown: str) -> Path:
+    path = Path(name)
+    if name.startswith("-") or not path.is_file():
+        what = "a Python file is run by its path" if name.startswith("-") else f"there is no file {name}"
+        raise UnknownCommand(f"ExecuteProcess(cmd='{shown}'): {what}")
+    return path.resolve()
+
+
+def _ros2_run(words: list[str], shown: str) -> Program:
+    """The program that `ros2 run` names, run without `ros2` around it."""
+    from ..command.parser import Stop, parse
+
+    try:
+        given = parse(words[1:]).arguments
+    except Stop as stop:
+        raise UnknownCommand(stop.text) from None
+    packages = current_packages()
+    try:
+        target = packages.executable(given.package_name, given.executable_name)
+    except ExecutableNotFoundError as error:
+        raise UnknownCommand("No executable found", error.hint) from None
+    except PackageNotFoundError:
+        raise
+    path = packages.get(given.package_name).libexec / given.executable_name
+    return Program(target, [path.as_posix(), *given.argv], shown)
+
+
+# -- commands that are functions ---------------------------------------------------------------------------------------
+
+
+def _main(words: list[str]) -> Main:
+    """The function that a command is.
+
+    Raises:
+        UnknownCommand: if it is none of this classroom.
+    """
+    name = PurePath(words[0]).name
+    if name == "ros2":
+        if words[1:2] == ["launch"]:
+            raise UnknownCommand(
+                f"ExecuteProcess(cmd='{' '.join(words)}'): a launch file is taken in by IncludeLaunchDescription",
+                "Write IncludeLaunchDescription(path_of_the_launch_file).",
+            )
+        return lambda: _ros2(words)
+    if name in _SMALL:
+        return lambda: _SMALL[name](words[1:])
+    raise UnknownCommand(*_refusal(words))
+
+
+def _ros2(words: list[str]) -> int:
+    from ..command import run_here
+
+    return run_here(words)
+
+
+def _echo(words: Sequence[str]) -> int:
+    end = "\n"
+    if words[:1] == ["-n"]:
+        end, words = "", words[1:]
+    print(*words, end=end)
+    return 0
+
+
+def _sleep(words: Sequence[str]) -> int:
+    units = {"s": 1.0, "m": 60.0, "h": 3600.0}
+    try:
+        seconds = sum(float(word.rstrip("smh")) * units.get(word[-1:], 1.0) for word in words)
+        time.sleep(seconds)
+    except (ValueError, OverflowError):
+        print(f"sleep: invalid time interval {' '.join(words)!r}", file=sys.stderr)
+        return 1
+    return 0
+
+
+def _exit(words: Sequence[str]) -> int:
+    sys.exit(int(words[0]) if words and words[0].isdigit() else 0)
+
+
+_SMALL: dict[str, Callable[[Sequence[str]], Any]] = {
+    "echo": _echo,
+    "exit": _exit,
+    "false": lambda words: 1,
+    "sleep": _sleep,
+    "true": lambda words: 0,
+}
+
+
+def _refusal(words: Sequence[str]) -> tuple[str, str]:
+    """What to say of a command that is of the computer, and what to do instead."""
+    from ..command.elsewhere import advice
+
+    command = " ".join(words)
+    if " " in words[0]:
+        return (
+            f"ExecuteProcess(cmd='{command}'): there is no program of the name '{words[0]}'",
+            "cmd is a list of single words, ['ros2', 'topic', 'list']; one text needs shell=True.",
+        )
+    return (
+        f"ExecuteProcess(cmd='{command}') would run a program of the operating system; in this classroom it runs "
+        "ros2 commands, Python files, echo and sleep. For a ROS node use Node(package=…, executable=…)",
+        advice(words) or "",
+    )

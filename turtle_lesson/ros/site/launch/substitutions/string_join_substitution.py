@@ -1,0 +1,37 @@
+"""`StringJoinSubstitution`: texts joined with something between them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from ..launch_context import LaunchContext
+from ..some_types import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+class StringJoinSubstitution(Substitution):
+    """Joins texts; a part may itself be a list of pieces."""
+
+    def __init__(self, substitutions: Iterable[SomeSubstitutionsType], delimiter: SomeSubstitutionsType = "") -> None:
+        self.__parts = [normalize_to_list_of_substitutions(part) for part in substitutions]
+        self.__delimiter = normalize_to_list_of_substitutions(delimiter)
+
+    @property
+    def substitutions(self) -> list[list[Substitution]]:
+        """The parts, each a list of pieces."""
+        return self.__parts
+
+    @property
+    def delimiter(self) -> list[Substitution]:
+        """What stands between them."""
+        return self.__delimiter
+
+    def describe(self) -> str:
+        """The parts in words."""
+        return f"StringJoin({', '.join(' + '.join(piece.describe() for piece in part) for part in self.__parts)})"
+
+    def perform(self, context: LaunchContext) -> str:
+        """The text."""
+        parts = [perform_substitutions(context, part) for part in self.__parts]
+        return perform_substitutions(context, self.__delimiter).join(parts)
