@@ -818,3 +818,26 @@ def test_nothing_is_left_of_an_action_that_could_not_be_made(run: Run) -> None:
         found += [name for name, _ in node.get_action_names_and_types()]
 
     assert run(program) == []
+
+
+def test_a_developer_can_follow_what_a_server_does(run: Run, capfd: pytest.CaptureFixture[str]) -> None:
+    def serve(found: list[Any]) -> None:
+        rclpy.init(args=["--ros-args", "--log-level", "debug"])
+        node = rclpy.create_node("server")
+        ActionServer(node, Fibonacci, "fibonacci", at_once)
+        rclpy.spin(node)
+
+    def program(found: list[Any]) -> None:
+        node, client = start()
+        outcome(node, send(node, client, goal_uuid=ONE))
+
+    run(serve, program)
+    number = "[1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1]"
+    lines = [line.partition("[server]: ")[2] for line in capfd.readouterr().err.splitlines() if "[DEBUG]" in line]
+    assert lines == [
+        f"New goal request with ID: {number}",
+        f"New goal accepted: {number}",
+        f"Executing goal with ID {number}",
+        f"Goal with ID {number} finished with state 4",
+        f"Result request received for goal with ID: {number}",
+    ]

@@ -194,7 +194,7 @@ class Process:
 
                 wind_down(self)
         except Killed:  # while it was waiting for its threads
-            pass
+            code = None
         finally:
             self._finish(KILLED if code is None else code)
 
@@ -225,7 +225,10 @@ class Process:
     def _show(self, error: BaseException) -> None:
         if self.alive:
             self.error = error
-            print_error(error, sys.stderr)
+            if self.modules is not None and self.modules.made(sys.excepthook):
+                sys.excepthook(type(error), error, error.__traceback__)
+            else:
+                print_error(error, sys.stderr)
 
     def _finish(self, code: int) -> None:
         if not self.alive:

@@ -14,6 +14,7 @@ import builtins
 import importlib.util
 import os
 import sys
+import threading
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from importlib.machinery import ModuleSpec, PathFinder
 from pathlib import Path
@@ -49,6 +50,11 @@ class ProgramModules:
         self._modules["__main__"] = main
         self.show()
         exec(code_of(path, text), main.__dict__)
+
+    def made(self, function: Any) -> bool:
+        """Whether a function stands in a module of this program."""
+        function = getattr(function, "__func__", function)
+        return getattr(function, "__globals__", {}).get("__builtins__") is self.builtins
 
     # -- what is in sys.modules --------------------------------------------------------------------------------------------
 
@@ -158,10 +164,10 @@ def _is_found_elsewhere(name: str, path: Sequence[str]) -> bool:
     """Whether somebody else has a module of this name: then a mere folder, or compiled code, does not hide it."""
     for finder in sys.meta_path:
         find = getattr(finder, "find_spec", None)
-        if finder is not ProgramFinder and finder is not PathFinder and find is not None:
-            if find(name, path) is not None:
-                return True
-    return PathFinder.find_spec(name) is not None if "." not in name else False
+        others = finder is not ProgramFinder and finder is not PathFinder
+        if others and find is not None and find(name, path) is not None:
+            return True
+    return "." not in name and PathFinder.find_spec(name) is not None
 
 
 class ProgramFinder:
@@ -191,4 +197,12 @@ def run_program(path: Path, folders: Iterable[Path] = (), text: str | None = Non
     assert strand is not None
     own = os.path.dirname(os.path.realpath(path))
     modules = strand.process.modules = ProgramModules(strand.process, [own, *map(str, folders)])
+    hooks = [(module, module.excepthook) for module in (sys, threading)]
+
+    def put_hooks_back() -> None:
+        for module, hook in hooks:
+            if modules.made(module.excepthook):
+                module.excepthook = hook
+
+    strand.process.at_exit.append(put_hooks_back)
     modules.run(str(path), text)

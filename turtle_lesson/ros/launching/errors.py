@@ -47,7 +47,11 @@ class LaunchError(Exception):
 
 
 def place_of(error: BaseException, written_at: Place | None = None) -> Place | None:
-    """The line to look at: the one that an XML or YAML file's reader names, a syntax error's, else the learner's innermost one, else the action's own."""
+    """The line to look at.
+
+    It is the one that the reader of an XML or YAML file names, or a syntax error's; else the learner's innermost one;
+    else the action's own.
+    """
     linecache.checkcache()
     causes = _causes(error)
     for cause in reversed(causes):

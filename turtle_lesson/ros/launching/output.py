@@ -33,6 +33,7 @@ class LineWriter(io.TextIOBase):
         self._on_line = on_line
         self._on_text = on_text
         self._rest = ""
+        self._unheard = ""
 
     def writable(self) -> bool:
         """Always."""
@@ -52,7 +53,9 @@ class LineWriter(io.TextIOBase):
         if not isinstance(text, str):
             raise TypeError(f"write() argument must be str, not {type(text).__name__}")
         if self._on_text is not None and text:
-            self._on_text(text)
+            self._unheard += text
+            if text.endswith("\n"):  # what one print() gives is heard as one piece
+                self._tell()
         *lines, self._rest = (self._rest + text).split("\n")
         for line in lines:
             self._on_line(line.removesuffix("\r"))
@@ -60,6 +63,12 @@ class LineWriter(io.TextIOBase):
 
     def finish(self) -> None:
         """Hand on what has no line end."""
+        self._tell()
         rest, self._rest = self._rest, ""
         if rest:
             self._on_line(rest)
+
+    def _tell(self) -> None:
+        unheard, self._unheard = self._unheard, ""
+        if self._on_text is not None and unheard:
+            self._on_text(unheard)

@@ -6,20 +6,21 @@ error in it starts nothing. Events are handled one after the other, at the insta
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Coroutine, Iterator
 from contextlib import contextmanager, redirect_stdout
 from itertools import count
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from launch import Action, Event, LaunchContext, LaunchDescriptionEntity
 from launch.event_handler import as_entities
-from launch.events import Shutdown
+from launch.events import IncludeLaunchDescription, Shutdown
 
 from ..workspace.current import seeing
 from .errors import LaunchError, place_of, reason_of
 from .hints import hint_for
 from .output import Screen
 from .processes import Processes
+from .ros_helper import RosHelper
 
 if TYPE_CHECKING:
     from launch.actions import ExecuteLocal
@@ -43,11 +44,14 @@ class LaunchService:
         self._waiting: list[ExecuteLocal] = []
         self._timers = 0
         self._settling = False
+        self._helper: RosHelper | None = None
+        self._coroutines = 0
 
     @property
     def running(self) -> bool:
         """Whether a process runs, or something is still to come."""
-        return bool(self.processes.alive) or (self._timers > 0 and not self.context.is_shutdown)
+        to_come = self._timers > 0 or self._coroutines > 0
+        return bool(self.processes.alive) or (to_come and not self.context.is_shutdown)
 
     # -- what actions ask for (launch._host.Host) ---------------------------------------------------------
 
@@ -69,6 +73,34 @@ class LaunchService:
 
         self._timers += 1
         self.world.sim.call_later(round(seconds * NANOSECONDS), due)
+
+    def run_coroutine(self, coroutine: Coroutine[Any, Any, Any], done: Callable[[], None]) -> None:
+        """Have a coroutine run in a process of its own; an error in it ends the launch."""
+        import asyncio
+
+        errors: list[Exception] = []
+
+        def main() -> None:
+            try:
+                asyncio.run(coroutine)
+            except Exception as error:
+                errors.append(error)
+
+        def ended(process: Any) -> None:
+            self._coroutines -= 1
+            self.world.sim.call_later(0, self.carry_on, done if not errors else fail)
+
+        def fail() -> None:
+            raise errors[0]
+
+        self._coroutines += 1
+        self.world.spawn(main, name="launch coroutine", stdout=self.world.sim.cell_stdout, on_exit=ended)
+
+    def ros_helper(self) -> RosHelper:
+        """The node of launch's own; it is made when it is first asked for."""
+        if self._helper is None:
+            self._helper = RosHelper(self.world, self.carry_on)
+        return self._helper
 
     def settle_soon(self) -> None:
         """Have waiting starts and events handled at this instant, unless that is being done already."""
@@ -120,6 +152,8 @@ class LaunchService:
                 yield
         finally:
             self._settling = False
+            if self._helper is not None and not self.running:
+                self._helper.close()
 
     def _fail(self, error: LaunchError) -> None:
         for line in filter(None, (error.console, error.advice)):
@@ -153,6 +187,8 @@ class LaunchService:
             if self.context.is_shutdown:
                 return
             self.context._set_is_shutdown(True)
+        if isinstance(event, IncludeLaunchDescription):
+            self.visit(event.launch_description)
         for handler in [known for known in self.context._event_handlers if known.matches(event)]:
             self.context._push_locals()
             try:

@@ -12,7 +12,7 @@ import time
 from types import ModuleType
 from typing import Any
 
-UTC = real.timezone.utc
+UTC = real.UTC
 
 
 class _Date(type):

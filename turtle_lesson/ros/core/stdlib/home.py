@@ -3,7 +3,7 @@
 Locks, threads and their kin belong to the simulation if they are made
 
 - by code that runs in a simulated process, whatever code that is, except for what the module of a library makes while it
-  is imported: it is there for everybody; or
+  is imported: it is there for everybody; and except for Jupyter's own modules, which wait for Jupyter's threads; or
 - in the notebook, while a world is open and in the thread that the world lives in, directly by code of a cell (of the
   module `__main__`) or of a file of the learner's own. What the modules `threading`, `queue` and `concurrent.futures`
   make on the way counts as made by whoever called them.
@@ -16,17 +16,19 @@ from __future__ import annotations
 import sys
 from _thread import get_ident
 from collections.abc import Callable
+from contextvars import copy_context
 from inspect import CO_OPTIMIZED
 from types import FrameType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from ..strand import Strand, getcurrent
+from ..strand import Strand, getcurrent, greenlet
 from ..tracebacks import is_library
 
 if TYPE_CHECKING:
     from ..process import Process
 
 _ON_THE_WAY = {"threading", "queue", "concurrent.futures.thread", "concurrent.futures._base", "_threading_local"}
+JUPYTER = {"IPython", "comm", "debugpy", "ipykernel", "jupyter_client", "tornado", "traitlets", "zmq"}
 _OURS = __name__.rpartition(".")[0]
 
 
@@ -51,7 +53,7 @@ def process_here() -> Process | None:
     """The simulated process that a thing made here belongs to; None if it is to be Python's own."""
     strand = getcurrent()
     if type(strand) is Strand:
-        return None if _is_library_imported() else strand.process
+        return None if is_for_everybody(sys._getframe(1)) else strand.process
     notebook = notebook_here()
     return notebook if notebook is not None and _is_called_by_learner() else None
 
@@ -64,12 +66,15 @@ def notebook_here() -> Process | None:
     return process
 
 
-def _is_library_imported() -> bool:
-    """Whether it is the module of a library, or the body of a class in it, that makes something."""
-    frame = maker(sys._getframe(1))
-    if frame is None or frame.f_code.co_flags & CO_OPTIMIZED:  # as all functions are
+def is_for_everybody(frame: FrameType) -> bool:
+    """Whether Jupyter makes something here, or the module of a library, or the body of a class in it."""
+    made_by = maker(frame)
+    if made_by is None:
         return False
-    return is_library(frame.f_code.co_filename)
+    if made_by.f_globals.get("__name__", "").partition(".")[0] in JUPYTER:
+        return True
+    is_function = made_by.f_code.co_flags & CO_OPTIMIZED
+    return not is_function and is_library(made_by.f_code.co_filename)
 
 
 def _is_called_by_learner() -> bool:

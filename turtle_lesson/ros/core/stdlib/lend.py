@@ -21,8 +21,8 @@ from concurrent.futures import thread as pool
 from types import MethodType
 from typing import Any
 
-from ..strand import Strand, getcurrent
 from ..program_modules import ProgramFinder, on_import
+from ..strand import Strand, getcurrent
 from . import dates, exits, identity, local, locks, loops, own_modules, pools, refused, signals, threads, time_of_day
 from .facade import facade
 from .home import in_no_strand, process_here

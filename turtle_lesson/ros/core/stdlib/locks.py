@@ -7,6 +7,7 @@ is woken; but whoever asks just when the lock is free gets it, as in Python.
 
 from __future__ import annotations
 
+import sys
 import threading
 from _thread import allocate_lock
 from collections import deque
@@ -16,7 +17,7 @@ from ..driving import drive
 from ..errors import WorldClosed
 from ..simulation import NANOSECONDS
 from ..strand import Strand, getcurrent, running_strand
-from .home import notebook_here
+from .home import is_for_everybody, notebook_here
 from .hopeless import look_for_hope
 
 RealLock = type(allocate_lock())
@@ -161,7 +162,8 @@ def condition_wait(real: Any) -> Any:
     """`threading.Condition.wait`, with a waiter that is a virtual lock where one is needed."""
 
     def wait(self: Any, timeout: float | None = None) -> bool:
-        if type(getcurrent()) is Strand or isinstance(self._lock, (VirtualLock, VirtualRLock)):
+        virtual = isinstance(self._lock, (VirtualLock, VirtualRLock))
+        if virtual or (type(getcurrent()) is Strand and not is_for_everybody(sys._getframe(1))):
             return _wait_for_notice(self, timeout)
         return real(self, timeout)
 

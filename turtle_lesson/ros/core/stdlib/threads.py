@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from ..process import Process
 
 real_start = threading.Thread.start
-real_hook = threading.excepthook
 
 
 def start(self: threading.Thread) -> None:
@@ -62,16 +61,16 @@ def _run(thread: threading.Thread, strand: Strand) -> None:
     except SystemExit:
         pass  # ends this thread alone, in silence
     except BaseException as error:
-        _tell(thread, error)
+        _tell(thread, strand, error)
     finally:
         end(thread)
         look_after(strand)
 
 
-def _tell(thread: threading.Thread, error: BaseException) -> None:
+def _tell(thread: threading.Thread, strand: Strand, error: BaseException) -> None:
     """Say that an error has ended a thread: by the program's own hook, or with the learner's lines alone."""
-    if threading.excepthook is not real_hook:
-        hook: Any = threading.excepthook
+    modules, hook = strand.process.modules, threading.excepthook
+    if modules is not None and modules.made(hook):
         hook(threading.ExceptHookArgs((type(error), error, error.__traceback__, thread)))
         return
     lines = [format_error(error)] if learners_frames(error.__traceback__) else format_exception_only(error)
@@ -92,9 +91,7 @@ def wait_for_end(real: Any) -> Any:
     return wait_for_tstate_lock
 
 
-def start_new_thread(
-    real: Any, function: Any, args: tuple[Any, ...], kwargs: dict[str, Any] | None = None, /
-) -> int:
+def start_new_thread(real: Any, function: Any, args: tuple[Any, ...], kwargs: dict[str, Any] | None = None, /) -> int:
     """`_thread.start_new_thread`, which is older and does less."""
     if running_strand() is None:
         return real(function, args, kwargs or {})

@@ -2,11 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Protocol
+from collections.abc import Callable, Coroutine
+from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
     from .actions.execute_local import ExecuteLocal
+
+
+class RosHelper(Protocol):
+    """A node of launch's own, which listens to managed nodes and calls their services."""
+
+    def watch(self, node_name: str, heard: Callable[[Any], None]) -> None:
+        """Have a function called with each TransitionEvent of a node."""
+
+    def change_state(self, node_name: str, transition_id: int, answered: Callable[[bool], None]) -> None:
+        """Ask a node for a transition; the function is called with the answer."""
 
 
 class Host(Protocol):
@@ -23,3 +33,9 @@ class Host(Protocol):
 
     def settle_soon(self) -> None:
         """Have the waiting events handled, still at this instant."""
+
+    def run_coroutine(self, coroutine: Coroutine[Any, Any, Any], done: Callable[[], None]) -> None:
+        """Have a coroutine run beside the launch; the function is called when it is done."""
+
+    def ros_helper(self) -> RosHelper:
+        """The node of launch's own; it is made when it is first asked for."""

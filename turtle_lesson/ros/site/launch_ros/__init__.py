@@ -2,8 +2,8 @@
 
 from launch._missing import explain_missing
 
-from . import actions, descriptions, parameter_descriptions, substitutions
+from . import actions, descriptions, event_handlers, events, parameter_descriptions, substitutions
 
-__all__ = ["actions", "descriptions", "parameter_descriptions", "substitutions"]
+__all__ = ["actions", "descriptions", "event_handlers", "events", "parameter_descriptions", "substitutions"]
 
-__getattr__ = explain_missing(__name__, {"events": "", "event_handlers": "", "utilities": ""})
+__getattr__ = explain_missing(__name__, {"utilities": ""})

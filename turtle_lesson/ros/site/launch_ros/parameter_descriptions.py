@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from os import PathLike, fspath
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, get_args, get_origin
 
 from launch import LaunchContext
 from launch._missing import explain_missing
+from launch.frontend import parse_substitution
 from launch.some_types import SomeSubstitutionsType
 from launch.substitution import Substitution
 from launch.utilities import (
@@ -15,6 +17,7 @@ from launch.utilities import (
     perform_substitutions,
     perform_text_as,
 )
+from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
 
 from ._values import uniform, value_of
 
@@ -91,17 +94,28 @@ class ParameterFile:
         if isinstance(param_file, PathLike):
             param_file = fspath(param_file)
         self.param_file = normalize_to_list_of_substitutions(param_file)
-        if allow_substs is not False:
-            raise NotImplementedError(
-                "ParameterFile(allow_substs=True), substitutions inside of a YAML file, is not in this "
-                "classroom yet; give those parameters in a dictionary behind the file: "
-                "parameters=[file, {'rate': …}]"
-            )
-        self.allow_substs = allow_substs
+        self.__allow_substs = normalize_typed_substitution(allow_substs, bool)
+        self.__made: TemporaryDirectory[str] | None = None
+
+    @property
+    def allow_substs(self) -> Any:
+        """Whether `$(…)` in the file stand for something."""
+        return self.__allow_substs
 
     def evaluate(self, context: LaunchContext) -> Path:
-        """The file's path in this context."""
-        return Path(perform_substitutions(context, self.param_file))
+        """The file's path in this context; with `allow_substs` that of a copy with the substitutions performed.
+
+        Raises:
+            SubstitutionFailure: if one of them has no value.
+        """
+        path = Path(perform_substitutions(context, self.param_file))
+        if not perform_typed_substitution(context, self.__allow_substs, bool) or not path.is_file():
+            return path
+        text = perform_substitutions(context, parse_substitution(path.read_text(encoding="utf-8")))
+        self.__made = TemporaryDirectory(prefix="launch_params_")  # for as long as the launch is there
+        copy = Path(self.__made.name) / path.name
+        copy.write_text(text, encoding="utf-8")
+        return copy
 
 
 __getattr__ = explain_missing(__name__, {})

@@ -38,9 +38,9 @@ class Parser(frontend.Parser):
                 error.place = (name, error.problem_mark.line + 1)  # type: ignore[attr-defined]
             error.hint = _hint(error)  # type: ignore[attr-defined]
             raise
-        if not isinstance(tree, dict) or len(tree) != 1:
-            wrong = RuntimeError("Expected only one root")
-            wrong.place = (name, 1)  # type: ignore[attr-defined]
+        if not isinstance(tree, Mapping) or len(tree) != 1:
+            wrong: Any = RuntimeError("Expected only one root")
+            wrong.place = (name, 1)
             wrong.hint = "The file begins with launch: and all actions are a list below it."  # type: ignore[attr-defined]
             raise wrong
         root = next(iter(tree))

@@ -20,10 +20,10 @@ def read_parameter_file(path: str) -> list[Entry]:
     """The values in a file, in its order; names of nested parameters are joined by dots. Raises YamlValueError."""
     try:
         text = Path(path).read_text(encoding="utf-8")
-    except OSError as error:
-        raise YamlValueError(f"Error opening YAML file: {error.strerror}") from None
     except UnicodeDecodeError:
         raise YamlValueError("Error opening YAML file: it is no text in UTF-8") from None
+    except (OSError, ValueError) as error:
+        raise YamlValueError(f"Error opening YAML file: {getattr(error, 'strerror', None) or error}") from None
     return list(_nodes(tree(text), []))
 
 

@@ -134,9 +134,10 @@ class Way:
         """Where the source frame is, seen from the target frame."""
         return combined(inverted(_summed(self.down)), _summed(self.up))
 
-    def chain(self) -> list[str]:
-        """The frames on the way, without the source itself if it is the top."""
-        return [name for name, _ in self.up] + [name for name, _ in reversed(self.down)]
+    def chain(self, source: str) -> list[str]:
+        """The frames on the way from the source on, with those at both ends."""
+        up = [source, *(kept.parent for _, kept in self.up)]
+        return [*up, *(name for name, _ in reversed(self.down))]
 
 
 def _summed(steps: list[tuple[str, Kept]]) -> Transform:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from copy import deepcopy
 from typing import Any
 
@@ -136,7 +136,7 @@ class ForLoop(Action):
         return [entity for i in range(length) for entity in self._function(i=i) or []]
 
 
-def one_round(children: Entities, values: Mapping[str, Any]) -> Entities:
+def one_round(children: Sequence[LaunchDescriptionEntity], values: Mapping[str, Any]) -> Entities:
     """The actions of one round, which see the round's values and no other's."""
     named = {ForEachVar.get_local_arg_name(name): str(value) for name, value in values.items()}
     return [

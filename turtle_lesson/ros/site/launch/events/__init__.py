@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING
 from .._missing import explain_missing
 from ..event import Event
 from . import process
+from .include_launch_description import IncludeLaunchDescription
 from .matchers import matches_action
 
 if TYPE_CHECKING:
     from ..action import Action
     from ..actions import TimerAction
 
-__all__ = ["ExecutionComplete", "Shutdown", "TimerEvent", "matches_action", "process"]
+__all__ = ["ExecutionComplete", "IncludeLaunchDescription", "Shutdown", "TimerEvent", "matches_action", "process"]
 
 
 class Shutdown(Event):
@@ -44,4 +45,4 @@ class ExecutionComplete(Event):
         self.action = action
 
 
-__getattr__ = explain_missing(__name__, {"IncludeLaunchDescription": ""})
+__getattr__ = explain_missing(__name__, {})

@@ -13,7 +13,6 @@ from ..utilities import normalize_to_list_of_substitutions, perform_substitution
 from ._parsing import arguments
 from .substitution_failure import SubstitutionFailure
 
-
 PROGRAMS = {"ros2", "python3", "python"}
 """Programs that this classroom has itself."""
 

@@ -73,5 +73,5 @@ def _hint(name: str, context: LaunchContext) -> str:
         return f"Did you mean LaunchConfiguration('{close[0]}')?"
     return (
         f"Before its first use put DeclareLaunchArgument('{name}', default_value='…'), "
-        f"in XML <arg name=\"{name}\" default=\"…\"/>."
+        f'in XML <arg name="{name}" default="…"/>.'
     )

@@ -22,8 +22,8 @@ from launch.utilities import (
 
 from turtle_lesson.ros.core.tracebacks import shown_path
 
-from .._parsing import nested_parameters, remap_rules
 from .._names import check_namespace, check_node_name, in_namespace
+from .._parsing import nested_parameters, remap_rules
 from .._values import as_argument, parameters_in
 from ..parameter_descriptions import Parameter, ParameterFile
 from ..substitutions import ExecutableInPackage

@@ -4,7 +4,8 @@ from launch._missing import explain_missing
 
 from .executable_in_package import ExecutableInPackage
 from .find_package import FindPackage, FindPackagePrefix, FindPackageShare
+from .parameter import Parameter
 
-__all__ = ["ExecutableInPackage", "FindPackage", "FindPackagePrefix", "FindPackageShare"]
+__all__ = ["ExecutableInPackage", "FindPackage", "FindPackagePrefix", "FindPackageShare", "Parameter"]
 
-__getattr__ = explain_missing(__name__, {"Parameter": "", "FindPackageShareDirectory": "use FindPackageShare"})
+__getattr__ = explain_missing(__name__, {"FindPackageShareDirectory": "use FindPackageShare"})

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from launch import LaunchContext
+from launch.frontend import expose_substitution
 from launch.some_types import SomeSubstitutionsType
 from launch.substitution import Substitution
 from launch.substitutions import SubstitutionFailure
+from launch.substitutions._parsing import arguments
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 from turtle_lesson.ros.workspace.current import current_packages
@@ -17,8 +19,14 @@ if TYPE_CHECKING:
     from turtle_lesson.ros.workspace.package import Target
 
 
+@expose_substitution("exec-in-pkg")
 class ExecutableInPackage(Substitution):
     """Stands for the path at which a real ROS 2 has the program; `target` is what runs here."""
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type, dict[str, Any]]:
+        """Its arguments as they stand behind `$(exec-in-pkg `."""
+        return cls, arguments("exec-in-pkg", data, ["executable", "package"], 2)
 
     def __init__(self, executable: SomeSubstitutionsType, package: SomeSubstitutionsType) -> None:
         self.__executable = normalize_to_list_of_substitutions(executable)

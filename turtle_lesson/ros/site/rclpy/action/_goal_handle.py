@@ -27,7 +27,9 @@ class ServerGoalHandle:
         self._action_type = action_server.action_type
         self._goal_info = goal_info
         self._goal_request = goal_request
-        self._status = GoalStatus.STATUS_ACCEPTED
+        self._for_all = GoalStatus(
+            goal_info=goal_info, status=GoalStatus.STATUS_ACCEPTED
+        )  # what the status topic tells
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, ServerGoalHandle) and self.goal_id == other.goal_id
@@ -61,7 +63,7 @@ class ServerGoalHandle:
     def status(self) -> int:
         """The goal's state, one of action_msgs.msg.GoalStatus; STATUS_UNKNOWN once the server has forgotten the goal."""
         server = self._server()
-        return GoalStatus.STATUS_UNKNOWN if server is None else self._status
+        return GoalStatus.STATUS_UNKNOWN if server is None else self._for_all.status
 
     def _server(self) -> ActionServer | None:
         if self._action_server is not None:
@@ -72,9 +74,9 @@ class ServerGoalHandle:
         server = self._server()
         if server is None:
             return
-        self._status = state_after(self._status, event)
+        self._for_all.status = state_after(self._for_all.status, event)
         server._publish_status()
-        if self._status not in ACTIVE:
+        if self._for_all.status not in ACTIVE:
             server._note_ended(self)
 
     def execute(self, execute_callback: Callable[[ServerGoalHandle], Any] | None = None) -> None:

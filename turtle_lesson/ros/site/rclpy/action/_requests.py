@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from action_msgs.msg import GoalInfo, GoalStatus
 
 from ..exceptions import RCLError
+from ..impl.logging_severity import LoggingSeverity
 from ._answers import CancelResponse, GoalResponse
 from ._callbacks import call_back
 from ._cancelling import goals_to_cancel
@@ -33,10 +34,15 @@ class Requests:
 
         def _publish_status(self) -> None: ...
 
+    def _debug(self, text: str, goal_id: Any) -> None:
+        """Log what only the developer of a server wants to see, with a goal's number."""
+        logger = self._node.get_logger()
+        if logger.is_enabled_for(LoggingSeverity.DEBUG):
+            logger.debug(text.format(goal_id.uuid))
+
     async def _execute_goal_request(self, request: Any) -> None:
-        message, logger = request.message, self._node.get_logger()
-        shown = message.goal_id.uuid
-        logger.debug(f"New goal request with ID: {shown}")
+        message = request.message
+        self._debug("New goal request with ID: {}", message.goal_id)
         info = GoalInfo(goal_id=message.goal_id)
         accepted = self._goals.get(message.goal_id) is None and await self._is_acceptable(message.goal)
         handle = None
@@ -47,9 +53,9 @@ class Requests:
         response = self._action_type.Impl.SendGoalService.Response(accepted=accepted, stamp=info.stamp)
         request.client.reply(request.number, response)
         if handle is None:
-            logger.debug(f"New goal rejected: {shown}")
+            self._debug("New goal rejected: {}", message.goal_id)
             return
-        logger.debug(f"New goal accepted: {shown}")
+        self._debug("New goal accepted: {}", message.goal_id)
         self._publish_status()
         await call_back("handle_accepted_callback", self._handle_accepted_callback, handle)
 
@@ -60,7 +66,7 @@ class Requests:
         return response is GoalResponse.ACCEPT
 
     async def _execute_cancel_request(self, request: Any) -> None:
-        self._node.get_logger().debug(f"Cancel request received: {request.message}")
+        self._debug("Cancel request received for goal with ID: {}", request.message.goal_info.goal_id)
         response = self._action_type.Impl.CancelGoalService.Response()
         response.return_code, handles = goals_to_cancel(request.message.goal_info, self._goals)
         response.goals_canceling = [handle._goal_info for handle in handles if await self._cancel(handle)]
@@ -82,10 +88,10 @@ class Requests:
         return True
 
     def _execute_result_request(self, request: Any) -> None:
-        goal_id, logger = request.message.goal_id, self._node.get_logger()
-        logger.debug(f"Result request received for goal with ID: {goal_id.uuid}")
+        goal_id = request.message.goal_id
+        self._debug("Result request received for goal with ID: {}", goal_id)
         if self._goals.get(goal_id) is None:
-            logger.debug(f"Sending result response for unknown goal ID: {goal_id.uuid}")
+            self._debug("Sending result response for unknown goal ID: {}", goal_id)
             unknown = self._action_type.Impl.GetResultService.Response(status=GoalStatus.STATUS_UNKNOWN)
             request.client.reply(request.number, unknown)
             return

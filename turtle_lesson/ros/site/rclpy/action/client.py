@@ -232,8 +232,7 @@ class ActionClient(Waitable):
             if callback is not None:
                 await call_back("feedback_callback", callback, message)
         if "status" in taken_data:
-            for each in taken_data["status"].status_list:
-                self._take_status(key_of(each.goal_info.goal_id), each.status)
+            self._take_status(taken_data["status"])
 
     def _take_goal_response(self, number: int, response: Any) -> None:
         goal_id = self._goal_ids.pop(number, None)
@@ -257,12 +256,19 @@ class ActionClient(Waitable):
             f"one action server for the action '{self._action_name}'"
         )
 
-    def _take_status(self, key: bytes, status: int) -> None:
-        handle = self._goal_handles.get(key)
-        if handle is not None:
-            handle._status = status
-            if status not in ACTIVE:
-                del self._goal_handles[key]
+    def _take_status(self, message: Any) -> None:
+        """Note the states of the goals that are followed; the newest ones stand last."""
+        followed = len(self._goal_handles)
+        for each in reversed(message.status_list):
+            if not followed:
+                return
+            key = key_of(each.goal_info.goal_id)
+            handle = self._goal_handles.get(key)
+            if handle is not None:
+                followed -= 1
+                handle._status = each.status
+                if each.status not in ACTIVE:
+                    del self._goal_handles[key]
 
     # -- as part of a node -----------------------------------------------------------------------------------------
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from action_msgs.msg import GoalStatus, GoalStatusArray
+from action_msgs.msg import GoalStatusArray
 
 from turtle_lesson.ros.core import NANOSECONDS
 from turtle_lesson.ros.core.tracebacks import print_error
@@ -201,8 +201,8 @@ class ActionServer(Requests, Waitable):
     async def _execute_goal(
         self, execute_callback: Callable[..., Any], goal_handle: ServerGoalHandle, ready: int
     ) -> None:
-        shown, logger, simulation = goal_handle.goal_id.uuid, self._node.get_logger(), self._node._ros_simulation
-        logger.debug(f"Executing goal with ID {shown}")
+        logger, simulation = self._node.get_logger(), self._node._ros_simulation
+        self._debug("Executing goal with ID {}", goal_handle.goal_id)
         simulation.sleep_until(simulation.now + OVERHEAD)
         try:
             with noted(self, execute_callback, ready):
@@ -212,9 +212,9 @@ class ActionServer(Requests, Waitable):
             logger.error(f"Error raised in execute callback: {error}")
             print_error(error)
         if goal_handle.is_active:
-            logger.warning(f"Goal state not set, assuming aborted. Goal ID: {shown}")
+            logger.warning(f"Goal state not set, assuming aborted. Goal ID: {goal_handle.goal_id.uuid}")
             goal_handle.abort()
-        logger.debug(f"Goal with ID {shown} finished with state {goal_handle.status}")
+        self._debug(f"Goal with ID {{}} finished with state {goal_handle.status}", goal_handle.goal_id)
         response = self._result_response(goal_handle.status, result)
         for request in self._goals.finish(goal_handle, response):
             request.client.reply(request.number, response)
@@ -233,8 +233,8 @@ class ActionServer(Requests, Waitable):
     # -- what goes out ---------------------------------------------------------------------------------------------
 
     def _publish_status(self) -> None:
-        goals = [GoalStatus(goal_info=goal._goal_info, status=goal.status) for goal in self._goals]
-        self._status.publish(GoalStatusArray(status_list=goals))
+        self._forget_expired()
+        self._status.publish(GoalStatusArray(status_list=[goal._for_all for goal in self._goals]))
 
     def _publish_feedback(self, goal_id: Any, feedback: Any) -> None:
         self._feedback.publish(self._action_type.Impl.FeedbackMessage(goal_id=goal_id, feedback=feedback))

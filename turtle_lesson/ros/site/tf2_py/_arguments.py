@@ -1,0 +1,101 @@
+"""What may be given to a BufferCore: times, durations, frames and transforms; what is refused, and how tf2 says so.
+
+Facts: geometry2, tf2_py/src/tf2_py.cpp (conversions), tf2/src/buffer_core.cpp (validateFrameId, setTransformImpl).
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from typing import Any
+
+from rclpy._notebook import is_notebook
+
+from turtle_lesson.ros.world import current_process
+
+from ._cache import Kept
+from ._exceptions import InvalidArgumentException, LookupException
+from ._rotation import canonical
+from ._walk import Frames
+
+TOLERANCE = 10e-3
+"""How far the squared length of a quaternion may be off 1."""
+
+
+def nanoseconds(value: Any, what: str = "time") -> int:
+    """A time or duration in ns, given as rclpy's or as a message. Raises TypeError."""
+    if hasattr(value, "sec") and hasattr(value, "nanosec"):
+        return value.sec * 1_000_000_000 + value.nanosec
+    if hasattr(value, "nanoseconds"):
+        return value.nanoseconds
+    kind = "Time" if what == "time" else "Duration"
+    hint = f"got {value!r}; write rclpy.{kind.lower()}.{kind}(seconds=…)"
+    raise TypeError(f"{what} must have sec and nanosec, or nanoseconds: {hint}")
+
+
+def check_frame(frames: Frames, frame: Any, argument: str) -> str:
+    """The name of a frame that there is. Raises InvalidArgumentException, LookupException, TypeError."""
+    wrong = wrong_name(frame)
+    if wrong:
+        raise InvalidArgumentException(f'Invalid argument "{frame}" passed to {argument} - {wrong}')
+    if frame not in frames:
+        error = LookupException(f'"{frame}" passed to {argument} does not exist. ')
+        error.add_note(_known(frames))
+        raise error
+    return frame
+
+
+def wrong_name(frame: Any) -> str:
+    """Why this can be no frame's name; "" if it can."""
+    if not isinstance(frame, str):
+        raise TypeError(f"a frame's name must be a str, got {frame!r}")
+    if not frame:
+        return "in tf2 frame_ids cannot be empty"
+    return "in tf2 frame_ids cannot start with a '/'" if frame.startswith("/") else ""
+
+
+def _known(frames: Frames) -> str:
+    if frames:
+        return f"Frames that were heard of so far: {', '.join(frames)}."
+    return "No transform was heard yet: does a broadcaster run, and is the node with the TransformListener spun?"
+
+
+def read_transform(transform: Any, authority: str) -> tuple[str, Kept] | None:
+    """A TransformStamped as (child, what is kept of it); None if tf2 ignores it, which is said on the console."""
+    parent = transform.header.frame_id.removeprefix("/")
+    child = transform.child_frame_id.removeprefix("/")
+    place, turn = transform.transform.translation, transform.transform.rotation
+    where = (place.x, place.y, place.z)
+    how = canonical((turn.x, turn.y, turn.z, turn.w))
+    if refusals := _refusals(parent, child, where, how, authority):
+        for refusal in refusals:
+            say("Error:  ", refusal)
+        return None
+    return child, Kept(nanoseconds(transform.header.stamp), parent, how, where)
+
+
+def _refusals(parent: str, child: str, place: tuple[float, ...], turn: tuple[float, ...], authority: str) -> list[str]:
+    by = f'from authority "{authority}"'
+    found = []
+    if child == parent:
+        same = f'with frame_id and  child_frame_id "{child}" because they are the same'
+        found.append(f"TF_SELF_TRANSFORM: Ignoring transform {by} {same}")
+    if not child:
+        found.append(f"TF_NO_CHILD_FRAME_ID: Ignoring transform {by} because child_frame_id not set ")
+    if not parent:
+        found.append(
+            f'TF_NO_FRAME_ID: Ignoring transform with child_frame_id "{child}"  {by} because frame_id not set'
+        )
+    quaternion = f"({' '.join(f'{each:f}' for each in turn)})"
+    if any(map(math.isnan, (*place, *turn))):
+        values = f"because of a nan value in the transform ({' '.join(f'{each:f}' for each in place)}) {quaternion}"
+        found.append(f'TF_NAN_INPUT: Ignoring transform for child_frame_id "{child}" {by} {values}')
+    if not abs(sum(each * each for each in turn) - 1.0) < TOLERANCE:
+        values = f"because of an invalid quaternion in the transform {quaternion}"
+        found.append(f'TF_DENORMALIZED_QUATERNION: Ignoring transform for child_frame_id "{child}" {by} {values}')
+    return found
+
+
+def say(level: str, text: str) -> None:
+    """Print what tf2 prints without a logger: to the running program's stderr, in a cell to its output."""
+    print(level, text, file=sys.stdout if is_notebook(current_process()) else sys.stderr)

@@ -1,0 +1,162 @@
+"""The buffer of transforms that nodes use. Facts: geometry2, tf2_ros_py/tf2_ros/buffer.py."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from geometry_msgs.msg import TransformStamped
+from rclpy.clock import JumpThreshold, TimeJump
+from rclpy.duration import Duration
+from rclpy.logging import get_logger
+from rclpy.node import Node
+from rclpy.task import Future
+from rclpy.time import Time
+from tf2_msgs.srv import FrameGraph
+from tf2_py import BufferCore
+
+from ._waiting import Waiting, wait_until
+from .buffer_interface import BufferInterface
+
+__all__ = ["Buffer"]
+
+
+class Buffer(BufferCore, BufferInterface):
+    """Keeps the transforms that a TransformListener hears, and answers for any two frames.
+
+    Args:
+        cache_time: how long transforms are kept; 10 s if left out.
+        node: one that shall offer the service `tf2_frames`, which lists all frames as YAML.
+
+    Where a `timeout` is given, lookups wait that long at most, in robot time, and hold up their thread meanwhile.
+    """
+
+    def __init__(self, cache_time: Duration | None = None, node: Node | None = None) -> None:
+        BufferCore.__init__(self, cache_time)
+        BufferInterface.__init__(self)
+        self._waiting: list[Waiting] = []
+        if node is not None:
+            self.srv = node.create_service(FrameGraph, "tf2_frames", self._get_frames)
+            self.clock = node.get_clock()
+            backwards = JumpThreshold(min_forward=None, min_backward=Duration(nanoseconds=-1), on_clock_change=False)
+            self.jump_handle = self.clock.create_jump_callback(backwards, post_callback=self.time_jump_callback)
+
+    def _get_frames(self, request: FrameGraph.Request, response: FrameGraph.Response) -> FrameGraph.Response:
+        response.frame_yaml = self.all_frames_as_yaml()
+        return response
+
+    def time_jump_callback(self, time_jump: TimeJump) -> None:
+        """Forget everything when the node's clock is set back, as a bag that is played again does."""
+        get_logger("tf2_buffer").warning("Detected jump back in time. Clearing tf buffer.")
+        self.clear()
+
+    # -- telling -------------------------------------------------------------------------------------------
+
+    def set_transform(self, transform: TransformStamped, authority: str) -> None:
+        """Keep the transform of a frame that moves."""
+        super().set_transform(transform, authority)
+        self._tell_who_waits()
+
+    def set_transform_static(self, transform: TransformStamped, authority: str) -> None:
+        """Keep the transform of a frame that never moves."""
+        super().set_transform_static(transform, authority)
+        self._tell_who_waits()
+
+    def _tell_who_waits(self) -> None:
+        if self._waiting:
+            for waiting in self._waiting:
+                waiting.try_again()
+            self._waiting = [waiting for waiting in self._waiting if not waiting.over]
+
+    # -- looking up ----------------------------------------------------------------------------------------
+
+    def lookup_transform(
+        self, target_frame: str, source_frame: str, time: Time, timeout: Duration = Duration()
+    ) -> TransformStamped:
+        """Where the source frame is, seen from the target frame, at a time (`Time()`: the latest).
+
+        Raises LookupException, ConnectivityException, ExtrapolationException, InvalidArgumentException.
+        """
+        self.can_transform(target_frame, source_frame, time, timeout)
+        return self.lookup_transform_core(target_frame, source_frame, time)
+
+    async def lookup_transform_async(self, target_frame: str, source_frame: str, time: Time) -> TransformStamped:
+        """The same, awaited until it is there."""
+        await self.wait_for_transform_async(target_frame, source_frame, time)
+        return self.lookup_transform_core(target_frame, source_frame, time)
+
+    def lookup_transform_full(
+        self,
+        target_frame: str,
+        target_time: Time,
+        source_frame: str,
+        source_time: Time,
+        fixed_frame: str,
+        timeout: Duration = Duration(),
+    ) -> TransformStamped:
+        """Where the source frame was at its time, seen from where the target frame is at its own.
+
+        `fixed_frame` is one that does not move between the two, such as "world". Raises as `lookup_transform`.
+        """
+        self.can_transform_full(target_frame, target_time, source_frame, source_time, fixed_frame, timeout)
+        return self.lookup_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame)
+
+    async def lookup_transform_full_async(
+        self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
+    ) -> TransformStamped:
+        """The same, awaited until it is there."""
+        await self.wait_for_transform_full_async(target_frame, target_time, source_frame, source_time, fixed_frame)
+        return self.lookup_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame)
+
+    # -- can it be looked up? ------------------------------------------------------------------------------
+
+    def can_transform(
+        self,
+        target_frame: str,
+        source_frame: str,
+        time: Time,
+        timeout: Duration = Duration(),
+        return_debug_tuple: bool = False,
+    ) -> Any:
+        """Whether there is such a transform; with `return_debug_tuple` also why not."""
+        wait_until(lambda: self.can_transform_core(target_frame, source_frame, time)[0], timeout)
+        found = self.can_transform_core(target_frame, source_frame, time)
+        return found if return_debug_tuple else found[0]
+
+    def can_transform_full(
+        self,
+        target_frame: str,
+        target_time: Time,
+        source_frame: str,
+        source_time: Time,
+        fixed_frame: str,
+        timeout: Duration = Duration(),
+        return_debug_tuple: bool = False,
+    ) -> Any:
+        """Whether there is such a transform between two times; with `return_debug_tuple` also why not."""
+        asked = (target_frame, target_time, source_frame, source_time, fixed_frame)
+        wait_until(lambda: self.can_transform_full_core(*asked)[0], timeout)
+        found = self.can_transform_full_core(*asked)
+        return found if return_debug_tuple else found[0]
+
+    # -- waiting -------------------------------------------------------------------------------------------
+
+    def wait_for_transform_async(self, target_frame: str, source_frame: str, time: Time) -> Future:
+        """A future whose result is the transform, as soon as it can be looked up."""
+        asked = (target_frame, source_frame, time)
+        return self._wait(
+            Waiting(lambda: self.can_transform_core(*asked)[0], lambda: self.lookup_transform_core(*asked))
+        )
+
+    def wait_for_transform_full_async(
+        self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
+    ) -> Future:
+        """A future whose result is the transform between two times, as soon as it can be looked up."""
+        asked = (target_frame, target_time, source_frame, source_time, fixed_frame)
+        return self._wait(
+            Waiting(lambda: self.can_transform_full_core(*asked)[0], lambda: self.lookup_transform_full_core(*asked))
+        )
+
+    def _wait(self, waiting: Waiting) -> Future:
+        if not waiting.over:
+            self._waiting.append(waiting)
+        return waiting.future

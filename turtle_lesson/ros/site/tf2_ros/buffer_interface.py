@@ -1,0 +1,192 @@
+"""What every buffer offers: transforming stamped data, with the functions that packages have registered for their types.
+
+Facts: geometry2, tf2_ros_py/tf2_ros/buffer_interface.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from copy import deepcopy
+from typing import Any
+
+from geometry_msgs.msg import TransformStamped
+from rclpy.duration import Duration
+from rclpy.time import Time
+from std_msgs.msg import Header
+
+__all__ = [
+    "BufferInterface",
+    "ConvertRegistration",
+    "NotImplementedException",
+    "Stamped",
+    "TransformRegistration",
+    "TypeException",
+    "convert",
+]
+
+Transforming = Callable[[Any, TransformStamped], Any]
+
+
+class TypeException(Exception):
+    """Nobody has registered how to transform, or to convert, something of this type."""
+
+    def __init__(self, errstr: str) -> None:
+        super().__init__(errstr)
+        self.errstr = errstr
+
+
+class NotImplementedException(Exception):
+    """A subclass of BufferInterface does not say how it looks transforms up."""
+
+    def __init__(self) -> None:
+        super().__init__("CanTransform or LookupTransform not implemented")
+        self.errstr = "CanTransform or LookupTransform not implemented"
+
+
+class TransformRegistration:
+    """The functions that transform data, by the type of the data; all registrations are one."""
+
+    _functions: dict[Any, Transforming] = {}
+
+    def add(self, key: Any, callback: Transforming) -> None:
+        """Have data of this type be transformed by a function of the data and a TransformStamped."""
+        self._functions[key] = callback
+
+    def get(self, key: Any) -> Transforming:
+        """The function for a type. Raises TypeException."""
+        return _found(self._functions, key)
+
+    def print_me(self) -> None:
+        """Print all of them."""
+        print(self._functions)
+
+
+class ConvertRegistration:
+    """The functions that convert data between types, and to and from messages; all registrations are one."""
+
+    _to_message: dict[Any, Callable[[Any], Any]] = {}
+    _from_message: dict[Any, Callable[[Any], Any]] = {}
+    _direct: dict[Any, Callable[[Any], Any]] = {}
+
+    def add_from_msg(self, key: Any, callback: Callable[[Any], Any]) -> None:
+        """How a message becomes data of a type."""
+        self._from_message[key] = callback
+
+    def add_to_msg(self, key: Any, callback: Callable[[Any], Any]) -> None:
+        """How data of a type becomes a message."""
+        self._to_message[key] = callback
+
+    def add_convert(self, key: tuple[Any, Any], callback: Callable[[Any], Any]) -> None:
+        """How data of one type becomes data of another."""
+        self._direct[key] = callback
+
+    def get_from_msg(self, key: Any) -> Callable[[Any], Any]:
+        """The function from a message. Raises TypeException."""
+        return _found(self._from_message, key)
+
+    def get_to_msg(self, key: Any) -> Callable[[Any], Any]:
+        """The function to a message. Raises TypeException."""
+        return _found(self._to_message, key)
+
+    def get_convert(self, key: tuple[Any, Any]) -> Callable[[Any], Any]:
+        """The function between two types. Raises TypeException."""
+        return _found(self._direct, key)
+
+
+def _found(functions: dict[Any, Callable[..., Any]], key: Any) -> Callable[..., Any]:
+    if key in functions:
+        return functions[key]
+    error = TypeException(f"Type {key} is not loaded or supported")
+    error.add_note("For the types of geometry_msgs write: import tf2_geometry_msgs")
+    raise error
+
+
+def convert(a: Any, b_type: Any) -> Any:
+    """Data as data of another type. Raises TypeException."""
+    registered = ConvertRegistration()
+    if (type(a), b_type) in registered._direct:
+        return registered.get_convert((type(a), b_type))(a)
+    if type(a) is b_type:
+        return deepcopy(a)
+    return registered.get_from_msg(b_type)(registered.get_to_msg(type(a))(a))
+
+
+def Stamped(obj: Any, stamp: Any, frame_id: str) -> Any:
+    """The same data with a header."""
+    obj.header = Header(frame_id=frame_id, stamp=stamp)
+    return obj
+
+
+class BufferInterface:
+    """Base class of buffers. Times of 0 ask for the latest; a timeout says how long to wait for the transform."""
+
+    def __init__(self) -> None:
+        self.registration = TransformRegistration()
+
+    def transform(
+        self, object_stamped: Any, target_frame: str, timeout: Duration = Duration(), new_type: Any = None
+    ) -> Any:
+        """Stamped data as seen from the target frame, at the time of its stamp.
+
+        Raises TypeException for a type that is not registered, and TransformException.
+        """
+        do_transform = self.registration.get(type(object_stamped))
+        header = object_stamped.header
+        found = do_transform(
+            object_stamped, self.lookup_transform(target_frame, header.frame_id, header.stamp, timeout)
+        )
+        return found if new_type is None else convert(found, new_type)
+
+    def transform_full(
+        self,
+        object_stamped: Any,
+        target_frame: str,
+        target_time: Time,
+        fixed_frame: str,
+        timeout: Duration = Duration(),
+        new_type: Any = None,
+    ) -> Any:
+        """Stamped data as seen from the target frame at another time. Raises as `transform`."""
+        do_transform = self.registration.get(type(object_stamped))
+        header = object_stamped.header
+        transform = self.lookup_transform_full(
+            target_frame, target_time, header.frame_id, header.stamp, fixed_frame, timeout
+        )
+        found = do_transform(object_stamped, transform)
+        return found if new_type is None else convert(found, new_type)
+
+    def lookup_transform(
+        self, target_frame: str, source_frame: str, time: Time, timeout: Duration = Duration()
+    ) -> TransformStamped:
+        """Where the source frame is, seen from the target frame; for subclasses to say."""
+        raise NotImplementedException()
+
+    def lookup_transform_full(
+        self,
+        target_frame: str,
+        target_time: Time,
+        source_frame: str,
+        source_time: Time,
+        fixed_frame: str,
+        timeout: Duration = Duration(),
+    ) -> TransformStamped:
+        """The same between two times; for subclasses to say."""
+        raise NotImplementedException()
+
+    def can_transform(
+        self, target_frame: str, source_frame: str, time: Time, timeout: Duration = Duration()
+    ) -> Any:
+        """Whether there is such a transform; for subclasses to say."""
+        raise NotImplementedException()
+
+    def can_transform_full(
+        self,
+        target_frame: str,
+        target_time: Time,
+        source_frame: str,
+        source_time: Time,
+        fixed_frame: str,
+        timeout: Duration = Duration(),
+    ) -> Any:
+        """Whether there is such a transform between two times; for subclasses to say."""
+        raise NotImplementedException()

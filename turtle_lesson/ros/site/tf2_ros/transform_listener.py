@@ -1,0 +1,103 @@
+"""Hears /tf and /tf_static, and fills a buffer. Facts: geometry2, tf2_ros_py/tf2_ros/transform_listener.py."""
+
+from __future__ import annotations
+
+from threading import Thread
+
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
+from tf2_msgs.msg import TFMessage
+
+from .buffer import Buffer
+
+__all__ = ["DEFAULT_STATIC_TF_TOPIC", "DEFAULT_TF_TOPIC", "TransformListener"]
+
+DEFAULT_TF_TOPIC = "/tf"
+DEFAULT_STATIC_TF_TOPIC = "/tf_static"
+
+
+class TransformListener:
+    """Fills a buffer with what is told on /tf and /tf_static.
+
+    It hears nothing until its node is spun.
+
+    Args:
+        buffer: what to fill.
+        node: the node that listens; None to have one made for it (then with `spin_thread`).
+        spin_thread: have a thread of its own spin the node.
+        qos, static_qos: quality of service of the two subscriptions, or how many messages to keep.
+        tf_topic, tf_static_topic: other topics to listen to.
+        static_only: hear /tf_static alone.
+    """
+
+    def __init__(
+        self,
+        buffer: Buffer,
+        node: Node | None,
+        *,
+        spin_thread: bool = False,
+        qos: QoSProfile | int | None = None,
+        static_qos: QoSProfile | int | None = None,
+        tf_topic: str = DEFAULT_TF_TOPIC,
+        tf_static_topic: str = DEFAULT_STATIC_TF_TOPIC,
+        static_only: bool = False,
+    ) -> None:
+        self.buffer = buffer
+        self.node = _own_node() if node is None else node
+        # A group that lets a callback which waits for a transform be interrupted by the one that brings it.
+        self.group = ReentrantCallbackGroup()
+        if not static_only:
+            self.tf_sub = self.node.create_subscription(
+                TFMessage, tf_topic, self.callback, qos or _quality(DurabilityPolicy.VOLATILE), callback_group=self.group
+            )
+        self.tf_static_sub = self.node.create_subscription(
+            TFMessage,
+            tf_static_topic,
+            self.static_callback,
+            static_qos or _quality(DurabilityPolicy.TRANSIENT_LOCAL),
+            callback_group=self.group,
+        )
+        if spin_thread:
+            self.executor = SingleThreadedExecutor()
+            self.dedicated_listener_thread = Thread(target=self._spin)
+            self.dedicated_listener_thread.start()
+
+    def _spin(self) -> None:
+        self.executor.add_node(self.node)
+        try:
+            self.executor.spin()
+        except ExternalShutdownException:
+            pass
+        self.executor.remove_node(self.node)
+
+    def unregister(self) -> None:
+        """Listen no more."""
+        if hasattr(self, "tf_sub"):
+            self.node.destroy_subscription(self.tf_sub)
+        self.node.destroy_subscription(self.tf_static_sub)
+
+    def callback(self, data: TFMessage) -> None:
+        """Put transforms of frames that move into the buffer."""
+        for transform in data.transforms:
+            self.buffer.set_transform(transform, "default_authority")
+
+    def static_callback(self, data: TFMessage) -> None:
+        """Put transforms of frames that never move into the buffer."""
+        for transform in data.transforms:
+            self.buffer.set_transform_static(transform, "default_authority")
+
+
+def _quality(durability: DurabilityPolicy) -> QoSProfile:
+    return QoSProfile(depth=100, durability=durability, history=HistoryPolicy.KEEP_LAST)
+
+
+def _own_node() -> Node:
+    return Node(
+        "transform_listener_impl",
+        enable_rosout=False,
+        start_parameter_services=False,
+        parameter_overrides=[Parameter("use_sim_time", value=False)],
+    )
