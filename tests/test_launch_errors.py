@@ -203,9 +203,8 @@ def test_a_name_that_was_not_imported(tmp_path: Path) -> None:
             "launch_ros.actions import Node",
         ),
         (
-            "from launch_ros.actions import ComposableNodeContainer",
-            "launch_ros.actions has no 'ComposableNodeContainer' in this classroom yet: composable nodes are "
-            "C++ libraries, and this classroom runs Python; use Node",
+            "from launch_ros.descriptions import RosExecutable",
+            "launch_ros.descriptions has no 'RosExecutable' in this classroom yet: use Node",
         ),
     ],
 )

@@ -56,7 +56,8 @@ def test_a_node_goes_from_unconfigured_over_inactive_to_active_and_back_and_ends
         assert trigger() is SUCCESS
         states.append(state_of(node))
     assert states == ["unconfigured", "inactive", "active", "inactive", "unconfigured", "finalized"]
-    assert node.trigger_shutdown() is None
+    with pytest.raises(RCLError, match="Shutdown transtion not possible"):
+        node.trigger_shutdown()
 
 
 def test_a_transition_that_is_not_possible_says_what_is(node: LifecycleNode, capsys: Capture) -> None:

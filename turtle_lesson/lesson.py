@@ -14,11 +14,12 @@ from .ros.command.shell import open_terminal
 from .ros.console import CellOutput
 from .ros.core import EPOCH, NANOSECONDS
 from .ros.interfaces.registry import registry
-from .ros.workspace.package import Package, read_source_package
+from .ros.workspace.package import read_source_package
 from .ros.workspace.source import make_importable
 from .ros.world import World, open_world, wall_time
 from .shelf import Shelf
 from .sourced import HERE, real_ros
+from .underlay import SIMULATOR, underlay_packages
 
 if TYPE_CHECKING:
     from .exam_place import ExamPlace
@@ -56,7 +57,8 @@ def start(seed: int = 0, package: str | Path | None = "finished", simulator: boo
     open_terminal()
     if "robot_controller" in registry.packages():
         registry.remove("robot_controller")
-    world.packages.add(_turtlesim())
+    for each in underlay_packages():
+        world.packages.add(each)
     if source is not None:
         _install(world, source)
     return Lesson(world, simulator=simulator)
@@ -87,17 +89,6 @@ def _package_folder(package: str | Path | None) -> Path | None:
     raise ValueError(
         f'package must be "finished", None or the folder of a package, got {package!r}, which is no folder here'
     )
-
-
-def _turtlesim() -> Package:
-    """The simulator as a package, so that `ros2 run turtlesim turtlesim_node` and launch files find it."""
-    return Package("turtlesim", HERE / "turtlesim", executables={"turtlesim_node": _simulator_main})
-
-
-def _simulator_main() -> None:
-    from .turtlesim.node import main
-
-    main()
 
 
 def _install(world: World, folder: Path) -> None:
@@ -131,7 +122,7 @@ class Lesson(Shelf, Insight):
         world.spawn(self._lab, name="lab", argv=["lab"])
         if simulator:
             out = CellOutput(world.sim)
-            world.spawn(_simulator_main, name="turtlesim", argv=["turtlesim_node"], stdout=out, stderr=out)
+            world.spawn(SIMULATOR, name="turtlesim", argv=["turtlesim_node"], stdout=out, stderr=out)
         world.sim.settle()
 
     def __repr__(self) -> str:

@@ -9,7 +9,7 @@ import sys
 from argparse import REMAINDER, ArgumentParser, Namespace
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from .. import launching
 from ..console import CellOutput
@@ -106,7 +106,8 @@ def _launch_arguments(parser: ArgumentParser) -> None:
     shown.add_argument(
         "-s", "--show-args", "--show-arguments", dest="show", action="store_true", help="list the arguments it takes"
     )
-    parser.add_argument("-a", "--show-all-subprocesses-output", action="store_true", help=nothing)
+    shown_all = "show all that the programs print, whatever the launch file says"
+    parser.add_argument("-a", "--show-all-subprocesses-output", action="store_true", dest="all", help=shown_all)
     parser.add_argument("--launch-prefix", help=nothing)
     parser.add_argument("--launch-prefix-filter", help=nothing)
     _add_for(parser, "ros2 launch")
@@ -128,9 +129,9 @@ def _launch(args: Namespace) -> int:
             print(launching.show_arguments(world, path))
             return 0
         if args.print:
-            print(_described(path))
+            print(launching.describe(world, path))
             return 0
-        handle = launching.launch_file(world, path, given)
+        handle = launching.launch_file(world, path, given, show_all_output=args.all)
     except LaunchError as error:
         print("\n".join(filter(None, (error.console, error.advice))))
         return 1
@@ -143,7 +144,7 @@ def _find(args: Namespace) -> tuple[Path, list[str]]:
     name, file_name, words = args.package_name, args.launch_file_name, list(args.launch_arguments or [])
     if len(name) < 1000 and Path(name).is_file():
         return Path(name), [*([file_name] if file_name is not None else []), *words]
-    if "/" in name or name.endswith(".py"):
+    if "/" in name or name.endswith((".py", ".launch.xml", ".launch.yaml", ".launch.yml")):
         hint = "Name the package before the launch file, or give the path of a file that is there."
         raise CommandError(f"'{cut(name, 100)}' is not a valid package name", hint)
     return launching.find_launch_file(current_world(), cut(name, 100), cut(str(file_name), 100)), words
@@ -159,27 +160,6 @@ def _pairs(words: Sequence[str]) -> dict[str, str]:
             raise CommandError(f"malformed launch argument '{cut(word, 100)}', expected format '<name>:=<value>'", hint)
         given[name] = value
     return given
-
-
-def _described(path: Path) -> str:
-    """The tree that `--print` shows."""
-    from launch.launch_description_sources import AnyLaunchDescriptionSource
-
-    source = AnyLaunchDescriptionSource(str(path.resolve()))
-    entities = source._get_launch_description(str(path)).entities
-    signs = ["├──"] * (len(entities) - 1) + ["└──"]
-    lines = [f"{sign} {_entity(each)}" for sign, each in zip(signs, entities, strict=False)]
-    return "\n".join(["<launch.launch_description.LaunchDescription object>", *lines])
-
-
-def _entity(entity: Any) -> str:
-    """One action as `--print` shows it: a node is the command that it runs."""
-    package, executable = getattr(entity, "node_package", None), getattr(entity, "node_executable", None)
-    if isinstance(package, str) and isinstance(executable, str):
-        program = f"ExecInPkg(pkg={package!r}, exec={executable!r})"
-        return f"ExecuteProcess(cmd=[{program}, '--ros-args', '-r', LocalVar('node name')], cwd=None, env=None, shell=False)"
-    name = getattr(entity, "name", None)
-    return f"{type(entity).__name__}({name!r})" if isinstance(name, str) else f"{type(entity).__name__}()"
 
 
 # -- both ----------------------------------------------------------------------------------------------------------------

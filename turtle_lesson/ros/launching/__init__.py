@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "LaunchError",
+    "describe",
     "find_launch_file",
     "launch_arguments",
     "launch_description",
@@ -49,18 +50,25 @@ def find_launch_file(world: World, package: str, file_name: str) -> Path:
         raise LaunchError(error.text, None, error.hint) from None
 
 
-def launch_file(world: World, path: Path | str, arguments: Mapping[str, object] | None = None) -> LaunchHandle:
+def launch_file(
+    world: World,
+    path: Path | str,
+    arguments: Mapping[str, object] | None = None,
+    *,
+    show_all_output: bool = False,
+) -> LaunchHandle:
     """Carry out a launch file.
 
     Args:
         world: where the nodes are to run.
         path: the file.
         arguments: its launch arguments, as `name:=value` on a command line; values become text.
+        show_all_output: whether all that its processes print is shown (`ros2 launch -a`).
 
     Raises:
         LaunchError: if the file cannot be carried out; nothing was started then.
     """
-    handle: LaunchHandle = _start().launch_file(world, Path(path), arguments or {})
+    handle: LaunchHandle = _start().launch_file(world, Path(path), arguments or {}, show_all_output)
     return handle
 
 
@@ -91,6 +99,16 @@ def show_arguments(world: World, path: Path | str) -> str:
     from .arguments import as_shown
 
     return as_shown(launch_arguments(world, path))
+
+
+def describe(world: World, path: Path | str) -> str:
+    """What `ros2 launch … --print` prints: the tree of what is in a launch file.
+
+    Raises:
+        LaunchError: if the file cannot be loaded.
+    """
+    text: str = _start().described(world, Path(path))
+    return text
 
 
 def _start() -> Any:

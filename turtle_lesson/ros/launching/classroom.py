@@ -19,7 +19,7 @@ def check() -> None:
     """
     if str(SITE) not in sys.path:
         sys.path.append(str(SITE))
-    for name in ("launch", "launch_ros"):
+    for name in ("launch", "launch_ros", "launch_xml", "launch_yaml"):
         spec = find_spec(name)
         if spec is None or not spec.origin or SITE not in Path(spec.origin).resolve().parents:
             raise LaunchError(

@@ -46,6 +46,9 @@ class LaunchService:
         self._settling = False
         self._helper: RosHelper | None = None
         self._coroutines = 0
+        self._said_level = False
+        self.failed = False
+        """Whether an error has ended it."""
 
     @property
     def running(self) -> bool:
@@ -115,7 +118,9 @@ class LaunchService:
         Raises:
             LaunchError: if something is wrong with it. If it is found while walking, nothing was started.
         """
-        self.screen.say("INFO", "launch", "Default logging verbosity is set to INFO")
+        if not self._said_level:
+            self.screen.say("INFO", "launch", "Default logging verbosity is set to INFO")
+            self._said_level = True
         with self._inside():
             try:
                 self.visit(entity)
@@ -156,6 +161,7 @@ class LaunchService:
                 self._helper.close()
 
     def _fail(self, error: LaunchError) -> None:
+        self.failed = True
         for line in filter(None, (error.console, error.advice)):
             self.screen.line(line)
         self.shut_down("an error in the launch")

@@ -2,25 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import TypeVar
 
-from launch import LaunchDescription, LaunchDescriptionSource
+from launch import LaunchDescription, LaunchDescriptionSource, LaunchIntrospector
 from launch.actions import IncludeLaunchDescription
 from launch.launch_description_sources import AnyLaunchDescriptionSource
 
 from ..core.tracebacks import shown_path
 from ..workspace.current import seeing
+from ..workspace.index import is_launch_file
 from ..world import World
 from .arguments import LaunchArgument, as_text, declared_in, unknown_warnings
 from .errors import LaunchError, learners_cause
 from .handle import LaunchHandle
 from .service import LaunchService, as_launch_error
 
+T = TypeVar("T")
 
-def launch_file(world: World, path: Path, arguments: Mapping[str, object]) -> LaunchHandle:
+
+def launch_file(world: World, path: Path, arguments: Mapping[str, object], show_all_output: bool) -> LaunchHandle:
     """As `turtle_lesson.ros.launching.launch_file`."""
-    return _begin(world, AnyLaunchDescriptionSource(_existing(path)), as_text(arguments), path.name)
+    source = AnyLaunchDescriptionSource(_existing(path))
+    return _begin(world, source, as_text(arguments), path.name, show_all_output)
 
 
 def launch_description(world: World, description: LaunchDescription, arguments: Mapping[str, object]) -> LaunchHandle:
@@ -31,10 +36,20 @@ def launch_description(world: World, description: LaunchDescription, arguments: 
 
 def launch_arguments(world: World, path: Path) -> list[LaunchArgument]:
     """As `turtle_lesson.ros.launching.launch_arguments`."""
+    return _looked_at(world, path, declared_in)
+
+
+def described(world: World, path: Path) -> str:
+    """As `turtle_lesson.ros.launching.describe`."""
+    return _looked_at(world, path, LaunchIntrospector().format_launch_description)
+
+
+def _looked_at(world: World, path: Path, look: Callable[[LaunchDescription], T]) -> T:
+    """What a function makes of the description in a file, which is not carried out."""
     source = AnyLaunchDescriptionSource(_existing(path))
     try:
         with seeing(world.packages):
-            return declared_in(source._get_launch_description(str(path)))
+            return look(source._get_launch_description(str(path)))
     except Exception as error:
         raise as_launch_error(error, None, {}) from learners_cause(error)
 
@@ -42,13 +57,24 @@ def launch_arguments(world: World, path: Path) -> list[LaunchArgument]:
 def _existing(path: Path) -> str:
     if path.is_file():
         return str(path.resolve())
-    others = sorted(other.name for other in path.parent.glob("*.launch.py")) if path.parent.is_dir() else []
+    others = (
+        sorted(other.name for other in path.parent.glob("*") if is_launch_file(other.name))
+        if path.parent.is_dir()
+        else []
+    )
     hint = f"There are: {', '.join(others)}." if others else ""
     raise LaunchError(f"there is no launch file {shown_path(str(path))}", None, hint)
 
 
-def _begin(world: World, source: LaunchDescriptionSource, arguments: dict[str, str], name: str) -> LaunchHandle:
+def _begin(
+    world: World,
+    source: LaunchDescriptionSource,
+    arguments: dict[str, str],
+    name: str,
+    show_all_output: bool = False,
+) -> LaunchHandle:
     service = LaunchService(world, arguments)
+    service.context._output_override = "both" if show_all_output else None
     include = IncludeLaunchDescription(source, launch_arguments=arguments.items())
     include._written_at = None  # it stands in no launch file
     try:

@@ -129,6 +129,11 @@ def find_launch_file(packages: PackageIndex, package: str, file_name: str) -> Pa
     raise LaunchFileNotFoundError(text, _launch_file_hint(found, file_name))
 
 
+def is_launch_file(name: str) -> bool:
+    """Whether a file is named as launch files are, such as `start.launch.py` or `start_launch.xml`."""
+    return name.endswith(tuple(f"{sign}launch.{kind}" for sign in "._" for kind in ("py", "xml", "yaml", "yml")))
+
+
 def _launch_file_hint(package: Package, file_name: str) -> str:
     if package.source and (lying := sorted(package.source.rglob(file_name))):
         place = lying[0].parent.relative_to(package.source).as_posix()
@@ -136,6 +141,6 @@ def _launch_file_hint(package: Package, file_name: str) -> str:
             f"It lies in {place}/, but is not installed: write install(DIRECTORY {place} DESTINATION "
             "share/${PROJECT_NAME}) in CMakeLists.txt and build again."
         )
-    known = sorted({file.name for file in package.shared_files("*.launch.py")})
+    known = sorted({file.name for file in package.shared_files("*launch.*") if is_launch_file(file.name)})
     there_are = f"There are: {', '.join(known)}." if known else "The package installs no launch file."
     return did_you_mean(file_name, known) or there_are

@@ -16,7 +16,7 @@ CMAKE_PACKAGES = _words(
     rosidl_cmake rosidl_default_generators rosidl_default_runtime rosidl_generator_py rosidl_typesupport_c
     rosidl_typesupport_cpp rosidl_runtime_c rosidl_runtime_cpp
     rclpy rclcpp rclcpp_action rclcpp_components rclcpp_lifecycle rcl rcutils rmw class_loader pluginlib
-    tf2 tf2_ros tf2_geometry_msgs message_filters rosbag2_cpp launch_testing_ament_cmake
+    tf2 tf2_py tf2_ros tf2_geometry_msgs tf2_tools message_filters rosbag2_cpp launch_testing_ament_cmake
     Python3 PythonInterp Threads Eigen3
     """
 )
@@ -26,7 +26,7 @@ PYTHON_PACKAGES = _words(
     """
     launch launch_ros launch_xml launch_yaml launch_testing launch_testing_ros ament_index_python ament_copyright
     ament_flake8 ament_pep257 ros2launch ros2run ros2cli ros2pkg ros2topic rosidl_adapter rosidl_cli tf2_ros_py
-    rosidl_parser rosidl_runtime_py sensor_msgs_py
+    rosidl_parser rosidl_runtime_py sensor_msgs_py tf_transformations
     """
 )
 """Packages that package.xml may name, but that `find_package` cannot find: they are Python alone."""

@@ -82,7 +82,10 @@ def wait_of(strand: Strand) -> str:
     if isinstance(strand.waits_for, str):
         return strand.waits_for
     frame = sys._getframe(1) if strand is getcurrent() else strand.gr_frame
-    return _called_in(frame) or LOCK
+    called = _called_in(frame)
+    if not called and strand is strand.simulation.driven:
+        called = _called_in(strand.simulation.hub.gr_frame)  # the cell, for which it waits
+    return called or LOCK
 
 
 def _called_in(frame: FrameType | None) -> str:

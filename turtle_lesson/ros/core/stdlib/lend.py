@@ -25,7 +25,7 @@ from ..program_modules import ProgramFinder, on_import
 from ..strand import Strand, getcurrent
 from . import dates, exits, identity, local, locks, loops, own_modules, pools, refused, signals, threads, time_of_day
 from .facade import facade
-from .home import in_no_strand, process_here
+from .home import in_no_strand, notebook_here, process_here
 
 _replaced: list[tuple[Any, str, Any]] = []
 
@@ -113,7 +113,12 @@ def _rlock(real: Any, *arguments: Any, **keywords: Any) -> Any:
 def _peek(real: Any) -> float:
     """A clock for waiting with a time limit: unlike `time.monotonic`, looking at it takes no virtual time."""
     strand = getcurrent()
-    return strand.simulation.now / locks.NANOSECONDS if type(strand) is Strand else real()
+    if type(strand) is Strand:
+        return strand.simulation.now / locks.NANOSECONDS
+    notebook = notebook_here()
+    if notebook is not None and locks.is_virtual(sys._getframe(1).f_locals.get("self")):
+        return notebook.simulation.now / locks.NANOSECONDS
+    return real()
 
 
 def _install_threads() -> None:

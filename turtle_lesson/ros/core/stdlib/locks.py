@@ -116,12 +116,13 @@ class VirtualLock:
 
     def _acquire_outside(self, timeout: float) -> bool:
         """Wait where no simulated process runs: in a cell by running the simulation, in another thread really."""
+        self._refuse_if_closed()
         notebook = notebook_here()
         if notebook is None:
-            self._refuse_if_closed()
             return self._lock.acquire(True, timeout)
         taken = drive(notebook.simulation, notebook, self.acquire, True, timeout)
-        self.owner = None  # the cell has it now, and not the strand that waited for the cell
+        if taken:
+            self.owner = None  # the cell has it now, and not the strand that waited for the cell
         return taken
 
     def _refuse_if_closed(self) -> None:
@@ -184,3 +185,12 @@ def _wait_for_notice(condition: Any, timeout: float | None) -> bool:
         condition._acquire_restore(state)
         if not notified and waiter in condition._waiters:
             condition._waiters.remove(waiter)
+
+
+def is_virtual(waited_for: Any) -> bool:
+    """Whether a lock, condition, semaphore or queue is of the simulation."""
+    for part in ("_cond", "mutex", "_lock"):
+        waited_for = getattr(waited_for, part, waited_for)
+        if isinstance(waited_for, (VirtualLock, VirtualRLock)):
+            return True
+    return False

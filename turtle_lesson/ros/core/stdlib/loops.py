@@ -93,6 +93,15 @@ class VirtualEventLoop(asyncio.BaseEventLoop):
             keywords["name"] = f"Task-{number}"
         return super().create_task(coro, **keywords)
 
+    def call_exception_handler(self, context: Any) -> None:
+        """As in asyncio; but of tasks that were left when their process or world ended nobody need hear."""
+        if self._process.alive and not self._process.simulation.closed:
+            super().call_exception_handler(context)
+
+    def __del__(self) -> None:
+        if not self.is_closed() and not self.is_running():
+            self.close()
+
     # -- whom it prints to ---------------------------------------------------------------------------------------------
 
     def print_to(self, strand: Strand) -> None:

@@ -9,6 +9,7 @@ from . import (
     conditions,
     event_handlers,
     events,
+    frontend,
     launch_description_sources,
     logging,
     substitutions,
@@ -24,6 +25,8 @@ from .launch_context import LaunchContext
 from .launch_description import LaunchDescription
 from .launch_description_entity import LaunchDescriptionEntity
 from .launch_description_source import LaunchDescriptionSource
+from .launch_introspector import LaunchIntrospector
+from .launch_service import LaunchService
 from .some_types import (
     SomeActionsType,
     SomeEntitiesType,
@@ -43,6 +46,8 @@ __all__ = [
     "LaunchDescription",
     "LaunchDescriptionEntity",
     "LaunchDescriptionSource",
+    "LaunchIntrospector",
+    "LaunchService",
     "SomeActionsType",
     "SomeEntitiesType",
     "SomeSubstitutionsType",
@@ -52,6 +57,7 @@ __all__ = [
     "conditions",
     "event_handlers",
     "events",
+    "frontend",
     "launch_description_sources",
     "logging",
     "substitutions",
@@ -60,9 +66,5 @@ __all__ = [
 
 __getattr__ = explain_missing(
     __name__,
-    {
-        "LaunchService": "start a description with lesson.launch(…) or `ros2 launch`",
-        "LaunchIntrospector": "",
-        "frontend": "XML and YAML launch files are not here, Python ones are",
-    },
+    {},
 )

@@ -2,17 +2,60 @@
 
 from __future__ import annotations
 
+import logging
+import os
+from pathlib import Path
+
 from ._missing import explain_missing
 
 
+class LaunchConfig:
+    """What holds for all of launch's lines: from which level on they are printed."""
+
+    def __init__(self) -> None:
+        self._log_dir: str | None = None
+        self.level: int = logging.INFO
+
+    @property
+    def log_dir(self) -> str:
+        """Where a real launch writes its log files; here nothing is written there."""
+        if self._log_dir is None:
+            home = os.environ.get("ROS_HOME") or str(Path.home() / ".ros")
+            return os.environ.get("ROS_LOG_DIR") or str(Path(home) / "log")
+        return self._log_dir
+
+    @log_dir.setter
+    def log_dir(self, folder: str) -> None:
+        self._log_dir = folder
+
+    def set_screen_format(self, screen_format: str, *, screen_style: str | None = None) -> None:
+        """Accepted; lines have one format here."""
+
+    def set_log_format(self, log_format: str, *, log_style: str | None = None) -> None:
+        """Accepted; there are no log files."""
+
+    def reset(self) -> None:
+        """Make all as it was in the beginning."""
+        self._log_dir = None
+        self.level = logging.INFO
+
+
+launch_config = LaunchConfig()
+
+
 class Logger:
-    """Prints lines under a name; debug lines are dropped, as at launch's default verbosity."""
+    """Prints lines under a name, from launch's level on, which leaves debug lines out unless it is changed."""
 
     def __init__(self, name: str) -> None:
         self.name = name
 
+    def setLevel(self, level: int) -> None:
+        """Print lines from another level on."""
+        launch_config.level = level
+
     def debug(self, message: object, *args: object) -> None:
-        """Dropped."""
+        """Print a [DEBUG] line, if the level is that low."""
+        self._print("DEBUG", message, args)
 
     def info(self, message: object, *args: object) -> None:
         """Print an [INFO] line."""
@@ -34,7 +77,8 @@ class Logger:
 
     def _print(self, level: str, message: object, args: tuple[object, ...]) -> None:
         text = str(message) % args if args else str(message)
-        print(f"[{level}] [{self.name}]: {text}")
+        if getattr(logging, level) >= launch_config.level:
+            print(f"[{level}] [{self.name}]: {text}")
 
 
 def get_logger(name: str | None = None) -> Logger:
@@ -42,6 +86,4 @@ def get_logger(name: str | None = None) -> Logger:
     return Logger(name or "launch")
 
 
-__getattr__ = explain_missing(
-    __name__, {"launch_config": "there are no log files", "get_output_loggers": "there are no log files"}
-)
+__getattr__ = explain_missing(__name__, {"get_output_loggers": "there are no log files"})

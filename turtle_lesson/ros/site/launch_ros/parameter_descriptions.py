@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import shutil
+import weakref
 from os import PathLike, fspath
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from tempfile import mkdtemp
 from typing import Any, get_args, get_origin
 
 from launch import LaunchContext
@@ -95,7 +97,6 @@ class ParameterFile:
             param_file = fspath(param_file)
         self.param_file = normalize_to_list_of_substitutions(param_file)
         self.__allow_substs = normalize_typed_substitution(allow_substs, bool)
-        self.__made: TemporaryDirectory[str] | None = None
 
     @property
     def allow_substs(self) -> Any:
@@ -112,8 +113,9 @@ class ParameterFile:
         if not perform_typed_substitution(context, self.__allow_substs, bool) or not path.is_file():
             return path
         text = perform_substitutions(context, parse_substitution(path.read_text(encoding="utf-8")))
-        self.__made = TemporaryDirectory(prefix="launch_params_")  # for as long as the launch is there
-        copy = Path(self.__made.name) / path.name
+        folder = mkdtemp(prefix="launch_params_")
+        weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)  # when the launch is forgotten
+        copy = Path(folder) / path.name
         copy.write_text(text, encoding="utf-8")
         return copy
 

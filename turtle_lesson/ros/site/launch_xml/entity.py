@@ -68,7 +68,7 @@ class Entity(BaseEntity):
         if name not in self.__element.attrib:
             if optional:
                 return None
-            raise self._absent(name, data_type)
+            raise self._absent(name, data_type, self.__element.attrib)
         self.__read.add(name)
         value: Any = self.__element.attrib[name]
         separator = self.__element.attrib.get(f"{name}-sep")
@@ -91,4 +91,4 @@ class Entity(BaseEntity):
             return [self._inner(inner) for inner in found]
         if optional:
             return None
-        raise self._absent(name, data_type)
+        raise self._absent(name, data_type, [])

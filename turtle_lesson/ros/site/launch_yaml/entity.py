@@ -106,7 +106,7 @@ class Entity(BaseEntity):
         if name not in below:
             if optional:
                 return None
-            raise self._absent(name, data_type)
+            raise self._absent(name, data_type, below)
         self.__read.add(name)
         value = below[name]
         if check_is_list_entity(data_type):

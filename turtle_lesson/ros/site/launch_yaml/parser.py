@@ -35,13 +35,13 @@ class Parser(frontend.Parser):
             tree = _tree(text, name)
         except yaml.MarkedYAMLError as error:
             if error.problem_mark is not None:
-                error.place = (name, error.problem_mark.line + 1)  # type: ignore[attr-defined]
-            error.hint = _hint(error)  # type: ignore[attr-defined]
+                error.place = (name, error.problem_mark.line + 1)
+            error.hint = _hint(error)
             raise
         if not isinstance(tree, Mapping) or len(tree) != 1:
             wrong: Any = RuntimeError("Expected only one root")
             wrong.place = (name, 1)
-            wrong.hint = "The file begins with launch: and all actions are a list below it."  # type: ignore[attr-defined]
+            wrong.hint = "The file begins with launch: and all actions are a list below it."
             raise wrong
         root = next(iter(tree))
         return Entity(tree[root], str(root), file=name, line=tree.lines.get(root, 1)), cls()
@@ -82,6 +82,8 @@ def _hint(error: Any) -> str:
         return "YAML is indented with spaces, never with tabs."
     if "mapping values are not allowed" in problem or "found character '%'" in problem:
         return "A value with ': ' in it stands in quotation marks; items at one level are indented alike."
+    if "flow mapping" in str(error.context or ""):
+        return "Within {…} a value that has braces, commas or quotation marks in it stands in quotation marks itself."
     if "expected <block end>" in problem or "could not find expected ':'" in problem:
         return "Look at the indentation of this line and of the one before."
     return ""

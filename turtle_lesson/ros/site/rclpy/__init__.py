@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from ._blocking import drives_the_simulation, in_a_plain_cell, spin_live
 from ._missing import explain_missing
 from .context import Context
+from .qos import qos_profile_rosout_default
 from .signals import SignalHandlerOptions, install_signal_handlers, uninstall_signal_handlers
 from .task import Future
 from .utilities import get_default_context, get_rmw_implementation_identifier, ok, shutdown, try_shutdown
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from .executors import Executor
     from .node import Node
     from .parameter import Parameter
+    from .qos import QoSProfile
 
 __all__ = [
     "Context",
@@ -105,6 +107,7 @@ def create_node(
     namespace: str | None = None,
     use_global_arguments: bool = True,
     enable_rosout: bool = True,
+    rosout_qos_profile: QoSProfile | int = qos_profile_rosout_default,
     start_parameter_services: bool = True,
     parameter_overrides: list[Parameter] | None = None,
     allow_undeclared_parameters: bool = False,
@@ -121,6 +124,7 @@ def create_node(
         namespace=namespace,
         use_global_arguments=use_global_arguments,
         enable_rosout=enable_rosout,
+        rosout_qos_profile=rosout_qos_profile,
         start_parameter_services=start_parameter_services,
         parameter_overrides=parameter_overrides,
         allow_undeclared_parameters=allow_undeclared_parameters,

@@ -31,6 +31,7 @@ class TimeoutObject:
     """A timeout (s) that can be changed while somebody has it."""
 
     __module__ = "rclpy.executors"
+    timeout: float
 
     def __init__(self, timeout: float) -> None:
         self.timeout = timeout

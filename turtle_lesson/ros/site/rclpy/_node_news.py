@@ -10,7 +10,7 @@ from turtle_lesson.ros.core.tracebacks import shown_path
 
 from .impl.logging_severity import LoggingSeverity
 from .impl.rcutils_logger import RcutilsLogger, publish_rosout
-from .qos import QoSProfile, qos_profile_parameter_events, qos_profile_rosout_default
+from .qos import QoSProfile, qos_profile_parameter_events
 
 if TYPE_CHECKING:
     from turtle_lesson.ros.core import Simulation
@@ -34,11 +34,11 @@ class NodeNews:
 
         def create_publisher(self, msg_type: Any, topic: str, qos_profile: QoSProfile | int) -> Publisher: ...
 
-    def _ros_publish_rosout(self) -> Publisher:
+    def _ros_publish_rosout(self, profile: QoSProfile | int) -> Publisher:
         """Publish on /rosout what the logger prints."""
         from rcl_interfaces.msg import Log
 
-        publisher = self.create_publisher(Log, "/rosout", qos_profile_rosout_default)
+        publisher = self.create_publisher(Log, "/rosout", profile)
         trace = self._ros_graph.trace
 
         def publish(message: str, severity: LoggingSeverity, frame: FrameType) -> None:

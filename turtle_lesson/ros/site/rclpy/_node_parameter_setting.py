@@ -177,6 +177,8 @@ class ParameterSetting:
 
     def add_on_set_parameters_callback(self, callback: Callable[[list[Parameter]], Any]) -> None:
         """Have `callback(parameters)` decide about changes: it returns an rcl_interfaces/msg/SetParametersResult."""
+        if not callable(callback):
+            raise TypeError(f"Callback must be callable, got {callback!r}: hand over self.on_set, without brackets")
         self._ros_on_set.insert(0, callback)
 
     def remove_on_set_parameters_callback(self, callback: Callable[[list[Parameter]], Any]) -> None:

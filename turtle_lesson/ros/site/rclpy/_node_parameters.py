@@ -151,8 +151,9 @@ class NodeParameters(ParameterSetting):
 
         check_prefixes(prefixes, depth)
         names = [name for name in self._ros_parameters if is_listed(name, prefixes, depth)]
-        parents = [name.rpartition(PARAMETER_SEPARATOR_STRING)[0] for name in names]
-        return ListParametersResult(names=names, prefixes=list(dict.fromkeys(filter(None, parents))))
+        parts = [name.rpartition(PARAMETER_SEPARATOR_STRING) for name in names]
+        parents = dict.fromkeys(parent for parent, separator, _ in parts if separator)
+        return ListParametersResult(names=names, prefixes=list(parents))
 
     def _ros_check_declared(self, name: str) -> None:
         if name not in self._ros_parameters:

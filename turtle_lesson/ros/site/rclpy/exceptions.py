@@ -7,7 +7,13 @@ from typing import TYPE_CHECKING, Any, NoReturn
 from turtle_lesson.ros.core import WorldClosed
 from turtle_lesson.ros.graph import names
 
-from ._rclpy_pybind11 import InvalidHandle, NodeNameNonExistentError, RCLError, UnknownROSArgsError
+from ._rclpy_pybind11 import (
+    InvalidHandle,
+    NodeNameNonExistentError,
+    RCLError,
+    TimerCancelledError,
+    UnknownROSArgsError,
+)
 
 if TYPE_CHECKING:
     from turtle_lesson.ros.core import Simulation
@@ -33,6 +39,7 @@ __all__ = [
     "ParameterUninitializedException",
     "RCLError",
     "ROSInterruptException",
+    "TimerCancelledError",
     "UnknownROSArgsError",
     "refuse_destroyed",
 ]

@@ -28,9 +28,11 @@ from .exceptions import NodeNameNonExistentError, NotInitializedException, RCLEr
 from .guard_condition import GuardCondition
 from .impl.rcutils_logger import RcutilsLogger, publish_rosout
 from .logging_service import LoggingService
+from .parameter import PARAMETER_SEPARATOR_STRING as PARAMETER_SEPARATOR_STRING
 from .parameter import Parameter
 from .parameter_service import ParameterService
 from .publisher import Publisher
+from .qos import QoSProfile, qos_profile_rosout_default
 from .service import Service
 from .subscription import Subscription
 from .time_source import TimeSource
@@ -68,6 +70,7 @@ class Node(NodeEntities, NodeNews, NodeParameters):
         namespace: str | None = None,
         use_global_arguments: bool = True,
         enable_rosout: bool = True,
+        rosout_qos_profile: QoSProfile | int = qos_profile_rosout_default,
         start_parameter_services: bool = True,
         parameter_overrides: list[Parameter] | None = None,
         allow_undeclared_parameters: bool = False,
@@ -104,7 +107,7 @@ class Node(NodeEntities, NodeNews, NodeParameters):
         given = [parameter for each in (common, own) for parameter in each.parameters_of(self._ros_entry.full_name)]
         overrides = [*given, *(parameter_overrides or [])]
         self._ros_setup_parameters(overrides, allow_undeclared_parameters)
-        self._ros_rosout = self._ros_publish_rosout() if enable_rosout else None
+        self._ros_rosout = self._ros_publish_rosout(rosout_qos_profile) if enable_rosout else None
         self._ros_event_publisher = self._ros_publish_parameter_events()
         if automatically_declare_parameters_from_overrides:
             self._ros_declare_overrides()

@@ -67,8 +67,9 @@ class Parameter:
 
     @classmethod
     def from_parameter_msg(cls, param_msg: Any) -> Parameter:
-        """From rcl_interfaces/msg/Parameter."""
-        return cls(param_msg.name, cls.Type(param_msg.value.type), parameter_value_to_python(param_msg.value))
+        """From rcl_interfaces/msg/Parameter. A list of numbers stays the message's `array.array`, as in rclpy."""
+        kind = cls.Type(param_msg.value.type)
+        return cls(param_msg.name, kind, _value_in(param_msg.value, kind))
 
     def __init__(self, name: str, type_: Parameter.Type | None = None, value: Any = None) -> None:
         if type_ is None:
@@ -122,10 +123,13 @@ def parameter_value_to_python(parameter_value: Any) -> Any:
         kind = Parameter.Type(parameter_value.type)
     except ValueError:
         raise RuntimeError(f"unexpected parameter type {parameter_value.type}") from None
-    if kind == Parameter.Type.NOT_SET:
-        return None
-    value = getattr(parameter_value, f"{kind.name.lower()}_value")
+    value = _value_in(parameter_value, kind)
     return list(value) if kind.name.endswith("_ARRAY") else value
+
+
+def _value_in(parameter_value: Any, kind: Parameter.Type) -> Any:
+    """What stands in the message's field for this type."""
+    return None if kind == Parameter.Type.NOT_SET else getattr(parameter_value, f"{kind.name.lower()}_value")
 
 
 def get_parameter_value(string_value: str) -> Any:

@@ -63,3 +63,8 @@ def timeout_sec_to_nsec(timeout_sec: float | None) -> int:
 def get_rmw_implementation_identifier() -> str:
     """The name of what carries messages: here nothing but memory."""
     return "rmw_turtle_lesson"
+
+
+def get_available_rmw_implementations() -> set[str]:
+    """The names of all that can carry messages."""
+    return {get_rmw_implementation_identifier()}

@@ -83,9 +83,7 @@ def _refusals(parent: str, child: str, place: tuple[float, ...], turn: tuple[flo
     if not child:
         found.append(f"TF_NO_CHILD_FRAME_ID: Ignoring transform {by} because child_frame_id not set ")
     if not parent:
-        found.append(
-            f'TF_NO_FRAME_ID: Ignoring transform with child_frame_id "{child}"  {by} because frame_id not set'
-        )
+        found.append(f'TF_NO_FRAME_ID: Ignoring transform with child_frame_id "{child}"  {by} because frame_id not set')
     quaternion = f"({' '.join(f'{each:f}' for each in turn)})"
     if any(map(math.isnan, (*place, *turn))):
         values = f"because of a nan value in the transform ({' '.join(f'{each:f}' for each in place)}) {quaternion}"

@@ -15,7 +15,7 @@ from tf2_msgs.srv import FrameGraph
 from tf2_py import BufferCore
 
 from ._waiting import Waiting, wait_until
-from .buffer_interface import BufferInterface
+from .buffer_interface import AT_ONCE, BufferInterface
 
 __all__ = ["Buffer"]
 
@@ -70,7 +70,7 @@ class Buffer(BufferCore, BufferInterface):
     # -- looking up ----------------------------------------------------------------------------------------
 
     def lookup_transform(
-        self, target_frame: str, source_frame: str, time: Time, timeout: Duration = Duration()
+        self, target_frame: str, source_frame: str, time: Time, timeout: Duration = AT_ONCE
     ) -> TransformStamped:
         """Where the source frame is, seen from the target frame, at a time (`Time()`: the latest).
 
@@ -91,7 +91,7 @@ class Buffer(BufferCore, BufferInterface):
         source_frame: str,
         source_time: Time,
         fixed_frame: str,
-        timeout: Duration = Duration(),
+        timeout: Duration = AT_ONCE,
     ) -> TransformStamped:
         """Where the source frame was at its time, seen from where the target frame is at its own.
 
@@ -114,7 +114,7 @@ class Buffer(BufferCore, BufferInterface):
         target_frame: str,
         source_frame: str,
         time: Time,
-        timeout: Duration = Duration(),
+        timeout: Duration = AT_ONCE,
         return_debug_tuple: bool = False,
     ) -> Any:
         """Whether there is such a transform; with `return_debug_tuple` also why not."""
@@ -129,7 +129,7 @@ class Buffer(BufferCore, BufferInterface):
         source_frame: str,
         source_time: Time,
         fixed_frame: str,
-        timeout: Duration = Duration(),
+        timeout: Duration = AT_ONCE,
         return_debug_tuple: bool = False,
     ) -> Any:
         """Whether there is such a transform between two times; with `return_debug_tuple` also why not."""

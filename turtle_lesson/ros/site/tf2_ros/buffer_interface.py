@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from copy import deepcopy
-from typing import Any
+from typing import Any, ClassVar
 
 from geometry_msgs.msg import TransformStamped
 from rclpy.duration import Duration
@@ -24,6 +24,8 @@ __all__ = [
     "convert",
 ]
 
+AT_ONCE = Duration()
+"""A timeout of no time: nothing is waited for."""
 Transforming = Callable[[Any, TransformStamped], Any]
 
 
@@ -46,7 +48,7 @@ class NotImplementedException(Exception):
 class TransformRegistration:
     """The functions that transform data, by the type of the data; all registrations are one."""
 
-    _functions: dict[Any, Transforming] = {}
+    _functions: ClassVar[dict[Any, Transforming]] = {}
 
     def add(self, key: Any, callback: Transforming) -> None:
         """Have data of this type be transformed by a function of the data and a TransformStamped."""
@@ -64,9 +66,9 @@ class TransformRegistration:
 class ConvertRegistration:
     """The functions that convert data between types, and to and from messages; all registrations are one."""
 
-    _to_message: dict[Any, Callable[[Any], Any]] = {}
-    _from_message: dict[Any, Callable[[Any], Any]] = {}
-    _direct: dict[Any, Callable[[Any], Any]] = {}
+    _to_message: ClassVar[dict[Any, Callable[[Any], Any]]] = {}
+    _from_message: ClassVar[dict[Any, Callable[[Any], Any]]] = {}
+    _direct: ClassVar[dict[Any, Callable[[Any], Any]]] = {}
 
     def add_from_msg(self, key: Any, callback: Callable[[Any], Any]) -> None:
         """How a message becomes data of a type."""
@@ -124,7 +126,7 @@ class BufferInterface:
         self.registration = TransformRegistration()
 
     def transform(
-        self, object_stamped: Any, target_frame: str, timeout: Duration = Duration(), new_type: Any = None
+        self, object_stamped: Any, target_frame: str, timeout: Duration = AT_ONCE, new_type: Any = None
     ) -> Any:
         """Stamped data as seen from the target frame, at the time of its stamp.
 
@@ -143,7 +145,7 @@ class BufferInterface:
         target_frame: str,
         target_time: Time,
         fixed_frame: str,
-        timeout: Duration = Duration(),
+        timeout: Duration = AT_ONCE,
         new_type: Any = None,
     ) -> Any:
         """Stamped data as seen from the target frame at another time. Raises as `transform`."""
@@ -156,7 +158,7 @@ class BufferInterface:
         return found if new_type is None else convert(found, new_type)
 
     def lookup_transform(
-        self, target_frame: str, source_frame: str, time: Time, timeout: Duration = Duration()
+        self, target_frame: str, source_frame: str, time: Time, timeout: Duration = AT_ONCE
     ) -> TransformStamped:
         """Where the source frame is, seen from the target frame; for subclasses to say."""
         raise NotImplementedException()
@@ -168,14 +170,12 @@ class BufferInterface:
         source_frame: str,
         source_time: Time,
         fixed_frame: str,
-        timeout: Duration = Duration(),
+        timeout: Duration = AT_ONCE,
     ) -> TransformStamped:
         """The same between two times; for subclasses to say."""
         raise NotImplementedException()
 
-    def can_transform(
-        self, target_frame: str, source_frame: str, time: Time, timeout: Duration = Duration()
-    ) -> Any:
+    def can_transform(self, target_frame: str, source_frame: str, time: Time, timeout: Duration = AT_ONCE) -> Any:
         """Whether there is such a transform; for subclasses to say."""
         raise NotImplementedException()
 
@@ -186,7 +186,7 @@ class BufferInterface:
         source_frame: str,
         source_time: Time,
         fixed_frame: str,
-        timeout: Duration = Duration(),
+        timeout: Duration = AT_ONCE,
     ) -> Any:
         """Whether there is such a transform between two times; for subclasses to say."""
         raise NotImplementedException()

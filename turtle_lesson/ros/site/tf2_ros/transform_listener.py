@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from threading import Thread
 
 from rclpy.callback_groups import ReentrantCallbackGroup
@@ -51,7 +52,11 @@ class TransformListener:
         self.group = ReentrantCallbackGroup()
         if not static_only:
             self.tf_sub = self.node.create_subscription(
-                TFMessage, tf_topic, self.callback, qos or _quality(DurabilityPolicy.VOLATILE), callback_group=self.group
+                TFMessage,
+                tf_topic,
+                self.callback,
+                qos or _quality(DurabilityPolicy.VOLATILE),
+                callback_group=self.group,
             )
         self.tf_static_sub = self.node.create_subscription(
             TFMessage,
@@ -67,10 +72,8 @@ class TransformListener:
 
     def _spin(self) -> None:
         self.executor.add_node(self.node)
-        try:
+        with suppress(ExternalShutdownException):
             self.executor.spin()
-        except ExternalShutdownException:
-            pass
         self.executor.remove_node(self.node)
 
     def unregister(self) -> None:

@@ -15,7 +15,7 @@ from ..launch_context import LaunchContext
 from ..launch_description_entity import LaunchDescriptionEntity
 from ..some_types import SomeEntitiesType, SomeSubstitutionsType
 from ..substitution import Substitution
-from ..substitutions import LaunchConfiguration
+from ..substitutions import LaunchConfiguration, TextSubstitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 OnExit = SomeEntitiesType | Callable[[ProcessExited, LaunchContext], SomeEntitiesType | None] | None
@@ -102,7 +102,7 @@ class ExecuteLocal(Action):
         self.process_description.prepare(context, self)
         self._program = self._find_program(context)
         self._respawns = evaluate_condition_expression(context, self.__respawn)
-        self._on_screen = _on_screen(context, self.__output)
+        self._on_screen = _on_screen(context, self._chosen_output(context))
         self.process_details = {
             "action": self,
             "name": self.process_description.final_name,
@@ -110,6 +110,11 @@ class ExecuteLocal(Action):
             "cwd": None,
             "env": None,
         }
+
+    def _chosen_output(self, context: LaunchContext) -> Any:
+        """What `output` says, unless `ros2 launch -a` or an environment variable says it for all."""
+        override = context._output_override or context.environment.get("OVERRIDE_LAUNCH_PROCESS_OUTPUT")
+        return [TextSubstitution(text=override)] if override else self.__output
 
     def _refuse_what_is_not_here(self) -> None:
         if self.process_description.prefix:

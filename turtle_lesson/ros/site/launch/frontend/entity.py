@@ -2,9 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 from .._places import Place
+
+MEANT = {
+    "package": "pkg",
+    "executable": "exec",
+    "type": "exec",
+    "ns": "namespace",
+    "default_value": "default",
+    "value": "default",
+    "msg": "message",
+    "text": "message",
+    "arguments": "args",
+    "path": "file",
+}
+"""What attributes are called in Python launch files or in ROS 1, and what they are called here."""
 
 
 class Entity:
@@ -54,8 +69,14 @@ class Entity:
         """
         raise NotImplementedError
 
-    def _absent(self, name: str, data_type: Any) -> AttributeError:
-        return AttributeError(f"Attribute '{name}' of type '{data_type}' not found in Entity '{self.type_name}'")
+    def _absent(self, name: str, data_type: Any, given: Iterable[Any]) -> AttributeError:
+        """The error about an attribute that must be given; what was perhaps given instead is pointed out."""
+        error = AttributeError(f"Attribute '{name}' of type '{data_type}' not found in Entity '{self.type_name}'")
+        other = next((word for word in given if MEANT.get(word) == name), None)
+        error.hint = (  # type: ignore[attr-defined]
+            f"It is called {name} here, not {other}." if other else f"Give {self.type_name} the attribute {name}."
+        )
+        return error
 
     def _unexpected(self, what: str, names: set[str], known: set[str]) -> ValueError:
         """The error about names that nobody has asked for, with what was perhaps meant."""
@@ -63,7 +84,9 @@ class Entity:
 
         listed = ", ".join(repr(name) for name in sorted(names, key=str))
         error = ValueError(f"Unexpected {what} found in `{self.type_name}`: {{{listed}}}")
-        hints = [did_you_mean(str(name)[:100], sorted(known)) for name in sorted(names, key=str)]
+        close = [MEANT.get(name) for name in sorted(names, key=str) if MEANT.get(name) in known]
+        hints = [f"Did you mean '{name}'?" for name in close]
+        hints += [did_you_mean(str(name)[:100], sorted(known)) for name in sorted(names, key=str)]
         takes = f"`{self.type_name}` can have: {', '.join(sorted(known))}." if known else ""
         error.hint = next(filter(None, hints), takes)  # type: ignore[attr-defined]
         return error

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -82,6 +83,7 @@ class Node(ExecuteProcess):
         self.expanded_node_namespace = "<node_namespace_unspecified>"
         self.expanded_remapping_rules: list[tuple[str, str]] = []
         self._ros_words: list[str] = []
+        self._described_ros_words = [] if name is None else ["'-r'", "LocalVar('node name')"]
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser, ignore: list[str] | None = None) -> tuple[type, dict[str, Any]]:
@@ -173,7 +175,7 @@ class Node(ExecuteProcess):
 
     def _find_program(self, context: LaunchContext) -> Program:
         argv = [*self.process_description.final_cmd, *self._ros_words]
-        shown = " ".join([shown_path(argv[0]), *[word for word in argv[1:] if word.strip()]])
+        shown = " ".join([shown_path(argv[0]), *[_shown_word(word) for word in argv[1:] if word.strip()]])
         if self.__in_package is not None:
             return Program(self.__in_package.target(context), argv, shown)
         path = Path(argv[0])
@@ -181,6 +183,11 @@ class Node(ExecuteProcess):
             hint = "Did you leave package='…' out?"
             raise SubstitutionFailure(f"executable '{argv[0]}' is no file", hint)
         return Program(path.resolve(), argv, shown)
+
+
+def _shown_word(word: str) -> str:
+    """A word as it is printed: a file made for this launch lies elsewhere in every run."""
+    return re.sub(r".*/launch_params_\w+/", "launch_params/", word)
 
 
 def _text(context: LaunchContext, text: SomeSubstitutionsType) -> str:

@@ -37,7 +37,7 @@ class RcutilsLogger:
         """The logger `<this>.<name>`."""
         if not name:
             raise ValueError("Child logger name must not be empty.")
-        return RcutilsLogger(f"{self.name}.{name}" if self.name else name)
+        return RcutilsLogger(self.name + "." + name if self.name else name)
 
     def set_level(self, level: int) -> None:
         """Print only what is at least this severe."""
@@ -51,31 +51,31 @@ class RcutilsLogger:
         """Whether a line of this severity would be printed."""
         return as_severity(severity) >= self.get_effective_level()
 
-    def log(self, message: str, severity: int, **options: Any) -> bool:
+    def log(self, message: str, severity: int, **kwargs: Any) -> bool:
         """Log a line; False if it was held back."""
-        return self._log(message, as_severity(severity), options, sys._getframe(1))
+        return self._log(message, as_severity(severity), kwargs, sys._getframe(1))
 
-    def debug(self, message: str, **options: Any) -> bool:
+    def debug(self, message: str, **kwargs: Any) -> bool:
         """Log a line that only its developer wants to see."""
-        return self._log(message, LoggingSeverity.DEBUG, options, sys._getframe(1))
+        return self._log(message, LoggingSeverity.DEBUG, kwargs, sys._getframe(1))
 
-    def info(self, message: str, **options: Any) -> bool:
+    def info(self, message: str, **kwargs: Any) -> bool:
         """Log a line that says what happens."""
-        return self._log(message, LoggingSeverity.INFO, options, sys._getframe(1))
+        return self._log(message, LoggingSeverity.INFO, kwargs, sys._getframe(1))
 
-    def warning(self, message: str, **options: Any) -> bool:
+    def warning(self, message: str, **kwargs: Any) -> bool:
         """Log a line about something that may be wrong."""
-        return self._log(message, LoggingSeverity.WARN, options, sys._getframe(1))
+        return self._log(message, LoggingSeverity.WARN, kwargs, sys._getframe(1))
 
     warn = warning
 
-    def error(self, message: str, **options: Any) -> bool:
+    def error(self, message: str, **kwargs: Any) -> bool:
         """Log a line about something that is wrong."""
-        return self._log(message, LoggingSeverity.ERROR, options, sys._getframe(1))
+        return self._log(message, LoggingSeverity.ERROR, kwargs, sys._getframe(1))
 
-    def fatal(self, message: str, **options: Any) -> bool:
+    def fatal(self, message: str, **kwargs: Any) -> bool:
         """Log a line about the end."""
-        return self._log(message, LoggingSeverity.FATAL, options, sys._getframe(1))
+        return self._log(message, LoggingSeverity.FATAL, kwargs, sys._getframe(1))
 
     def _log(self, message: str, severity: LoggingSeverity, options: dict[str, Any], frame: FrameType) -> bool:
         name = options.pop("name", self.name) if options else self.name

@@ -33,6 +33,9 @@ class TransitionCallbackReturnType(Enum):
     FAILURE = 98
     ERROR = 99
 
+    def __int__(self) -> int:
+        return self.value
+
     def to_label(self) -> str:
         """The label of the transition that follows."""
         return f"transition_{self.name.lower()}"

@@ -82,10 +82,12 @@ class LifecycleNodeMixin(ManagedEntity):
         """Clean up the node, which must be inactive."""
         return self._ros_change_state(CLEANUP)
 
-    def trigger_shutdown(self) -> TransitionCallbackReturn | None:
-        """Shut the node down; it stays where it is, but can do nothing any more. None if it is not in a state to be."""
+    def trigger_shutdown(self) -> TransitionCallbackReturn:
+        """Shut the node down; it stays where it is, but can do nothing any more. RCLError if it is finalized already."""
         transition = SHUTDOWN.get(self._state_machine.current_state.label)
-        return None if transition is None else self._ros_change_state(transition)
+        if transition is None:
+            raise RCLError("Shutdown transtion not possible")  # spelt as in rclpy
+        return self._ros_change_state(transition)
 
     def trigger_activate(self) -> TransitionCallbackReturn:
         """Activate the node, which must be inactive."""
@@ -127,6 +129,8 @@ class LifecycleNodeMixin(ManagedEntity):
 
     def add_managed_entity(self, entity: ManagedEntity) -> None:
         """Have an entity go through the node's transitions, too."""
+        if not isinstance(entity, ManagedEntity):
+            raise TypeError(f"Expected a rclpy.lifecycle.ManagedEntity instance, got {entity!r}.")
         if entity not in self._managed_entities:
             self._managed_entities.append(entity)
 

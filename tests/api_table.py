@@ -1,0 +1,194 @@
+"""What of rclpy's public modules is here: the list in data/rclpy_api.txt, checked, and as a table for README.
+
+``python tests/api_table.py`` prints the table; with ``--write`` it puts it between the two markers in README.md. The list
+holds the names and signatures of a real rclpy (Jazzy's, and what Kilted added), and what we say of each:
+
+    [rclpy.client]
+    = Client.call(request, timeout_sec=None)     here, and with this signature
+    = ClockType.(ROS_TIME, SYSTEM_TIME)          short for ClockType.ROS_TIME and ClockType.SYSTEM_TIME
+    ~ name : why                                 here, but not in all that it does
+    - name : why                                 not here
+
+A default that is no plain value is written …; a name without brackets is only looked for.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import inspect
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import turtle_lesson  # noqa: F401, puts our rclpy on the path
+
+HERE = Path(__file__).parent
+LIST = HERE / "data" / "rclpy_api.txt"
+README = HERE.parent / "README.md"
+MARKERS = ("<!-- rclpy: begin -->\n", "<!-- rclpy: end -->\n")
+LINE = re.compile(r"(?P<mark>[=~-]) (?P<name>[\w.]+)(?P<signature>\(.*\))?(?: : (?P<why>.+))?")
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A name of the list, in its module."""
+
+    module: str
+    mark: str
+    name: str
+    signature: str
+    why: str
+
+    @property
+    def is_here(self) -> bool:
+        """Whether we say that it is here, at least in part."""
+        return self.mark != "-"
+
+
+def entries(path: Path = LIST) -> Iterator[Entry]:
+    """All names of the list, in its order."""
+    module = ""
+    for line in path.read_text(encoding="utf-8").splitlines():
+        text = line.split("  #")[0].strip()
+        if text.startswith("["):
+            module = text.strip("[]")
+        elif text and not text.startswith("#"):
+            yield from _of_line(module, text)
+
+
+def _of_line(module: str, text: str) -> Iterator[Entry]:
+    match = LINE.fullmatch(text)
+    if match is None or (match["mark"] != "=") != bool(match["why"]):
+        raise ValueError(f"a line of {LIST.name} that means nothing, or gives no reason: {text}")
+    mark, name, signature, why = (match[part] or "" for part in ("mark", "name", "signature", "why"))
+    if not name.endswith("."):
+        yield Entry(module, mark, name, signature, why)
+        return
+    for member in signature.strip("()").split(", "):
+        yield Entry(module, mark, name + member, "", why)
+
+
+def faults(found: list[Entry]) -> list[str]:
+    """What the list says and our modules don't: sentences."""
+    return [fault for entry in found if (fault := fault_of(entry))]
+
+
+def fault_of(entry: Entry) -> str:
+    """What is wrong with one name, or nothing."""
+    full = f"{entry.module}.{entry.name}"
+    thing = _look_up(entry)
+    if not entry.is_here:
+        return "" if thing is _MISSING else f"{full} is here, but listed as missing"
+    if thing is _MISSING:
+        return f"{full} is not here"
+    if not entry.signature:
+        return ""
+    ours = signature_of(thing)
+    return "" if _alike(entry.signature, ours) else f"{full}{entry.signature} is {ours} here"
+
+
+_MISSING = object()
+
+
+def _look_up(entry: Entry) -> Any:
+    try:
+        thing: Any = importlib.import_module(entry.module)
+    except (ImportError, NotImplementedError):
+        return _MISSING
+    for part in entry.name.split("."):
+        attributes = getattr(thing, "__annotations__", {})  # those that only an instance has
+        try:
+            thing = getattr(thing, part, attributes.get(part, _MISSING))
+        except NotImplementedError:  # that is how a missing name explains itself
+            return _MISSING
+    return thing
+
+
+def signature_of(thing: Callable[..., Any]) -> str:
+    """The parameters of something callable as one reads them, without self and annotations."""
+    try:
+        parameters = list(inspect.signature(thing).parameters.values())
+    except (TypeError, ValueError):
+        return "(not callable)"
+    words: list[str] = []
+    starred = False
+    for index, one in enumerate(parameters):
+        if index == 0 and one.name in ("self", "cls"):
+            continue
+        if one.kind is one.KEYWORD_ONLY and not starred:
+            words.append("*")
+        starred = starred or one.kind in (one.KEYWORD_ONLY, one.VAR_POSITIONAL)
+        words.append(_word(one))
+    return f"({', '.join(words)})"
+
+
+def _word(one: inspect.Parameter) -> str:
+    star = {one.VAR_POSITIONAL: "*", one.VAR_KEYWORD: "**"}.get(one.kind, "")
+    if one.default is one.empty:
+        return star + one.name
+    plain = one.default is None or type(one.default) in (bool, int, float, str)
+    return f"{one.name}={one.default!r}" if plain else f"{one.name}=…"
+
+
+def _alike(theirs: str, ours: str) -> bool:
+    """Whether two signatures say the same; what is written … there may be any default here."""
+    wanted, found = theirs.split(", "), ours.split(", ")
+    return len(wanted) == len(found) and all(
+        a == b or (a.rstrip(")").endswith("=…") and a.split("=")[0] == b.split("=")[0])
+        for a, b in zip(wanted, found, strict=True)
+    )
+
+
+def table(found: list[Entry]) -> str:
+    """The Markdown table: a row for each module."""
+    rows = ["| module | here | in part, or not here: why |", "|---|---|---|"]
+    for module in dict.fromkeys(entry.module for entry in found):
+        rows.append(_row(module, [entry for entry in found if entry.module == module]))
+    return "\n".join(rows) + "\n"
+
+
+def _row(module: str, found: list[Entry]) -> str:
+    here = sum(entry.is_here for entry in found)
+    count = "all" if here == len(found) else "–" if not here else "most"
+    return f"| `{module}` | {here if count == 'most' else count} of {len(found)} | {_reasons(found)} |"
+
+
+def _reasons(found: list[Entry]) -> str:
+    """For each reason the names that it is given for."""
+    by_reason: dict[str, list[Entry]] = {}
+    for entry in found:
+        if entry.why:
+            by_reason.setdefault(entry.why, []).append(entry)
+    return "; ".join(f"{_named(group)} {why}" for why, group in by_reason.items())
+
+
+def _named(group: list[Entry]) -> str:
+    names = ", ".join(f"`{entry.name}`" for entry in group)
+    return names + (":" if group[0].is_here else " (not here):")
+
+
+def write(text: str, path: Path = README) -> None:
+    """Put the table between the markers of README."""
+    before, after = MARKERS
+    readme = path.read_text(encoding="utf-8")
+    head, rest = readme.split(before)
+    tail = rest.split(after)[1]
+    path.write_text(head + before + text + after + tail, encoding="utf-8")
+
+
+def main() -> None:
+    """Print the table or write it; complain about what is not as listed."""
+    parser = argparse.ArgumentParser(description="What of rclpy is here.")
+    parser.add_argument("--write", action="store_true", help="put the table into README.md")
+    arguments = parser.parse_args()
+    found = list(entries())
+    if wrong := faults(found):
+        raise SystemExit("\n".join(wrong))
+    write(table(found)) if arguments.write else print(table(found), end="")
+
+
+if __name__ == "__main__":
+    main()

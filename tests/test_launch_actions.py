@@ -1,0 +1,269 @@
+"""Launch's remaining actions, substitutions and handlers, told as what appears on the screen and reaches the nodes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from launch_world import FakeWorld, launch, node, write, write_launch_file
+
+from turtle_lesson.ros.launching import LaunchError, describe, launch_file
+
+START = "[INFO] [launch]: Default logging verbosity is set to INFO"
+
+
+def screen(capsys: pytest.CaptureFixture[str]) -> list[str]:
+    return [line for line in capsys.readouterr().out.splitlines() if line != START]
+
+
+def said(capsys: pytest.CaptureFixture[str]) -> list[str]:
+    """What LogInfo printed."""
+    begin = "[INFO] [launch.user]: "
+    return [line.removeprefix(begin) for line in screen(capsys) if line.startswith(begin)]
+
+
+def test_log_lines_have_levels(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    launch(
+        tmp_path,
+        "LogInfo(msg='100%'), LogWarning(msg=['w ', 'x']), LogError(msg='e'), LogDebug(msg='d'), "
+        "Log(msg='l', level='WARN'),",
+    )
+    name = "[launch.user]"
+    assert screen(capsys) == [
+        f"[INFO] {name}: 100%",
+        f"[WARNING] {name}: w x",
+        f"[ERROR] {name}: e",
+        f"[WARNING] {name}: l",
+    ]
+
+
+def test_loops_make_actions(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    launch(
+        tmp_path,
+        """
+        DeclareLaunchArgument('n', default_value='2'),
+        ForLoop(LaunchConfiguration('n'), function=lambda i: [LogInfo(msg=f'i={i}')]),
+        ForEach("{name: a, id: 1};{name: b}", function=lambda name, id=0: [LogInfo(msg=f'{name}{id}')]),
+        """,
+    )
+    assert said(capsys) == ["i=0", "i=1", "a1", "b0"]
+    launch(tmp_path, "ForEach('', function=lambda **values: []),")
+    assert screen(capsys) == ["[WARNING] [launch.actions.for_loop]: no input values: will not iterate"]
+
+
+@pytest.mark.parametrize(
+    ("substitution", "text"),
+    [
+        ("PathSubstitution(FindPackageShare('robot_controller')) / 'launch' / ['a', '.py']", "launch/a.py"),
+        ("PathJoinSubstitution(['a', 'b']) / LaunchConfiguration('x')", "a/b/1"),
+        ("StringJoinSubstitution(['a', ['b', 'c']], delimiter='-')", "a-bc"),
+        ("StringJoinSubstitution(['a', 'b'])", "ab"),
+        ("EqualsSubstitution(LaunchConfiguration('x'), 1)", "true"),
+        ("NotEqualsSubstitution('a', 'b')", "true"),
+        ("IfElseSubstitution(EqualsSubstitution('a', 'b'), 'yes', 'no')", "no"),
+        ("NotSubstitution('false')", "true"),
+        ("AndSubstitution('true', OrSubstitution('false', 'true'))", "true"),
+        ("AnySubstitution('false', 'false')", "false"),
+        ("AllSubstitution()", "true"),
+        ("Command(['echo ', LaunchConfiguration('x')])", "1"),
+        ("FindExecutable(name='ros2')", "ros2"),
+        ("PythonExpression(['math.pi > ', LaunchConfiguration('x')])", "True"),
+        ("PythonExpression(['sys.byteorder != \"\"'], ['sys'])", "True"),
+        ("FindPackagePrefix('robot_controller')", "install/robot_controller"),
+        ("AnonName('a')", "a_1"),
+    ],
+)
+def test_substitutions(tmp_path: Path, capsys: pytest.CaptureFixture[str], substitution: str, text: str) -> None:
+    launch(tmp_path, f"SetLaunchConfiguration('x', '1'), LogInfo(msg={substitution}),")
+    line = said(capsys)[0]
+    assert line.endswith(text) if "/" in text else line == text
+
+
+def test_a_files_content_and_the_log_folder(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("ROS_LOG_DIR", "/var/log/robot")
+    write(tmp_path, "<robot/>", "robot.urdf")
+    path = "[ThisLaunchFileDir(), '/robot.urdf']"
+    launch(
+        tmp_path,
+        f"LogInfo(msg=FileContent({path})), LogInfo(msg=Command(['cat ', ThisLaunchFileDir(), '/robot.urdf'])), "
+        "LogInfo(msg=Command(['xacro ', ThisLaunchFileDir(), '/robot.urdf', ' name:=bob'])), LogInfo(msg=LaunchLogDir()),",
+    )
+    assert said(capsys) == ["<robot/>", "<robot/>", "<robot/>", "/var/log/robot"]
+    for action, reason in [
+        ("LogInfo(msg=FileContent('nope.txt')),", "Failed to open nope.txt: [Errno 2]"),
+        ("LogInfo(msg=Command('rm -rf /')),", "executed command failed. Command: rm -rf /\n'rm' is a program of the"),
+        ("LogInfo(msg=Command('cat nope')),", "executed command failed. Command: cat nope\ncat: nope: No such file"),
+    ]:
+        with pytest.raises(LaunchError) as caught:
+            launch(tmp_path, action)
+        assert caught.value.reason.startswith(reason)
+
+
+def test_parameters_for_all_can_be_read_again_and_files_meant_for_one_node(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = write(tmp_path, "/**:\n  ros__parameters: {a: 1}\n", "p.yaml")
+    world, _ = launch(
+        tmp_path,
+        f"""
+        SetParameter('depth', 3), SetUseSimTime(True), SetParametersFromFile({str(file)!r}, node_name='one'),
+        {node(name="'one'")} {node(name="'two'")}
+        OpaqueFunction(function=lambda context: print(
+            __import__('launch_ros').substitutions.Parameter('depth').perform(context))),
+        """,
+    )
+    shared = ["-p", "depth:=3", "-p", "use_sim_time:=true"]
+    assert world.argv(0) == ["--ros-args", "-r", "__node:=one", *shared, "--params-file", str(file)]
+    assert world.argv(1) == ["--ros-args", "-r", "__node:=two", *shared]
+    assert "3" in screen(capsys)
+
+
+def test_substitutions_within_a_parameter_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = write(tmp_path, "/**:\n  ros__parameters:\n    name: $(var who)\n", "p.yaml")
+    world, _ = launch(
+        tmp_path,
+        "SetLaunchConfiguration('who', 'bob'),\n"
+        + node(parameters=f"[ParameterFile({str(file)!r}, allow_substs=True)]"),
+    )
+    assert Path(world.argv()[-1]).read_text().endswith("name: bob\n")
+    world.processes[0].end(1)
+    assert "--ros-args --params-file launch_params/p.yaml'" in screen(capsys)[-1]
+
+
+def test_what_all_programs_print_can_be_asked_for(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    world: Any = FakeWorld()
+    launch_file(world, write_launch_file(tmp_path, node(output="'own_log'")), show_all_output=True)
+    world.processes[0].stdout.write("hello\n")
+    assert screen(capsys)[-1] == "[navigator-1] hello"
+
+
+def test_a_log_folder_is_named_and_nothing_is_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    launch(tmp_path, "SetROSLogDir('logs'), LogInfo(msg=EnvironmentVariable('ROS_LOG_DIR')),")
+    assert screen(capsys) == [
+        "[INFO] [launch_ros.actions.set_ros_log_dir]: there are no log files in this classroom: "
+        "nothing is written to 'logs'",
+        "[INFO] [launch.user]: logs",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("action", "reason"),
+    [
+        (
+            "ComposableNodeContainer(name='c', namespace='', package='rclcpp_components', executable='component_container',"
+            " composable_node_descriptions=[ComposableNode(package='composition', plugin='composition::Talker')]),",
+            "ComposableNodeContainer: composable nodes are C++ libraries, and this classroom runs Python nodes",
+        ),
+        (
+            "LoadComposableNodes(target_container='c', composable_node_descriptions=[]),",
+            "LoadComposableNodes: composable nodes are C++ libraries, and this classroom runs Python nodes",
+        ),
+    ],
+)
+def test_composition_is_refused_with_a_sentence(tmp_path: Path, action: str, reason: str) -> None:
+    with pytest.raises(LaunchError) as caught:
+        launch(tmp_path, action)
+    assert caught.value.reason == reason and "Node(package=" in caught.value.hint
+
+
+def test_a_description_can_be_emitted_as_an_event(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = write(
+        tmp_path,
+        """
+        from launch import LaunchDescription
+        from launch.actions import EmitEvent, LogInfo, RegisterEventHandler
+        from launch.event_handlers import OnIncludeLaunchDescription
+        from launch.events import IncludeLaunchDescription
+
+        def generate_launch_description():
+            inner = LaunchDescription([LogInfo(msg='included')])
+            return LaunchDescription([EmitEvent(event=IncludeLaunchDescription(inner))])
+        """,
+    )
+    launch_file(FakeWorld(), file)
+    assert said(capsys) == ["included"]
+
+
+def test_handlers_can_be_taken_out_again(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = write(
+        tmp_path,
+        """
+        from launch import LaunchDescription
+        from launch.actions import *
+        from launch.event_handlers import OnExecutionComplete, OnShutdown
+
+        def generate_launch_description():
+            handler = OnShutdown(on_shutdown=[LogInfo(msg='never said')])
+            timer = TimerAction(period=1.0, actions=[LogInfo(msg='tick')])
+            return LaunchDescription([
+                RegisterEventHandler(handler), UnregisterEventHandler(handler), timer,
+                RegisterEventHandler(OnExecutionComplete(target_action=timer, on_completion=[
+                    LogInfo(msg='timer is done'), Shutdown(reason='done')])),
+            ])
+        """,
+    )
+    world: Any = FakeWorld()
+    launch_file(world, file)
+    world.run(2)
+    assert said(capsys) == ["tick", "timer is done"]
+
+
+def test_a_printed_line_is_heard_in_one_piece(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    heard = "lambda event: LogInfo(msg=repr(event.text))"
+    world, _ = launch(tmp_path, f"RegisterEventHandler(OnProcessIO(on_stdout={heard}, on_stderr={heard})),\n" + node())
+    process = world.processes[0]
+    for text in ("one", "\n", "two\nthree", "\n", "rest"):
+        process.stdout.write(text)
+    process.stderr.write("wrong\n")
+    process.end(0)
+    world.run(0)
+    assert said(capsys) == [r"b'one\n'", r"b'two\nthree\n'", r"b'wrong\n'", "b'rest'"]
+
+
+def test_a_description_is_shown_as_a_tree(tmp_path: Path) -> None:
+    actions = (
+        "DeclareLaunchArgument('rate', default_value='1'),\n"
+        + node(name="'nav'")
+        + "TimerAction(period=2.0, actions=[LogInfo(msg=['later ', LaunchConfiguration('rate')])]),\n"
+        + "RegisterEventHandler(OnShutdown(on_shutdown=[LogInfo(msg='bye')])), Shutdown(),"
+    )
+    program = "ExecInPkg(pkg='robot_controller', exec='navigator')"
+    assert describe(FakeWorld(), write_launch_file(tmp_path, actions)).splitlines() == [
+        "<launch.launch_description.LaunchDescription object>",
+        "├── DeclareLaunchArgument('rate')",
+        f"├── ExecuteProcess(cmd=[{program}, '--ros-args', '-r', LocalVar('node name')], cwd=None, env=None, shell=False)",
+        "├── TimerAction(period='2.0'):",
+        "│   └── LogInfo('later ' + LaunchConfig('rate'))",
+        "├── RegisterEventHandler('OnShutdown()'):",
+        "│   └── LogInfo('bye')",
+        "└── Emit event 'launch.events.Shutdown'",
+    ]
+
+
+def test_values_of_asked_for_types() -> None:
+    from launch import LaunchContext
+    from launch.substitutions import TextSubstitution
+    from launch.utilities.type_utils import (
+        get_typed_value,
+        normalize_typed_substitution,
+        perform_typed_substitution,
+    )
+
+    assert get_typed_value("1.5", float) == 1.5
+    assert get_typed_value("yes", None) is True
+    assert get_typed_value(["1", "2"], list[int]) == [1, 2]
+    assert get_typed_value("[a, b]", list[str]) == ["a", "b"]
+    assert get_typed_value("$(var x)", float, can_be_str=True) == "$(var x)"
+    for text, kind in (("maybe", bool), ("1.5", int), ("a", list[int]), ("[1, a]", list[int]), ("{a: 1}", None)):
+        with pytest.raises(ValueError):
+            get_typed_value(text, kind)
+    with pytest.raises(TypeError):
+        get_typed_value(["1"], int)
+    context, two = LaunchContext(), TextSubstitution(text="2")
+    assert perform_typed_substitution(context, normalize_typed_substitution(two, int), int) == 2
+    assert perform_typed_substitution(context, normalize_typed_substitution([two, 3], list[int]), list[int]) == [2, 3]
+    with pytest.raises(TypeError):
+        normalize_typed_substitution("a", int)

@@ -1,0 +1,315 @@
+"""The programs of tf2_ros, tf2_tools and turtlesim, and the small print of broadcasters and listeners."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+import rclpy
+from geometry_msgs.msg import TransformStamped
+from rclpy.executors import ExternalShutdownException
+from rclpy.time import Time
+from tf2_ros import Buffer, StaticTransformBroadcaster, TransformBroadcaster, TransformListener
+from workshop import Workshop, distance
+
+from turtle_lesson.ros.world import World
+from turtle_lesson.underlay import underlay_packages
+
+Run = Callable[..., list[Any]]
+
+
+@pytest.fixture
+def shop(world: World, capsys: pytest.CaptureFixture[str]) -> Iterator[Workshop]:
+    """A terminal in a fresh world, ten seconds old."""
+    for package in underlay_packages():
+        world.packages.add(package)
+    world.sim.run_until(10_000_000_000)
+    yield Workshop(world, capsys)
+
+
+def frame(parent: str, child: str, x: float = 0.0) -> TransformStamped:
+    message = TransformStamped(child_frame_id=child)
+    message.header.frame_id = parent
+    message.transform.translation.x = x
+    return message
+
+
+STATIC = "ros2 run tf2_ros static_transform_publisher"
+
+
+def test_the_underlay_has_its_programs(shop: Workshop) -> None:
+    assert shop.say(
+        "ros2 pkg executables tf2_ros", "ros2 pkg executables tf2_tools", "ros2 pkg executables turtlesim"
+    ) == [
+        "tf2_ros static_transform_publisher",
+        "tf2_ros tf2_echo",
+        "tf2_ros tf2_monitor",
+        "tf2_tools view_frames",
+        "turtlesim draw_square",
+        "turtlesim mimic",
+        "turtlesim turtle_teleop_key",
+        "turtlesim turtlesim_node",
+    ]
+
+
+# ---------------------------------------------------------------- static_transform_publisher
+
+
+def test_a_static_transform_by_flags_and_its_parameters(shop: Workshop) -> None:
+    node = "--ros-args -r __node:=lidar_frame"
+    printed = shop.say(
+        f"{STATIC} --x 1 --z -0.5 --yaw 3.1415927 --frame-id world --child-frame-id lidar {node}", seconds=1
+    )
+    assert printed == [
+        "0.0 lidar_frame: Spinning until stopped - publishing transform",
+        "translation: ('1.000000', '0.000000', '-0.500000')",
+        "rotation: ('0.000000', '0.000000', '1.000000', '-0.000000')",
+        "from 'world' to 'lidar'",
+    ]
+    assert shop.say("ros2 param get /lidar_frame translation.x", "ros2 param get /lidar_frame child_frame_id") == [
+        "Double value is: 1.0",
+        "String value is: lidar",
+    ]
+    shop.say("ros2 param set /lidar_frame translation.x 2.0")  # refused: they are read-only
+    assert shop.say("ros2 param get /lidar_frame translation.x") == ["Double value is: 1.0"]
+
+
+def test_a_static_transform_in_the_old_way(shop: Workshop) -> None:
+    printed = shop.say(f"{STATIC} 1 2 3 1.5707963 0 0 world a", f"{STATIC} 0 0 0 0 0 1 0 a b", seconds=1)
+    assert (
+        printed[0]
+        == "[WARN] [1800000010.000000000] []: Old-style arguments are deprecated; see --help for new-style arguments"
+    )
+    assert "rotation: ('0.000000', '0.000000', '0.707107', '0.707107')" in printed
+    assert "rotation: ('0.000000', '0.000000', '1.000000', '0.000000')" in printed
+
+
+@pytest.mark.parametrize(
+    ("words", "problem"),
+    [
+        ("1 2 3", "Extra unparsed arguments on command-line"),
+        ("--x", "Not enough arguments for --x"),
+        ("--x one --frame-id a --child-frame-id b", "Failed to parse --x argument as float"),
+        ("--child-frame-id b", "Frame id must not be empty"),
+        ("--frame-id a", "Child frame id must not be empty"),
+        ("--yaw 1 --qz 1 --frame-id a --child-frame-id b", "Cannot specify both quaternion and Euler rotations"),
+        ("--x 1 0 0 0 0 0 0 a b", "Cannot specify both new-style (flags) and old-style (arguments)"),
+    ],
+)
+def test_what_a_static_transform_cannot_be(shop: Workshop, words: str, problem: str) -> None:
+    printed = shop.say(f"{STATIC} {words}")
+    assert any(line.endswith(f"error parsing command line arguments: {problem}") for line in printed)
+    assert printed[-1] == "[ros2run]: Process exited with failure 1"
+
+
+def test_a_frame_is_not_its_own_parent_and_help_helps(shop: Workshop) -> None:
+    said = shop.say(f"{STATIC} --frame-id a --child-frame-id a")
+    assert said[0].endswith("cannot publish static transform from 'a' to 'a': child_frame_id cannot equal frame_id")
+    assert shop.say(f"{STATIC} --help")[0].startswith("usage: static_transform_publisher [--x X]")
+
+
+# ---------------------------------------------------------------- looking
+
+
+def test_echo_says_how_it_is_used(shop: Workshop) -> None:
+    assert shop.say("ros2 run tf2_ros tf2_echo world")[0] == "Usage: tf2_echo source_frame target_frame [echo_rate]"
+    said = shop.say("ros2 run tf2_ros tf2_echo a b fast")
+    assert said[0] == "Failed to convert rate argument 'fast' to a floating-point number"
+    assert shop.say("ros2 run tf2_ros tf2_echo a b 0")[0].startswith("The rate must be more than 0")
+
+
+def test_echo_at_a_rate_of_its_own(shop: Workshop) -> None:
+    shop.say(f"{STATIC} --pitch 1.5707963267948966 --roll 0.3 --frame-id world --child-frame-id a", seconds=0.1)
+    printed = shop.say("ros2 run tf2_ros tf2_echo world a 4", seconds=1.1)
+    assert sum(line.startswith("At time") for line in printed) == 4
+    assert "- Rotation: in RPY (radian) [0.300, 1.571, 0.000]" in printed
+
+
+def test_the_tree_of_frames_is_drawn_as_text(shop: Workshop) -> None:
+    for parent, child in (("world", "robot"), ("robot", "lidar"), ("robot", "camera"), ("world", "door")):
+        shop.say(f"{STATIC} --frame-id {parent} --child-frame-id {child}", seconds=0.1)
+    assert shop.say("ros2 run tf2_tools view_frames", seconds=6)[1:] == [
+        "5.4 view_frames: Generating graph...",
+        "world",
+        "├── robot  (static)",
+        "│   ├── lidar  (static)",
+        "│   └── camera  (static)",
+        "└── door  (static)",
+    ]
+
+
+def test_no_frames_are_no_tree(shop: Workshop) -> None:
+    assert shop.say("ros2 run tf2_tools view_frames --wait-time 1", seconds=2)[-1].startswith("No tf data received")
+
+
+def test_the_monitor_says_how_late_transforms_come(shop: Workshop) -> None:
+    def late() -> None:
+        rclpy.init(args=[])
+        node = rclpy.create_node("late")
+        broadcaster = TransformBroadcaster(node)
+
+        def tell() -> None:
+            message = frame("world", "robot")
+            message.header.stamp = Time(nanoseconds=node.get_clock().now().nanoseconds - 250_000_000).to_msg()
+            broadcaster.sendTransform(message)
+
+        node.create_timer(0.1, tell)
+        rclpy.spin(node)
+
+    shop.world.spawn(late, name="late")
+    printed = shop.say("ros2 run tf2_ros tf2_monitor world robot", seconds=13)
+    assert printed[0].startswith("Waiting for transform world ->  robot: ") or printed[0].startswith("Gathering data")
+    assert "Chain is: world -> robot" in printed
+    assert any(
+        line.startswith("Frame: robot, published by <no authority available>, Average Delay: 0.250") for line in printed
+    )
+    assert any(line.startswith("Node: <no authority available> 10.") for line in printed)
+    assert shop.say("ros2 run tf2_ros tf2_monitor world")[0] == "TF_Monitor: usage: tf2_monitor framea frameb"
+
+
+# ---------------------------------------------------------------- broadcasters and listeners
+
+
+def test_a_static_broadcaster_tells_all_that_it_knows_and_the_first_of_a_frame_counts(
+    run: Run, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def teller(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        node = rclpy.create_node("teller")
+        broadcaster = StaticTransformBroadcaster(node)
+        broadcaster.sendTransform(frame("world", "a", 1.0))
+        broadcaster.sendTransform((frame("world", "b", 2.0), frame("world", "a", 9.0)))
+        rclpy.spin(node)
+
+    def listener(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        node, buffer = rclpy.create_node("listener"), Buffer()
+        TransformListener(buffer, node)
+        for _ in range(20):
+            rclpy.spin_once(node, timeout_sec=0.1)
+        found += [buffer.lookup_transform("world", each, Time()).transform.translation.x for each in "ab"]
+
+    assert run(teller, listener) == [1.0, 2.0]
+    error = capsys.readouterr()
+    assert "'a' was sent before, and on /tf_static the first transform of a frame counts" in error.out + error.err
+
+
+def test_a_listener_with_a_thread_hears_while_its_program_is_busy(run: Run) -> None:
+    def teller(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        node = rclpy.create_node("teller")
+        broadcaster = TransformBroadcaster(node, 10)
+        node.create_timer(0.1, lambda: broadcaster.sendTransform(frame("world", "a", 1.0)))
+        rclpy.spin(node)
+
+    def program(found: list[Any]) -> None:
+        import time
+
+        rclpy.init(args=[])
+        buffers = [Buffer(), Buffer(), Buffer()]
+        TransformListener(buffers[0], rclpy.create_node("with_thread"), spin_thread=True)
+        TransformListener(buffers[1], rclpy.create_node("without"))
+        TransformListener(buffers[2], None, spin_thread=True, static_only=True)
+        time.sleep(1.0)
+        found += [buffer.can_transform("world", "a", Time()) for buffer in buffers]
+        rclpy.shutdown()
+
+    assert run(teller, program) == [True, False, False]
+
+
+def test_other_topics_and_no_more_listening(run: Run) -> None:
+    def program(found: list[Any]) -> None:
+        rclpy.init(args=["--ros-args", "-r", "/tf:=/robot/tf"])
+        node, buffer, other = rclpy.create_node("both"), Buffer(), Buffer()
+        broadcaster = TransformBroadcaster(node)
+        listener = TransformListener(buffer, node, qos=1, static_qos=1)
+        TransformListener(other, node, tf_topic="/elsewhere")
+        for name in "ab":
+            broadcaster.sendTransform(frame("world", name))
+            for _ in range(3):
+                rclpy.spin_once(node, timeout_sec=0.1)
+            listener.unregister()
+        found += [
+            node.get_publishers_info_by_topic("/robot/tf") != [],
+            buffer._getFrameStrings(),
+            other._getFrameStrings(),
+        ]
+
+    assert run(program) == [True, ["a", "world"], []]
+
+
+def test_a_timeout_in_a_callback_of_a_single_threaded_executor_waits_in_vain(run: Run) -> None:
+    def program(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        node, buffer = rclpy.create_node("both"), Buffer()
+        TransformListener(buffer, node)
+        broadcaster = TransformBroadcaster(node)
+
+        def ask() -> None:
+            timer.cancel()
+            broadcaster.sendTransform(frame("world", "a"))
+            begun = node.get_clock().now()
+            there = buffer.can_transform("world", "a", Time(), timeout=rclpy.duration.Duration(seconds=2.0))
+            found.append((there, round((node.get_clock().now() - begun).nanoseconds / 1e9, 1)))
+            node.create_timer(0.1, lambda: found.append(buffer.can_transform("world", "a", Time())))
+
+        timer = node.create_timer(0.1, ask)
+        try:
+            rclpy.spin(node)
+        except ExternalShutdownException:
+            pass
+
+    assert run(program, seconds=3)[:2] == [(False, 2.0), True]
+
+
+def test_a_clock_that_is_set_back_clears_the_buffer(run: Run) -> None:
+    def program(found: list[Any]) -> None:
+        from rosgraph_msgs.msg import Clock
+
+        rclpy.init(args=["--ros-args", "-p", "use_sim_time:=true"])
+        node = rclpy.create_node("replayed")
+        buffer = Buffer(node=node)
+        clock = node.create_publisher(Clock, "/clock", 10)
+        for seconds in (50, 51, 20):
+            clock.publish(Clock(clock=Time(seconds=seconds).to_msg()))
+            rclpy.spin_once(node, timeout_sec=0.1)
+            message = frame("world", "a")
+            message.header.stamp.sec = seconds
+            if seconds > 20:
+                buffer.set_transform(message, "test")
+            found.append(buffer.can_transform("world", "a", Time()))
+
+    assert run(program) == [True, True, False]
+
+
+# ---------------------------------------------------------------- turtlesim's own programs
+
+
+def test_draw_square_draws_a_square(shop: Workshop) -> None:
+    seen = shop.watch("turtle1")
+    printed = shop.say("ros2 run turtlesim turtlesim_node", "ros2 run turtlesim draw_square", seconds=25)
+    goals = [line.partition("New goal ")[2] for line in printed if "draw_square: New goal" in line]
+    assert goals[:2] == ["[7.544445 5.544445, 0.000000]", "[7.464445 5.544445, 1.570796]"]
+    for corner in ((5.54, 5.54), (7.46, 5.54), (7.46, 7.46), (5.54, 7.46)):
+        assert min(distance((*corner, 0.0), place) for place in seen["turtle1"]) < 0.05
+    xs, ys = [place[0] for place in seen["turtle1"]], [place[1] for place in seen["turtle1"]]
+    assert math.isclose(max(xs) - min(xs), 2.0, abs_tol=0.1) and math.isclose(max(ys) - min(ys), 2.0, abs_tol=0.1)
+
+
+def test_mimic_does_what_another_turtle_does(shop: Workshop) -> None:
+    seen = shop.watch("turtle1", "turtle2")
+    names = "-r input/pose:=turtle1/pose -r output/cmd_vel:=turtle2/cmd_vel"
+    shop.say("ros2 run turtlesim turtlesim_node", f"ros2 run turtlesim mimic --ros-args {names}", seconds=1)
+    shop.say("ros2 service call /spawn turtlesim/srv/Spawn '{x: 2.0, y: 2.0, name: turtle2}'", seconds=1)
+    twist = "'{linear: {x: 1.0}, angular: {z: 0.5}}'"
+    shop.say(f"ros2 topic pub --once /turtle1/cmd_vel geometry_msgs/msg/Twist {twist}", seconds=5)
+    (x, y, theta), (other_x, other_y, other_theta) = seen["turtle1"][-1], seen["turtle2"][-1]
+    assert theta > 0.4 and other_theta == pytest.approx(theta, abs=0.6)
+    assert (other_x - 2.0, other_y - 2.0) == pytest.approx((x - 5.544445, y - 5.544445), abs=0.8)
+
+
+def test_teleop_says_what_to_use_instead(shop: Workshop) -> None:
+    said = shop.say("ros2 run turtlesim turtle_teleop_key")
+    assert "lesson.teleop()" in said[0] and said[1] == "[ros2run]: Process exited with failure 1"

@@ -1,0 +1,115 @@
+"""Angles, quaternions and matrices: the figures of the package's own examples, and what must hold for all figures."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+import tf_transformations as tft
+from geometry_msgs.msg import Quaternion
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+LETTERS = ("xyz", "xyx", "xzy", "xzx", "yzx", "yzy", "yxz", "yxy", "zxy", "zxz", "zyx", "zyz")
+angles = st.floats(-7.0, 7.0) | st.sampled_from([0.0, math.pi / 2, -math.pi / 2, math.pi])
+vectors = st.tuples(*[st.floats(-10.0, 10.0)] * 3)
+axes_names = st.sampled_from([f"{kind}{letters}" for kind in "sr" for letters in LETTERS])
+
+
+@given(angles, angles, angles, axes_names)
+def test_angles_come_back_as_the_same_turn_for_all_24_kinds_of_axes(a: float, b: float, c: float, axes: str) -> None:
+    matrix = tft.euler_matrix(a, b, c, axes)
+    again = tft.euler_from_matrix(matrix, axes)
+    assert np.allclose(tft.euler_matrix(*again, axes), matrix, atol=1e-7)
+    assert np.allclose(
+        tft.euler_matrix(*tft.euler_from_quaternion(tft.quaternion_from_matrix(matrix), axes), axes), matrix
+    )
+
+
+@given(angles, angles, angles)
+def test_roll_pitch_and_yaw_are_turns_about_fixed_axes_one_after_the_other(
+    roll: float, pitch: float, yaw: float
+) -> None:
+    about = [tft.rotation_matrix(angle, axis) for angle, axis in zip((roll, pitch, yaw), np.identity(3), strict=True)]
+    assert np.allclose(tft.euler_matrix(roll, pitch, yaw), about[2] @ about[1] @ about[0])
+    assert np.allclose(tft.euler_matrix(yaw, pitch, roll, "rzyx"), about[2] @ about[1] @ about[0])
+
+
+def test_figures_that_are_published() -> None:
+    assert np.allclose(tft.quaternion_from_euler(1, 2, 3, "ryxz"), [0.310622, -0.718287, 0.444435, 0.435953])
+    assert np.isclose(sum(tft.euler_matrix(1, 2, 3, "syxz")[0]), -1.34786452)
+    assert np.isclose(sum(tft.euler_matrix(1, 2, 3, (0, 1, 0, 1))[0]), -0.383436184)
+    assert np.allclose(tft.quaternion_multiply([1, -2, 3, 4], [-5, 6, 7, 8]), [-44, -14, 48, 28])
+    assert np.allclose(tft.quaternion_about_axis(0.123, (1, 0, 0)), [0.06146124, 0, 0, 0.99810947])
+    assert np.allclose(tft.euler_from_quaternion([0.06146124, 0, 0, 0.99810947]), [0.123, 0, 0])
+    turn = tft.quaternion_from_matrix(tft.rotation_matrix(0.123, (1, 2, 3)))
+    assert np.allclose(turn, [0.0164262, 0.0328524, 0.0492786, 0.9981095])
+
+
+@pytest.mark.parametrize(
+    ("code", "name"),
+    [((0, 0, 0, 0), "sxyz"), ((0, 1, 1, 0), "sxzx"), ((2, 1, 0, 0), "szyx"), ((1, 1, 1, 0), "syxy")]
+    + [((0, 0, 0, 1), "rzyx"), ((0, 0, 1, 1), "rxyx"), ((2, 0, 0, 1), "ryxz"), ((2, 1, 1, 1), "rzyz")],
+)
+def test_axes_by_their_old_codes(code: tuple[int, ...], name: str) -> None:
+    assert np.allclose(tft.euler_matrix(1, 2, 3, code), tft.euler_matrix(1, 2, 3, name))
+
+
+@given(angles, vectors, vectors, vectors)
+def test_turns_as_quaternions_and_matrices_agree(angle: float, axis: tuple, point: tuple, other: tuple) -> None:
+    assume(np.linalg.norm(axis) > 1e-3)
+    turn = tft.quaternion_about_axis(angle, axis)
+    assert np.allclose(tft.quaternion_multiply(turn, tft.quaternion_inverse(turn)), [0, 0, 0, 1])
+    again = tft.quaternion_about_axis(0.5, (0, 1, 0))
+    both = tft.concatenate_matrices(tft.quaternion_matrix(turn), tft.quaternion_matrix(again))
+    assert np.allclose(tft.quaternion_matrix(tft.quaternion_multiply(turn, again)), both)
+    matrix = tft.rotation_matrix(angle, axis, point)
+    assert np.allclose(matrix @ [*point, 1], [*point, 1])
+    assert tft.is_same_transform(tft.inverse_matrix(matrix) @ matrix, tft.identity_matrix())
+    shifted = tft.translation_matrix(other) @ matrix
+    assert np.allclose(tft.translation_from_matrix(shifted), np.array(other) + matrix[:3, 3])
+
+
+@given(angles, vectors, vectors)
+def test_a_turn_is_found_again_in_its_matrix(angle: float, axis: tuple, point: tuple) -> None:
+    assume(np.linalg.norm(axis) > 1e-3 and abs(math.remainder(angle, 2 * math.pi)) > 1e-2)
+    matrix = tft.rotation_matrix(angle, axis, point)
+    assert np.allclose(tft.rotation_matrix(*tft.rotation_from_matrix(matrix)), matrix, atol=1e-6)
+
+
+@given(st.tuples(*[st.floats(0.1, 3.0)] * 3), vectors, st.tuples(*[st.floats(-1.5, 1.5)] * 3), vectors)
+def test_matrices_are_taken_apart_as_they_were_put_together(
+    scale: tuple, shear: tuple, turn: tuple, shift: tuple
+) -> None:
+    matrix = tft.compose_matrix(scale, shear, turn, shift)
+    assert np.allclose(tft.compose_matrix(*tft.decompose_matrix(matrix)), matrix)
+    assert np.allclose(tft.decompose_matrix(matrix)[2], turn, atol=1e-6)
+
+
+def test_half_way_between_two_turns() -> None:
+    one, two = tft.quaternion_from_euler(0, 0, 0.2), tft.quaternion_from_euler(0, 0, 1.0)
+    assert tft.euler_from_quaternion(tft.quaternion_slerp(one, two, 0.25))[2] == pytest.approx(0.4)
+    assert np.allclose(tft.quaternion_slerp(one, -np.array(two), 0.25), tft.quaternion_from_euler(0, 0, 0.4))
+    assert np.allclose(tft.quaternion_slerp(one, two, 1.0), two)
+
+
+def test_vectors_and_random_turns() -> None:
+    assert tft.vector_norm([3, 4]) == 5.0 and np.allclose(tft.unit_vector([3, 4]), [0.6, 0.8])
+    assert np.allclose(tft.vector_norm([[3, 4], [6, 8]], axis=1), [5, 10])
+    assert np.allclose(tft.unit_vector([[3, 4], [6, 8]], axis=1), [[0.6, 0.8]] * 2)
+    assert np.isclose(tft.vector_norm(tft.random_quaternion([0.1, 0.2, 0.3])), 1.0)
+    matrix = tft.random_rotation_matrix()
+    assert np.allclose(matrix @ matrix.T, np.identity(4))
+    assert np.allclose(tft.scale_matrix(2.0, (1, 0, 0), (1, 0, 0)) @ [2, 3, 4, 1], [3, 3, 4, 1])
+
+
+def test_mistakes_are_explained() -> None:
+    with pytest.raises(TypeError, match=r"write \[q\.x, q\.y, q\.z, q\.w\]"):
+        tft.euler_from_quaternion(Quaternion())
+    with pytest.raises(ValueError, match="axes must be such as 'sxyz' or 'rzyx', got 'xyz'"):
+        tft.quaternion_from_euler(0, 0, 0, "xyz")
+    with pytest.raises(AttributeError, match="shear_matrix is not built in this classroom, a real one has it"):
+        tft.shear_matrix  # noqa: B018
+    with pytest.raises(AttributeError, match="has no attribute 'quaternion_from_yaw'"):
+        tft.quaternion_from_yaw  # noqa: B018

@@ -1,0 +1,21 @@
+"""The packages with programs that a fresh ROS 2 has, below those of a learner: turtlesim, tf2_ros and tf2_tools."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from .ros.tools import program, tf2_packages
+from .ros.workspace.package import Package, Target
+from .sourced import HERE
+
+SIMULATOR: Callable[[], object] = program("turtle_lesson.turtlesim.node")
+"""What runs the turtle simulator."""
+
+
+def underlay_packages() -> list[Package]:
+    """All of them, so that `ros2 run`, `ros2 pkg` and launch files find them."""
+    others = ("draw_square", "mimic")
+    programs: dict[str, Target] = {name: program(f"turtle_lesson.turtlesim.{name}") for name in others}
+    programs["turtle_teleop_key"] = program("turtle_lesson.turtlesim.teleop_turtle_key")
+    turtlesim = Package("turtlesim", HERE / "turtlesim", executables={"turtlesim_node": SIMULATOR, **programs})
+    return [turtlesim, *tf2_packages()]
