@@ -270,7 +270,9 @@ def test_a_loop_may_handle_signals(world: World) -> None:
 def test_what_the_real_computer_would_be_needed_for_is_refused(run: Run) -> None:
     def program(found: list[Any]) -> None:
         async def main() -> None:
-            with pytest.raises(NotImplementedError, match=r"loop.create_connection\(\) is not possible in this classroom"):
+            with pytest.raises(
+                NotImplementedError, match=r"loop.create_connection\(\) is not possible in this classroom"
+            ):
                 await asyncio.open_connection("localhost", 80)
             with pytest.raises(NotImplementedError, match="processes of the real computer"):
                 await asyncio.create_subprocess_exec("true")
@@ -333,7 +335,7 @@ def test_asyncio_does_not_run_in_callbacks_of_a_node(run: Run) -> None:
             await asyncio.sleep(0.1)
 
         node.create_timer(0.1, callback)
-        with pytest.raises(RuntimeError, match="^no running event loop"):
+        with pytest.raises(RuntimeError, match=r"^no running event loop"):
             rclpy.spin(node)
         found.append("told")
 

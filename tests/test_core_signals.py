@@ -94,7 +94,9 @@ def test_a_program_may_signal_itself_and_be_woken_by_an_alarm(world: World) -> N
 
     def program() -> None:
         for number in (signal.SIGUSR1, signal.SIGALRM):
-            signal.signal(number, lambda number, _: log.append((signal.Signals(number).name, round(time.time() % 60, 1))))
+            signal.signal(
+                number, lambda number, _: log.append((signal.Signals(number).name, round(time.time() % 60, 1)))
+            )
         signal.raise_signal(signal.SIGUSR1)
         assert signal.alarm(100) == 0
         assert signal.alarm(2) == 100
@@ -120,7 +122,9 @@ def test_a_program_from_a_file_may_kill_itself(world: World, tmp_path: Path, cap
     assert capsys.readouterr().out == "hit\n"
 
 
-def test_what_is_registered_for_the_end_is_called_last_thing_first(world: World, tmp_path: Path, capsys: Capture) -> None:
+def test_what_is_registered_for_the_end_is_called_last_thing_first(
+    world: World, tmp_path: Path, capsys: Capture
+) -> None:
     file = tmp_path / "program.py"
     file.write_text(
         "import atexit, threading, time\n"
@@ -155,7 +159,9 @@ def test_outside_of_programs_atexit_is_pythons(run: Run) -> None:
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no os.fork() on this system")
 def test_other_processes_of_the_computer_are_refused(run: Run) -> None:
     def program(found: list[Any]) -> None:
-        with pytest.raises(NotImplementedError, match=r"os.fork\(\) is not possible in this classroom: .* Threads can be"):
+        with pytest.raises(
+            NotImplementedError, match=r"os.fork\(\) is not possible in this classroom: .* Threads can be"
+        ):
             os.fork()
         with pytest.raises(NotImplementedError, match=r"signal.setitimer\(\) does not exist in this classroom"):
             signal.setitimer(signal.ITIMER_REAL, 1)

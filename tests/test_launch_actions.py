@@ -93,9 +93,15 @@ def test_a_files_content_and_the_log_folder(
     )
     assert said(capsys) == ["<robot/>", "<robot/>", "<robot/>", "/var/log/robot"]
     for action, reason in [
-        ("LogInfo(msg=FileContent('nope.txt')),", "Failed to open nope.txt: [Errno 2]"),
-        ("LogInfo(msg=Command('rm -rf /')),", "executed command failed. Command: rm -rf /\n'rm' is a program of the"),
-        ("LogInfo(msg=Command('cat nope')),", "executed command failed. Command: cat nope\ncat: nope: No such file"),
+        ("LogInfo(msg=FileContent('nope.txt')),", "File not found: nope.txt"),
+        (
+            "LogInfo(msg=Command('rm -rf /')),",
+            "executed command failed. Command: rm -rf /\nCaptured stderr output: 'rm' is a program of the",
+        ),
+        (
+            "LogInfo(msg=Command('cat nope')),",
+            "executed command failed. Command: cat nope\nCaptured stderr output: cat: nope: No such file",
+        ),
     ]:
         with pytest.raises(LaunchError) as caught:
             launch(tmp_path, action)
@@ -141,11 +147,14 @@ def test_what_all_programs_print_can_be_asked_for(tmp_path: Path, capsys: pytest
 
 
 def test_a_log_folder_is_named_and_nothing_is_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    launch(tmp_path, "SetROSLogDir('logs'), LogInfo(msg=EnvironmentVariable('ROS_LOG_DIR')),")
+    launch(
+        tmp_path, "SetROSLogDir('/var/logs'), SetROSLogDir('mine'), LogInfo(msg=EnvironmentVariable('ROS_LOG_DIR')),"
+    )
+    begin = "[INFO] [launch_ros.actions.set_ros_log_dir]: there are no log files in this classroom:"
     assert screen(capsys) == [
-        "[INFO] [launch_ros.actions.set_ros_log_dir]: there are no log files in this classroom: "
-        "nothing is written to 'logs'",
-        "[INFO] [launch.user]: logs",
+        f"{begin} nothing is written to '/var/logs'",
+        f"{begin} nothing is written to '/var/logs/mine'",
+        "[INFO] [launch.user]: /var/logs/mine",
     ]
 
 
@@ -267,3 +276,47 @@ def test_values_of_asked_for_types() -> None:
     assert perform_typed_substitution(context, normalize_typed_substitution([two, 3], list[int]), list[int]) == [2, 3]
     with pytest.raises(TypeError):
         normalize_typed_substitution("a", int)
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("again.launch.xml", "<launch><include file='$(dirname)/again.launch.xml'/></launch>"),
+        ("again.launch.yaml", "launch: [{include: {file: $(filename)}}, {include: {file: $(filename)}}]"),
+        (
+            "again.launch.py",
+            "from launch import *\nfrom launch.actions import *\n"
+            "def generate_launch_description():\n"
+            "    return LaunchDescription([IncludeLaunchDescription(__file__), IncludeLaunchDescription(__file__)])\n",
+        ),
+    ],
+)
+def test_a_file_that_includes_itself_is_stopped(tmp_path: Path, name: str, text: str) -> None:
+    with pytest.raises(LaunchError) as caught:
+        launch_file(FakeWorld(), write(tmp_path, text, name))
+    assert caught.value.reason == "launch files include one another without end"
+    assert caught.value.hint.startswith(f"{name} is taken in again and again")
+
+
+@pytest.mark.parametrize(
+    ("action", "reason", "hint"),
+    [
+        (
+            "EmitEvent(event=Shutdown()),",
+            "EmitEvent() expected an event instance, got '<launch.actions.shutdown_action.Shutdown object>'.",
+            "An event is of launch.events",
+        ),
+        ("ForLoop('100000', function=print),", "ForLoop has at most 10000 rounds", ""),
+        ("ForEach('[1, 2]', function=print),", "ForEach expected sets such as", ""),
+        ("Log(msg='x', level='LOUD'),", "Invalid log level 'LOUD'", ""),
+        ("OpaqueCoroutine(coroutine=print),", "OpaqueCoroutine expected a coroutine function", ""),
+        ("RegisterEventHandler(LogInfo(msg='x')),", "RegisterEventHandler expected an event handler", ""),
+        ("PopLaunchConfigurations(),", "launch_configurations stack unexpectedly empty", ""),
+        ("LogInfo(msg=LocalSubstitution('event.pid')),", "'event.pid': context.locals does not contain", ""),
+    ],
+)
+def test_mistakes_are_told_with_their_line(tmp_path: Path, action: str, reason: str, hint: str) -> None:
+    with pytest.raises(LaunchError) as caught:
+        launch(tmp_path, action)
+    assert reason in caught.value.reason and hint in caught.value.hint
+    assert caught.value.line == 14

@@ -141,9 +141,7 @@ def failure(folder: Path, text: str, name: str = "bad.launch.xml") -> LaunchErro
 
 
 @pytest.mark.parametrize("name", THE_SAME)
-def test_the_three_formats_start_the_same_nodes(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str
-) -> None:
+def test_the_three_formats_start_the_same_nodes(tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
     world = launched(tmp_path, THE_SAME[name], name, mode="fast")
     assert [" ".join(process.argv[1:]) for process in world.processes] == [
         "--fast robot_10/x two words --ros-args -r __node:=nav -p rate:=10 -p words:=[a, b] -p text:='3' "
@@ -229,7 +227,7 @@ def test_the_sources_have_their_own_names(tmp_path: Path, capsys: pytest.Capture
         ("$(var nope $(var x))$(var x)", "11"),
         ("$(env LAUNCH_TEST_UNSET none)", "none"),
         ("$(eval '$(var x) + 1')", "2"),
-        ('$(eval "\'$(var word)\' == \'fast\'")', "True"),
+        ("$(eval \"'$(var word)' == 'fast'\")", "True"),
         ("$(eval 'math.floor(2.5)')", "2"),
         ("$(not $(var yes))", "false"),
         ("$(and $(var yes) true)", "true"),
@@ -246,6 +244,7 @@ def test_the_sources_have_their_own_names(tmp_path: Path, capsys: pytest.Capture
         ("$(find-exec ros2)", "ros2"),
         ("$(command 'echo hello there')", "hello there\n"),
         ("$(param shared)", "7"),
+        ("$(string-join . a$(var x) b)", "a1.b"),
         ("$(param nope 3)", "3"),
     ],
 )
@@ -452,9 +451,7 @@ def test_a_mistake_in_xml_is_named_with_its_line(tmp_path: Path, line: str, said
         ),
     ],
 )
-def test_a_mistake_in_yaml_is_named_with_its_line(
-    tmp_path: Path, text: str, said: str, line: int, hint: str
-) -> None:
+def test_a_mistake_in_yaml_is_named_with_its_line(tmp_path: Path, text: str, said: str, line: int, hint: str) -> None:
     error = failure(tmp_path, f"launch:\n{text}", "bad_launch.yaml")
     assert error.reason.splitlines()[:2] == [
         "Caught multiple exceptions when trying to load file of format [yaml]:",
@@ -466,11 +463,29 @@ def test_a_mistake_in_yaml_is_named_with_its_line(
 @pytest.mark.parametrize(
     ("name", "text", "said", "line", "hint"),
     [
-        ("a.launch.xml", "<launch>\n<group>\n</launch>\n", "ParseError: mismatched tag: line 3, column 2", 3, "Every <tag>"),
-        ("a.launch.xml", "<launch>\n<log message=x/>\n</launch>", "ParseError: not well-formed (invalid token)", 2, "Values"),
+        (
+            "a.launch.xml",
+            "<launch>\n<group>\n</launch>\n",
+            "ParseError: mismatched tag: line 3, column 2",
+            3,
+            "Every <tag>",
+        ),
+        (
+            "a.launch.xml",
+            "<launch>\n<log message=x/>\n</launch>",
+            "ParseError: not well-formed (invalid token)",
+            2,
+            "Values",
+        ),
         ("a.launch.xml", "<launch>\n", "ParseError: no element found: line 2, column 0", 2, "The file ends too early"),
         ("a.launch.yaml", "launch:\n- log:\n\tmessage: x\n", "ScannerError: while scanning", 3, "YAML is indented"),
-        ("a.launch.yaml", "launch:\n- log:\n    message: a: b\n", "ScannerError: mapping values", 3, "A value with ': '"),
+        (
+            "a.launch.yaml",
+            "launch:\n- log:\n    message: a: b\n",
+            "ScannerError: mapping values",
+            3,
+            "A value with ': '",
+        ),
         ("a.launch.yaml", "a: 1\nb: 2\n", "RuntimeError: Expected only one root", 1, "The file begins with launch:"),
         ("a.launch.yaml", "", "RuntimeError: Expected only one root", 1, "The file begins with launch:"),
     ],

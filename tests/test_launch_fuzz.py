@@ -61,11 +61,13 @@ printable = st.text(st.characters(exclude_categories=["Cs", "Cc"]), max_size=12)
 attributes = st.dictionaries(st.sampled_from(NAMES), printable, max_size=5)
 leaves = st.builds(as_xml, st.sampled_from(TAGS), attributes, st.just([]))
 trees = st.recursive(
-    leaves, lambda inner: st.builds(as_xml, st.sampled_from(TAGS), attributes, st.lists(inner, max_size=3)), max_leaves=8
+    leaves,
+    lambda inner: st.builds(as_xml, st.sampled_from(TAGS), attributes, st.lists(inner, max_size=3)),
+    max_leaves=8,
 )
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=80, deadline=None)
 @given(st.lists(trees, max_size=4))
 def test_any_xml_tree(parts: list[str]) -> None:
     carried_out(f"<launch>{''.join(parts)}</launch>", "fuzz.launch.xml")
@@ -74,19 +76,21 @@ def test_any_xml_tree(parts: list[str]) -> None:
 plain = values | st.booleans() | st.integers() | st.floats() | st.none()
 bodies = st.recursive(
     plain | st.dictionaries(st.sampled_from(NAMES), plain, max_size=5),
-    lambda inner: st.lists(st.dictionaries(st.sampled_from(TAGS), inner, min_size=1, max_size=2), max_size=3)
-    | st.dictionaries(st.sampled_from([*NAMES, "param", "remap"]), inner, max_size=3),
+    lambda inner: (
+        st.lists(st.dictionaries(st.sampled_from(TAGS), inner, min_size=1, max_size=2), max_size=3)
+        | st.dictionaries(st.sampled_from([*NAMES, "param", "remap"]), inner, max_size=3)
+    ),
     max_leaves=8,
 )
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=80, deadline=None)
 @given(st.lists(st.dictionaries(st.sampled_from(TAGS), bodies, min_size=1, max_size=1), max_size=4))
 def test_any_yaml_tree(items: list[Any]) -> None:
     carried_out(yaml.safe_dump({"launch": items}), "fuzz_launch.yaml")
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=80, deadline=None)
 @given(st.text(max_size=60) | st.lists(bits, max_size=8).map("launch:\n- log: {message: ".__add__("").join))
 def test_any_text(text: str) -> None:
     with contextlib.suppress(UnicodeEncodeError):
@@ -95,7 +99,7 @@ def test_any_text(text: str) -> None:
         carried_out(f"<launch>{text}</launch>", "fuzz_launch.xml")
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=120, deadline=None)
 @given(st.lists(bits, max_size=10).map("".join) | st.text(max_size=30))
 def test_any_substitution(text: str) -> None:
     from launch import LaunchContext

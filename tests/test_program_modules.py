@@ -35,7 +35,8 @@ def write(tmp_path: Path) -> Write:
 def outcome(world: World, capsys: Capture, *programs: Path | PythonProgram, seconds: int = 10) -> list[str]:
     """What programs print that run side by side."""
     processes = [
-        world.spawn(program, name=f"p{number}", argv=["program", str(number)]) for number, program in enumerate(programs)
+        world.spawn(program, name=f"p{number}", argv=["program", str(number)])
+        for number, program in enumerate(programs)
     ]
     world.sim.run_until(world.now + seconds * SECOND)
     assert [process.exit_code for process in processes] == [0] * len(processes), capsys.readouterr().err
@@ -43,7 +44,9 @@ def outcome(world: World, capsys: Capture, *programs: Path | PythonProgram, seco
 
 
 def test_two_processes_of_one_program_share_no_variable(world: World, write: Write, capsys: Capture) -> None:
-    write("helper.py", "print('imported')\ncount = 0\ndef more():\n    global count\n    count += 1\n    return count\n")
+    write(
+        "helper.py", "print('imported')\ncount = 0\ndef more():\n    global count\n    count += 1\n    return count\n"
+    )
     program = write(
         "program.py",
         """
@@ -84,7 +87,10 @@ def test_what_they_import_later_is_their_own_too(world: World, write: Write, cap
 
 def test_a_package_of_several_modules_is_each_processes_own(world: World, write: Write, capsys: Capture) -> None:
     write("pkgs/my_robot/__init__.py", "state = []\n")
-    write("pkgs/my_robot/parts/wheel.py", "from .. import state\ndef turn(n):\n    state.append(n)\n    return list(state)\n")
+    write(
+        "pkgs/my_robot/parts/wheel.py",
+        "from .. import state\ndef turn(n):\n    state.append(n)\n    return list(state)\n",
+    )
     write(
         "pkgs/my_robot/main.py",
         """
@@ -97,7 +103,8 @@ def test_a_package_of_several_modules_is_each_processes_own(world: World, write:
                 time.sleep(1)
         """,
     )
-    run = PythonProgram(write("pkgs/x", "").parent / "lib", (write("pkgs/x", "").parent,), "from my_robot.main import main\nmain()")
+    folder = write("pkgs/notes.txt", "").parent
+    run = PythonProgram(folder / "lib" / "my_robot" / "run", (folder,), "from my_robot.main import main\nmain()")
     lines = outcome(world, capsys, run, run)
     assert lines == ["[0] True my_robot.main"] * 2 + ["[0, 1] True my_robot.main"] * 2
 
@@ -130,10 +137,15 @@ def test_the_main_module_is_the_programs(world: World, write: Write, capsys: Cap
     )
     main = sys.modules["__main__"]
     lines = outcome(world, capsys, program, program)
-    assert lines == ["True Pose(x=2.0, before=None)", "__main__.Pose | None True None"] * 2 or lines == [
-        "True Pose(x=2.0, before=None)",
-        "typing.Optional[__main__.Pose] True None",
-    ] * 2
+    assert (
+        lines == ["True Pose(x=2.0, before=None)", "__main__.Pose | None True None"] * 2
+        or lines
+        == [
+            "True Pose(x=2.0, before=None)",
+            "typing.Optional[__main__.Pose] True None",
+        ]
+        * 2
+    )
     assert sys.modules["__main__"] is main
 
 
@@ -191,7 +203,9 @@ def test_the_notebook_keeps_its_own_modules(
     monkeypatch.syspath_prepend(write("helper.py", "count = 0\n").parent)
     mine = importlib.import_module("helper")
     mine.count = 100
-    program = write("program.py", "import helper, time\nhelper.count += 1\ntime.sleep(2)\nimport helper as h\nprint(h.count)\n")
+    program = write(
+        "program.py", "import helper, time\nhelper.count += 1\ntime.sleep(2)\nimport helper as h\nprint(h.count)\n"
+    )
     world.spawn(program, name="program")
     world.sim.run_until(world.now + SECOND)
     assert sys.modules["helper"] is mine is importlib.import_module("helper")

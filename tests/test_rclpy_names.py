@@ -461,7 +461,7 @@ def test_unknown_ros_arguments_are_named(world: World) -> None:
     text = message_of(UnknownROSArgsError, lambda: rclpy.init(args=["prog", "--ros-args", "--foo"]))
     assert text == "['--foo']"
     text = message_of(RCLError, lambda: rclpy.init(args=["prog", "--ros-args", "-r"]))
-    assert text == "failed to initialize rcl: Couldn't parse trailing -r flag. It must be followed by a value"
+    assert text == "failed to initialize rcl: Couldn't parse trailing -r flag. No remap rule found."
 
 
 def test_what_is_left_of_the_arguments_without_those_for_ros() -> None:

@@ -9,7 +9,6 @@ from typing import Any
 import pytest
 import rclpy
 from geometry_msgs.msg import TransformStamped
-from rclpy.executors import ExternalShutdownException
 from rclpy.time import Time
 from tf2_ros import Buffer, StaticTransformBroadcaster, TransformBroadcaster, TransformListener
 from workshop import Workshop, distance
@@ -256,10 +255,7 @@ def test_a_timeout_in_a_callback_of_a_single_threaded_executor_waits_in_vain(run
             node.create_timer(0.1, lambda: found.append(buffer.can_transform("world", "a", Time())))
 
         timer = node.create_timer(0.1, ask)
-        try:
-            rclpy.spin(node)
-        except ExternalShutdownException:
-            pass
+        rclpy.spin(node)
 
     assert run(program, seconds=3)[:2] == [(False, 2.0), True]
 
@@ -313,3 +309,40 @@ def test_mimic_does_what_another_turtle_does(shop: Workshop) -> None:
 def test_teleop_says_what_to_use_instead(shop: Workshop) -> None:
     said = shop.say("ros2 run turtlesim turtle_teleop_key")
     assert "lesson.teleop()" in said[0] and said[1] == "[ros2run]: Process exited with failure 1"
+
+
+def test_a_cell_may_have_a_listener_with_a_thread() -> None:
+    """What a learner types in a cell, run as one: the thread is the simulation's, wherever the listener starts it."""
+    from turtle_lesson.ros.world import open_world
+
+    world = open_world()
+
+    def teller() -> None:
+        rclpy.init(args=[])
+        node = rclpy.create_node("teller")
+        broadcaster = TransformBroadcaster(node)
+        node.create_timer(0.1, lambda: broadcaster.sendTransform(frame("world", "a", 1.0)))
+        rclpy.spin(node)
+
+    world.spawn(teller, name="teller")
+    cell = """
+import rclpy
+from rclpy.duration import Duration
+from rclpy.time import Time
+from tf2_ros import Buffer, TransformListener
+
+rclpy.init(args=[])
+buffer = Buffer()
+listener = TransformListener(buffer, rclpy.create_node("cell"), spin_thread=True)
+there = buffer.lookup_transform("world", "a", Time(), timeout=Duration(seconds=5.0)).transform.translation.x
+"""
+    import __main__
+
+    before = dict(vars(__main__))
+    try:
+        exec(cell, vars(__main__))
+        assert (vars(__main__)["there"], world.now < 1e9) == (1.0, True)
+    finally:
+        for name in set(vars(__main__)) - set(before):
+            delattr(__main__, name)
+        world.close()

@@ -47,10 +47,16 @@ Why = Callable[[Callable[[], object]], str]
     ("wait", "told"),
     [
         (lambda: queue.Queue().get(), "Queue.get() would never return: … could put anything into the queue"),
-        (lambda: queue.SimpleQueue().get(), "SimpleQueue.get() would never return: … could put anything into the queue"),
+        (
+            lambda: queue.SimpleQueue().get(),
+            "SimpleQueue.get() would never return: … could put anything into the queue",
+        ),
         (lambda: threading.Event().wait(), "Event.wait() would never return: … could set the event"),
         (lambda: threading.Barrier(2).wait(), "Barrier.wait() would never return: … could come to the barrier"),
-        (lambda: threading.Semaphore(0).acquire(), "Semaphore.acquire() would never return: … could release the semaphore"),
+        (
+            lambda: threading.Semaphore(0).acquire(),
+            "Semaphore.acquire() would never return: … could release the semaphore",
+        ),
         (lambda: Future().result(), "Future.result() would never return: … could complete the future"),
     ],
 )
@@ -65,7 +71,9 @@ def test_a_condition_that_nobody_notifies(why: Why) -> None:
         with condition:
             condition.wait()
 
-    assert why(program).startswith("Condition.wait() would never return: nothing is left in this program that could notify")
+    assert why(program).startswith(
+        "Condition.wait() would never return: nothing is left in this program that could notify"
+    )
 
 
 def test_a_full_queue_that_nobody_empties(why: Why) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from types import TracebackType
 from typing import Any
 
-from .ros.core.tracebacks import shorten
+from .ros.core import tracebacks
 from .sourced import real_ros
 
 
@@ -31,7 +31,9 @@ def _show(
 ) -> None:
     from .ros.command.shell import CommandInterrupted
 
-    error.__traceback__ = shorten(trace)
+    if tracebacks.before_showing is not None:
+        tracebacks.before_showing(error)
+    error.__traceback__ = tracebacks.shorten(trace)
     if isinstance(error, CommandInterrupted):  # one line: for what never ends this is the usual way to end it
         shell._showtraceback(kind, error, [f"KeyboardInterrupt: {error}"])
         return

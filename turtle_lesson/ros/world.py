@@ -11,6 +11,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from . import advice
 from .core import EPOCH, Process, Simulation, running_strand, virtual_random, virtual_time
 from .core.process import Output
 from .core.program_modules import run_program
@@ -31,6 +32,7 @@ class World:
         virtual_random.install()
         virtual_random.install_for_numpy()
         lend.install()
+        advice.install()
         self.seed = seed
         self.sim = Simulation()
         self.graph = Graph(self.sim, seed)

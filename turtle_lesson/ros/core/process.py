@@ -57,6 +57,7 @@ class Process:
         exit_functions: called after that, the last one first: what the program gave to `atexit.register`.
         at_exit: called at the very end, the last one first, however the process ends: what libraries clean up.
         signal_handlers: what the program has set with `signal.signal`, by the number of the signal.
+        signal_hook: what a library does about signals before that.
         signals_handled: how many signals have called one of those.
     """
 

@@ -197,7 +197,7 @@ def run_program(path: Path, folders: Iterable[Path] = (), text: str | None = Non
     assert strand is not None
     own = os.path.dirname(os.path.realpath(path))
     modules = strand.process.modules = ProgramModules(strand.process, [own, *map(str, folders)])
-    hooks = [(module, module.excepthook) for module in (sys, threading)]
+    hooks: list[tuple[Any, Any]] = [(sys, sys.excepthook), (threading, threading.excepthook)]
 
     def put_hooks_back() -> None:
         for module, hook in hooks:

@@ -7,7 +7,6 @@ after the other, in the order in which they were woken.
 
 from __future__ import annotations
 
-import sys
 import weakref
 from _thread import get_ident
 from collections import deque
@@ -19,12 +18,12 @@ from typing import TYPE_CHECKING, Any
 from .careful import loop_aside
 from .cell_context import Cell
 from .errors import SimulationError, WorldClosed
+from .face import Face
 from .interrupts import Guard
 from .strand import GreenletExit, Strand, running_greenlet, running_strand
 
 if TYPE_CHECKING:
-    from .process import Process
-    from .program_modules import ProgramModules
+    pass
 
 NANOSECONDS = 1_000_000_000
 EPOCH = 1_800_000_000 * NANOSECONDS
@@ -37,10 +36,11 @@ PATIENCE = 3
 """How often a strand that does not want to end is told to, when its world closes."""
 
 
-class Simulation:
+class Simulation(Face):
     """Runs timed events and strands in order. `now` is the virtual time in ns since the world's start."""
 
     def __init__(self) -> None:
+        super().__init__()
         self.now = 0
         self.hub = running_greenlet()
         self.running = False
@@ -59,11 +59,6 @@ class Simulation:
         self._for_the_hub: deque[tuple[Callable[..., object], tuple[Any, ...]]] = deque()
         self._strands: weakref.WeakSet[Strand] = weakref.WeakSet()
         self._forgotten: list[Strand] = []
-        self._face: Process | None = None
-        self.modules_shown: ProgramModules | None = None
-        """Whose modules are in `sys.modules`, if a program has been importing."""
-        self.path_before: list[str] = []
-        """What `sys.path` was when this run began."""
 
     # -- asking for things to happen -------------------------------------------------------------------------
 
@@ -287,34 +282,13 @@ class Simulation:
         self._halted = True
         self._limit = 0
 
-    # -- what a running process shows to Python (sys.argv, sys.stdout, sys.stderr) ------------------------------
-
-    def _enter(self, process: Process) -> None:
-        if self._face is None:
-            self._cell_face = (sys.argv, sys.stdout, sys.stderr)
-            self.path_before = sys.path.copy()
-        self._face = process
-        sys.argv = process.argv
-        sys.stdout = process.stdout or self._cell_face[1]
-        sys.stderr = process.stderr or self._cell_face[2]
-
-    def _leave(self) -> None:
-        if self._face is not None:
-            sys.argv, sys.stdout, sys.stderr = self._cell_face
-            self._face = None
-            if self.modules_shown is not None:
-                self.modules_shown.hide()
+    # -- the end ----------------------------------------------------------------------------------------------
 
     def _unwind(self, strand: Strand) -> None:
         try:
             self.raise_in(strand, GreenletExit())
         except BaseException as error:  # whatever it says now, nobody is there to hear it
             del error
-
-    @property
-    def cell_stdout(self) -> Any:
-        """Where the running cell prints to."""
-        return sys.stdout if self._face is None else self._cell_face[1]
 
     def close(self) -> None:
         """End the simulation for good: nothing of it runs again, and what stands somewhere in a call is unwound."""

@@ -11,6 +11,7 @@ import re
 import site
 import sys
 import traceback
+from collections.abc import Callable
 from pathlib import Path
 from sysconfig import get_path
 from types import TracebackType
@@ -26,6 +27,10 @@ INSTALLED_FOLDERS = tuple(
 FAR = 1
 """A file that is further up than that is not in the learner's workspace: its whole path is clearer."""
 
+before_showing: Callable[[BaseException], None] | None = None
+"""Called with each error before it is shown: it may add a note of what to try."""
+
+_GUESS = re.compile(r"\. Did you (?:mean|forget)[^\n]*\?$")
 _CELL = re.compile(r"ipykernel_\d+[/\\]|^<ipython-input-")
 
 
@@ -85,6 +90,8 @@ def shown_path(filename: str) -> str:
 
 def format_error(error: BaseException) -> str:
     """The text of an error as Python prints it, cut to the learner's own frames."""
+    if before_showing is not None:
+        before_showing(error)
     lines = ["Traceback (most recent call last):\n"]
     for entry in _frames_to_show(error):
         code = entry.tb_frame.f_code
@@ -92,8 +99,16 @@ def format_error(error: BaseException) -> str:
         lines.append(f'  File "{shown_path(code.co_filename)}", line {entry.tb_lineno}, in {code.co_name}\n')
         if summary.line:
             lines.append(f"    {summary.line.strip()}\n")
-    lines.extend(traceback.format_exception_only(type(error), error))
+    lines.extend(_last_lines(error))
     return _cause(error) + "".join(lines)
+
+
+def _last_lines(error: BaseException) -> list[str]:
+    """What an error says. What newer Pythons guess at its end is left out, unless the error itself says so."""
+    lines = traceback.format_exception_only(type(error), error)
+    if isinstance(error, (AttributeError, NameError, ImportError)) and not _GUESS.search(str(error)):
+        lines[0] = _GUESS.sub("", lines[0].rstrip("\n")) + "\n"
+    return lines
 
 
 def _frames_to_show(error: BaseException) -> list[TracebackType]:

@@ -73,12 +73,19 @@ def _importable() -> dict[str, list[str]]:
     import launch.launch_description_sources
     import launch.substitutions
     import launch_ros.actions
+    import launch_ros.descriptions
+    import launch_ros.event_handlers
+    import launch_ros.events.lifecycle
     import launch_ros.parameter_descriptions
     import launch_ros.substitutions
+    import launch_xml.launch_description_sources
+    import launch_yaml.launch_description_sources
 
     modules = [
         launch_ros.actions, launch.actions, launch.substitutions, launch.conditions, launch.event_handlers,
         launch.launch_description_sources, launch_ros.substitutions, ament_index_python.packages, launch,
+        launch_ros.parameter_descriptions, launch_ros.descriptions, launch_ros.event_handlers, launch.events,
+        launch_ros.events.lifecycle, launch_xml.launch_description_sources, launch_yaml.launch_description_sources,
     ]  # fmt: skip
     return {module.__name__: list(module.__all__) for module in modules}
 

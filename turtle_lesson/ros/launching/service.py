@@ -25,6 +25,7 @@ from .ros_helper import RosHelper
 if TYPE_CHECKING:
     from launch.actions import ExecuteLocal
 
+    from ..core import Process
     from ..world import World
 
 NANOSECONDS = 1_000_000_000
@@ -46,6 +47,7 @@ class LaunchService:
         self._settling = False
         self._helper: RosHelper | None = None
         self._coroutines = 0
+        self._coroutine_processes: list[Process] = []
         self._said_level = False
         self.failed = False
         """Whether an error has ended it."""
@@ -97,7 +99,8 @@ class LaunchService:
             raise errors[0]
 
         self._coroutines += 1
-        self.world.spawn(main, name="launch coroutine", stdout=self.world.sim.cell_stdout, on_exit=ended)
+        process = self.world.spawn(main, name="launch coroutine", stdout=self.world.sim.cell_stdout, on_exit=ended)
+        self._coroutine_processes.append(process)
 
     def ros_helper(self) -> RosHelper:
         """The node of launch's own; it is made when it is first asked for."""
@@ -193,6 +196,9 @@ class LaunchService:
             if self.context.is_shutdown:
                 return
             self.context._set_is_shutdown(True)
+            for process in self._coroutine_processes:
+                if process.exit_code is None:
+                    process.kill()
         if isinstance(event, IncludeLaunchDescription):
             self.visit(event.launch_description)
         for handler in [known for known in self.context._event_handlers if known.matches(event)]:

@@ -76,7 +76,7 @@ class datetime(real.datetime, metaclass=_Date):
     def fromtimestamp(cls, timestamp: float, tz: real.tzinfo | None = None) -> datetime:
         """The moment at a number of seconds since 1970."""
         moment = super().fromtimestamp(timestamp, UTC)
-        return moment.replace(tzinfo=None) if tz is None else real.datetime.astimezone(moment, tz)  # type: ignore[return-value]
+        return moment.replace(tzinfo=None) if tz is None else real.datetime.astimezone(moment, tz)
 
     @classmethod
     def utcfromtimestamp(cls, timestamp: float, /) -> datetime:
@@ -90,7 +90,7 @@ class datetime(real.datetime, metaclass=_Date):
     def astimezone(self, tz: real.tzinfo | None = None) -> datetime:
         """The same moment in another time zone."""
         moment = self if self.tzinfo is not None else self.replace(tzinfo=UTC)
-        return real.datetime.astimezone(moment, UTC if tz is None else tz)  # type: ignore[return-value]
+        return real.datetime.astimezone(moment, UTC if tz is None else tz)
 
     def date(self) -> date:
         """Its day."""

@@ -24,10 +24,10 @@ class _Facade(type):
         return make(*arguments, **keywords)
 
     def __instancecheck__(cls, instance: Any) -> bool:
-        return isinstance(instance, cls._kinds)  # type: ignore[attr-defined]
+        return isinstance(instance, cls._kinds)
 
     def __subclasscheck__(cls, subclass: Any) -> bool:
-        return subclass is cls or issubclass(subclass, cls._kinds)  # type: ignore[attr-defined]
+        return subclass is cls or issubclass(subclass, cls._kinds)
 
     def __new__(mcls, name: str, bases: tuple[type, ...], namespace: dict[str, Any], **keywords: Any) -> Any:
         """Make a facade, or a class that is derived from one: then the facade gives way to what is behind it."""

@@ -5,8 +5,8 @@ Locks, threads and their kin belong to the simulation if they are made
 - by code that runs in a simulated process, whatever code that is, except for what the module of a library makes while it
   is imported: it is there for everybody; and except for Jupyter's own modules, which wait for Jupyter's threads; or
 - in the notebook, while a world is open and in the thread that the world lives in, directly by code of a cell (of the
-  module `__main__`) or of a file of the learner's own. What the modules `threading`, `queue` and `concurrent.futures`
-  make on the way counts as made by whoever called them.
+  module `__main__`) or of a file of the learner's own. What the modules `threading`, `queue` and `concurrent.futures`, and
+  the listener of tf2_ros, make on the way counts as made by whoever called them.
 
 So Jupyter's own threads, those of tornado, matplotlib, asyncio, and whatever any other library starts, stay Python's own.
 """
@@ -27,7 +27,14 @@ from ..tracebacks import is_library
 if TYPE_CHECKING:
     from ..process import Process
 
-_ON_THE_WAY = {"threading", "queue", "concurrent.futures.thread", "concurrent.futures._base", "_threading_local"}
+_ON_THE_WAY = {
+    "threading",
+    "queue",
+    "concurrent.futures.thread",
+    "concurrent.futures._base",
+    "_threading_local",
+    "tf2_ros.transform_listener",
+}
 JUPYTER = {"IPython", "comm", "debugpy", "ipykernel", "jupyter_client", "tornado", "traitlets", "zmq"}
 _OURS = __name__.rpartition(".")[0]
 

@@ -23,7 +23,20 @@ from typing import Any
 
 from ..program_modules import ProgramFinder, on_import
 from ..strand import Strand, getcurrent
-from . import dates, exits, identity, local, locks, loops, own_modules, pools, refused, signals, threads, time_of_day
+from . import (
+    dates,
+    exits,
+    identity,
+    local,
+    locks,
+    loop_functions,
+    own_modules,
+    pools,
+    refused,
+    signals,
+    threads,
+    time_of_day,
+)
 from .facade import facade
 from .home import in_no_strand, notebook_here, process_here
 
@@ -140,11 +153,11 @@ def _install_pools() -> None:
     replace_method(kind, "__init__", pools.init)
     replace_function(kind, "_counter", pools.next_number)
     replace(pool, "_global_shutdown_lock", pools.NotInStrands())
-    replace(pool, "_threads_queues", pools.Queues(pool._threads_queues))  # type: ignore[attr-defined]
+    replace(pool, "_threads_queues", pools.Queues(pool._threads_queues))
 
 
 def _install_loops() -> None:
-    for function in loops.REPLACEMENTS:
+    for function in loop_functions.REPLACEMENTS:
         name = function.__name__
         replace_function(asyncio.events, name, function)
         replace(asyncio, name, getattr(asyncio.events, name))

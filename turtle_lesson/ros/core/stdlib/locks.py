@@ -138,7 +138,7 @@ class VirtualLock:
         self.owner = None
 
 
-class VirtualRLock(threading._RLock):  # type: ignore[name-defined,misc]
+class VirtualRLock(threading._RLock):  # type: ignore[misc]
     """What `threading.RLock()` is in a simulated process: Python's own that is written in Python, on a virtual lock."""
 
     def __init__(self) -> None:

@@ -112,7 +112,7 @@ class VirtualEventLoop(asyncio.BaseEventLoop):
             for handle in [*self._ready, *self._scheduled]:  # type: ignore[attr-defined]
                 self._cell.show_in(handle._context)
 
-    def call_soon(self, callback: Any, *args: Any, context: Any = None) -> Any:
+    def call_soon(self, callback: Any, *args: Any, context: Any = None) -> Any:  # type: ignore[override]
         """As in asyncio."""
         if context is not None and self._cell is not None:
             self._cell.show_in(context)
@@ -126,7 +126,7 @@ class VirtualEventLoop(asyncio.BaseEventLoop):
     def _write_to_self(self) -> None:
         self._selector.wake()
 
-    def add_signal_handler(self, sig: int, callback: Callable[..., object], *args: Any) -> None:
+    def add_signal_handler(self, sig: int, callback: Any, *args: Any) -> None:  # type: ignore[override]
         """Have a function called in the loop when this process gets a signal."""
         if asyncio.iscoroutinefunction(callback):
             raise TypeError("coroutines cannot be used with add_signal_handler()")
@@ -169,47 +169,3 @@ for _name in (
     "subprocess_shell",
 ):
     setattr(VirtualEventLoop, _name, _refused(_name))
-
-
-# -- which loop is whose ---------------------------------------------------------------------------------------------------
-
-
-def new_event_loop(real: Any) -> Any:
-    """A new loop: in a simulated process one that waits in virtual time."""
-    strand = running_strand()
-    return real() if strand is None else VirtualEventLoop(strand.process)
-
-
-def set_event_loop(real: Any, loop: Any) -> None:
-    """Set the loop of the running thread."""
-    strand = running_strand()
-    if strand is None:
-        real(loop)
-    else:
-        _loops(strand)[strand] = loop
-
-
-def get_event_loop(real: Any) -> Any:
-    """The loop that runs, or else that of the running thread; in a main thread one is made where there is none."""
-    strand = running_strand()
-    if strand is None:
-        return real()
-    loop = asyncio._get_running_loop()
-    if loop is not None:
-        return loop
-    loops = _loops(strand)
-    if strand is strand.process.main_strand and strand not in loops:
-        loops[strand] = VirtualEventLoop(strand.process)
-    if loops.get(strand) is None:
-        import threading
-
-        name = threading.current_thread().name
-        raise RuntimeError(f"There is no current event loop in thread {name!r}.")
-    return loops[strand]
-
-
-def _loops(strand: Strand) -> dict[Strand, Any]:
-    return strand.process.locals.setdefault("asyncio.loops", {})
-
-
-REPLACEMENTS: tuple[Callable[..., Any], ...] = (new_event_loop, set_event_loop, get_event_loop)

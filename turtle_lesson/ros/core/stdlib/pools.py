@@ -64,7 +64,7 @@ def init(self: Any, max_workers: int | None = None, *arguments: Any, **keywords:
 
 def is_worker(thread: threading.Thread) -> bool:
     """Whether a thread is one of a pool's."""
-    return getattr(thread, "_target", None) is pool._worker  # type: ignore[attr-defined]
+    return getattr(thread, "_target", None) is pool._worker
 
 
 def remember(process: Process) -> None:

@@ -46,6 +46,9 @@ class Action(LaunchDescriptionEntity):
         """The condition, or None."""
         return self.__condition
 
+    def __repr__(self) -> str:
+        return f"<{type(self).__module__}.{type(self).__qualname__} object>"
+
     def describe(self) -> str:
         """A short text that names it."""
         return f"{type(self).__name__}()"

@@ -32,6 +32,10 @@ class Executable:
         additional_env: Environment | None = None,
         arguments: Iterable[SomeSubstitutionsType] | None = None,
     ) -> None:
+        if isinstance(cmd, str):
+            error = TypeError(f"ExecuteProcess expected a list for 'cmd', got {cmd!r}")
+            error.add_note("Write cmd=['ros2', 'topic', 'list'], or cmd=['ros2 topic list'] with shell=True.")
+            raise error
         words = [*cmd, *(arguments or [])]
         self.cmd = [normalize_to_list_of_substitutions(word) for word in words]
         self.prefix = _pieces(prefix)
@@ -44,6 +48,10 @@ class Executable:
 
     def prepare(self, context: LaunchContext, action: Action) -> None:
         """Perform the substitutions; name the process after its program, with a number."""
+        if not self.cmd:
+            error = ValueError("ExecuteProcess expected a command in 'cmd', got none")
+            error.add_note("Write its words in a list, as in cmd=['ros2', 'topic', 'list'].")
+            raise error
         self.final_cmd = [perform_substitutions(context, word) for word in self.cmd]
         base = perform_substitutions(context, self.name) if self.name else os.path.basename(self.final_cmd[0])
         host = context._host

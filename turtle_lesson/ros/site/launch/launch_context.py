@@ -38,6 +38,7 @@ class LaunchContext:
         self._host: Host | None = None
         self._configurations_read: set[str] = set()
         self._output_override: str | None = None
+        self._include_depth = 0
         self._event_queue: deque[Event] = deque()
         self._event_handlers: deque[BaseEventHandler] = deque()
         self._globals: dict[str, Any] = {}

@@ -93,8 +93,12 @@ def _collect(
             entity._conditionally_included = conditional or entity.condition is not None
             found[entity.name] = (entity, includes)
         inner = includes
+        below = entity.describe_sub_entities()
         if isinstance(entity, IncludeLaunchDescription):
+            location = entity.launch_description_source.location
+            if location in [outer.launch_description_source.location for outer in includes or []]:
+                continue  # a file that includes itself takes no other arguments within itself
             inner = [*(includes or []), entity]
-        _collect(entity.describe_sub_entities(), conditional, inner, found)
+        _collect(below, conditional, inner, found)
         for _, group in entity.describe_conditional_sub_entities():
             _collect(group, True, inner, found)

@@ -23,6 +23,8 @@ from launch.utilities.type_utils import normalize_typed_substitution, perform_ty
 
 from ._values import uniform, value_of
 
+__all__ = ["Parameter", "ParameterFile", "ParameterValue"]
+
 
 class ParameterValue:
     """A value with its type: `ParameterValue(LaunchConfiguration('id'), value_type=str)`."""

@@ -13,16 +13,26 @@ from typing import Any
 from turtle_lesson.ros.graph.names import Remap
 
 from ._params_file import Entry, read_parameter_file
+from ._rules import RuleError, is_remap, read_log_level, read_parameter, read_remap
 from ._yaml_values import YamlValueError, tree, value_of
-from .exceptions import RCLError, UnknownROSArgsError
+from .exceptions import RCLInvalidROSArgsError, UnknownROSArgsError
+from .impl.rcutils_logger import RcutilsLogger
 from .parameter import Parameter
 
-FAILED = "failed to initialize rcl:"
-LEVELS = ("DEBUG", "INFO", "WARN", "ERROR", "FATAL")
-NAME = re.compile(r"[\w/~{}]+", re.ASCII)
 SWITCH = re.compile(r"--(enable|disable)-(rosout|stdout|external-lib)-logs")
-OBSOLETE = re.compile(r"(__ns|__node|__name|[\w/~{}:]*?[\w~}]):=[\w/~{}]+", re.ASCII)
-SCHEMES = {"rostopic": False, "rosservice": True}
+FLAGS = {
+    **dict.fromkeys(("-r", "--remap"), "remap rule found"),
+    **dict.fromkeys(("-p", "--param"), "parameter override rule found"),
+    **dict.fromkeys(("--params-file", "--log-config-file"), "file path provided"),
+    **dict.fromkeys(("-e", "--enclave"), "enclave path provided"),
+    "--log-level": "log level provided",
+    "--log-file-name": "string prefix provided",
+}
+"""What must follow each flag."""
+
+
+class ArgumentError(ValueError):
+    """ROS arguments cannot be read."""
 
 
 @dataclass
@@ -35,6 +45,8 @@ class Arguments:
     """By logger; '' is the default."""
     switches: dict[str, bool] = field(default_factory=dict)
     """Whether logs go to `rosout`, `stdout` and `external-lib`, as far as that is said."""
+    enclave: str = "/"
+    log_config_file: str = ""
     unknown: list[str] = field(default_factory=list)
     obsolete: list[str] = field(default_factory=list)
     """Remapping rules that are given as ROS 2 had it before `--ros-args`."""
@@ -58,19 +70,23 @@ class Arguments:
 def parse_arguments(words: list[str]) -> Arguments:
     """Read the ROS arguments among a process's arguments; what is not between `--ros-args` and `--` is skipped.
 
-    Raises RCLError for what cannot be read, UnknownROSArgsError for what means nothing.
+    Raises ArgumentError for what cannot be read, UnknownROSArgsError for what means nothing.
     """
+    if not isinstance(words, list):
+        raise TypeError(f"arguments must be a list of str, as sys.argv is, got {words!r}")
     found = Arguments()
     inside = False
     iterator = iter(words)
     for word in iterator:
+        if not isinstance(word, str):
+            raise TypeError(f"arguments must be a list of str, got {word!r} in it")
         if word == "--ros-args":
             inside = True
         elif word == "--":
             inside = False
         elif inside:
             _take(word, iterator, found)
-        elif OBSOLETE.fullmatch(word):
+        elif ":=" in word and is_remap(word):
             found.remaps.append(_remap(word))
             found.obsolete.append(word)
     if found.unknown:
@@ -80,13 +96,23 @@ def parse_arguments(words: list[str]) -> Arguments:
     return found
 
 
-def obsolete_text(rule: str) -> str:
-    """The warning about a rule that is given as ROS 2 had it before `--ros-args`."""
-    return f"Found remap rule '{rule}'. This syntax is deprecated. Use '--ros-args --remap {rule}' instead."
+def tell_obsolete(rules: list[str]) -> None:
+    """Warn of rules that are given as ROS 2 had it before `--ros-args`."""
+    for rule in rules:
+        RcutilsLogger("rcl").warning(
+            f"Found remap rule '{rule}'. This syntax is deprecated. Use '--ros-args --remap {rule}' instead."
+        )
 
 
 def without_ros_arguments(words: list[str]) -> tuple[list[str], list[str]]:
-    """The words that are not ROS's, and apart from them the obsolete rules, which are."""
+    """The words that are not ROS's, and apart from them the obsolete rules, which are.
+
+    Raises RCLInvalidROSArgsError if ROS's cannot be read, UnknownROSArgsError for what means nothing.
+    """
+    try:
+        parse_arguments(words)
+    except ArgumentError as error:
+        raise RCLInvalidROSArgsError(f"Failed to parse ROS arguments: {error}") from None
     kept: list[str] = []
     obsolete: list[str] = []
     inside = False
@@ -96,7 +122,7 @@ def without_ros_arguments(words: list[str]) -> tuple[list[str], list[str]]:
         elif word == "--" and inside:
             inside = False
         elif not inside:
-            (obsolete if OBSOLETE.fullmatch(word) else kept).append(word)
+            (obsolete if ":=" in word and is_remap(word) else kept).append(word)
     return kept, obsolete
 
 
@@ -110,7 +136,11 @@ def _take(word: str, following: Iterator[str], found: Arguments) -> None:
     elif word == "--log-level":
         name, level = _log_level(_next(word, following))
         found.log_levels[name] = level
-    elif word in {"-e", "--enclave", "--log-config-file", "--log-file-name"}:
+    elif word in {"-e", "--enclave"}:
+        found.enclave = _next(word, following)
+    elif word == "--log-config-file":
+        found.log_config_file = _next(word, following)
+    elif word == "--log-file-name":
         _next(word, following)
     elif (switch := SWITCH.fullmatch(word)) is not None:
         found.switches[switch[2]] = switch[1] == "enable"
@@ -121,55 +151,44 @@ def _take(word: str, following: Iterator[str], found: Arguments) -> None:
 def _next(word: str, following: Iterator[str]) -> str:
     for value in following:
         return value
-    raise RCLError(f"{FAILED} Couldn't parse trailing {word} flag. It must be followed by a value")
+    flag = f"log level flag: '{word}'" if word == "--log-level" else f"{word} flag"
+    raise ArgumentError(f"Couldn't parse trailing {flag}. No {FLAGS[word]}.")
 
 
 def _remap(rule: str) -> Remap:
-    match, separator, replacement = rule.partition(":=")
-    node, colon, name = match.partition(":")
-    if not colon or name.startswith("//"):
-        node, name = "", match
-    scheme, slashes, rest = name.partition("://")
-    name, is_service = (rest, SCHEMES.get(scheme)) if slashes else (name, None)
-    replacement = replacement.removeprefix(f"{scheme}://") if slashes else replacement
-    good = all(NAME.fullmatch(part) for part in (name, replacement)) and (not slashes or scheme in SCHEMES)
-    if not separator or not good or (colon and node and not NAME.fullmatch(node)):
-        raise RCLError(f"{FAILED} Couldn't parse remap rule: '-r {rule}'. A rule looks like old_name:=new_name")
-    if name == "__ns" and not replacement.startswith("/"):
-        raise RCLError(
-            f"{FAILED} Couldn't parse remap rule: '-r {rule}'. A namespace is given in full: __ns:=/{replacement}"
-        )
-    return Remap(name, replacement, node or None, is_service)
+    try:
+        return read_remap(rule)
+    except RuleError as error:
+        hint = f"Couldn't parse remap rule: '-r {rule}'. Error: {error}; a rule looks like old_name:=new_name"
+        raise ArgumentError(hint + (", a namespace like __ns:=/group" if "__ns" in rule else "")) from None
 
 
 def _parameter(rule: str) -> Entry:
-    name, separator, text = rule.partition(":=")
-    node, colon, own = name.partition(":")
-    if not separator or not name or not text or (colon and not own):
-        raise RCLError(f"{FAILED} Couldn't parse parameter override rule: '-p {rule}'. A rule looks like name:=value")
     try:
+        node, name, text = read_parameter(rule)
         found = tree(text)
-        value = text if found is None else value_of(found)
+        value = None if found is None else value_of(found)
+    except RuleError as error:
+        said = f"Error: {error}; a rule looks like name:=value"
     except YamlValueError as error:
-        raise RCLError(f"{FAILED} Couldn't parse parameter override rule: '-p {rule}'. Error: {error}") from None
-    return (node, own, value) if colon else ("/**", name, value)
+        said = f"Error: {error}"
+    else:
+        return ("/**" if node is None else node, name, value)
+    raise ArgumentError(f"Couldn't parse parameter override rule: '-p {rule}'. {said}")
 
 
 def _parameter_file(path: str) -> list[Entry]:
     try:
         return read_parameter_file(path)
     except YamlValueError as error:
-        raise RCLError(f"{FAILED} Couldn't parse params file: '--params-file {path}'. Error: {error}") from None
+        raise ArgumentError(f"Couldn't parse params file: '--params-file {path}'. Error: {error}") from None
 
 
 def _log_level(rule: str) -> tuple[str, str]:
-    name, _, level = rule.rpartition(":=")
-    if level.upper() not in LEVELS:
-        raise RCLError(
-            f"{FAILED} Couldn't parse log level: '--log-level {rule}'. Error: Argument does not use a valid severity level; "
-            f"levels are {', '.join(LEVELS)}"
-        )
-    return name, level
+    try:
+        return read_log_level(rule)
+    except RuleError as error:
+        raise ArgumentError(f"Couldn't parse log level: '--log-level {rule}'. Error: {error}") from None
 
 
 def pattern_matches(pattern: str, full_name: str) -> bool:

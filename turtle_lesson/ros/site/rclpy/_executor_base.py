@@ -19,7 +19,7 @@ from ._executor_errors import ExternalShutdownException, ShutdownException
 from ._mistakes import explain_call, no_node
 from ._tracing import trace_entity
 from .context import Context
-from .exceptions import refuse_destroyed
+from .exceptions import not_valid, refuse_destroyed
 from .task import Future, Task
 from .utilities import get_default_context
 
@@ -71,6 +71,8 @@ class ExecutorBase:
             return False
         if not hasattr(node, "_ros_waiting_entities"):
             raise no_node(node)
+        if self._context.handle is None:
+            raise not_valid("guard_condition")
         if node._ros_simulation.closed:
             refuse_destroyed(node._ros_simulation)
         if node.executor is not None:
@@ -173,11 +175,14 @@ class ExecutorBase:
         simulation = self._simulation
         if deadline is not None:
             simulation.at(deadline, simulation.wake, strand)
-        self._begin_waiting(strand)
+        waiters = self._waiters
+        waiters.append(strand)
+        self._waiter = strand
         try:
             simulation.park(strand)
         finally:
-            self._end_waiting(strand)
+            waiters.remove(strand)
+            self._waiter = waiters[-1] if waiters else None
 
     def _begin_waiting(self, strand: Strand) -> None:
         self._waiters.append(strand)

@@ -61,6 +61,9 @@ def no_message(value: object, kind: Any) -> TypeError:
         fields = list(kind.get_fields_and_field_types())
         example = f"{name}({fields[0]}=…)" if fields else f"{name}()"
         error.add_note(f"Put it into a message first: {example}.")
+    else:
+        other = type(value).__name__
+        error.add_note(f"Make a {name}, or a publisher for {other}: create_publisher({other}, …).")
     return error
 
 

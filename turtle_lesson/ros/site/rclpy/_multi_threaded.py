@@ -79,10 +79,7 @@ class MultiThreadedExecutor(Executor):
             raise self._failures.pop(0)
 
     def _execute(self, job: Job) -> None:
-        if self._idle:
-            worker = self._idle.pop()
-        else:
-            worker = self._new_worker()
+        worker = self._idle.pop() if self._idle else self._new_worker()
         worker.give(job)
 
     def _new_worker(self) -> _Worker:

@@ -54,11 +54,7 @@ class NodeParameters(ParameterSetting):
     ) -> tuple[Parameter, Any]:
         name, value, descriptor = read_declaration(index, namespace, details)
         if not ignore_override and name in self._ros_overrides:
-            override = self._ros_overrides[name]
-            empty = isinstance(override.value, list) and not override.value
-            if empty and Parameter.Type(descriptor.type).check([]):
-                return Parameter(name, Parameter.Type(descriptor.type), []), descriptor
-            return override, descriptor
+            return self._ros_overrides[name], descriptor
         return Parameter(name, value=value), descriptor
 
     def _ros_declare(self, parameter: Parameter, descriptor: Any) -> None:

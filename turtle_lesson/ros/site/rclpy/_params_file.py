@@ -31,6 +31,9 @@ def _nodes(found: Any, names: list[str]) -> Iterator[Entry]:
     """The entries below some names of namespaces and nodes."""
     if found is None:
         return
+    if found.id == "sequence":
+        kinds = "can only be values and not keys in params. Error" if names else "cannot be key"
+        raise YamlValueError(f"Sequences {kinds} at line {line_of(found)}: a file maps names to values")
     if found.id != "mapping":
         raise YamlValueError(
             f"Cannot have a value before {KEY} at line {line_of(found)}: a file maps the names of nodes to `{KEY}:`, and "
@@ -50,8 +53,6 @@ def _nodes(found: Any, names: list[str]) -> Iterator[Entry]:
 
 def _parameters(found: Any, prefix: str) -> Iterator[tuple[str, Any]]:
     """The parameters below a prefix."""
-    if found.id == "scalar" and not found.value and not prefix:
-        return  # nothing below ros__parameters
     if found.id != "mapping":
         raise YamlValueError(
             f"Cannot have a value before {KEY} at line {line_of(found)}: names of parameters are expected"

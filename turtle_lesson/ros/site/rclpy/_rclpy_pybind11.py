@@ -25,7 +25,7 @@ class RCLError(RuntimeError):
 
 
 class RCLInvalidROSArgsError(RCLError):
-    """ROS arguments cannot be read. (Humble raises its base class, and so does this rclpy.)"""
+    """A node's ROS arguments cannot be read. (For those of a whole process it is the base class.)"""
 
 
 class UnknownROSArgsError(RuntimeError):

@@ -6,7 +6,8 @@ So `0x10` and `010` are numbers, `y` is true, `1_000` and `12:30` are texts, and
 from __future__ import annotations
 
 import re
-from typing import Any
+from functools import cache
+from typing import Any, ClassVar
 
 TRUE = frozenset(["Y", "y", "yes", "Yes", "YES", "true", "True", "TRUE", "on", "On", "ON"])
 FALSE = frozenset(["N", "n", "no", "No", "NO", "false", "False", "FALSE", "off", "Off", "OFF"])
@@ -15,6 +16,9 @@ WHOLE = re.compile(r"[-+]?(0[xX][0-9a-fA-F]+|0[0-7]*|[1-9][0-9]*)")
 DECIMAL = re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?")
 HEXADECIMAL = re.compile(r"[-+]?0[xX]([0-9a-fA-F]+\.?[0-9a-fA-F]*|\.[0-9a-fA-F]+)([pP][-+]?[0-9]+)?")
 SPECIAL = re.compile(r"[-+]?\.?(inf|Inf|INF)|\.?(nan|NaN|NAN)|[-+]?(infinity|Infinity|nan)")
+
+TEXT = "tag:yaml.org,2002:str"
+"""The tag of what is marked as text: `!!str 1`."""
 
 INT64 = range(-(2**63), 2**63)
 
@@ -62,18 +66,18 @@ def _digits(text: str) -> str:
 
 
 def value_of(node: Any) -> Any:
-    """The value of a node of YAML's tree. Raises YamlValueError."""
+    """The value of a node of YAML's tree; of an empty list it is None, as in ROS. Raises YamlValueError."""
     import yaml
 
     if isinstance(node, yaml.ScalarNode):
         return _scalar_of(node)
     if isinstance(node, yaml.SequenceNode):
-        return _sequence_of(node)
+        return _sequence_of(node) or None
     raise YamlValueError(f"Unknown YAML event at line {line_of(node)}: a value, or a list of values, is expected here")
 
 
 def _scalar_of(node: Any) -> Any:
-    if node.style in ("'", '"'):
+    if node.style in ("'", '"') or node.tag == TEXT:
         return node.value
     if not node.value:
         raise YamlValueError(f'No value at line {line_of(node)}; an empty text is written ""')
@@ -106,17 +110,29 @@ def line_of(node: Any) -> int:
     return node.start_mark.line + 1
 
 
+@cache
+def _loader() -> Any:
+    """A reader of YAML that leaves it to us what an unmarked word means."""
+    import yaml
+
+    class Loader(yaml.SafeLoader):
+        yaml_implicit_resolvers: ClassVar[dict[str, Any]] = {}
+        DEFAULT_SCALAR_TAG = "unmarked"
+
+    return Loader
+
+
 def tree(text: str) -> Any:
     """The tree of a YAML text, None of an empty one. Raises YamlValueError for what is no YAML, or has aliases."""
     import yaml
 
     line = 0
     try:
-        for event in yaml.parse(text, yaml.SafeLoader):
+        for event in yaml.parse(text, _loader()):
             line = event.start_mark.line + 1
             if isinstance(event, yaml.AliasEvent):
                 raise YamlValueError(f"Will not support aliasing at line {line}: write the value once more")
-        return yaml.compose(text, yaml.SafeLoader)
+        return yaml.compose(text, _loader())
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         if isinstance(error, YamlValueError):
             raise

@@ -7,9 +7,10 @@ import weakref
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from turtle_lesson.ros.graph.names import namespace_flaw
 from turtle_lesson.ros.world import current_process
 
-from ._arguments import Arguments, obsolete_text, parse_arguments
+from ._arguments import ArgumentError, Arguments, parse_arguments, tell_obsolete
 from ._entity import Handle
 from .exceptions import RCLError
 from .impl._console import wanted_format
@@ -56,17 +57,24 @@ class Context:
         self._process.at_exit.append(self._end)
 
     def _read(self, args: list[str]) -> Arguments:
-        logger = RcutilsLogger("rcl")
         try:
             arguments = parse_arguments(args)
-        except RCLError:
-            logger.error("Failed to parse global arguments")
-            raise
-        for rule in arguments.obsolete:
-            logger.warning(obsolete_text(rule))
+        except ArgumentError as error:
+            RcutilsLogger("rcl").error("Failed to parse global arguments")
+            raise RCLError(f"failed to initialize rcl: {error}") from None
+        tell_obsolete(arguments.obsolete)
+        if (flaw := namespace_flaw(arguments.enclave)) is not None:
+            text = flaw.reason.replace("namespace", "context name")
+            raise RCLError(
+                f"failed to initialize rcl: Enclave name is not valid: '{text}'. Invalid index: {flaw.place}"
+            )
         return arguments
 
     def _set_up_logging(self) -> None:
+        if self.arguments.log_config_file:
+            raise RCLError(
+                "failed to initialize logging: spdlog logging backend doesn't currently support external configuration"
+            )
         for name, level in self.arguments.log_levels.items():
             RcutilsLogger(name).set_level(LoggingSeverity[level.upper()])
         self._process.locals["rclpy.log_to"] = self.arguments.switches

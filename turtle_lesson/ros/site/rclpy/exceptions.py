@@ -11,6 +11,7 @@ from ._rclpy_pybind11 import (
     InvalidHandle,
     NodeNameNonExistentError,
     RCLError,
+    RCLInvalidROSArgsError,
     TimerCancelledError,
     UnknownROSArgsError,
 )
@@ -38,6 +39,7 @@ __all__ = [
     "ParameterNotDeclaredException",
     "ParameterUninitializedException",
     "RCLError",
+    "RCLInvalidROSArgsError",
     "ROSInterruptException",
     "TimerCancelledError",
     "UnknownROSArgsError",
@@ -164,7 +166,8 @@ def refuse_destroyed(simulation: Simulation) -> NoReturn:
         )
     error = InvalidHandle("cannot use Destroyable because destruction was requested")
     error.add_note(
-        "It, or its node, was destroyed, perhaps by rclpy.shutdown(). Run the cells again that make the node and this."
+        "It, or its node, was destroyed, perhaps by rclpy.shutdown(). Make the node and this again, after rclpy.init(); "
+        "in a notebook, run the cells again that do so."
     )
     raise error
 
@@ -174,3 +177,13 @@ class ROSInterruptException(Exception):
 
     def __init__(self) -> None:
         super().__init__("rclpy.shutdown() has been called")
+
+
+def not_valid(what: str) -> RCLError:
+    """The error for something that needs a context, where rclpy.init() has not been called, or shutdown has."""
+    error = RCLError(
+        f"failed to create {what}: the given context is not valid, either rcl_init() was not called or rcl_shutdown() "
+        "was called."
+    )
+    error.add_note("Call rclpy.init() before this, and rclpy.shutdown() after it.")
+    return error

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from turtle_lesson.ros.graph import NodeEntry
 from turtle_lesson.ros.world import current_process, current_world
 
-from ._arguments import Arguments, parse_arguments
+from ._arguments import ArgumentError, Arguments, parse_arguments, tell_obsolete
 from ._entity import Entity, Handle
 from ._mistakes import set_by_init
 from ._node_entities import NodeEntities
@@ -24,7 +24,7 @@ from .client import Client
 from .clock import Clock, ROSClock
 from .context import Context
 from .event_handler import EventHandler
-from .exceptions import NodeNameNonExistentError, NotInitializedException, RCLError
+from .exceptions import NodeNameNonExistentError, NotInitializedException, RCLError, RCLInvalidROSArgsError
 from .guard_condition import GuardCondition
 from .impl.rcutils_logger import RcutilsLogger, publish_rosout
 from .logging_service import LoggingService
@@ -80,7 +80,7 @@ class Node(NodeEntities, NodeNews, NodeParameters):
         self._ros_context = get_default_context() if context is None else context
         if not self._ros_context.ok():
             raise NotInitializedException("cannot create node")
-        own = parse_arguments(cli_args or [])
+        own = _own_arguments(cli_args)
         common = self._ros_context.arguments if use_global_arguments else Arguments()
         self._ros_remaps = own.remaps + common.remaps
         name, full_namespace = self._ros_names(node_name, namespace)
@@ -143,7 +143,7 @@ class Node(NodeEntities, NodeNews, NodeParameters):
         for rule in self._ros_remaps:
             if rule.node not in (None, original):
                 continue
-            if rule.match in {"__node", "__name"}:
+            if rule.match == "__node":
                 node_name = rule.replacement
             elif rule.match == "__ns":
                 namespace = rule.replacement
@@ -278,3 +278,13 @@ for _part in (NodeEntities, NodeGraph, NodeParameters, ParameterSetting):
     for _name, _method in vars(_part).items():
         if not _name.startswith("_"):
             _method.__qualname__ = f"Node.{_name}"  # Python's own errors name it: nobody knows of parts
+
+
+def _own_arguments(cli_args: list[str] | None) -> Arguments:
+    """What the arguments say that are a node's alone."""
+    try:
+        own = parse_arguments([] if cli_args is None else cli_args)
+    except ArgumentError as error:
+        raise RCLInvalidROSArgsError(f"Failed to parse ROS arguments: {error}") from None
+    tell_obsolete(own.obsolete)
+    return own

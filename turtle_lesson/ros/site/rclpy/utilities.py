@@ -6,10 +6,9 @@ import sys
 
 from turtle_lesson.ros.world import current_process
 
-from ._arguments import obsolete_text, without_ros_arguments
+from ._arguments import tell_obsolete, without_ros_arguments
 from .constants import S_TO_NS
 from .context import Context
-from .impl.rcutils_logger import RcutilsLogger
 from .signals import uninstall_signal_handlers
 
 
@@ -48,10 +47,12 @@ def try_shutdown(*, context: Context | None = None, uninstall_handlers: bool | N
 
 
 def remove_ros_args(args: list[str] | None = None) -> list[str]:
-    """The arguments without those between `--ros-args` and `--`."""
-    kept, obsolete = without_ros_arguments(sys.argv if args is None else args)
-    for rule in obsolete:
-        RcutilsLogger("rcl").warning(obsolete_text(rule))
+    """The arguments without those between `--ros-args` and `--`.
+
+    Raises RCLInvalidROSArgsError or UnknownROSArgsError if those cannot be read.
+    """
+    kept, obsolete = without_ros_arguments(sys.argv if args is None else list(args))
+    tell_obsolete(obsolete)
     return kept
 
 

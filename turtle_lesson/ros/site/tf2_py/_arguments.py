@@ -15,7 +15,7 @@ from turtle_lesson.ros.world import current_process
 
 from ._cache import Kept
 from ._exceptions import InvalidArgumentException, LookupException
-from ._rotation import canonical
+from ._rotation import Quaternion, Vector, canonical
 from ._walk import Frames
 
 TOLERANCE = 10e-3
@@ -67,11 +67,18 @@ def read_transform(transform: Any, authority: str) -> tuple[str, Kept] | None:
     place, turn = transform.transform.translation, transform.transform.rotation
     where = (place.x, place.y, place.z)
     how = canonical((turn.x, turn.y, turn.z, turn.w))
-    if refusals := _refusals(parent, child, where, how, authority):
-        for refusal in refusals:
+    if not (parent and child and parent != child and _is_sound(where, how)):
+        for refusal in _refusals(parent, child, where, how, authority):
             say("Error:  ", refusal)
         return None
     return child, Kept(nanoseconds(transform.header.stamp), parent, how, where)
+
+
+def _is_sound(place: Vector, turn: Quaternion) -> bool:
+    """Whether these are numbers, and the quaternion has a length of about 1."""
+    x, y, z, w = turn
+    length_is_one = abs(x * x + y * y + z * z + w * w - 1.0) < TOLERANCE
+    return length_is_one and not any(map(math.isnan, place))
 
 
 def _refusals(parent: str, child: str, place: tuple[float, ...], turn: tuple[float, ...], authority: str) -> list[str]:

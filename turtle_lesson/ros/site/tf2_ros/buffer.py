@@ -76,7 +76,7 @@ class Buffer(BufferCore, BufferInterface):
 
         Raises LookupException, ConnectivityException, ExtrapolationException, InvalidArgumentException.
         """
-        self.can_transform(target_frame, source_frame, time, timeout)
+        wait_until(lambda: self.can_transform_core(target_frame, source_frame, time)[0], timeout)
         return self.lookup_transform_core(target_frame, source_frame, time)
 
     async def lookup_transform_async(self, target_frame: str, source_frame: str, time: Time) -> TransformStamped:
@@ -97,8 +97,9 @@ class Buffer(BufferCore, BufferInterface):
 
         `fixed_frame` is one that does not move between the two, such as "world". Raises as `lookup_transform`.
         """
-        self.can_transform_full(target_frame, target_time, source_frame, source_time, fixed_frame, timeout)
-        return self.lookup_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame)
+        asked = (target_frame, target_time, source_frame, source_time, fixed_frame)
+        wait_until(lambda: self.can_transform_full_core(*asked)[0], timeout)
+        return self.lookup_transform_full_core(*asked)
 
     async def lookup_transform_full_async(
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str

@@ -45,7 +45,9 @@ def generate_launch_description():
                 OnProcessExit(
                     target_action=sim,
                     on_exit=[
-                        LogInfo(msg=(EnvironmentVariable(name="LAUNCH_TEST_USER", default_value="somebody"), " closed it")),
+                        LogInfo(
+                            msg=(EnvironmentVariable(name="LAUNCH_TEST_USER", default_value="somebody"), " closed it")
+                        ),
                         EmitEvent(event=Shutdown(reason="window closed")),
                     ],
                 )

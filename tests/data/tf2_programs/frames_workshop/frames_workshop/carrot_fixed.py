@@ -27,4 +27,5 @@ def main():
         rclpy.spin(CarrotFixed())
     except KeyboardInterrupt:
         pass
-    rclpy.try_shutdown()
+    finally:
+        rclpy.try_shutdown()

@@ -33,4 +33,5 @@ def main():
         rclpy.spin(CarrotMoving())
     except KeyboardInterrupt:
         pass
-    rclpy.try_shutdown()
+    finally:
+        rclpy.try_shutdown()

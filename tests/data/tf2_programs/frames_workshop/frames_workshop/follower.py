@@ -50,4 +50,5 @@ def main():
         rclpy.spin(Follower())
     except KeyboardInterrupt:
         pass
-    rclpy.try_shutdown()
+    finally:
+        rclpy.try_shutdown()

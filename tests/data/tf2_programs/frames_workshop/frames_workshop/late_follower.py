@@ -40,4 +40,5 @@ def main():
         rclpy.spin(LateFollower())
     except KeyboardInterrupt:
         pass
-    rclpy.try_shutdown()
+    finally:
+        rclpy.try_shutdown()

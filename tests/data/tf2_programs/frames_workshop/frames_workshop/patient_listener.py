@@ -47,4 +47,5 @@ def main():
         executor.spin()
     except KeyboardInterrupt:
         pass
-    rclpy.try_shutdown()
+    finally:
+        rclpy.try_shutdown()

@@ -36,4 +36,5 @@ def main():
         rclpy.spin(node)
     except KeyboardInterrupt:
         pass
-    rclpy.try_shutdown()
+    finally:
+        rclpy.try_shutdown()

@@ -34,4 +34,5 @@ def main():
         rclpy.spin(TurtleBroadcaster())
     except KeyboardInterrupt:
         pass
-    rclpy.try_shutdown()
+    finally:
+        rclpy.try_shutdown()

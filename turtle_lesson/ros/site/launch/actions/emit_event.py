@@ -16,7 +16,9 @@ class EmitEvent(Action):
     def __init__(self, *, event: Event, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         if not isinstance(event, Event):
-            raise RuntimeError(f"EmitEvent() expected an event instance, got '{event}'")
+            error = RuntimeError(f"EmitEvent() expected an event instance, got '{event}'.")
+            error.add_note("An event is of launch.events; an action such as Shutdown() stands in the list by itself.")
+            raise error
         self.__event = event
 
     @property

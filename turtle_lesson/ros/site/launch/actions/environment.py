@@ -11,7 +11,10 @@ from ..frontend import Entity, Parser, expose_action
 from ..launch_context import LaunchContext
 from ..launch_description_entity import LaunchDescriptionEntity
 from ..some_types import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..substitutions import TextSubstitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
+from ..utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
 from ._setting import Setting, Unsetting
 
 
@@ -48,8 +51,30 @@ class AppendEnvironmentVariable(Action):
         super().__init__(**kwargs)
         self.__name = normalize_to_list_of_substitutions(name)
         self.__value = normalize_to_list_of_substitutions(value)
-        self.__prepend = normalize_to_list_of_substitutions(str(prepend) if isinstance(prepend, bool) else prepend)
+        self.__prepend = normalize_typed_substitution(
+            TextSubstitution(text=prepend) if isinstance(prepend, str) else prepend, bool
+        )
         self.__separator = normalize_to_list_of_substitutions(separator)
+
+    @property
+    def name(self) -> list[Substitution]:
+        """The variable's name."""
+        return self.__name
+
+    @property
+    def value(self) -> list[Substitution]:
+        """What is added."""
+        return self.__value
+
+    @property
+    def prepend(self) -> Any:
+        """Whether it is put before the others, as a truth value or as substitutions."""
+        return self.__prepend
+
+    @property
+    def separator(self) -> list[Substitution]:
+        """What stands between."""
+        return self.__separator
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type, dict[str, Any]]:
@@ -70,12 +95,13 @@ class AppendEnvironmentVariable(Action):
         name = perform_substitutions(context, self.__name)
         parts = [perform_substitutions(context, self.__value)]
         if name in context.environment:
-            first = perform_substitutions(context, self.__prepend).lower() in {"true", "1"}
+            first = perform_typed_substitution(context, self.__prepend, bool)
             parts.insert(1 if first else 0, context.environment[name])
         context.environment[name] = perform_substitutions(context, self.__separator).join(parts)
         return None
 
 
+@expose_action("push_env")
 class PushEnvironment(Action):
     """Begins a scope: what is set from here on is forgotten at the matching pop."""
 
@@ -85,6 +111,7 @@ class PushEnvironment(Action):
         return None
 
 
+@expose_action("pop_env")
 class PopEnvironment(Action):
     """Ends a scope."""
 
@@ -94,6 +121,7 @@ class PopEnvironment(Action):
         return None
 
 
+@expose_action("reset_env")
 class ResetEnvironment(Action):
     """Makes the environment what it was when the launch began."""
 

@@ -17,6 +17,9 @@ from ..substitutions import ForEachVar
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
 from .opaque_function import OpaqueFunction
 
+MOST_ROUNDS = 10_000
+"""So many rounds may a loop have; a number that is larger is a mistake, and would never end."""
+
 Entities = list[LaunchDescriptionEntity]
 
 
@@ -133,6 +136,8 @@ class ForLoop(Action):
             ValueError: if the length is no number.
         """
         length = int(perform_substitutions(context, self._length))
+        if length > MOST_ROUNDS:
+            raise ValueError(f"ForLoop has at most {MOST_ROUNDS} rounds in this classroom, got {length}")
         return [entity for i in range(length) for entity in self._function(i=i) or []]
 
 

@@ -19,6 +19,9 @@ from ..utilities import normalize_to_list_of_substitutions, perform_substitution
 from .launch_configurations import SetLaunchConfiguration
 from .opaque_function import OpaqueFunction
 
+DEEPEST = 50
+"""So many launch files may lie within one another."""
+
 _PLACES = ("current_launch_file_directory", "current_launch_file_path")
 
 
@@ -86,6 +89,7 @@ class IncludeLaunchDescription(Action):
         """Load the description, check its arguments, and give it."""
         self._remember_places(context)
         description = self.__source.get_launch_description(context)
+        self._check_depth(context)
         context.extend_locals(
             {
                 "current_launch_file_directory": os.path.dirname(os.path.abspath(self.__source.location)),
@@ -95,6 +99,14 @@ class IncludeLaunchDescription(Action):
         self._check_arguments(description, context)
         sets = [SetLaunchConfiguration(name, value) for name, value in self.__launch_arguments]
         return [*sets, description, OpaqueFunction(function=self._restore_places)]
+
+    def _check_depth(self, context: LaunchContext) -> None:
+        context._include_depth += 1
+        if context._include_depth > DEEPEST:
+            error = RuntimeError("launch files include one another without end")
+            name = os.path.basename(self.__source.location)
+            error.add_note(f"{name} is taken in again and again: give the include a condition that ends it.")
+            raise error
 
     def _check_arguments(self, description: LaunchDescription, context: LaunchContext) -> None:
         given = [
@@ -126,6 +138,7 @@ class IncludeLaunchDescription(Action):
         self.__places = {name: values[name] for name in _PLACES if name in values}
 
     def _restore_places(self, context: LaunchContext) -> None:
+        context._include_depth -= 1
         for name in _PLACES:
             context._locals.pop(name, None)
         context.extend_locals(self.__places)

@@ -47,8 +47,9 @@ class Log(Action):
         """Its arguments from `message` (and `level`, where it has no level of its own)."""
         _, kwargs = super().parse(entity, parser)
         kwargs["msg"] = parser.parse_substitution(entity.get_attr("message"))
+        level = entity.get_attr("level", optional=True)
         if cls is Log:
-            kwargs["level"] = parser.parse_substitution(entity.get_attr("level", optional=True) or "INFO")
+            kwargs["level"] = parser.parse_substitution(level or "INFO")
         return cls, kwargs
 
     @property
@@ -69,7 +70,7 @@ class Log(Action):
         """
         level = perform_substitutions(context, self.level).upper()
         if level not in LEVELS:
-            raise KeyError(f"Invalid log level '{level}', expected: {list(LEVELS)}")
+            raise KeyError(f"Invalid log level '{level}', expected: {LEVELS.keys()}")
         method = getattr(logging.get_logger(self.__logger_name), LEVELS[level])
         method(perform_substitutions(context, self.msg))
         return None

@@ -54,7 +54,11 @@ class Command(Substitution):
         from turtle_lesson.ros.launching.small_commands import CommandFailure, output_of
 
         text = perform_substitutions(context, self.command)
+        if perform_substitutions(context, self.on_stderr) not in ("fail", "ignore", "warn", "capture"):
+            raise SubstitutionFailure("expected 'on_stderr' to be one of: 'fail', 'ignore', 'warn' or 'capture'")
         try:
             return output_of(text)
         except CommandFailure as error:
-            raise SubstitutionFailure(f"executed command failed. Command: {text}\n{error}", error.hint) from error
+            raise SubstitutionFailure(
+                f"executed command failed. Command: {text}\nCaptured stderr output: {error}", error.hint
+            ) from error

@@ -44,5 +44,7 @@ class FileContent(Substitution):
         path = perform_substitutions(context, self.path)
         try:
             return Path(path).read_text(encoding="utf-8")
+        except FileNotFoundError as error:
+            raise SubstitutionFailure(f"File not found: {path}") from error
         except (OSError, UnicodeDecodeError, ValueError) as error:
             raise SubstitutionFailure(f"Failed to open {path}: {error}") from error

@@ -106,6 +106,15 @@ class Node(ExecuteProcess):
             kwargs["parameters"] = nested_parameters(parameters, parser)
         return cls, kwargs
 
+    UNSPECIFIED_NODE_NAME = "<node_name_unspecified>"
+    UNSPECIFIED_NODE_NAMESPACE = "<node_namespace_unspecified>"
+
+    def is_node_name_fully_specified(self) -> bool:
+        """Whether the launch file has decided name and namespace; known when the node has been started."""
+        return (
+            self.UNSPECIFIED_NODE_NAME not in self.node_name and self.UNSPECIFIED_NODE_NAMESPACE not in self.node_name
+        )
+
     @property
     def node_package(self) -> SomeSubstitutionsType | None:
         """The package, as it was given."""

@@ -23,7 +23,7 @@ class OnStateTransition(EventHandler):
         transition: the transition's name, such as `configure`.
         start_state: the state that it comes from, such as `unconfigured`.
         goal_state: the state that it comes to.
-        matcher: a function of the event that decides instead of all these.
+        matcher: a function of the event; if it is given, it alone decides.
     """
 
     def __init__(
@@ -40,10 +40,11 @@ class OnStateTransition(EventHandler):
         from ..actions import LifecycleNode
 
         if target_lifecycle_node is not None and not isinstance(target_lifecycle_node, LifecycleNode):
-            raise RuntimeError("OnStateTransition requires a 'LifecycleNode' action as the target")
+            raise RuntimeError(
+                'OnStateTransition requires a "LifecycleNode" action as the target, '
+                "target_lifecycle_node is not a node type."
+            )
         wanted = {"transition": transition, "start_state": start_state, "goal_state": goal_state}
-        if matcher is not None and (target_lifecycle_node is not None or any(wanted.values())):
-            raise RuntimeError("OnStateTransition takes either a 'matcher' or a target and states, not both")
 
         def fits(event: Event) -> bool:
             return (

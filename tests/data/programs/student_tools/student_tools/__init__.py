@@ -1,0 +1,4 @@
+from .angles import normalize
+from .pid import PID
+
+__all__ = ['PID', 'normalize']

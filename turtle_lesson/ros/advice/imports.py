@@ -1,0 +1,128 @@
+"""Modules, and names in modules, that are not there."""
+
+from __future__ import annotations
+
+import difflib
+import re
+import sys
+from pathlib import Path
+
+from ..interfaces.registry import registry
+from ..workspace.errors import did_you_mean
+
+FOLDERS = ("msg", "srv", "action")
+
+FROM_ROS_1 = {
+    "rospy": "rospy is ROS 1's library; in ROS 2 it is rclpy.",
+    "roslib": "roslib is ROS 1's; in ROS 2 it is not needed.",
+    "rospkg": "rospkg is ROS 1's; in ROS 2 take ament_index_python.packages.get_package_share_directory.",
+    "actionlib": "actionlib is ROS 1's; in ROS 2 it is rclpy.action.",
+    "tf": "tf is ROS 1's; in ROS 2 it is tf2_ros, and for angles tf_transformations.",
+    "moveit_commander": "moveit_commander is ROS 1's; this classroom has no MoveIt.",
+    "dynamic_reconfigure": "dynamic_reconfigure is ROS 1's; in ROS 2 nodes have parameters.",
+    "rclcpp": "rclcpp is the library of C++; in Python it is rclpy.",
+}
+
+ABSENT = frozenset(
+    """
+    ackermann_msgs can_msgs control_msgs controller_manager_msgs cv_bridge gazebo_msgs geographic_msgs grid_map_msgs
+    image_geometry image_transport irobot_create_msgs joint_state_publisher laser_geometry launch_testing
+    launch_testing_ros map_msgs mavros_msgs moveit moveit_msgs moveit_py nav2_common nav2_msgs
+    nav2_simple_commander octomap_msgs pcl_msgs pcl_ros pointcloud2_msgs px4_msgs python_qt_binding qt_gui
+    rclpy_message_converter robot_localization robot_state_publisher ros2bag ros2cli ros2node ros2param ros2pkg
+    ros2run ros2topic ros_gz_interfaces rosbag2_py rqt_gui rqt_gui_py slam_toolbox tf2_kdl turtlebot3_msgs
+    ur_msgs vision_msgs webots_ros2_driver
+    """.split()
+)
+"""Packages that a robot may have, and this classroom has not."""
+
+
+def advice(error: BaseException) -> str:
+    """A sentence about a failed import."""
+    if isinstance(error, ModuleNotFoundError) and error.name:
+        return _no_module(error.name)
+    if isinstance(error, ImportError) and error.name and "Did you mean" not in str(error):
+        if match := re.match(r"cannot import name '(\w+)'", str(error)):
+            return _no_name(error.name, match[1])
+    return ""
+
+
+def _no_module(name: str) -> str:
+    top, _, rest = name.partition(".")
+    if top in FROM_ROS_1:
+        return FROM_ROS_1[top]
+    if top in ABSENT:
+        return (
+            f"{top} is a package of ROS 2 that this classroom does not have: a program that needs it runs on a robot "
+            f"where it is installed ({_apt(top)})."
+        )
+    if rest and (parent := _parent(name)):
+        return parent
+    close = difflib.get_close_matches(top, _known_modules(), n=1, cutoff=0.8)
+    return f"Did you mean '{close[0]}'?" if close else _of_ones_own(top)
+
+
+def _apt(name: str) -> str:
+    return f"sudo apt install ros-$ROS_DISTRO-{name.replace('_', '-')}"
+
+
+def _parent(name: str) -> str:
+    """What a module that is there has, instead of the submodule that is not."""
+    above, _, last = name.rpartition(".")
+    module = sys.modules.get(above)
+    if module is None:
+        return ""
+    if last in FOLDERS and above in registry.packages():
+        has = [folder for folder in FOLDERS if registry.package(above).names_in(folder)]
+        return f"The package {above} has {' and '.join(has)}, and no {last}."
+    inner = set(FOLDERS) if above in registry.packages() else _submodules(module)
+    return did_you_mean(last, inner) or f"There is a module {above}, but it has no module {last}."
+
+
+def _submodules(module: object) -> set[str]:
+    folders = list(getattr(module, "__path__", []))
+    found = {path.stem for folder in folders for path in Path(folder).glob("*") if path.suffix in ("", ".py")}
+    return {name for name in found if not name.startswith("_")}
+
+
+def _known_modules() -> list[str]:
+    site = Path(__file__).parents[1] / "site"
+    return [*registry.packages(), *sorted(path.name for path in site.iterdir() if path.is_dir())]
+
+
+def _of_ones_own(name: str) -> str:
+    sources = [path.parent for path in Path.cwd().glob("src/**/package.xml") if path.parent.name == name]
+    if sources or (Path.cwd() / "src" / name).is_dir():
+        return f"There is a package {name} in src: build it (colcon build), then source install/setup.bash."
+    return (
+        "Is the name spelt right? A package of your own is found when it is built (colcon build) and sourced "
+        f"(source install/setup.bash); a module beside the program, when its package is installed; {_pip(name)}."
+    )
+
+
+def _pip(name: str) -> str:
+    return f"any other when it is installed for this Python (pip install {_ON_PYPI.get(name, name)})"
+
+
+_ON_PYPI = {"cv2": "opencv-python", "PIL": "pillow", "yaml": "pyyaml", "serial": "pyserial", "sklearn": "scikit-learn"}
+
+
+def _no_name(module: str, name: str) -> str:
+    """What a module has instead of a name. For a package's interfaces, those of its other folders, too."""
+    package, _, folder = module.partition(".")
+    if package in registry.packages() and folder in ("", *FOLDERS):
+        owner = registry.package(package)
+        for each in FOLDERS:
+            if name in owner.names_in(each):
+                return f"It is in {package}.{each}: from {package}.{each} import {name}"
+        everything = [known for each in FOLDERS for known in owner.names_in(each)]
+        return _like(name, everything)
+    found = sys.modules.get(module)
+    return "" if found is None else _like(name, dir(found))
+
+
+def _like(name: str, known: list[str]) -> str:
+    by_lower = {each.lower(): each for each in known}
+    if name.lower() in by_lower:
+        return f"Did you mean '{by_lower[name.lower()]}'?"
+    return did_you_mean(name, [each for each in known if not each.startswith("__")])
