@@ -185,3 +185,36 @@ def test_so_is_multiprocessing(world: World, tmp_path: Path, capsys: Capture) ->
     world.sim.run_until(SECOND)
     said = capsys.readouterr().out.splitlines()
     assert len(said) == 2 and all(line.startswith("multiprocessing is not possible in this classroom") for line in said)
+
+
+def test_ways_to_end_a_program_end_that_alone(world: World, tmp_path: Path, capsys: Capture) -> None:
+    codes = {}
+    for end in ("exit(3)", "quit()", "os._exit(4)", "sys.exit('no')", "_thread.interrupt_main()"):
+        file = tmp_path / "program.py"
+        file.write_text(
+            "import _thread, atexit, os, sys, threading, time\n"
+            "threading.Thread(target=time.sleep, args=(1,), daemon=True).start()\n"
+            f"try:\n    {end}\nfinally:\n    print('cleaned up', {end!r})\n"
+        )
+        process = world.spawn(file, name="program")
+        world.sim.run_until(world.now + SECOND)
+        codes[end] = process.exit_code
+    assert list(codes.values()) == [3, 0, 4, 1, -2]
+    assert "os._exit" not in capsys.readouterr().out
+
+
+def test_pythons_own_log_shows_robot_time(world: World, tmp_path: Path, capsys: Capture) -> None:
+    file = tmp_path / "program.py"
+    file.write_text(
+        "import logging, sys, time\n"
+        "log = logging.getLogger('robot')\n"
+        "handler = logging.StreamHandler(sys.stdout)\n"
+        "handler.setFormatter(logging.Formatter('%(asctime)s %(threadName)s %(message)s'))\n"
+        "log.addHandler(handler)\n"
+        "time.sleep(61)\n"
+        "log.warning('battery low')\n"
+        "log.removeHandler(handler)\n"
+    )
+    world.spawn(file, name="program")
+    world.sim.run_until(100 * SECOND)
+    assert capsys.readouterr().out == "2027-01-15 08:01:01,000 MainThread battery low\n"

@@ -120,6 +120,18 @@ def test_small_commands_one_after_the_other_take_robot_time(
     ]
 
 
+def test_ctrl_c_ends_a_small_command_without_a_word(
+    world: World, begin: Launch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    handle = begin("ExecuteProcess(cmd=['sleep', '100'], output='screen'),")
+    run(world, 1)
+    handle.stop()
+    assert console(capsys, tmp_path) == [
+        "[WARNING] [launch]: user interrupted with ctrl-c (SIGINT)",
+        "[ERROR] [sleep-1]: process has died [pid N, exit code -2, cmd 'sleep 100'].",
+    ]
+
+
 def test_ros2_run_is_the_program_itself(
     world: World, begin: Launch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

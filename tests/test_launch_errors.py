@@ -313,3 +313,26 @@ def test_a_path_that_does_not_exist(tmp_path: Path) -> None:
     write(tmp_path, "", "real.launch.py")
     error = failure(tmp_path / "rael.launch.py")
     assert str(error) == f"there is no launch file {tmp_path}/rael.launch.py\n  There are: real.launch.py."
+
+
+@pytest.mark.parametrize(
+    ("path", "hint"),
+    [
+        ("'{folder}/iner.launch.xml'", "Did you mean 'inner.launch.xml'?"),
+        ("'{folder}/zqzqzqzqzqzq_launch'", "There are: inner.launch.xml, test.launch.py."),
+        ("'{folder}/sub/inner.launch.xml'", "There is no folder {folder}/sub."),
+        ("'{folder}'", "That is a folder; name the launch file in it."),
+    ],
+)
+def test_an_included_file_that_is_not_there(tmp_path: Path, path: str, hint: str) -> None:
+    write(tmp_path, "<launch/>", "inner.launch.xml")
+    named = path.format(folder=tmp_path)
+    for source in (named, f"PythonLaunchDescriptionSource({named})"):
+        error = failure(write_launch_file(tmp_path, f"IncludeLaunchDescription({source}),"))
+        assert error.hint == hint.format(folder=tmp_path)
+        assert error.line == 14
+
+
+def test_a_package_that_shows_windows(tmp_path: Path) -> None:
+    error = failure(write_launch_file(tmp_path, "Node(package='rviz2', executable='rviz2'),"))
+    assert error.hint.startswith("There are no windows in this classroom, so rviz2 is not here")

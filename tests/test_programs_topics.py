@@ -132,6 +132,16 @@ def test_waiting_for_one_message(terminal: Terminal) -> None:
     printed = terminal.run(*first("wait_once", "talk_member_function"), seconds=2)
     assert [line for line in printed if "Publishing" not in line] == [
         "silence False None",
-        "topic True std_msgs.msg.String(data='Hello: 2')",
-        "seconds 11.5",
+        "topic True std_msgs.msg.String(data='Hello: 1')",
+        "seconds 11.0",
+    ]
+
+
+def test_pictures_that_belong_together(terminal: Terminal) -> None:
+    assert terminal.run(*first("stereo"), seconds=1.7) == [
+        "0.5 stereo: exactly 0 0",
+        "0.5 stereo: about 0 0 0 of []",
+        "1.0 stereo: about 1 1 1 of ['0']",
+        "1.5 stereo: exactly 2 2",
+        "1.5 stereo: about 2 2 2 of ['0', '1']",
     ]

@@ -16,7 +16,12 @@ from hypothesis import strategies as st
 from rclpy._arguments import ArgumentError, parse_arguments, pattern_matches
 from rclpy._params_file import read_parameter_file
 from rclpy._yaml_values import YamlValueError, scalar, tree, value_of
-from rclpy.exceptions import InvalidParameterTypeException, RCLError, UnknownROSArgsError
+from rclpy.exceptions import (
+    InvalidParameterTypeException,
+    RCLError,
+    RCLInvalidROSArgsError,
+    UnknownROSArgsError,
+)
 from rclpy.node import Node
 from rclpy.utilities import remove_ros_args
 from std_msgs.msg import String
@@ -103,10 +108,6 @@ def test_rules_as_they_were_given_before_there_was_ros_args_count_and_are_warned
     ("words", "beginning"),
     [
         (["-r", "__ns:=robot"], "Couldn't parse remap rule: '-r __ns:=robot'. Error: Expected lexeme type 19, got 18"),
-        (
-            ["-e", "robots"],
-            "Enclave name is not valid: 'context name must be absolute, it must lead with a '/''. Invali",
-        ),
         (["-r", "bad name:=x"], "Couldn't parse remap rule: '-r bad name:=x'. "),
         (["-r", "chatter:=bad name"], "Couldn't parse remap rule: '-r chatter:=bad name'. "),
         (["-r", "http://a:=b"], "Couldn't parse remap rule: '-r http://a:=b'. "),
@@ -136,6 +137,40 @@ def test_words_that_cannot_be_read_are_refused_at_the_start_and_logged(
     assert capsys.readouterr().out == "[ERROR] [1800000000.000000000] [rcl]: Failed to parse global arguments\n"
     rclpy.init(args=[])  # one may try again
     assert rclpy.ok()
+
+
+@pytest.mark.parametrize(
+    ("words", "complaint"),
+    [
+        (["-e", "a"], "initialize rcl: Enclave name is not valid: 'context name must be absolute, it must lead with a"),
+        (["-e", ""], "initialize rcl: Enclave name is not valid: 'context name must not be empty'. Invalid index: 0"),
+        (["-e", "/a b"], "initialize rcl: Enclave name is not valid: 'context name must not contain characters other"),
+        (["--log-config-file", "x"], "initialize logging: spdlog logging backend doesn't currently support external"),
+    ],
+)
+def test_enclaves_have_names_and_loggers_no_files(world: World, words: list[str], complaint: str) -> None:
+    with pytest.raises(RCLError) as caught:
+        rclpy.init(args=["prog", "--ros-args", *words])
+    assert str(caught.value).startswith(f"failed to {complaint}")
+
+
+@pytest.mark.parametrize("words", [("prog",), "prog", ["prog", 1], ["prog", None]])
+def test_arguments_are_a_list_of_texts(world: World, words: Any) -> None:
+    with pytest.raises(TypeError, match="arguments must be a list of str"):
+        rclpy.init(args=words)
+    rclpy.init(args=[])
+    with pytest.raises(TypeError, match="arguments must be a list of str"):
+        Node("n", cli_args=words)
+
+
+def test_a_node_s_own_arguments_are_its_mistake(world: World, capsys: Capture) -> None:
+    rclpy.init(args=[])
+    with pytest.raises(RCLInvalidROSArgsError, match="Failed to parse ROS arguments: Couldn't parse trailing -r flag"):
+        Node("n", cli_args=["--ros-args", "-r"])
+    with pytest.raises(UnknownROSArgsError):
+        Node("n", cli_args=["--ros-args", "--foo"])
+    assert Node("n", cli_args=["__node:=m"]).get_name() == "m"
+    assert "[rcl]: Found remap rule '__node:=m'. This syntax is deprecated." in capsys.readouterr().out
 
 
 def test_all_unknown_words_are_named(world: World) -> None:

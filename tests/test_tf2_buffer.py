@@ -278,6 +278,16 @@ def test_transforms_that_cannot_be_right_are_ignored_with_a_line(
     assert buffer.all_frames_as_string() == "" and buffer.all_frames_as_yaml() == "[]"
 
 
+def test_the_same_complaint_is_printed_once_a_second(world: World, capsys: pytest.CaptureFixture[str]) -> None:
+    buffer = Buffer()
+    for _ in range(30):
+        buffer.set_transform(frame("w", "a", x=math.nan), "me")
+        buffer.set_transform(frame("w", "b", x=math.nan), "me")
+        world.sim.run_until(world.now + 100_000_000)
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.count('child_frame_id "a"') for line in lines] == [1, 0] * 3
+
+
 def test_the_length_of_a_quaternion_does_not_matter_and_neither_does_its_sign() -> None:
     message = frame("w", "a")
     message.transform.rotation.z, message.transform.rotation.w = -3.0, -3.0

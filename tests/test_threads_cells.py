@@ -114,6 +114,26 @@ def test_what_a_cell_waits_for_lets_robot_time_pass(cell: Cell, world: World) ->
     assert names["found"] == [1.0, ("hello", False, True), 2.5, ("done", [1, 2]), 4.5]
 
 
+def test_a_cell_sleeps_in_robot_time_while_a_thread_of_a_cell_lives(cell: Cell, world: World) -> None:
+    names = cell(
+        """
+        log = []
+        def work():
+            for number in range(3):
+                time.sleep(0.4)
+                log.append(number)
+        threading.Thread(target=work).start()
+        time.sleep(1.0)
+        """
+    )
+    assert names["log"] == [0, 1] and world.now == pytest.approx(SECOND, abs=5_000)
+    time.sleep(0.001)  # this is no cell
+    assert world.now == pytest.approx(SECOND, abs=5_000)
+    cell("time.sleep(1.0)\nbegan = time.monotonic()\ntime.sleep(0.05)\ntook = time.monotonic() - began")
+    assert names["log"] == [0, 1, 2] and names["took"] >= 0.05, "nobody lives any more: it is real"
+    assert world.now == pytest.approx(2 * SECOND, abs=10_000)
+
+
 def test_a_cell_and_its_calls_are_one_thread(cell: Cell) -> None:
     names = cell(
         """

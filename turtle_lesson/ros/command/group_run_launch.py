@@ -75,7 +75,7 @@ def _run(args: Namespace) -> int:
         stderr=output,
         on_exit=_say_how_it_ended,
     )
-    return _leave(process, " ".join(["ros2 run", args.package_name, name, *args.argv]), args.seconds)
+    return leave(process, " ".join(["ros2 run", args.package_name, name, *args.argv]), args.seconds)
 
 
 def _say_how_it_ended(process: Process) -> None:
@@ -136,7 +136,7 @@ def _launch(args: Namespace) -> int:
         print("\n".join(filter(None, (error.console, error.advice))))
         return 1
     given_words = [args.package_name, args.launch_file_name or "", *(args.launch_arguments or [])]
-    return _leave(handle, " ".join(["ros2 launch", *given_words]), args.seconds)
+    return leave(handle, " ".join(["ros2 launch", *given_words]), args.seconds)
 
 
 def _find(args: Namespace) -> tuple[Path, list[str]]:
@@ -165,7 +165,7 @@ def _pairs(words: Sequence[str]) -> dict[str, str]:
 # -- both ----------------------------------------------------------------------------------------------------------------
 
 
-def _leave(what: Process | LaunchHandle, words: str, seconds: float | None) -> int:
+def leave(what: Process | LaunchHandle, words: str, seconds: float | None) -> int:
     """Let it begin, say how to end it if it goes on, and leave it running."""
     world = current_world()
     job = jobs(world).add(Job(words.strip(), what))

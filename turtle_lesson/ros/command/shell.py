@@ -20,6 +20,7 @@ from . import INTERRUPTED, terminal_files
 from . import run as run_ros2
 from .elsewhere import advice
 from .parser import cut
+from .python_script import names_a_script, run_script
 from .script import Command, ShellSyntaxError, expand, pipelines
 from .streams import cell_streams
 from .terminal import BUILTINS
@@ -116,6 +117,8 @@ class Shell:
             return run_ros2(self.world, words, stdout=out, stderr=error, background=background)
         if name in {"colcon", "source", "."}:
             return _workspace(self.world, words, out, error)
+        if names_a_script(words):
+            return run_script(self.world, words)
         if name in BUILTINS:
             return BUILTINS[name](Terminal(self.world, out, error, given), list(words[1:]))
         print(_not_found(words), file=error)

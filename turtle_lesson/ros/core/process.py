@@ -161,6 +161,14 @@ class Process:
         self._end_main(Killed(KILLED))
         self.abandon(None)
 
+    def end_now(self, code: int) -> None:
+        """End the process in its middle; its running strand never returns from here."""
+        strand = running_strand()
+        assert strand is not None
+        self._finish(code)
+        self.simulation.forget(strand)
+        self.simulation.park(strand)
+
     def close(self) -> None:
         """End the process in silence, because its world ends: nobody is told, and nothing it says is shown."""
         self._on_exit = None

@@ -37,7 +37,7 @@ class ProgramModules:
     def __init__(self, process: Process, folders: Iterable[str]) -> None:
         self._process = process
         self.folders = list(folders)
-        self.builtins = {**vars(builtins), "__import__": self._import}
+        self.builtins = {**vars(builtins), "__import__": self._import, "exit": _exit, "quit": _exit}
         self._modules: dict[str, ModuleType] = {}
         self._own = {"__main__": True}
         self._hidden: dict[str, ModuleType] = {}
@@ -143,6 +143,11 @@ class ProgramModules:
             self.folders[:] = [*added, *self.folders] if first else [*self.folders, *added]
             self._own = {name: True for name, own in self._own.items() if own}
         self._path = list(sys.path)
+
+
+def _exit(code: object = None) -> None:
+    """`exit()` and `quit()`, which in a notebook would end the notebook."""
+    raise SystemExit(code)
 
 
 def _is_folder(module: ModuleType) -> bool:

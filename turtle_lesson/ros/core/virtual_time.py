@@ -40,11 +40,21 @@ def _nanoseconds(origin: int) -> Callable[..., int]:
     return read
 
 
+def never(seconds: float) -> bool:
+    """Plain code sleeps in real time."""
+    return False
+
+
+sleeps_in_robot_time: Callable[[float], bool] = never
+"""Asked when plain code wants to sleep: whether that was done in robot time, as a cell does that has started threads."""
+
+
 def _sleep(real: Callable[[float], None], seconds: float, /) -> None:
     """Like time.sleep: in a simulated process it holds up this strand alone, in virtual time."""
     strand = getcurrent()
     if type(strand) is not Strand:
-        real(seconds)
+        if not sleeps_in_robot_time(seconds):
+            real(seconds)
         return
     if seconds < 0:
         raise ValueError("sleep length must be non-negative")

@@ -65,10 +65,9 @@ class LaunchByHand:
 
     def _begin(self) -> None:
         self._began = True
-        while self._early:
-            event = self._early.popleft()
+        while self._early and not self._failed:
             try:
-                self._service.begin(EmitEvent(event=event)) if not self._failed else None
+                self._service.begin(EmitEvent(event=self._early.popleft()))
             except LaunchError as error:
                 self._failed = True
                 for line in filter(None, (error.console, error.advice)):

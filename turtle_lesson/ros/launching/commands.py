@@ -13,6 +13,7 @@ from typing import Any
 
 from launch.actions.execute_local import Program
 
+from ..core.process import INTERRUPTED
 from ..workspace.current import current_packages
 from ..workspace.errors import ExecutableNotFoundError, PackageNotFoundError
 
@@ -56,15 +57,28 @@ def _script(text: str, argv: list[str], shown: str) -> Program:
         return Program(only.target, only.argv, shown)
     mains = [(sign, _main(words)) for sign, words in commands]
 
-    def main() -> None:
+    def main() -> int:
         code = 0
         for sign, run in mains:
             if (sign == "&&" and code) or (sign == "||" and not code):
                 continue
             code = run() or 0
+        return code
+
+    return Program(_ending(main), argv, shown)
+
+
+def _ending(main: Main) -> Callable[[], None]:
+    """A function that ends its process with the exit code that `main` gives; Ctrl-C ends it without a word."""
+
+    def end() -> None:
+        try:
+            code = main() or 0
+        except KeyboardInterrupt:
+            code = INTERRUPTED
         sys.exit(code)
 
-    return Program(main, argv, shown)
+    return end
 
 
 def _taken_apart(text: str) -> list[tuple[str, list[str]]]:
@@ -99,8 +113,7 @@ def _simple(words: list[str], shown: str) -> Program:
         return Program(_python_file(words[1], shown), words[1:], shown)
     if name.endswith(".py") and "/" in words[0]:
         return Program(_python_file(words[0], shown), words, shown)
-    main = _main(words)
-    return Program(lambda: sys.exit(main() or 0), words, shown)
+    return Program(_ending(_main(words)), words, shown)
 
 
 def _python_file(name: str, shown: str) -> Path:

@@ -5,8 +5,11 @@ from __future__ import annotations
 import inspect
 import re
 from collections.abc import Callable, Iterable
+from pathlib import Path
 
-from ..workspace.errors import did_you_mean
+from ..core.tracebacks import shown_path
+from ..workspace.errors import PackageNotFoundError, did_you_mean
+from ..workspace.index import is_launch_file
 
 Hint = Callable[[re.Match[str]], str]
 
@@ -26,7 +29,23 @@ def hint_for(error: BaseException, given: Iterable[str] = ()) -> str:
     return ""
 
 
+_WINDOWS = (
+    "rviz2",
+    "rqt",
+    "rqt_graph",
+    "rqt_plot",
+    "rqt_console",
+    "gazebo_ros",
+    "ros_gz_sim",
+    "joint_state_publisher_gui",
+)
+
+
 def _own_hint(error: BaseException) -> str:
+    if isinstance(error, PackageNotFoundError):
+        shown = next((name for name in _WINDOWS if f"package '{name}' not found" in error.text), None)
+        if shown is not None:
+            return f"There are no windows in this classroom, so {shown} is not here: leave it out, or put a condition on it."
     notes = " ".join(getattr(error, "__notes__", []))
     return str(getattr(error, "hint", "") or notes)
 
@@ -36,6 +55,8 @@ def _known(error: BaseException, given: list[str]) -> str:
 
     if isinstance(error, MissingLaunchArgumentError):
         return _missing_argument(error.argument, given)
+    if isinstance(error, FileNotFoundError | IsADirectoryError) and isinstance(error.filename, str):
+        return _missing_file(Path(error.filename))
     if isinstance(error, SyntaxError):
         return "Look at this line and at the end of the one before: is a comma, a bracket or a quote missing?"
     if type(error).__name__ == "InvalidNodeNameException":
@@ -44,6 +65,22 @@ def _known(error: BaseException, given: list[str]) -> str:
         if match := re.search(pattern, str(error)):
             return hint(match)
     return ""
+
+
+def _missing_file(path: Path) -> str:
+    """What there is instead of a file that is not there."""
+    if path.is_dir():
+        return "That is a folder; name the launch file in it."
+    if not path.parent.is_dir():
+        return f"There is no folder {shown_path(str(path.parent))}."
+    if close := did_you_mean(path.name, sorted(other.name for other in path.parent.iterdir())):
+        return close
+    if "launch" not in path.name:
+        return ""
+    names = sorted(other.name for other in path.parent.iterdir() if is_launch_file(other.name))
+    if not path.is_absolute() and not names:
+        return "A launch file is named by its whole path: PathJoinSubstitution([FindPackageShare(…), 'launch', …])."
+    return f"There are: {', '.join(names)}." if names else ""
 
 
 def _missing_argument(name: str, given: list[str]) -> str:

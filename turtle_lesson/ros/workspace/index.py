@@ -105,9 +105,27 @@ def _no_executable(package: Package, executable: str) -> ExecutableNotFoundError
             f"lib/${{PROJECT_NAME}} RENAME {executable}).",
         )
     names = ", ".join(sorted(package.executables))
-    hint = f"{did_you_mean(executable, package.executables)} {package.name} has: {names}.".strip()
+    close = did_you_mean(executable, package.executables)
+    hint = f"{close} {package.name} has: {names}. {_entry_point(package, executable)}".strip()
     text = f"executable '{executable}' not found on the libexec directory '{libexec}'"
     return ExecutableNotFoundError(text, hint)
+
+
+def _entry_point(package: Package, executable: str) -> str:
+    """What to add to setup.py for a module that is there, and is no program yet."""
+    folder = package.source / package.name if package.source else None
+    module = executable.removesuffix(".py")
+    if folder is None or executable in ("__init__", "setup") or not _is_python(package):
+        return ""
+    if module in package.executables or not (folder / f"{module}.py").is_file():
+        return ""
+    entry = f"{module} = {package.name}.{module}:main"
+    return f"For {module}.py add '{entry}' to console_scripts in setup.py, and build again."
+
+
+def _is_python(package: Package) -> bool:
+    """Whether a package is built by its setup.py."""
+    return package.source is not None and not (package.source / "CMakeLists.txt").is_file()
 
 
 def find_launch_file(packages: PackageIndex, package: str, file_name: str) -> Path:
@@ -137,6 +155,9 @@ def is_launch_file(name: str) -> bool:
 def _launch_file_hint(package: Package, file_name: str) -> str:
     if package.source and (lying := sorted(package.source.rglob(file_name))):
         place = lying[0].parent.relative_to(package.source).as_posix()
+        if _is_python(package):
+            entry = f"('share/{package.name}/{place}', ['{place}/{file_name}'])"
+            return f"It lies in {place}/, but is not installed: add {entry} to data_files in setup.py and build again."
         return (
             f"It lies in {place}/, but is not installed: write install(DIRECTORY {place} DESTINATION "
             "share/${PROJECT_NAME}) in CMakeLists.txt and build again."

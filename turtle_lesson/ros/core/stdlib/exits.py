@@ -35,6 +35,15 @@ def unregister(real: Any, func: Any, /) -> None:
         process.exit_functions[:] = kept
 
 
+def exit_now(real: Any, status: int) -> None:
+    """`os._exit`: the process ends here and now, and nothing is cleaned up."""
+    strand = getcurrent()
+    if type(strand) is not Strand or strand.process.is_notebook:
+        real(status)
+    else:
+        strand.process.end_now(status)
+
+
 def _process() -> Process | None:
     """The running process, if it is its own program that calls."""
     strand = getcurrent()

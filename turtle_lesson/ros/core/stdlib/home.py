@@ -8,6 +8,8 @@ Locks, threads and their kin belong to the simulation if they are made
   module `__main__`) or of a file of the learner's own. What the modules `threading`, `queue` and `concurrent.futures`, and
   the listener of tf2_ros, make on the way counts as made by whoever called them.
 
+Code of a cell sleeps in robot time as long as a thread lives that cells have started: else that would never go on.
+
 So Jupyter's own threads, those of tornado, matplotlib, asyncio, and whatever any other library starts, stay Python's own.
 """
 
@@ -36,7 +38,7 @@ _ON_THE_WAY = {
     "tf2_ros.transform_listener",
 }
 JUPYTER = {"IPython", "comm", "debugpy", "ipykernel", "jupyter_client", "tornado", "traitlets", "zmq"}
-_OURS = __name__.rpartition(".")[0]
+_OURS = (__name__.rpartition(".")[0], "turtle_lesson.ros.core.virtual_time")
 
 
 def nobody() -> Process | None:
@@ -62,7 +64,7 @@ def process_here() -> Process | None:
     if type(strand) is Strand:
         return None if is_for_everybody(sys._getframe(1)) else strand.process
     notebook = notebook_here()
-    return notebook if notebook is not None and _is_called_by_learner() else None
+    return notebook if notebook is not None and is_called_by_learner() else None
 
 
 def notebook_here() -> Process | None:
@@ -84,7 +86,8 @@ def is_for_everybody(frame: FrameType) -> bool:
     return not is_function and is_library(made_by.f_code.co_filename)
 
 
-def _is_called_by_learner() -> bool:
+def is_called_by_learner() -> bool:
+    """Whether it is code of a cell, or of a file of the learner's, that calls."""
     frame = maker(sys._getframe(1))
     if frame is None:
         return False

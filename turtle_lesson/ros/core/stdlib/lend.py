@@ -10,6 +10,7 @@ import _thread
 import asyncio
 import atexit
 import importlib
+import logging
 import os
 import queue
 import signal
@@ -21,6 +22,7 @@ from concurrent.futures import thread as pool
 from types import MethodType
 from typing import Any
 
+from .. import virtual_time
 from ..program_modules import ProgramFinder, on_import
 from ..strand import Strand, getcurrent
 from . import (
@@ -55,11 +57,17 @@ def install() -> None:
     _install_refusals()
     _install_modules()
     _install_streams()
-    for function in time_of_day.REPLACEMENTS:
-        replace_function(time, function.__name__, function)
+    _install_times()
     atexit.register(_restore)  # nothing may ask which greenlet runs while Python takes itself apart
     replace_function(atexit, "register", exits.register)
     replace_function(atexit, "unregister", exits.unregister)
+
+
+def _install_times() -> None:
+    for function in time_of_day.REPLACEMENTS:
+        replace_function(time, function.__name__, function)
+    replace(logging.Formatter, "converter", time.localtime)
+    replace(virtual_time, "sleeps_in_robot_time", threads.sleep_of_a_cell)
 
 
 def replace(owner: Any, name: str, new: Any) -> None:
@@ -174,6 +182,8 @@ def _install_signals() -> None:
     for function in signals.REPLACEMENTS:
         replace_function(signal, function.__name__, function)
     replace_function(os, "kill", signals.kill)
+    replace_function(os, "_exit", exits.exit_now)
+    replace_function(_thread, "interrupt_main", signals.interrupt_main)
 
 
 def _install_refusals() -> None:

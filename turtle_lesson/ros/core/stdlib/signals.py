@@ -79,6 +79,11 @@ def raise_signal(real: Any, signalnum: int, /) -> None:
         _send(process, signalnum)
 
 
+def interrupt_main(real: Any, signum: int = module.SIGINT, /) -> None:
+    """Send this process SIGINT, or another signal."""
+    raise_signal(real, signum)
+
+
 def kill(real: Any, pid: int, signal: int, /) -> None:
     """Send a process a signal: a program that was read from a file itself, all others whom they want."""
     process = _process()

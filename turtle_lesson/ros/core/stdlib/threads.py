@@ -9,12 +9,14 @@ from __future__ import annotations
 
 import sys
 import threading
+import time
 from traceback import format_exception_only
 from typing import TYPE_CHECKING, Any
 
+from ..driving import drive
 from ..strand import GreenletExit, Strand, running_strand
 from ..tracebacks import format_error, learners_frames
-from .home import process_here
+from .home import is_called_by_learner, notebook_here, process_here
 from .hopeless import look_after
 from .identity import become, end
 from .pools import is_worker, remember
@@ -89,6 +91,18 @@ def wait_for_end(real: Any) -> Any:
             self._stop()
 
     return wait_for_tstate_lock
+
+
+def sleep_of_a_cell(seconds: float) -> bool:
+    """Sleep in robot time, if a cell of the learner's does, and a thread lives that cells have started; whether it did."""
+    notebook = notebook_here()
+    if notebook is None or notebook.simulation.running or not is_called_by_learner():
+        return False
+    threads = [strand.thread for strand in notebook.strands if not strand.dead]
+    if not any(thread is not None and "_virtual" in vars(thread) for thread in threads):
+        return False
+    drive(notebook.simulation, notebook, time.sleep, seconds)
+    return True
 
 
 def start_new_thread(real: Any, function: Any, args: tuple[Any, ...], kwargs: dict[str, Any] | None = None, /) -> int:

@@ -67,4 +67,5 @@ def _hint(error: expat.ExpatError) -> str:
         "junk after document element": "Everything stands between <launch> and </launch>.",
         "unclosed token": "A tag is not closed: is > or a quotation mark missing?",
         "duplicate attribute": "An attribute may stand in a tag once.",
-    }.get(said, "")
+        "syntax error": "Everything stands in tags: the file begins with <launch>.",
+    }.get(said, "Is this line well-formed: are tags closed, and values in quotation marks?")

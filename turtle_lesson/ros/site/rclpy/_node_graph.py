@@ -6,11 +6,12 @@ import zlib
 from typing import TYPE_CHECKING, Any
 
 from turtle_lesson.ros.core import NANOSECONDS
-from turtle_lesson.ros.graph import Graph, NodeEntry, Reader, Writer
-from turtle_lesson.ros.graph.names import expand, remap
+from turtle_lesson.ros.graph import Graph, NodeEntry, Reader, Topic, Writer
+from turtle_lesson.ros.graph.names import remap
 
 from ._blocking import drives_the_simulation
-from .exceptions import NodeNameNonExistentError, RCLError
+from .exceptions import NameValidationException, NodeNameNonExistentError, RCLError
+from .expand_topic_name import expand_topic_name
 from .topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 from .validate_full_topic_name import validate_full_topic_name
 from .validate_topic_name import validate_topic_name
@@ -34,26 +35,36 @@ class NodeGraph:
 
     def _ros_full_name_of(self, name: Any, *, only_expand: bool = False, is_service: bool = False) -> str:
         """From what a program calls a topic or service to its full name, remapped unless told otherwise."""
-        if not isinstance(name, str):
-            what = "service" if is_service else "topic"
-            complaint = f"a {what} name must be a str, got {name!r}: is the order of the arguments (type, name, …)?"
-            raise (RCLError if name is None else TypeError)(complaint)
+        _check_text(name, is_service)
         validate_topic_name(name, is_service=is_service)
-        full_name = expand(name, self._ros_entry.name, self._ros_entry.namespace)
+        full_name = self._ros_expanded(name, is_service=is_service)
+        return full_name if only_expand else self._ros_remapped(full_name, is_service=is_service)
+
+    def _ros_remapped(self, full_name: str, *, is_service: bool = False) -> str:
+        entry = self._ros_entry
+        return remap(full_name, entry.name, entry.namespace, self._ros_remaps, is_service=is_service)
+
+    def _ros_expanded(self, name: Any, *, is_service: bool = False) -> str:
+        """The full name, not remapped. Raises ValueError for a bad name, or what a full name can raise."""
+        _check_text(name, is_service)
+        full_name = expand_topic_name(name, self._ros_entry.name, self._ros_entry.namespace)
         validate_full_topic_name(full_name, is_service=is_service)
-        if only_expand:
-            return full_name
-        return remap(
-            full_name, self._ros_entry.name, self._ros_entry.namespace, self._ros_remaps, is_service=is_service
-        )
+        return full_name
 
     def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
-        """The full name of a topic, after remapping."""
-        return self._ros_full_name_of(topic, only_expand=only_expand)
+        """The full name of a topic, after remapping. Raises RCLError for what can be none."""
+        return self._ros_resolve(topic, only_expand, is_service=False)
 
     def resolve_service_name(self, service: str, *, only_expand: bool = False) -> str:
-        """The full name of a service, after remapping."""
-        return self._ros_full_name_of(service, only_expand=only_expand, is_service=True)
+        """The full name of a service, after remapping. Raises RCLError for what can be none."""
+        return self._ros_resolve(service, only_expand, is_service=True)
+
+    def _ros_resolve(self, name: str, only_expand: bool, *, is_service: bool) -> str:
+        try:
+            return self._ros_full_name_of(name, only_expand=only_expand, is_service=is_service)
+        except (NameValidationException, ValueError) as error:
+            reason = str(error).partition(": ")[2].partition(":\n")[0]  # the first line, without the name
+            raise RCLError(f"failed to resolve name: {reason}") from None
 
     def get_topic_names_and_types(self, no_demangle: bool = False) -> NamesAndTypes:
         """All topics, with their types."""
@@ -136,29 +147,40 @@ class NodeGraph:
 
     def count_publishers(self, topic_name: str) -> int:
         """How many publishers a topic has. The name is not remapped, nor in the next three."""
-        return len(self._ros_graph.topic(self._ros_full_name_of(topic_name, only_expand=True)).writers)
+        return len(self._ros_graph.topic(self._ros_expanded(topic_name)).writers)
 
     def count_subscribers(self, topic_name: str) -> int:
         """How many subscriptions a topic has."""
-        return len(self._ros_graph.topic(self._ros_full_name_of(topic_name, only_expand=True)).readers)
+        return len(self._ros_graph.topic(self._ros_expanded(topic_name)).readers)
 
     def count_services(self, service_name: str) -> int:
         """How many servers a service has."""
-        return len(self._ros_graph.servers(self._ros_full_name_of(service_name, only_expand=True, is_service=True)))
+        return len(self._ros_graph.servers(self._ros_expanded(service_name, is_service=True)))
 
     def count_clients(self, service_name: str) -> int:
         """How many clients a service has."""
-        return len(self._ros_graph.clients(self._ros_full_name_of(service_name, only_expand=True, is_service=True)))
+        return len(self._ros_graph.clients(self._ros_expanded(service_name, is_service=True)))
 
     def get_publishers_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[TopicEndpointInfo]:
         """The publishers of a topic, one by one."""
         kind = TopicEndpointTypeEnum.PUBLISHER
-        return [_info(*end, kind) for end in self._ros_graph.topic(self._ros_full_name_of(topic_name)).writers]
+        return [_info(*end, kind) for end in self._ros_named(topic_name).writers]
 
     def get_subscriptions_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[TopicEndpointInfo]:
         """The subscriptions of a topic, one by one."""
         kind = TopicEndpointTypeEnum.SUBSCRIPTION
-        return [_info(*end, kind) for end in self._ros_graph.topic(self._ros_full_name_of(topic_name)).readers]
+        return [_info(*end, kind) for end in self._ros_named(topic_name).readers]
+
+    def _ros_named(self, topic_name: str) -> Topic:
+        return self._ros_graph.topic(self._ros_remapped(self._ros_expanded(topic_name)))
+
+
+def _check_text(name: object, is_service: bool) -> None:
+    """Raise RCLError or TypeError for what is no text."""
+    if not isinstance(name, str):
+        what = "service" if is_service else "topic"
+        complaint = f"a {what} name must be a str, got {name!r}: is the order of the arguments (type, name, …)?"
+        raise (RCLError if name is None else TypeError)(complaint)
 
 
 def _types_by_topic(ends: list[Any]) -> NamesAndTypes:

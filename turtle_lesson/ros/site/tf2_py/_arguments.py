@@ -6,6 +6,7 @@ Facts: geometry2, tf2_py/src/tf2_py.cpp (conversions), tf2/src/buffer_core.cpp (
 from __future__ import annotations
 
 import math
+import re
 import sys
 from typing import Any
 
@@ -18,6 +19,7 @@ from ._exceptions import InvalidArgumentException, LookupException
 from ._rotation import Quaternion, Vector, canonical
 from ._walk import Frames
 
+SECOND = 1_000_000_000
 TOLERANCE = 10e-3
 """How far the squared length of a quaternion may be off 1."""
 
@@ -102,5 +104,13 @@ def _refusals(parent: str, child: str, place: tuple[float, ...], turn: tuple[flo
 
 
 def say(level: str, text: str) -> None:
-    """Print what tf2 prints without a logger: to the running program's stderr, in a cell to its output."""
-    print(level, text, file=sys.stdout if is_notebook(current_process()) else sys.stderr)
+    """Print what tf2 prints without a logger: to the running program's stderr, in a cell to its output.
+
+    A complaint of the same kind about the same frame is printed once a second at most, not for each message.
+    """
+    process = current_process()
+    now, said = process.simulation.now, process.locals.setdefault("tf2.said", {})
+    kind = re.sub(r"\d", "", text)  # the figures change from message to message
+    if now - said.get(kind, -SECOND) >= SECOND:
+        said[kind] = now
+        print(level, text, file=sys.stdout if is_notebook(process) else sys.stderr)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from contextlib import suppress
 from threading import Thread
 
+from rclpy._mistakes import no_node
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
@@ -46,6 +47,10 @@ class TransformListener:
         tf_static_topic: str = DEFAULT_STATIC_TF_TOPIC,
         static_only: bool = False,
     ) -> None:
+        if not hasattr(buffer, "set_transform"):
+            raise TypeError(f"TransformListener(buffer, node) fills a Buffer, got {buffer!r} as the buffer")
+        if node is not None and not hasattr(node, "create_subscription"):
+            raise no_node(node)
         self.buffer = buffer
         self.node = _own_node() if node is None else node
         # A group that lets a callback which waits for a transform be interrupted by the one that brings it.
