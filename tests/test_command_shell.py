@@ -130,7 +130,7 @@ def test_lines(type_line, line: str, out: str) -> None:  # type: ignore[no-untyp
         ("rosdep install --from-paths src -y", "rosdep: nothing is to be installed here: "),
         ("sudo apt install ros-humble-desktop", "sudo: nothing is to be installed here: "),
         ("sudo ros2 topic list", "sudo: ros2 needs no sudo, neither here nor on a robot."),
-        ("python3 file.py", "python3: python3 file.py runs a file that is there, and "),
+        ("python3 file.py", "python3: python3 file.py runs a file that is there, "),
         (
             "nano x.py",
             "nano: no editor here: open the file in JupyterLab's list at the left, or begin a cell with %%writefile x.py.",

@@ -68,7 +68,11 @@ def test_a_mistake_is_explained(
 
 def test_advice_is_given_once_and_only_to_what_is_known() -> None:
     error = AttributeError("something else")
-    assert format_error(error) == format_error(error) == "Traceback (most recent call last):\nAttributeError: something else\n"
+    assert (
+        format_error(error)
+        == format_error(error)
+        == "Traceback (most recent call last):\nAttributeError: something else\n"
+    )
     error = ModuleNotFoundError("No module named 'rospy'", name="rospy")
     assert format_error(error).count("in ROS 2 it is rclpy") == format_error(error).count("in ROS 2 it is rclpy") == 1
 
@@ -121,6 +125,16 @@ def test_forgot_to_build_and_to_source(workspace: Workspace) -> None:
     assert workspace.type("ros2 run demo talker") == hint
     workspace.type("colcon build")
     assert workspace.type("ros2 run demo talker") == hint and workspace.code == 1
+
+
+def test_forgot_to_build_again(workspace: Workspace) -> None:
+    workspace.build()
+    workspace.change("demo/talker.py", "one", "two")
+    hint = "src/demo/demo/talker.py was changed after the build: colcon build has it run as it is now.\n"
+    printed = workspace.type("ros2 run demo talker")
+    assert printed.startswith(hint) and "[talker]: one" in printed
+    workspace.build()
+    assert workspace.type("ros2 run demo talker").endswith("[talker]: two\n")
 
 
 def test_forgot_the_entry_point(workspace: Workspace) -> None:

@@ -144,7 +144,9 @@ def test_a_life_cycle_led_by_its_services(terminal: Terminal) -> None:
     ]
 
 
-@pytest.mark.parametrize(("arguments", "first_tick"), [("", "10.25 250"), (" --ros-args -p use_sim_time:=true", "0.25 250")])
+@pytest.mark.parametrize(
+    ("arguments", "first_tick"), [("", "10.25 250"), (" --ros-args -p use_sim_time:=true", "0.25 250")]
+)
 def test_sleeping_on_a_clock(terminal: Terminal, arguments: str, first_tick: str) -> None:
     """The clock on /clock runs ten times as slowly."""
     clock = ["clock_maker"] if arguments else []

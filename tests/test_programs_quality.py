@@ -54,8 +54,13 @@ def test_messages_expire(terminal: Terminal) -> None:
 @pytest.mark.filterwarnings(OLD_NAMES)
 def test_a_publisher_goes_and_its_liveliness_with_it(terminal: Terminal) -> None:
     printed = terminal.run(*first("liveliness 1000"), seconds=5)
-    change = "QoSLivelinessChangedInfo(alive_count={}, not_alive_count=0, alive_count_change={}, not_alive_count_change=0)"
-    assert having(printed, "Listener") == [f"0.0 Listener: {change.format(1, 1)}", f"3.0 Listener: {change.format(0, -1)}"]
+    change = (
+        "QoSLivelinessChangedInfo(alive_count={}, not_alive_count=0, alive_count_change={}, not_alive_count_change=0)"
+    )
+    assert having(printed, "Listener") == [
+        f"0.0 Listener: {change.format(1, 1)}",
+        f"3.0 Listener: {change.format(0, -1)}",
+    ]
 
 
 @pytest.mark.filterwarnings(OLD_NAMES)
@@ -97,12 +102,17 @@ def test_a_listener_that_hears_of_lost_messages(terminal: Terminal) -> None:
     line = "ros2 topic pub -t 3 -r 2 /pictures sensor_msgs/msg/Image '{header: {stamp: now}}'"
     terminal.run(*first("hear_lost"))
     printed = terminal.say(line, seconds=1)
-    assert [each.partition(" ")[2] for each in having(printed, "hear_lost")] == ["hear_lost: I heard an Image, True"] * 3
+    assert [each.partition(" ")[2] for each in having(printed, "hear_lost")] == [
+        "hear_lost: I heard an Image, True"
+    ] * 3
 
 
 def test_the_command_line_overrides_a_profile(terminal: Terminal) -> None:
     override = "overridable --ros-args -p qos_overrides./topic.subscription.depth:="
-    assert terminal.run(*first("overridable", f"{override}3")) == ["0.0 overridable: depth 10", "0.0 overridable: depth 3"]
+    assert terminal.run(*first("overridable", f"{override}3")) == [
+        "0.0 overridable: depth 10",
+        "0.0 overridable: depth 3",
+    ]
     assert terminal.run(*first(f"{override}30"))[-2:] == [
         "rclpy.qos_overriding_options.InvalidQosOverridesError: Provided QoS overrides for subscription `/topic` with id "
         "`None`, are not valid: expected qos depth less than 10",

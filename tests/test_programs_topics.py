@@ -145,3 +145,14 @@ def test_pictures_that_belong_together(terminal: Terminal) -> None:
         "1.5 stereo: exactly 2 2",
         "1.5 stereo: about 2 2 2 of ['0', '1']",
     ]
+
+
+def test_a_single_file_is_run_by_python(terminal: Terminal) -> None:
+    """Its modules are those beside it, and its arguments its own."""
+    files = terminal.folder / "src/first_steps/first_steps"
+    assert terminal.say(f"python3 {files / 'ring_bell.py'}", seconds=2)[-1] == "after: True"
+    assert terminal.say(f"cd {files}", "python3 talk_any_type.py geometry_msgs/Vector3") == [
+        "publisher: beginning loop",
+        "publishing geometry_msgs.msg.Vector3(x=0.0, y=0.0, z=0.0)",
+    ]
+    assert terminal.interrupt() == ["publisher stopped cleanly"]

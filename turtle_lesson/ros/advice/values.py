@@ -26,7 +26,11 @@ def _name(text: str, what: str) -> str:
     found = re.search(r"^  '(.*)'$", text, re.MULTILINE)
     wrong = found[1] if found else ""
     slash = "/" if what != "node" else ""
-    good = re.sub(rf"[^A-Za-z0-9_{slash}~{{}}]+", "_", wrong).rstrip("/") if slash else re.sub(r"\W+", "_", wrong).strip("_")
+    good = (
+        re.sub(rf"[^A-Za-z0-9_{slash}~{{}}]+", "_", wrong).rstrip("/")
+        if slash
+        else re.sub(r"\W+", "_", wrong).strip("_")
+    )
     good = re.sub(r"(^|/)(\d)", r"\1_\2", good) if slash else re.sub(r"^(\d)", r"n\1", good)
     good = re.sub(r"_*/_*(?=\D)|_{2,}", lambda match: "/" if "/" in match[0] else "_", good)
     rule = f"In the name of a {what}, letters, digits and '_' are allowed, and no digit first"

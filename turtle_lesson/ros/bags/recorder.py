@@ -268,6 +268,8 @@ def _time_is_over() -> None:
 
 def checked_names(names: Iterable[str]) -> tuple[str, ...]:
     """Names of topics, as a program may give them. Raises InvalidTopicNameException or TypeError."""
+    from rclpy.expand_topic_name import expand_topic_name
+    from rclpy.validate_full_topic_name import validate_full_topic_name
     from rclpy.validate_topic_name import validate_topic_name
 
     if isinstance(names, str):
@@ -277,4 +279,5 @@ def checked_names(names: Iterable[str]) -> tuple[str, ...]:
         if not isinstance(name, str):
             raise TypeError(f"the name of a topic is a text such as '/turtle1/pose', got {name!r}")
         validate_topic_name(name)
+        validate_full_topic_name(expand_topic_name(name, NODE, "/"))
     return checked

@@ -247,10 +247,17 @@ def expanded(node: Node, name: str, *, is_service: bool = False) -> str:
 
     Raises NameValidationException where ROS allows no such name, and CommandError for `{what}` that it does not know.
     """
+    from rclpy.expand_topic_name import expand_topic_name
+    from rclpy.validate_full_topic_name import validate_full_topic_name
+    from rclpy.validate_topic_name import validate_topic_name
+
+    validate_topic_name(name, is_service=is_service)
     try:
-        return node.resolve_service_name(name) if is_service else node.resolve_topic_name(name)
+        full_name = expand_topic_name(name, node.get_name(), node.get_namespace())
     except ValueError as error:
         raise CommandError(str(error).rstrip()) from None
+    validate_full_topic_name(full_name, is_service=is_service)
+    return node.resolve_service_name(name) if is_service else node.resolve_topic_name(name)
 
 
 def absolute(node_name: str) -> str:

@@ -23,7 +23,9 @@ _ROS_1 = {
 _PICTURES = "no windows here; lesson.plot_graph(), plot_path(), plot_status() and plot_scan() draw into the page"
 _NO_INSTALLING = "nothing is to be installed here: ROS 2 is simulated, and all that the lesson needs is there"
 _EDITOR = "no editor here: open the file in JupyterLab's list at the left, or begin a cell with %%writefile FILE"
-_SCRIPT = "python3 FILE.py runs a file that is there, and ros2 run the program of a package; all else is your computer's: !python3"
+_SCRIPT = (
+    "python3 FILE runs a file that is there, ros2 run the program of a package; all else is your computer's: !python3"
+)
 
 _HERE = {
     "apt": _NO_INSTALLING,

@@ -14,8 +14,10 @@ from typing import TYPE_CHECKING
 from .. import launching
 from ..console import CellOutput
 from ..core import Process
+from ..core.tracebacks import shown_path
 from ..launching import LaunchError
 from ..workspace.errors import ExecutableNotFoundError
+from ..workspace.index import changed_since_built
 from ..world import current_world
 from .common import positive_float
 from .driving import run_for
@@ -66,6 +68,11 @@ def _run(args: Namespace) -> int:
         raise CommandError("No executable found", error.hint if len(name) < 100 else "") from None
     if isinstance(target, Path) and not target.is_file():
         raise CommandError("No executable found", f"{target} is not there any more: build again.")
+    if changed := changed_since_built(package):
+        print(
+            f"{shown_path(str(changed))} was changed after the build: colcon build has it run as it is now.",
+            file=sys.stderr,
+        )
     output = CellOutput(world.sim)
     process = world.spawn(
         target,

@@ -123,6 +123,18 @@ def _entry_point(package: Package, executable: str) -> str:
     return f"For {module}.py add '{entry}' to console_scripts in setup.py, and build again."
 
 
+def changed_since_built(package: Package) -> Path | None:
+    """A module of an ament_python package that is another in its source than as it was installed; None if there is none."""
+    if package.source is None or package.prefix is None or not _is_python(package):
+        return None
+    for folder in package.prefix.glob(f"lib/python3*/site-packages/{package.name}"):
+        for installed in sorted(folder.rglob("*.py")):
+            source = package.source / package.name / installed.relative_to(folder)
+            if source.is_file() and source.read_bytes() != installed.read_bytes():
+                return source
+    return None
+
+
 def _is_python(package: Package) -> bool:
     """Whether a package is built by its setup.py."""
     return package.source is not None and not (package.source / "CMakeLists.txt").is_file()
