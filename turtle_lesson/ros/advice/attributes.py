@@ -18,7 +18,8 @@ OF_OTHERS = {
     "advertise": "create_publisher(type, topic, qos)", "subscribe": "create_subscription(type, topic, callback, qos)",
     "publish": "create_publisher(…).publish(message)", "spin": "rclpy.spin(node), which is no method",
     "logger": "get_logger()", "destroy": "destroy_node()", "sleep": "time.sleep(seconds), or a timer",
-    "create_service_client": "create_client(type, name)", "create_subscriber": "create_subscription(type, topic, callback, qos)",
+    "create_service_client": "create_client(type, name)",
+    "create_subscriber": "create_subscription(type, topic, callback, qos)",
 }  # fmt: skip
 """What people write who come from ROS 1 or from C++, and what it is called on a node."""
 
@@ -89,7 +90,7 @@ def _is_within_ours(error: BaseException) -> bool:
 def _message_of(name: str) -> Any:
     """A message whose class has this name, or None. Of two such classes the one that was imported first is taken."""
     for key, module in list(sys.modules.items()):
-        kind = vars(module).get(name) if ".msg._" in key or ".srv._" in key or ".action._" in key else None
+        kind: Any = vars(module).get(name) if ".msg._" in key or ".srv._" in key or ".action._" in key else None
         if hasattr(kind, "get_fields_and_field_types"):
             return kind()
     for package in registry.packages():

@@ -23,60 +23,16 @@ FROM_ROS_1 = {
     "rclcpp": "rclcpp is the library of C++; in Python it is rclpy.",
 }
 
-ABSENT = frozenset(
-    [
-        "ackermann_msgs",
-        "can_msgs",
-        "control_msgs",
-        "controller_manager_msgs",
-        "cv_bridge",
-        "gazebo_msgs",
-        "geographic_msgs",
-        "grid_map_msgs",
-        "image_geometry",
-        "image_transport",
-        "irobot_create_msgs",
-        "joint_state_publisher",
-        "laser_geometry",
-        "launch_testing",
-        "launch_testing_ros",
-        "map_msgs",
-        "mavros_msgs",
-        "moveit",
-        "moveit_msgs",
-        "moveit_py",
-        "nav2_common",
-        "nav2_msgs",
-        "nav2_simple_commander",
-        "octomap_msgs",
-        "pcl_msgs",
-        "pcl_ros",
-        "pointcloud2_msgs",
-        "px4_msgs",
-        "python_qt_binding",
-        "qt_gui",
-        "rclpy_message_converter",
-        "robot_localization",
-        "robot_state_publisher",
-        "ros2bag",
-        "ros2cli",
-        "ros2node",
-        "ros2param",
-        "ros2pkg",
-        "ros2run",
-        "ros2topic",
-        "ros_gz_interfaces",
-        "rosbag2_py",
-        "rqt_gui",
-        "rqt_gui_py",
-        "slam_toolbox",
-        "tf2_kdl",
-        "turtlebot3_msgs",
-        "ur_msgs",
-        "vision_msgs",
-        "webots_ros2_driver",
-    ]
-)
+ABSENT = frozenset((
+    "ackermann_msgs", "can_msgs", "control_msgs", "controller_manager_msgs", "cv_bridge", "gazebo_msgs",
+    "geographic_msgs", "grid_map_msgs", "image_geometry", "image_transport", "irobot_create_msgs",
+    "joint_state_publisher", "laser_geometry", "launch_testing", "launch_testing_ros", "map_msgs", "mavros_msgs",
+    "moveit", "moveit_msgs", "moveit_py", "nav2_common", "nav2_msgs", "nav2_simple_commander", "octomap_msgs",
+    "pcl_msgs", "pcl_ros", "pointcloud2_msgs", "px4_msgs", "python_qt_binding", "qt_gui", "rclpy_message_converter",
+    "robot_localization", "robot_state_publisher", "ros2bag", "ros2cli", "ros2node", "ros2param", "ros2pkg", "ros2run",
+    "ros2topic", "ros_gz_interfaces", "rosbag2_py", "rqt_gui", "rqt_gui_py", "slam_toolbox", "tf2_kdl",
+    "turtlebot3_msgs", "ur_msgs", "vision_msgs", "webots_ros2_driver",
+))  # fmt: skip
 """Packages that a robot may have, and this classroom has not."""
 
 
@@ -84,10 +40,10 @@ def advice(error: BaseException) -> str:
     """A sentence about a failed import."""
     if isinstance(error, ModuleNotFoundError) and error.name:
         return _no_module(error.name)
-    if isinstance(error, ImportError) and error.name and "Did you mean" not in str(error):
-        if match := re.match(r"cannot import name '(\w+)'", str(error)):
-            return _no_name(error.name, match[1])
-    return ""
+    if not isinstance(error, ImportError) or not error.name or "Did you mean" in str(error):
+        return ""
+    match = re.match(r"cannot import name '(\w+)'", str(error))
+    return _no_name(error.name, match[1]) if match else ""
 
 
 def _no_module(name: str) -> str:

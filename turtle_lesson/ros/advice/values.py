@@ -42,6 +42,12 @@ _NAMES = {
     "InvalidServiceNameException": "service", "InvalidNamespaceException": "namespace",
 }  # fmt: skip
 
+_KINDS = {
+    "srv": "a service's type: take create_service or create_client",
+    "action": "an action's type: take rclpy.action.ActionServer or ActionClient",
+    "msg": "a message's type: take create_publisher or create_subscription",
+}
+
 _BY_KIND = {
     "NotInitializedException": "Begin with rclpy.init(), before any node is made.",
     "InvalidQoSProfileException": "Say how many messages are kept: QoSProfile(depth=10, …).",
@@ -83,9 +89,3 @@ _BY_TEXT: list[tuple[str, str, Say]] = [
      lambda _: "A future is expected, such as call_async(request) gives; None came."),
     ("TypeError", r"isinstance\(\) arg 2 must be a type", lambda _: "Give the class itself, as in String, not String()."),
 ]  # fmt: skip
-
-_KINDS = {
-    "srv": "a service's type: take create_service or create_client",
-    "action": "an action's type: take rclpy.action.ActionServer or ActionClient",
-    "msg": "a message's type: take create_publisher or create_subscription",
-}

@@ -16,6 +16,7 @@ from .ament_cmake import build_ament_cmake
 from .ament_python import build_ament_python
 from .discover import Found, build_type_hint, discover, read_found
 from .errors import PackageError, did_you_mean
+from .index import is_launch_file
 from .known import CMAKE_PACKAGES, PYTHON_PACKAGES
 from .outcome import Environment, Item, Outcome
 
@@ -195,7 +196,7 @@ def _missing_dependencies(found: Found) -> list[str]:
 
 
 def _launch_files(package: Path) -> list[str]:
-    return sorted(path.name for path in package.rglob("*.launch.py"))
+    return sorted(path.name for path in package.rglob("*") if is_launch_file(path.name))
 
 
 def _readme(result: Exported, found: Found) -> str:
