@@ -109,6 +109,67 @@ def test_a_package_of_several_modules_is_each_processes_own(world: World, write:
     assert lines == ["[0] True my_robot.main"] * 2 + ["[0, 1] True my_robot.main"] * 2
 
 
+def test_modules_that_let_time_pass_while_they_are_imported(world: World, write: Write, capsys: Capture) -> None:
+    write("slow/__init__.py", "import time\nbegan = time.time()\ntime.sleep(0.5)\nfrom . import part\n")
+    write("slow/part.py", "import time\ntime.sleep(0.5)\nnames = []\n")
+    program = write(
+        "program.py",
+        """
+        import sys, time
+        time.sleep(float(sys.argv[1]) / 4)
+        import slow.part
+        slow.part.names.append(sys.argv[1])
+        print(slow.part.names, slow.part is sys.modules["slow.part"], round(time.time() - slow.began, 3))
+        """,
+    )
+    assert outcome(world, capsys, program, program, program) == [f"['{number}'] True 1.0" for number in range(3)]
+
+
+def test_a_program_sees_its_modules_and_its_path_in_sys(world: World, write: Write, capsys: Capture) -> None:
+    write(
+        "shapes.py",
+        "import sys\nclass Square: pass\ndef make(name):\n    return getattr(sys.modules[__name__], name)()\n",
+    )
+    program = write(
+        "program.py",
+        """
+        import sys, time
+        from sys import argv, path
+        import shapes
+        class Circle: pass
+        time.sleep(1)
+        print(type(shapes.make("Square")).__name__, sys.modules[__name__].Circle is Circle, "shapes" in sys.modules)
+        print(argv is sys.argv, path is sys.path, sys.path[0] == __file__.rpartition("/")[0], sys.version_info[0])
+        time.sleep(1)
+        sys.path.clear()
+        sys.argv = ["other"]
+        time.sleep(1)
+        print(sys.argv)
+        """,
+    )
+    path, argv = list(sys.path), list(sys.argv)
+    lines = outcome(world, capsys, program, program)
+    assert lines == ["Square True True", "True True True 3"] * 2 + ["['other']"] * 2
+    assert (sys.path, sys.argv) == (path, argv)
+
+
+def test_a_program_may_write_somewhere_else(world: World, write: Write, capsys: Capture) -> None:
+    program = write(
+        "program.py",
+        """
+        import io, sys, time
+        shown, sys.stdout = sys.stdout, io.StringIO()
+        print("kept")
+        time.sleep(1)
+        print("too")
+        kept, sys.stdout = sys.stdout.getvalue(), shown
+        time.sleep(1)
+        print(repr(kept))
+        """,
+    )
+    assert outcome(world, capsys, program, program) == [repr("kept\ntoo\n")] * 2
+
+
 def test_each_start_reads_the_files_anew(world: World, write: Write, capsys: Capture) -> None:
     program = write("program.py", "import helper\nprint(helper.answer)\n")
     for answer in "12":

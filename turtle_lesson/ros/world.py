@@ -14,7 +14,7 @@ from typing import Any
 from . import advice
 from .core import EPOCH, Process, Simulation, running_strand, virtual_random, virtual_time
 from .core.process import Output
-from .core.program_modules import run_program
+from .core.program import run_program
 from .core.stdlib import home, lend
 from .core.tracebacks import is_library
 from .graph import Graph

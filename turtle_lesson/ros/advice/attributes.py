@@ -52,7 +52,7 @@ def _attribute(error: AttributeError) -> str:
     if match := re.match(r"(?:property '(\w+)' of '\w+' object has no setter|can't set attribute '(\w+)')", text):
         taken = match[1] or match[2]
         return f"Every node has {taken!r} already, which cannot be replaced: take another name, as in self.my_{taken}."
-    if not name and (match := re.fullmatch(r"'(\w+)' object has no attribute '(\w+)'", text)):
+    if not name and (match := re.match(r"'(\w+)' object has no attribute '(\w+)'", text)):
         owner, name = _message_of(match[1]), match[2]  # it was to be set
         return "" if owner is None else _field(owner, name)
     if "Did you mean" in text or not name or name.startswith("__"):

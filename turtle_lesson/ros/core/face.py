@@ -18,19 +18,18 @@ class Face:
 
     Attributes:
         modules_shown: whose modules are in `sys.modules`, if a program has been importing.
-        path_before: what `sys.path` was when this run began.
     """
 
     def __init__(self) -> None:
         self.modules_shown: ProgramModules | None = None
-        self.path_before: list[str] = []
         self._face: Process | None = None
         self._cell_face: Any = ()
 
     def _enter(self, process: Process) -> None:
         if self._face is None:
             self._cell_face = (sys.argv, sys.stdout, sys.stderr)
-            self.path_before = sys.path.copy()
+        elif self.modules_shown is not None and self.modules_shown is not process.modules:
+            self.modules_shown.hide()
         self._face = process
         sys.argv = process.argv
         sys.stdout = process.stdout or self._cell_face[1]

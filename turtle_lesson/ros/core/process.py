@@ -234,8 +234,8 @@ class Process:
     def _show(self, error: BaseException) -> None:
         if self.alive:
             self.error = error
-            if self.modules is not None and self.modules.made(sys.excepthook):
-                sys.excepthook(type(error), error, error.__traceback__)
+            if self.modules is not None and "excepthook" in vars(self.modules.sys):
+                self.modules.sys.excepthook(type(error), error, error.__traceback__)
             else:
                 print_error(error, sys.stderr)
 

@@ -8,7 +8,10 @@ from __future__ import annotations
 import marshal
 from importlib.machinery import SourceFileLoader
 from types import CodeType, ModuleType
-from typing import Any
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from .program_modules import ProgramModules
 
 _compiled: dict[str, tuple[bytes, bytes]] = {}
 """By path: the text of a file, and its code."""
@@ -31,14 +34,17 @@ def code_of(path: str, text: str | None = None) -> CodeType:
 class ProgramLoader(SourceFileLoader):
     """Makes a module of a program from its file."""
 
-    def __init__(self, fullname: str, path: str, builtins: dict[str, Any]) -> None:
+    def __init__(self, fullname: str, path: str, modules: ProgramModules) -> None:
         super().__init__(fullname, path)
-        self._builtins = builtins
+        self._modules = modules
 
     def exec_module(self, module: ModuleType) -> None:
         """Run the module's code with the program's own builtins."""
-        module.__dict__["__builtins__"] = self._builtins
-        exec(code_of(self.path), module.__dict__)
+        module.__dict__["__builtins__"] = self._modules.builtins
+        try:
+            exec(code_of(self.path), module.__dict__)
+        finally:
+            self._modules.show()  # the code may have let others go on
 
     def get_code(self, fullname: str) -> CodeType:
         """The module's code."""

@@ -1,8 +1,9 @@
 """The Python modules that a program has for itself: its `__main__`, and those that lie in its own folders.
 
 On a robot each process imports its modules anew, so that two processes share no global variable. Here all live in one
-Python, which has one `sys.modules`. So each program keeps its own modules, and has them put into `sys.modules` while it
-imports something; the libraries, which are big and know nothing of each other's users, are shared.
+Python, which has one `sys.modules`. So each program keeps its own modules. It has them put into `sys.modules` when it
+imports something or asks for `sys.modules`, until another process goes on. The libraries, which are big and know nothing
+of each other's users, are shared.
 
 Whose import statement it is, is known from the `__builtins__` that the modules of a program are run with: Python looks
 there for `__import__`. The notebook's own imports never come here.
@@ -12,17 +13,14 @@ from __future__ import annotations
 
 import builtins
 import importlib.util
-import os
 import sys
-import threading
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from importlib.machinery import ModuleSpec, PathFinder
-from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from .program_code import ProgramLoader, code_of
-from .strand import running_strand
+from .program_sys import ProgramSys
 
 if TYPE_CHECKING:
     from .process import Process
@@ -36,12 +34,13 @@ class ProgramModules:
 
     def __init__(self, process: Process, folders: Iterable[str]) -> None:
         self._process = process
-        self.folders = list(folders)
+        self._folders = list(folders)
+        self.sys = ProgramSys(process, [*self._folders, *sys.path], self.show)
         self.builtins = {**vars(builtins), "__import__": self._import, "exit": _exit, "quit": _exit}
         self._modules: dict[str, ModuleType] = {}
         self._own = {"__main__": True}
+        self._looked_in: list[str] = []
         self._hidden: dict[str, ModuleType] = {}
-        self._path = list(sys.path)
 
     def run(self, path: str, text: str | None = None) -> None:
         """Run a file as the main program, or a text that stands for one."""
@@ -86,20 +85,28 @@ class ProgramModules:
 
     def owns(self, name: str) -> bool:
         """Whether a module is of this program, because it is found in its folders."""
+        folders = self._own_folders()
+        if folders != self._looked_in:  # what was not found in the others may be in a new one
+            self._looked_in = folders
+            self._own = {top: True for top, own in self._own.items() if own}
         top = name.partition(".")[0]
         own = self._own.get(top)
         if own is None:
-            own = self._own[top] = self._find(top, self.folders) is not None
+            own = self._own[top] = self._find(top, folders) is not None
             if own and self.shown:
                 self._hidden.update(_take_out({top}))
         return own
+
+    def _own_folders(self) -> list[str]:
+        """What the program's import path has beside the libraries."""
+        return [folder for folder in self.sys.path if folder in self._folders or folder not in sys.path]
 
     # -- finding -----------------------------------------------------------------------------------------------------------
 
     def find_spec(self, name: str, path: Sequence[str] | None) -> ModuleSpec | None:
         """Where a module of this program is, None if it is none."""
         if path is None:
-            return self._find(name, self.folders) if self.owns(name) else None
+            return self._find(name, self._own_folders()) if self.owns(name) else None
         parent = sys.modules.get(name.rpartition(".")[0])
         if parent is None or not (_is_folder(parent) or vars(parent).get("__builtins__") is self.builtins):
             return None
@@ -109,7 +116,7 @@ class ProgramModules:
         spec = PathFinder.find_spec(name, path)
         if spec is None or spec.origin is None or not spec.origin.endswith(".py"):
             return None if spec is None or _is_found_elsewhere(name, path) else spec
-        loader = ProgramLoader(spec.name, spec.origin, self.builtins)
+        loader = ProgramLoader(spec.name, spec.origin, self)
         return importlib.util.spec_from_file_location(
             spec.name, spec.origin, loader=loader, submodule_search_locations=spec.submodule_search_locations
         )
@@ -125,24 +132,13 @@ class ProgramModules:
         level: int = 0,
     ) -> Any:
         """What the import statements of this program call."""
-        if sys.path != self._path:
-            self._take_path()
+        if name == "sys" and not level:
+            return self.sys
         if level or self.owns(name):
             self.show()
         elif (top := name.partition(".")[0]) in on_import and (module := on_import[top]()) is not None:
             return module
         return builtins.__import__(name, globals, locals, fromlist or (), level)
-
-    def _take_path(self) -> None:
-        """What the program has added to `sys.path` is looked through for this program alone."""
-        before = self._process.simulation.path_before
-        added = [folder for folder in sys.path if folder not in before and folder not in self.folders]
-        if added:
-            first = sys.path.index(added[0]) == 0
-            sys.path[:] = [folder for folder in sys.path if folder not in added]
-            self.folders[:] = [*added, *self.folders] if first else [*self.folders, *added]
-            self._own = {name: True for name, own in self._own.items() if own}
-        self._path = list(sys.path)
 
 
 def _exit(code: object = None) -> None:
@@ -169,45 +165,7 @@ def _is_found_elsewhere(name: str, path: Sequence[str]) -> bool:
     """Whether somebody else has a module of this name: then a mere folder, or compiled code, does not hide it."""
     for finder in sys.meta_path:
         find = getattr(finder, "find_spec", None)
-        others = finder is not ProgramFinder and finder is not PathFinder
+        others = getattr(finder, "__name__", "") != "ProgramFinder" and finder is not PathFinder
         if others and find is not None and find(name, path) is not None:
             return True
     return "." not in name and PathFinder.find_spec(name) is not None
-
-
-class ProgramFinder:
-    """What Python asks first for a module that it does not have yet."""
-
-    @staticmethod
-    def find_spec(name: str, path: Sequence[str] | None = None, target: object = None) -> ModuleSpec | None:
-        """Where a module of the running program is; None where no program is importing."""
-        modules = running_modules()
-        if modules is None or not modules.shown:
-            return None
-        return modules.find_spec(name, path)
-
-
-def running_modules() -> ProgramModules | None:
-    """The modules of the program that runs, if it was read from a file."""
-    strand = running_strand()
-    return None if strand is None else strand.process.modules
-
-
-def run_program(path: Path, folders: Iterable[Path] = (), text: str | None = None) -> None:
-    """Run a file, or a text that stands for it, as the main program of the running process.
-
-    `folders` are those of its modules, beside the one that the file itself lies in.
-    """
-    strand = running_strand()
-    assert strand is not None
-    own = os.path.dirname(os.path.realpath(path))
-    modules = strand.process.modules = ProgramModules(strand.process, [own, *map(str, folders)])
-    hooks: list[tuple[Any, Any]] = [(sys, sys.excepthook), (threading, threading.excepthook)]
-
-    def put_hooks_back() -> None:
-        for module, hook in hooks:
-            if modules.made(module.excepthook):
-                module.excepthook = hook
-
-    strand.process.at_exit.append(put_hooks_back)
-    modules.run(str(path), text)

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..core.program_modules import run_program
+from ..core.program import run_program
 
 
 @dataclass(frozen=True)

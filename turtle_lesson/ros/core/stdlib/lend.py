@@ -23,7 +23,8 @@ from types import MethodType
 from typing import Any
 
 from .. import virtual_time
-from ..program_modules import ProgramFinder, on_import
+from ..program import ProgramFinder
+from ..program_modules import on_import
 from ..strand import Strand, getcurrent
 from . import (
     dates,

@@ -10,7 +10,7 @@ import typing
 from collections.abc import Callable
 from typing import Any
 
-from ..program_modules import running_modules
+from ..program import running_modules
 
 LOOKS_INTO_SYS_MODULES: tuple[tuple[Any, str], ...] = (
     (importlib, "import_module"),

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from .callback_groups import CallbackGroup, begin_of
-from .exceptions import refuse_destroyed
+from .exceptions import refuse_destroyed, refuse_ended
 
 if TYPE_CHECKING:
     from turtle_lesson.ros.trace import Callback
@@ -28,6 +28,8 @@ class Entity:
     _kind = GUARD
     _traced: Callback | None = None
     """Where its runs are noted, if the world keeps a trace of them."""
+    _outlived = False
+    """Whether rclpy.shutdown() has taken it out of the graph, and nobody has destroyed it since."""
 
     def __init__(self, callback: Callable[..., Any] | None, callback_group: CallbackGroup | None) -> None:
         self.callback: Any = callback
@@ -66,9 +68,14 @@ class Entity:
     def _done_with(self, arguments: tuple[Any, ...], result: Any) -> None:
         """The callback has returned `result`."""
 
-    def _check_alive(self) -> None:
-        if self._destroyed and self._node is not None:
+    def _check_alive(self, doing: str = "") -> None:
+        """Raise what the use of something destroyed deserves. After rclpy.shutdown() only `doing` something is refused."""
+        if not self._destroyed or self._node is None:
+            return
+        if not self._outlived:
             refuse_destroyed(self._node._ros_simulation)
+        if doing:
+            refuse_ended(doing)
 
     def destroy(self) -> None:
         """Never be called again."""

@@ -71,10 +71,10 @@ class ExecutorBase:
             return False
         if not hasattr(node, "_ros_waiting_entities"):
             raise no_node(node)
-        if self._context.handle is None:
-            raise not_valid("guard_condition")
         if node._ros_simulation.closed:
             refuse_destroyed(node._ros_simulation)
+        if self._context.handle is None:
+            raise not_valid("guard_condition")
         if node.executor is not None:
             node.executor.remove_node(node)
         self._nodes.append(node)

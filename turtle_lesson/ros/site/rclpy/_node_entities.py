@@ -13,7 +13,7 @@ from ._waitables import WaitableEntity
 from .callback_groups import CallbackGroup, ReentrantCallbackGroup
 from .client import Client
 from .event_handler import EventHandler, PublisherEventCallbacks, SubscriptionEventCallbacks, checked_callbacks
-from .exceptions import RCLError, refuse_destroyed
+from .exceptions import RCLError, not_valid, refuse_destroyed, refuse_ended
 from .guard_condition import GuardCondition
 from .publisher import Publisher
 from .qos import QoSProfile, checked_profile, copied, qos_profile_services_default, usable_quality
@@ -46,14 +46,25 @@ class NodeEntities(NodeGraph):
     _ros_made: int
     _ros_publishers: list[Publisher]
     _ros_rate_group: CallbackGroup | None
+    _ros_outlived: list[Any]
+    _ros_shut_down: bool
     _ros_simulation: Simulation
     _ros_waiting_entities: list[Entity]
 
     # -- making things ---------------------------------------------------------------------------------------------
 
-    def _ros_check_alive(self) -> None:
-        if self._ros_destroyed:
+    def _ros_check_alive(self, doing: str = "") -> None:
+        """Raise what the use of a destroyed node deserves. After rclpy.shutdown() only `doing` something is refused."""
+        if self._ros_destroyed and not self._ros_shut_down:
             refuse_destroyed(self._ros_simulation)
+        if self._ros_shut_down and doing:
+            refuse_ended(doing)
+
+    def _ros_check_context(self, what: str) -> None:
+        """As that, for what needs a context, but no place in the graph."""
+        self._ros_check_alive()
+        if self._ros_shut_down:
+            raise not_valid(what)
 
     def _ros_keep(self, entity: Any) -> Any:
         self._ros_made += 1
@@ -79,7 +90,7 @@ class NodeEntities(NodeGraph):
         Raises InvalidTopicNameException, AttributeError or RuntimeError (no message type), TypeError, ValueError,
         RCLError, InvalidQosOverridesError.
         """
-        self._ros_check_alive()
+        self._ros_check_alive("Failed to create publisher: rcl node's")
         callbacks = checked_callbacks(event_callbacks, PublisherEventCallbacks)
         full_name = self._ros_full_name_of(topic)
         profile = self._ros_profile(Publisher, full_name, checked_profile(qos_profile), qos_overriding_options)
@@ -114,7 +125,7 @@ class NodeEntities(NodeGraph):
         Raises InvalidTopicNameException, AttributeError or RuntimeError (no message type), TypeError, ValueError,
         RCLError, InvalidQosOverridesError.
         """
-        self._ros_check_alive()
+        self._ros_check_alive("Failed to create subscription: rcl node's")
         if content_filter_options is not None:
             raise NotImplementedError(NO_FILTER)
         callbacks = checked_callbacks(event_callbacks, SubscriptionEventCallbacks)
@@ -133,7 +144,11 @@ class NodeEntities(NodeGraph):
         return subscription
 
     def _ros_profile(
-        self, kind: type[Publisher] | type[Subscription], name: str, profile: QoSProfile, options: QoSOverridingOptions | None
+        self,
+        kind: type[Publisher] | type[Subscription],
+        name: str,
+        profile: QoSProfile,
+        options: QoSOverridingOptions | None,
     ) -> QoSProfile:
         """A profile as it is used: overridden by parameters, and with what is left to the others on the topic."""
         if options is not None:
@@ -177,7 +192,7 @@ class NodeEntities(NodeGraph):
         autostart: bool = True,
     ) -> Timer:
         """Have `callback()` called every `timer_period_sec` seconds, for the first time after one period."""
-        self._ros_check_alive()
+        self._ros_check_context("timer")
         period = period_ns(timer_period_sec)
         group = callback_group or self._ros_default_callback_group
         return self._ros_keep(Timer(callback, group, period, clock or self._ros_clock, autostart=autostart))
@@ -195,7 +210,7 @@ class NodeEntities(NodeGraph):
 
         Raises InvalidServiceNameException, AttributeError or RuntimeError (no service type).
         """
-        self._ros_check_alive()
+        self._ros_check_alive("failed to create service: rcl node's")
         full_name = self._ros_full_name_of(srv_name, is_service=True)
         type_support.check_is_valid_srv_type(srv_type)
         server = self._ros_graph.add_server(self._ros_entry, full_name, srv_type._TYPE_NAME)
@@ -211,7 +226,7 @@ class NodeEntities(NodeGraph):
         callback_group: CallbackGroup | None = None,
     ) -> Client:
         """Make a client of a service. Raises InvalidServiceNameException, AttributeError or RuntimeError."""
-        self._ros_check_alive()
+        self._ros_check_alive("failed to create client: rcl node's")
         full_name = self._ros_full_name_of(srv_name, is_service=True)
         type_support.check_is_valid_srv_type(srv_type)
         end = self._ros_graph.add_client(self._ros_entry, full_name, srv_type._TYPE_NAME)
@@ -223,7 +238,7 @@ class NodeEntities(NodeGraph):
         self, callback: Callable[[], Any], callback_group: CallbackGroup | None = None
     ) -> GuardCondition:
         """Have `callback()` called whenever the guard condition is triggered."""
-        self._ros_check_alive()
+        self._ros_check_context("guard_condition")
         group = callback_group or self._ros_default_callback_group
         return self._ros_keep(GuardCondition(callback, group, context=self._ros_context))
 
@@ -239,22 +254,30 @@ class NodeEntities(NodeGraph):
 
     def add_waitable(self, waitable: Waitable) -> None:
         """Have the node's executor wait for something of one's own, too."""
-        self._ros_check_alive()
+        self._ros_check_alive("failed to add waitable: rcl node's")
         self._ros_keep(waitable if isinstance(waitable, EventHandler) else WaitableEntity(waitable))
 
     # -- taking things away ----------------------------------------------------------------------------------------
 
     def _ros_destroy(self, entity: Any) -> bool:
         if entity not in self._ros_waiting_entities:
-            return False
+            return self._ros_let_go(entity)
         self._ros_waiting_entities.remove(entity)
         entity.destroy()
+        return True
+
+    def _ros_let_go(self, end: Any) -> bool:
+        """Destroy for good what rclpy.shutdown() has left; whether it has left that."""
+        if end not in self._ros_outlived:
+            return False
+        self._ros_outlived.remove(end)
+        end._outlived = False
         return True
 
     def destroy_publisher(self, publisher: Publisher) -> bool:
         """Stop publishing; False if it is not this node's."""
         if publisher not in self._ros_publishers:
-            return False
+            return self._ros_let_go(publisher)
         self._ros_publishers.remove(publisher)
         publisher.destroy()
         return True

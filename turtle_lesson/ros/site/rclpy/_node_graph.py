@@ -24,6 +24,8 @@ LOOK_AGAIN = 100_000_000
 
 NamesAndTypes = list[tuple[str, list[str]]]
 FEEDBACK = "/_action/feedback"
+NODE_S = "rcl node's"
+"""How the real one's complaints begin that go on with "context is invalid"."""
 
 
 class NodeGraph:
@@ -32,6 +34,10 @@ class NodeGraph:
     _ros_graph: Graph
     _ros_entry: NodeEntry
     _ros_remaps: list[Remap]
+
+    if TYPE_CHECKING:
+
+        def _ros_check_alive(self, doing: str = "") -> None: ...
 
     def _ros_full_name_of(self, name: Any, *, only_expand: bool = False, is_service: bool = False) -> str:
         """From what a program calls a topic or service to its full name, remapped unless told otherwise."""
@@ -60,6 +66,7 @@ class NodeGraph:
         return self._ros_resolve(service, only_expand, is_service=True)
 
     def _ros_resolve(self, name: str, only_expand: bool, *, is_service: bool) -> str:
+        self._ros_check_alive()
         try:
             return self._ros_full_name_of(name, only_expand=only_expand, is_service=is_service)
         except (NameValidationException, ValueError) as error:
@@ -68,29 +75,36 @@ class NodeGraph:
 
     def get_topic_names_and_types(self, no_demangle: bool = False) -> NamesAndTypes:
         """All topics, with their types."""
+        self._ros_check_alive(f"failed to get topic names and types: {NODE_S}")
         return [(name, topic.types) for name, topic in self._ros_graph.topics().items()]
 
     def get_service_names_and_types(self) -> NamesAndTypes:
         """All services, with their types."""
+        self._ros_check_alive(f"failed to get service names and types: {NODE_S}")
         return list(self._ros_graph.services().items())
 
     def get_node_names(self) -> list[str]:
         """The names of all nodes, without their namespaces."""
-        return [entry.name for entry in self._ros_graph.nodes]
+        return [entry.name for entry in self._ros_known_nodes()]
 
     def get_fully_qualified_node_names(self) -> list[str]:
         """The full names of all nodes."""
-        return [entry.full_name for entry in self._ros_graph.nodes]
+        return [entry.full_name for entry in self._ros_known_nodes()]
 
     def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
         """Name and namespace of all nodes."""
-        return [(entry.name, entry.namespace) for entry in self._ros_graph.nodes]
+        return [(entry.name, entry.namespace) for entry in self._ros_known_nodes()]
 
     def get_node_names_and_namespaces_with_enclaves(self) -> list[tuple[str, str, str]]:
         """Name, namespace and security enclave of all nodes."""
-        return [(entry.name, entry.namespace, "/") for entry in self._ros_graph.nodes]
+        return [(entry.name, entry.namespace, "/") for entry in self._ros_known_nodes()]
 
-    def _ros_entry_of(self, node_name: str, node_namespace: str) -> NodeEntry:
+    def _ros_known_nodes(self) -> list[NodeEntry]:
+        self._ros_check_alive(f"Failed to get node names: {NODE_S}")
+        return self._ros_graph.nodes
+
+    def _ros_entry_of(self, what: str, node_name: str, node_namespace: str) -> NodeEntry:
+        self._ros_check_alive(f"failed to get {what} names and types: {NODE_S}")
         for entry in self._ros_graph.nodes:
             if (entry.name, entry.namespace) == (node_name, node_namespace):
                 return entry
@@ -102,21 +116,21 @@ class NodeGraph:
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
         """The topics that a node publishes. Raises NodeNameNonExistentError."""
-        return _types_by_topic(self._ros_entry_of(node_name, node_namespace).writers)
+        return _types_by_topic(self._ros_entry_of("publisher", node_name, node_namespace).writers)
 
     def get_subscriber_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
         """The topics that a node subscribes to. Raises NodeNameNonExistentError."""
-        return _types_by_topic(self._ros_entry_of(node_name, node_namespace).readers)
+        return _types_by_topic(self._ros_entry_of("subscriber", node_name, node_namespace).readers)
 
     def get_service_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
         """The services that a node offers. Raises NodeNameNonExistentError."""
-        return _types_by_service(self._ros_entry_of(node_name, node_namespace).servers)
+        return _types_by_service(self._ros_entry_of("service", node_name, node_namespace).servers)
 
     def get_client_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
         """The services that a node is a client of. Raises NodeNameNonExistentError."""
-        return _types_by_service(self._ros_entry_of(node_name, node_namespace).clients)
+        return _types_by_service(self._ros_entry_of("client", node_name, node_namespace).clients)
 
     def get_action_names_and_types(self) -> NamesAndTypes:
         """All actions, with their types (newer releases)."""
@@ -147,31 +161,36 @@ class NodeGraph:
 
     def count_publishers(self, topic_name: str) -> int:
         """How many publishers a topic has. The name is not remapped, nor in the next three."""
+        self._ros_check_alive(f"Error in rcl_count_publishers: {NODE_S}")
         return len(self._ros_graph.topic(self._ros_expanded(topic_name)).writers)
 
     def count_subscribers(self, topic_name: str) -> int:
         """How many subscriptions a topic has."""
+        self._ros_check_alive(f"Error in rcl_count_subscribers: {NODE_S}")
         return len(self._ros_graph.topic(self._ros_expanded(topic_name)).readers)
 
     def count_services(self, service_name: str) -> int:
         """How many servers a service has."""
+        self._ros_check_alive(f"Error in rcl_count_services: {NODE_S}")
         return len(self._ros_graph.servers(self._ros_expanded(service_name, is_service=True)))
 
     def count_clients(self, service_name: str) -> int:
         """How many clients a service has."""
+        self._ros_check_alive(f"Error in rcl_count_clients: {NODE_S}")
         return len(self._ros_graph.clients(self._ros_expanded(service_name, is_service=True)))
 
     def get_publishers_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[TopicEndpointInfo]:
         """The publishers of a topic, one by one."""
         kind = TopicEndpointTypeEnum.PUBLISHER
-        return [_info(*end, kind) for end in self._ros_named(topic_name).writers]
+        return [_info(*end, kind) for end in self._ros_named(topic_name, "publishers").writers]
 
     def get_subscriptions_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[TopicEndpointInfo]:
         """The subscriptions of a topic, one by one."""
         kind = TopicEndpointTypeEnum.SUBSCRIPTION
-        return [_info(*end, kind) for end in self._ros_named(topic_name).readers]
+        return [_info(*end, kind) for end in self._ros_named(topic_name, "subscriptions").readers]
 
-    def _ros_named(self, topic_name: str) -> Topic:
+    def _ros_named(self, topic_name: str, what: str) -> Topic:
+        self._ros_check_alive(f"Failed to get information by topic for {what}: {NODE_S}")
         return self._ros_graph.topic(self._ros_remapped(self._ros_expanded(topic_name)))
 
 

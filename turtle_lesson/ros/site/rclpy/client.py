@@ -77,7 +77,7 @@ class Client(Entity):
 
     def service_is_ready(self) -> bool:
         """Whether somebody offers the service now."""
-        self._check_alive()
+        self._check_alive("failed to check service availability: rcl node's")
         return bool(self._servers())
 
     def _servers(self) -> list[Any]:
@@ -99,13 +99,19 @@ class Client(Entity):
 
     def call_async(self, request: Any) -> Future:
         """Send a request; the future will have the response. Raises TypeError for anything but a request."""
-        self._check_alive()
         self._check_request(request)
+        if self._destroyed:
+            return self._ask_nobody()
         future = Future(executor=self._executor)
         future._answered_by = self
         future._request_number = number = self._end.ask(self._servers(), request)
         self._waiting[number] = future
         return future
+
+    def _ask_nobody(self) -> Future:
+        """After rclpy.shutdown() a request goes nowhere, as on a robot."""
+        self._check_alive()
+        return Future(executor=self._executor)
 
     def _check_request(self, request: Any) -> None:
         if not isinstance(request, self.srv_type.Request):

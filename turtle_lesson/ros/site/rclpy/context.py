@@ -92,21 +92,23 @@ class Context:
     def get_domain_id(self) -> int:
         """The ROS domain, which is only a number here: all processes of a world see each other.
 
-        Raises RuntimeError before `init`.
+        Raises RuntimeError before `init`, RCLError after the shutdown.
         """
         if not self._initialized:
             raise RuntimeError("Context must be initialized before it can have a domain id")
+        if self.ended:
+            raise RCLError("Failed to get domain id: the context has been shut down")
         return self._domain_id
 
     def shutdown(self) -> None:
-        """End it. Raises RuntimeError if it is not initialized or ended already, RCLError if a signal has ended it."""
-        if self.ended_by_signal and self._end_is_told():
+        """End it. Raises RuntimeError if it is not initialized, RCLError if it has ended, perhaps by a signal."""
+        if self.ended:
+            self._end_is_told()
             error = RCLError("failed to shutdown: rcl_shutdown already called on the given context")
-            error.add_note(
-                "Ctrl-C has shut it down already, as on a robot. rclpy.try_shutdown() does it where it is still to be done."
-            )
+            who = "Ctrl-C has shut it down, as on a robot. " if self.ended_by_signal else ""
+            error.add_note(f"{who}try_shutdown() does it where it is still to be done.")
             raise error
-        if not self.ok():
+        if not self._initialized:
             raise RuntimeError("Context must be initialized before it can be shutdown")
         self.try_shutdown()
 
@@ -140,7 +142,7 @@ class Context:
                 callback()
         self._callbacks.clear()
         for node in list(self._nodes):
-            node._ros_leave()
+            node._ros_shut()
 
     def destroy(self) -> None:
         """Let go of it; in the real one this frees the C object. A context that is still up is shut down."""

@@ -172,6 +172,16 @@ def refuse_destroyed(simulation: Simulation) -> NoReturn:
     raise error
 
 
+def refuse_ended(doing: str) -> NoReturn:
+    """Raise what is deserved by somebody `doing` with the graph what is over since rclpy.shutdown()."""
+    error = RCLError(f"{doing} context is invalid")
+    error.add_note(
+        "rclpy.shutdown(), or Ctrl-C, has ended ROS in this program. Do this before that; or call rclpy.init() again, and "
+        "make the node and what belongs to it again."
+    )
+    raise error
+
+
 class ROSInterruptException(Exception):
     """A wait was cut short by the shutdown."""
 

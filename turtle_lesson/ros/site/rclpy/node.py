@@ -94,7 +94,8 @@ class Node(NodeEntities, NodeNews, NodeParameters):
         self._ros_publishers: list[Publisher] = []
         self._ros_waiting_entities: list[Entity] = []
         self._ros_events: QoSEvents | None = None
-        self._ros_destroyed = False
+        self._ros_destroyed = self._ros_shut_down = False
+        self._ros_outlived: list[Any] = []
         self._ros_rosout: Publisher | None = (
             None  # an interrupted __init__ leaves a node that is destroyed all the same
         )
@@ -153,14 +154,17 @@ class Node(NodeEntities, NodeNews, NodeParameters):
 
     def get_name(self) -> str:
         """The node's name."""
+        self._ros_check_alive()
         return self._ros_entry.name
 
     def get_namespace(self) -> str:
         """The node's namespace."""
+        self._ros_check_alive()
         return self._ros_entry.namespace
 
     def get_fully_qualified_name(self) -> str:
         """Namespace and name."""
+        self._ros_check_alive()
         return self._ros_entry.full_name
 
     # -- what it has -----------------------------------------------------------------------------------------------
@@ -251,7 +255,19 @@ class Node(NodeEntities, NodeNews, NodeParameters):
 
     def destroy_node(self) -> None:
         """Leave the graph, with everything that the node has made."""
+        for end in list(self._ros_outlived):
+            self._ros_let_go(end)
+        self._ros_shut_down = False
         self._ros_leave()
+
+    def _ros_shut(self) -> None:
+        """The context ends: leave the graph, but stay what it is, with what it has made."""
+        ends: list[Any] = [*self._ros_publishers, *self._ros_waiting_entities]
+        self._ros_leave()
+        self._ros_shut_down = True
+        self._ros_outlived = ends
+        for end in ends:
+            end._outlived = True
 
     def _ros_leave(self) -> None:
         """What `destroy_node` does, also where a subclass has a `destroy_node` of its own."""

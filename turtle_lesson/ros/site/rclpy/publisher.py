@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NoReturn
 
 from turtle_lesson.ros.graph import Writer
 
@@ -12,7 +12,7 @@ from ._mistakes import no_message
 from .callback_groups import CallbackGroup
 from .duration import Duration
 from .event_handler import EventHandler, PublisherEventCallbacks
-from .exceptions import refuse_destroyed
+from .exceptions import refuse_destroyed, refuse_ended
 from .qos import QoSProfile
 
 FOR_EVER = Duration(seconds=-1)
@@ -33,6 +33,8 @@ class Publisher:
         self._writer: Writer | None = publisher_impl
         self._write = publisher_impl.write
         self._simulation = publisher_impl.topic.simulation
+        self._topic_name = publisher_impl.topic.name
+        self._outlived = False
         self.msg_type = msg_type
         self.topic = topic
         self.qos_profile = qos_profile
@@ -52,7 +54,8 @@ class Publisher:
     @property
     def topic_name(self) -> str:
         """The topic's full name."""
-        return self._end().topic.name
+        self._check_alive()
+        return self._topic_name
 
     @property
     def handle(self) -> Handle:
@@ -64,13 +67,14 @@ class Publisher:
         """The name of the node's logger."""
         return self._logger_name
 
-    def _end(self) -> Writer:
+    def _end(self, doing: str = "") -> Writer:
         if self._writer is None:
-            refuse_destroyed(self._simulation)
+            self._refuse_to(doing)
         return self._writer
 
     def _check_alive(self) -> None:
-        self._end()
+        if not self._outlived:
+            self._end()
 
     def publish(self, msg: Any) -> None:
         """Send a message to all matched subscriptions. It is copied: changing `msg` later changes nothing sent.
@@ -90,11 +94,11 @@ class Publisher:
 
     def get_subscription_count(self) -> int:
         """How many subscriptions get what this publishes."""
-        return len(self._end().readers)
+        return len(self._end("failed to get subscription count: publisher's").readers)
 
     def assert_liveliness(self) -> None:
         """Say that this publisher is alive. One with MANUAL_BY_TOPIC says or publishes something within each lease."""
-        self._end().assert_liveliness()
+        self._end("failed to assert liveliness: publisher's").assert_liveliness()
 
     def wait_for_all_acked(self, timeout: Duration = FOR_EVER) -> bool:
         """Wait until all reliable subscriptions have what was published; False if the timeout is over before that.
@@ -103,7 +107,7 @@ class Publisher:
         """
         if not isinstance(timeout, Duration):
             raise TypeError(f"the timeout must be a Duration, got {timeout!r}: try Duration(seconds=1)")
-        writer = self._end()
+        writer = self._end("failed to wait for all acked: publisher's")
         if timeout.nanoseconds == 0 or writer.next_acknowledgement() is None:
             return writer.next_acknowledgement() is None
         return _wait_for_all_acked(writer, timeout.nanoseconds)
@@ -118,6 +122,11 @@ class Publisher:
             self._write = self._refuse
 
     def _refuse(self, message: Any) -> None:
+        self._refuse_to("Failed to publish: publisher's")
+
+    def _refuse_to(self, doing: str) -> NoReturn:
+        if self._outlived:
+            refuse_ended(doing)
         refuse_destroyed(self._simulation)
 
 

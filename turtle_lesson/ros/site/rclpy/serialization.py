@@ -4,6 +4,7 @@ from typing import Any
 
 from turtle_lesson.ros.interfaces import cdr
 
+from ._rclpy_pybind11 import RMWError
 from .type_support import check_for_type_support
 
 
@@ -14,6 +15,11 @@ def serialize_message(message: Any) -> bytes:
 
 
 def deserialize_message(serialized_message: bytes, message_type: type) -> Any:
-    """The message of CDR bytes; ValueError if they are none, AttributeError for a type that is no message's."""
+    """The message of CDR bytes. Raises RMWError if they are none, AttributeError for a type that is no message's."""
     check_for_type_support(message_type)
-    return cdr.deserialize(serialized_message, message_type)
+    if not isinstance(serialized_message, bytes):
+        raise TypeError(f"the bytes of a message are expected, got {serialized_message!r}")
+    try:
+        return cdr.deserialize(serialized_message, message_type)
+    except ValueError as error:
+        raise RMWError(f"failed to deserialize ROS message: {error}") from None

@@ -36,7 +36,7 @@ def check_action(role: str, node: Any, action_type: Any) -> None:
     """Raise TypeError, AttributeError or RuntimeError for what is no node or no action type."""
     if not hasattr(node, "_ros_waiting_entities"):
         raise no_node(node)
-    node._ros_check_alive()
+    node._ros_check_alive(f"Failed to create action {role}: rcl node's")
     try:
         check_for_type_support(action_type)
     except AttributeError as error:
