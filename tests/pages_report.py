@@ -15,8 +15,8 @@ import nbformat
 
 PAGES = sorted((Path(__file__).resolve().parents[1] / "notebooks").glob("[0-9]*.ipynb"))
 WANTED = ("40–70", "≤ 3", "≤ 15", "25–35", "any", "≤ 3", "≤ 7", "2", "3", "all")
-TITLES = ("page", "cells", "code median", "longest", "words mean", "words folded", "code in a row", "first picture", "predictions",
-          "exercises", "pictures with text")  # fmt: skip
+TITLES = ("page", "cells", "code median", "longest", "words mean", "words folded", "code in a row", "first picture",
+          "predictions", "exercises", "pictures with text")  # fmt: skip
 
 
 FOLDED = re.compile(r"<details>.*?</details>", re.DOTALL)

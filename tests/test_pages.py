@@ -8,6 +8,7 @@ from typing import Any
 import nbformat
 import pytest
 from nbclient import NotebookClient
+from pages_report import row
 
 PAGES = sorted((Path(__file__).resolve().parents[1] / "notebooks").glob("*.ipynb"))
 
@@ -47,3 +48,19 @@ def test_it_is_stored_as_it_was_run(page: Path) -> None:
     cells = [cell for cell in notebook.cells if cell.cell_type == "code"]
     assert [cell.execution_count for cell in cells] == list(range(1, len(cells) + 1))
     assert all(len(cell.source.splitlines()) <= 15 for cell in cells)
+
+
+@pytest.mark.parametrize("page", [page for page in PAGES if page.stem[0].isdigit()], ids=lambda page: page.stem)
+def test_its_figures_are_those_of_a_good_page(page: Path) -> None:
+    """What pages_report.py prints: few words and short cells, a picture early, guesses, exercises, pictures that speak."""
+    _, cells, median, longest, words, _, in_a_row, picture, predictions, exercises, spoken = row(page)
+    assert 40 <= int(cells) <= 70
+    assert float(median) <= 3
+    assert int(longest) <= 15
+    assert 25 <= int(words) <= 35
+    assert int(in_a_row) <= 3
+    assert 1 <= int(picture) <= 7
+    assert int(predictions) == 2
+    assert int(exercises) == (2 if page.stem.startswith("00") else 3)
+    with_text, _, pictures = spoken.partition(" of ")
+    assert with_text == pictures

@@ -91,7 +91,7 @@ def _matplotlib() -> Any:
         import matplotlib.lines
         import matplotlib.patches
         import matplotlib.ticker
-        import PIL.Image
+        import PIL.Image  # noqa: F401
     return matplotlib
 
 

@@ -88,9 +88,9 @@ class Publisher:
     def _from_bytes(self, msg: Any) -> Any:
         if not isinstance(msg, bytes):
             raise no_message(msg, self.msg_type)
-        from .serialization import deserialize_message
+        from turtle_lesson.ros.interfaces import cdr
 
-        return deserialize_message(msg, self.msg_type)
+        return cdr.deserialize(msg, self.msg_type)
 
     def get_subscription_count(self) -> int:
         """How many subscriptions get what this publishes."""
