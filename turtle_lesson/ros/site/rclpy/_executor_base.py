@@ -164,7 +164,7 @@ class ExecutorBase:
             entity._listed_in = None
         self._signalled.clear()
         if self._resumed or self._polled:
-            batch += reversed([*self._polled, *self._resumed])
+            batch += [*self._polled, *self._resumed]  # the newest first, as in Humble and Jazzy
             self._polled, self._resumed = [], []
         self._batch = batch
 

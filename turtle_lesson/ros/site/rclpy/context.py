@@ -105,8 +105,8 @@ class Context:
         if self.ended:
             self._end_is_told()
             error = RCLError("failed to shutdown: rcl_shutdown already called on the given context")
-            who = "Ctrl-C has shut it down, as on a robot. " if self.ended_by_signal else ""
-            error.add_note(f"{who}try_shutdown() does it where it is still to be done.")
+            who = "Ctrl-C has shut it down already, as on a robot. " if self.ended_by_signal else ""
+            error.add_note(f"{who}rclpy.try_shutdown() does it where it is still to be done.")
             raise error
         if not self._initialized:
             raise RuntimeError("Context must be initialized before it can be shutdown")
