@@ -25,6 +25,12 @@ class ClockChange(IntEnum):
     ROS_TIME_DEACTIVATED = 3
     SYSTEM_TIME_NO_CHANGE = 4
 
+    def __str__(self) -> str:
+        return f"ClockChange.{self.name}"
+
+    def __format__(self, format_spec: str) -> str:
+        return format(str(self), format_spec)
+
 
 class JumpThreshold:
     """Of which jumps one wants to know.

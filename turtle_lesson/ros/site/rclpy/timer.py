@@ -164,8 +164,8 @@ class Timer(Entity):
         self._last = now
         period = self._period
         due = self._next + period
-        if due < now:
-            due = due + period * (1 + (now - due - 1) // period) if period else now
+        if due <= now:
+            due = due + period * (1 + (now - due) // period) if period else now
         if period < SHORTEST:
             due = max(due, now + SHORTEST)
         self._next = due
