@@ -29,7 +29,7 @@ HERE = Path(__file__).parent
 LIST = HERE / "data" / "rclpy_api.txt"
 README = HERE.parent / "README.md"
 MARKERS = ("<!-- rclpy: begin -->\n", "<!-- rclpy: end -->\n")
-LINE = re.compile(r"(?P<mark>[=~-]) (?P<name>[\w.]+)(?P<signature>\(.*\))?(?: : (?P<why>.+))?")
+LINE = re.compile(r"(?P<mark>[=~-]) (?P<name>[\w.]+)(?P<signature>\([^()]*\))?(?: : (?P<why>.+))?")
 
 
 @dataclass(frozen=True)
@@ -99,12 +99,17 @@ def _look_up(entry: Entry) -> Any:
     except (ImportError, NotImplementedError):
         return _MISSING
     for part in entry.name.split("."):
-        attributes = getattr(thing, "__annotations__", {})  # those that only an instance has
         try:
-            thing = getattr(thing, part, attributes.get(part, _MISSING))
+            thing = getattr(thing, part, _only_of_instances(thing, part))
         except NotImplementedError:  # that is how a missing name explains itself
             return _MISSING
     return thing
+
+
+def _only_of_instances(thing: Any, name: str) -> Any:
+    """What stands for an attribute that only the instances of a class have."""
+    kinds = getattr(thing, "__mro__", ())
+    return any(name in vars(kind).get("__annotations__", {}) for kind in kinds) or _MISSING
 
 
 def signature_of(thing: Callable[..., Any]) -> str:
@@ -137,37 +142,38 @@ def _alike(theirs: str, ours: str) -> bool:
     """Whether two signatures say the same; what is written … there may be any default here."""
     wanted, found = theirs.split(", "), ours.split(", ")
     return len(wanted) == len(found) and all(
-        a == b or (a.rstrip(")").endswith("=…") and a.split("=")[0] == b.split("=")[0])
+        a == b or (a.rstrip(")").endswith("=…") and a.split("=")[0] == b.split("=")[0]) or (a[:2] == b[:2] == "**")
         for a, b in zip(wanted, found, strict=True)
     )
 
 
 def table(found: list[Entry]) -> str:
-    """The Markdown table: a row for each module."""
-    rows = ["| module | here | in part, or not here: why |", "|---|---|---|"]
-    for module in dict.fromkeys(entry.module for entry in found):
-        rows.append(_row(module, [entry for entry in found if entry.module == module]))
+    """The Markdown table: a row for each module that lacks something, and one for all others."""
+    by_module: dict[str, list[Entry]] = {}
+    for entry in found:
+        by_module.setdefault(entry.module, []).append(entry)
+    whole = [f"`{module}` {len(of)}" for module, of in by_module.items() if not any(entry.why for entry in of)]
+    rows = ["| module | names here | in part, or not at all |", "|---|---|---|"]
+    rows += [_row(module, of) for module, of in by_module.items() if any(entry.why for entry in of)]
+    rows.append(f"| {', '.join(whole)} | all | |")
     return "\n".join(rows) + "\n"
 
 
 def _row(module: str, found: list[Entry]) -> str:
     here = sum(entry.is_here for entry in found)
-    count = "all" if here == len(found) else "–" if not here else "most"
-    return f"| `{module}` | {here if count == 'most' else count} of {len(found)} | {_reasons(found)} |"
+    return f"| `{module}` | {here} of {len(found)} | {'; '.join(_reasons(found))} |"
 
 
-def _reasons(found: list[Entry]) -> str:
-    """For each reason the names that it is given for."""
-    by_reason: dict[str, list[Entry]] = {}
+def _reasons(found: list[Entry]) -> Iterator[str]:
+    """For each reason the names that it is given for, those of classes standing for their members."""
+    by_reason: dict[str, list[str]] = {}
     for entry in found:
-        if entry.why:
-            by_reason.setdefault(entry.why, []).append(entry)
-    return "; ".join(f"{_named(group)} {why}" for why, group in by_reason.items())
-
-
-def _named(group: list[Entry]) -> str:
-    names = ", ".join(f"`{entry.name}`" for entry in group)
-    return names + (":" if group[0].is_here else " (not here):")
+        names = by_reason.setdefault(entry.why, [])
+        if entry.why and entry.name.rpartition(".")[0] not in names:
+            names.append(entry.name)
+    for why, names in by_reason.items():
+        if why:
+            yield f"{', '.join(f'`{name}`' for name in names)}: {why}"
 
 
 def write(text: str, path: Path = README) -> None:

@@ -13,6 +13,7 @@ import rclpy
 from example_interfaces.srv import AddTwoInts
 from hypothesis import given
 from hypothesis import strategies as st
+from rcl_interfaces.msg import ParameterDescriptor
 from rclpy._arguments import ArgumentError, parse_arguments, pattern_matches
 from rclpy._params_file import read_parameter_file
 from rclpy._yaml_values import YamlValueError, scalar, tree, value_of
@@ -23,6 +24,7 @@ from rclpy.exceptions import (
     UnknownROSArgsError,
 )
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from rclpy.utilities import remove_ros_args
 from std_msgs.msg import String
 
@@ -403,6 +405,33 @@ def test_what_an_unquoted_word_means(text: str, value: object) -> None:
 
 def test_not_a_number_is_a_number() -> None:
     assert all(math.isnan(scalar(text)) for text in (".nan", ".NaN", "nan"))
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("!!str 1", "1"),
+        ("!!int '1'", "1"),
+        ("[]", None),
+        ("#", None),
+        (" ", None),
+        ("- 1\n- 2", [1, 2]),
+        ("&x 1", 1),
+        ("|\n a\n b", "a\nb"),
+        ("~", "~"),
+        ("[null, a]", ["null", "a"]),
+        ("a:b", "a:b"),
+        ("'it''s'", "it's"),
+    ],
+)
+def test_values_of_more_than_a_word(world: World, text: str, value: Any) -> None:
+    """Recorded, too. What is empty, even a list, is no value: a parameter declared with one has none then."""
+    rclpy.init(args=["prog", "--ros-args", "-p", f"a:={text}"])
+    node = Node("n")
+    anything = ParameterDescriptor(dynamic_typing=True)
+    assert node.declare_parameter("a", None, anything).value == value
+    if value is None:
+        assert Node("m").declare_parameter("a", [1]).type_ is Parameter.Type.NOT_SET
 
 
 @given(st.text(max_size=12) | st.from_regex(r"[-+.0-9a-fA-FxXeEpPiInN]{1,10}", fullmatch=True))

@@ -10,11 +10,13 @@ import builtin_interfaces.msg
 import pytest
 import rclpy
 from rclpy.clock import Clock, ClockType, ROSClock
+from rclpy.context import Context
 from rclpy.duration import Duration
-from rclpy.exceptions import InvalidHandle, NotInitializedException
+from rclpy.exceptions import InvalidHandle, NotInitializedException, RCLError
 from rclpy.node import Node
 from rclpy.time import Time
 from std_msgs.msg import String
+from std_srvs.srv import Trigger
 
 from turtle_lesson.ros.world import World
 
@@ -131,6 +133,53 @@ def test_a_destroyed_node_can_neither_make_nor_publish_anything(world: World) ->
     assert message_of(InvalidHandle, lambda: node.create_timer(0.1, lambda: None)) == DESTROYED
     assert issubclass(InvalidHandle, RuntimeError)
     node.destroy_node()  # once more does no harm
+
+
+def test_after_the_shutdown_what_is_left_can_be_looked_at_but_nothing_sent(world: World) -> None:
+    """As on a robot after Ctrl-C: what tidies up works, what needs the graph says that the context is invalid."""
+    rclpy.init()
+    node = rclpy.create_node("n")
+    node.declare_parameter("speed", 1.5)
+    publisher, timer = node.create_publisher(String, "topic", 10), node.create_timer(0.1, lambda: None)
+    client = node.create_client(Trigger, "ask")
+    rclpy.shutdown()
+    timer.cancel()
+    timer.reset()
+    assert (node.get_name(), publisher.topic_name, client.service_name) == ("n", "/topic", "/ask")
+    assert node.get_parameter("speed").value == 1.5
+    assert not client.call_async(Trigger.Request()).done()
+    for call, doing in (
+        (lambda: publisher.publish(String()), "Failed to publish: publisher's"),
+        (publisher.get_subscription_count, "failed to get subscription count: publisher's"),
+        (client.service_is_ready, "failed to check service availability: rcl node's"),
+        (lambda: node.create_publisher(String, "x", 1), "Failed to create publisher: rcl node's"),
+        (lambda: node.create_subscription(String, "x", print, 1), "Failed to create subscription: rcl node's"),
+        (lambda: node.create_client(Trigger, "x"), "failed to create client: rcl node's"),
+        (lambda: node.create_service(Trigger, "x", print), "failed to create service: rcl node's"),
+        (node.get_node_names, "Failed to get node names: rcl node's"),
+        (lambda: node.count_publishers("x"), "Error in rcl_count_publishers: rcl node's"),
+    ):
+        assert message_of(RCLError, call) == f"{doing} context is invalid"
+    text = message_of(RCLError, lambda: node.create_timer(1.0, lambda: None))
+    assert text.startswith("failed to create timer: the given context is not valid, either rcl_init() was not called")
+    assert node.destroy_publisher(publisher) and node.destroy_timer(timer)
+    assert not node.destroy_publisher(publisher)
+    for gone in (lambda: publisher.publish(String()), timer.cancel):
+        assert message_of(InvalidHandle, gone) == DESTROYED
+    node.destroy_node()
+    assert message_of(InvalidHandle, client.service_is_ready) == DESTROYED
+    assert message_of(InvalidHandle, node.get_name) == DESTROYED
+
+
+def test_a_context_ends_once(world: World) -> None:
+    context = Context()
+    assert message_of(RuntimeError, context.shutdown) == "Context must be initialized before it can be shutdown"
+    context.init()
+    context.shutdown()
+    text = message_of(RCLError, context.shutdown)
+    assert text == "failed to shutdown: rcl_shutdown already called on the given context"
+    context.try_shutdown()
+    assert message_of(RCLError, context.get_domain_id).startswith("Failed to get domain id")
 
 
 def test_a_node_can_be_a_context_manager(world: World) -> None:

@@ -6,8 +6,10 @@ the same type of exception with a sentence that helps, and the test says so.
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -21,10 +23,16 @@ from rclpy.exceptions import (
     InvalidNodeNameException,
     InvalidServiceNameException,
     InvalidTopicNameException,
+    NameValidationException,
     RCLError,
     UnknownROSArgsError,
 )
+from rclpy.expand_topic_name import expand_topic_name
 from rclpy.node import Node
+from rclpy.validate_full_topic_name import validate_full_topic_name
+from rclpy.validate_namespace import validate_namespace
+from rclpy.validate_node_name import validate_node_name
+from rclpy.validate_topic_name import validate_topic_name
 from std_msgs.msg import Int32, String
 
 from turtle_lesson.ros.graph.names import expand, full_topic_name_flaw, node_name_flaw, topic_name_flaw
@@ -217,6 +225,17 @@ def test_the_full_name_is_checked_too(node: Node) -> None:
     assert "topic length should not exceed '247'" in text
 
 
+def test_resolving_a_bad_name_says_why_in_one_line_and_counting_too(node: Node) -> None:
+    text = message_of(RCLError, lambda: node.resolve_topic_name("a b"))
+    assert text == f"failed to resolve name: {TOPIC_LETTERS}"
+    text = message_of(RCLError, lambda: node.resolve_service_name("{ns}/a"))
+    assert text == "failed to resolve name: topic name must not contain repeated '/'"
+    text = message_of(ValueError, lambda: node.count_publishers("a b"))
+    assert text == f"topic name 'a b' is invalid: {TOPIC_LETTERS}"
+    text = message_of(ValueError, lambda: node.get_publishers_info_by_topic("~a~"))
+    assert text == "topic name '~a~' is invalid: topic name must not have tilde '~' unless it is the first character"
+
+
 def test_an_unknown_substitution_is_named_and_the_known_ones_too(node: Node) -> None:
     text = message_of(ValueError, lambda: node.create_publisher(String, "{foo}/x", 10))
     assert text.startswith("topic name '{foo}/x' is invalid: unknown substitution: {foo}")
@@ -393,6 +412,33 @@ def test_a_second_node_of_the_same_name_is_possible_and_warned_of(node: Node, ca
         "existing publisher. As soon as any node with that name is destructed it will unregister the publisher, "
         "preventing any further logs for that name from being published on the rosout topic.\n"
     )
+
+
+# ---------------------------------------------------------------- against a recording
+
+
+def test_every_recorded_name_is_taken_or_refused_as_recorded(world: World) -> None:
+    """data/rcl_names.jsonl: reasons; then names, and what a real rclpy (Jazzy) says of them as node, namespace, topic,
+    full topic name and expanded (node /x/n): True or the name, or the number of a reason and the place of the caret."""
+    lines = (Path(__file__).parent / "data" / "rcl_names.jsonl").read_text(encoding="utf-8").splitlines()
+    reasons, *rows = (json.loads(line) for line in lines)
+    checks = (validate_node_name, validate_namespace, validate_topic_name, validate_full_topic_name)
+    for name, *expected in rows:
+        found: list[Any] = [_said(check, name, reasons) for check in checks]
+        try:
+            found.append(expand_topic_name(name, "n", "/x"))
+        except ValueError as error:
+            reason = str(error).removeprefix(f"topic name '{name}' is invalid: ").partition(" (known are")[0]
+            found.append(reasons.index(reason))
+        assert found == expected, name
+
+
+def _said(check: Callable[[str], bool], name: str, reasons: list[str]) -> Any:
+    try:
+        return check(name)
+    except NameValidationException as error:
+        first, _, caret = str(error).splitlines()
+        return [reasons.index(first.partition(": ")[2][:-1]), len(caret) - 4]
 
 
 # ---------------------------------------------------------------- any text at all

@@ -94,6 +94,50 @@ def test_a_clock_that_jumps_far_ahead_makes_a_timer_tick_once_and_keeps_its_phas
     assert found == [14.5, 15.0]
 
 
+CLOCKED = (5.5, 6.0, 6.5, 7.0, 10.0, 10.5, 11.0, 11.0, 12.25, 12.5, 20.0, 20.0, 20.2)
+CLOCKED += (4.0, 4.5, 5.0, 5.2, 6.0, 4.9, 5.9, 6.0, 6.0, 6.3, 50.0)
+"""What /clock says, 0.1 s apart, after it has said 5.0."""
+
+
+@pytest.mark.parametrize(
+    ("period", "ticks", "left"),
+    [
+        (
+            1.0,
+            [6.0, 7.0, 10.0, 11.0, 12.25, 20.0, 5.0, 6.0, 5.9, 50.0],
+            [5, 10, 5, 10, 10, 5, 10, 10, 7.5, 5, 10, 10, 8, 10, 5, 10, 8, 10, 10, 10, 9, 9, 6, 9],
+        ),
+        (
+            0.3,
+            [5.5, 6.0, 6.5, 7.0, 10.0, 10.5, 11.0, 12.25, 12.5, 20.0, 4.5, 5.0, 5.2, 6.0, 5.9, 6.3, 50.0],
+            [1, 2, 3, 1, 1, 2, 3, 3, 2.5, 3, 3, 3, 1, 3, 1, 2, 3, 1, 3, 2, 1, 1, 1, 2],
+        ),
+    ],
+)
+def test_a_timer_on_the_clock_topic_ticks_when_that_of_a_real_one_did(
+    run: Run, period: float, ticks: list[float], left: list[float]
+) -> None:
+    """Recorded (Jazzy): when the callback was called, and what was left of the period (0.1 s) after each word of /clock."""
+    found_ticks: list[float] = []
+
+    def program(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        node = follower()
+        rclpy.spin_once(node, timeout_sec=0.15)
+        timer = node.create_timer(period, lambda: found_ticks.append(seconds_of(node.get_clock())))
+
+        def look() -> None:
+            found.append(round(timer.time_until_next_call() / 1e8, 4))
+
+        node.create_timer(0.1, look, clock=Clock())
+        rclpy.spin(node)
+
+    moments = [(0.05, 5.0), *((0.1 + 0.1 * index, seconds) for index, seconds in enumerate(CLOCKED))]
+    found = run(program, clock_at(*moments), seconds=2.7)
+    assert found_ticks == ticks
+    assert found[: len(CLOCKED)] == left
+
+
 def test_after_a_jump_back_a_timer_waits_one_period(run: Run) -> None:
     def program(found: list[Any]) -> None:
         rclpy.init(args=[])

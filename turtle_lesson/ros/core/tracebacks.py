@@ -10,6 +10,7 @@ import os
 import re
 import site
 import sys
+import tempfile
 import traceback
 from collections.abc import Callable
 from pathlib import Path
@@ -83,7 +84,8 @@ def shown_path(filename: str) -> str:
         return filename
     here, file = Path.cwd(), Path(filename)
     for steps, folder in enumerate((here, *here.parents[:FAR])):
-        if file.is_relative_to(folder) and len(folder.parts) > 1:
+        everybodys = len(folder.parts) == 1 or (steps and folder == Path(tempfile.gettempdir()))
+        if file.is_relative_to(folder) and not everybodys:
             return "../" * steps + file.relative_to(folder).as_posix()
     return filename
 

@@ -25,6 +25,7 @@ WAITABLE, TIMER, SUBSCRIPTION, GUARD, CLIENT, SERVICE = range(-1, 5)
 class Entity:
     """Base class. `_kind` decides the order in a cycle; `_number` is the order of creation."""
 
+    callback: Any
     _kind = GUARD
     _traced: Callback | None = None
     """Where its runs are noted, if the world keeps a trace of them."""
@@ -32,7 +33,7 @@ class Entity:
     """Whether rclpy.shutdown() has taken it out of the graph, and nobody has destroyed it since."""
 
     def __init__(self, callback: Callable[..., Any] | None, callback_group: CallbackGroup | None) -> None:
-        self.callback: Any = callback
+        self.callback = callback
         self.callback_group: Any = callback_group
         self._begin = begin_of(callback_group)
         """Asks the group whether the callback may run, and takes it."""

@@ -120,8 +120,8 @@ class ParameterAlreadyDeclaredException(ParameterException):
 class InvalidParameterException(ParameterException):
     """A parameter's name is not allowed."""
 
-    def __init__(self, parameter: Any, *args: object) -> None:
-        super().__init__("Invalid parameter name", parameter, *args)
+    def __init__(self, parameter_name: Any, *args: object) -> None:
+        super().__init__("Invalid parameter name", parameter_name, *args)
 
 
 class InvalidParameterValueException(ParameterException):
@@ -147,8 +147,8 @@ class InvalidParameterTypeException(ParameterException):
 class ParameterImmutableException(ParameterException):
     """A read-only parameter is to be changed."""
 
-    def __init__(self, parameter: Any, *args: object) -> None:
-        super().__init__("Attempted to modify read-only parameter", parameter, *args)
+    def __init__(self, parameter_name: Any, *args: object) -> None:
+        super().__init__("Attempted to modify read-only parameter", parameter_name, *args)
 
 
 class ParameterUninitializedException(ParameterException):

@@ -68,7 +68,8 @@ def get_logging_severity_from_string(log_severity: str) -> LoggingSeverity:
         return LoggingSeverity[log_severity.upper()]
     except KeyError:
         known = ", ".join(severity.name for severity in LoggingSeverity)
-        raise RuntimeError(f"'{log_severity}' is no log level; levels are {known}") from None
+        text = f"Failed to get severity name: '{log_severity}' is no log level; levels are {known}"
+        raise RuntimeError(text) from None
 
 
 def get_logging_directory() -> Path:

@@ -1,6 +1,7 @@
 """Humble's name for what is `rclpy.event_handler` since Iron. Both work, here as on a robot of those in between."""
 
 from .event_handler import (
+    IncompatibleTypeInfo,
     PublisherEventCallbacks,
     QoSEventHandler,
     QoSLivelinessChangedInfo,
@@ -9,14 +10,17 @@ from .event_handler import (
     QoSOfferedDeadlineMissedInfo,
     QoSOfferedIncompatibleQoSInfo,
     QoSPublisherEventType,
+    QoSPublisherMatchedInfo,
     QoSRequestedDeadlineMissedInfo,
     QoSRequestedIncompatibleQoSInfo,
     QoSSubscriptionEventType,
+    QoSSubscriptionMatchedInfo,
     SubscriptionEventCallbacks,
     UnsupportedEventTypeError,
 )
 
 __all__ = [
+    "IncompatibleTypeInfo",
     "PublisherEventCallbacks",
     "QoSEventHandler",
     "QoSLivelinessChangedInfo",
@@ -25,9 +29,11 @@ __all__ = [
     "QoSOfferedDeadlineMissedInfo",
     "QoSOfferedIncompatibleQoSInfo",
     "QoSPublisherEventType",
+    "QoSPublisherMatchedInfo",
     "QoSRequestedDeadlineMissedInfo",
     "QoSRequestedIncompatibleQoSInfo",
     "QoSSubscriptionEventType",
+    "QoSSubscriptionMatchedInfo",
     "SubscriptionEventCallbacks",
     "UnsupportedEventTypeError",
 ]

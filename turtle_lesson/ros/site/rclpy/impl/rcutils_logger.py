@@ -51,8 +51,10 @@ class RcutilsLogger:
         """Whether a line of this severity would be printed."""
         return as_severity(severity) >= self.get_effective_level()
 
-    def log(self, message: str, severity: int, **kwargs: Any) -> bool:
-        """Log a line; False if it was held back."""
+    def log(self, message: str, severity: int, name: str | None = None, **kwargs: Any) -> bool:
+        """Log a line, under another name if one is given; False if it was held back."""
+        if name is not None:
+            kwargs["name"] = name
         return self._log(message, as_severity(severity), kwargs, sys._getframe(1))
 
     def debug(self, message: str, **kwargs: Any) -> bool:
