@@ -8,6 +8,7 @@ import sys
 import warnings
 import weakref
 from collections.abc import Callable, Generator
+from enum import Enum
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from turtle_lesson.ros.core import NeverWakes, running_strand
@@ -28,6 +29,14 @@ def at_once(callback: Function) -> Function:
     return callback
 
 
+class FutureState(Enum):
+    """What has become of a future (newer releases)."""
+
+    PENDING = "PENDING"
+    CANCELLED = "CANCELLED"
+    FINISHED = "FINISHED"
+
+
 class Future:
     """Something that will be known later. States: waiting, then done with a result or an exception, or cancelled."""
 
@@ -45,6 +54,13 @@ class Future:
     def __repr__(self) -> str:
         state = "cancelled" if self._cancelled else "done" if self._done else "waiting"
         return f"<rclpy.task.{type(self).__name__} {state}>"
+
+    @property
+    def _state(self) -> FutureState:
+        """As newer releases keep it: some programs look."""
+        if self._cancelled:
+            return FutureState.CANCELLED
+        return FutureState.FINISHED if self._done else FutureState.PENDING
 
     def __await__(self) -> Generator[Future, None, Any]:
         refuse_in_a_cell()
