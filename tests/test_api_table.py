@@ -52,9 +52,8 @@ def test_a_line_without_a_reason_means_nothing(tmp_path: Path) -> None:
 
 
 def test_members_may_share_a_line_and_a_reason(tmp_path: Path) -> None:
-    (tmp_path / "list.txt").write_text(
-        "# words\n[a]\n= A.(b, c)  # since Kilted\n- D(x) : is in C (not Python)\n- D.(e, f) : too\n"
-    )
+    lines = ["# words", "[a]", "= A.(b, c)  # since Kilted", "- D(x) : is in C (not Python)", "- D.(e, f) : too"]
+    (tmp_path / "list.txt").write_text("\n".join(lines))
     found = list(entries(tmp_path / "list.txt"))
     assert [(entry.name, entry.signature, entry.why) for entry in found] == [
         ("A.b", "", ""),
