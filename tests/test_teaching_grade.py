@@ -22,7 +22,7 @@ def test_a_class_of_twenty_is_graded(tmp_path: Path, capsys: pytest.CaptureFixtu
     assert len(expected) == 20
     began = time.monotonic()
     code = main(["grade", str(tmp_path), "--json", "--junit", str(tmp_path / "junit.xml"), "--timeout", "12"])
-    assert time.monotonic() - began < 120
+    assert time.monotonic() - began < 20 * 15, "each copy has its limit, and nobody waits for ever"
     assert code == 1  # some could not be run to their end
     graded = {Path(each["path"]).stem: each for each in json.loads(capsys.readouterr().out)["copies"]}
     assert {name: each["earned"] for name, each in graded.items()} == {

@@ -32,7 +32,9 @@ def grep(terminal: Terminal, words: list[str]) -> int:
     """`… | grep [-i] [-v] [-c] pattern`: the lines with a pattern in them."""
     letters, rest = options(words)
     if unknown := sorted(set(letters) - set("civqE")):
-        return terminal.fail(f"grep: this terminal's knows -i, -v, -c, -q and -E, but no -{unknown[0]}: leave it out", 2)
+        return terminal.fail(
+            f"grep: this terminal's knows -i, -v, -c, -q and -E, but no -{unknown[0]}: leave it out", 2
+        )
     if not rest:
         return terminal.fail("grep: name the pattern to look for", 2)
     pattern = re.compile(rest[0] if "E" in letters else re.escape(rest[0]), re.IGNORECASE if "i" in letters else 0)

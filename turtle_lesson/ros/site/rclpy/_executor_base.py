@@ -164,7 +164,9 @@ class ExecutorBase:
             entity._listed_in = None
         self._signalled.clear()
         if self._resumed or self._polled:
-            batch += reversed([*self._polled, *self._resumed])  # in order, as since Kilted; before, the newest came first
+            batch += reversed(
+                [*self._polled, *self._resumed]
+            )  # in order, as since Kilted; before, the newest came first
             self._polled, self._resumed = [], []
         self._batch = batch
 
