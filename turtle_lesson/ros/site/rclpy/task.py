@@ -40,6 +40,11 @@ class FutureState(Enum):
 class Future:
     """Something that will be known later. States: waiting, then done with a result or an exception, or cancelled."""
 
+    _answered_by: Any = None
+    """The client whose response this waits for, if any."""
+    _request_number = 0
+    _never_retrieved: weakref.finalize | None = None
+
     def __init__(self, *, executor: Executor | None = None) -> None:
         self._done = False
         self._cancelled = False
@@ -47,9 +52,6 @@ class Future:
         self._exception: BaseException | None = None
         self._callbacks: list[Callable[[Future], Any]] = []
         self._executor = executor
-        self._answered_by: Any = None  # the client whose response this waits for, if any
-        self._request_number = 0
-        self._never_retrieved: weakref.finalize | None = None
 
     def __repr__(self) -> str:
         state = "cancelled" if self._cancelled else "done" if self._done else "waiting"
