@@ -27,7 +27,7 @@ class Alarm:
         self.strand = strand
         self.rung = False
         self._context = context
-        context.on_shutdown(self.ring)
+        context.wake_at_the_end(self.ring)
 
     def ring(self) -> None:
         """End the waiting."""
@@ -49,7 +49,7 @@ class Alarm:
                 simulation.park(strand)
         finally:
             strand.waits_for = None
-            self._context.forget_callback(self.ring)
+            self._context.let_sleep(self.ring)
         return self.rung
 
 

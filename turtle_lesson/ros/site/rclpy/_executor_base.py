@@ -56,7 +56,7 @@ class ExecutorBase:
         self._spins_to_the_end: list[Strand] = []  # who is in `spin`, and does nothing else before the shutdown
         self._calls: list[Future] = []  # for what strands wait, without a timeout, in Client.call
         self._is_shutdown = False
-        self._context.on_shutdown(self.wake)
+        self._context.wake_at_the_end(self.wake)
 
     @property
     def context(self) -> Context:

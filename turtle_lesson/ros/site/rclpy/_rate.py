@@ -34,7 +34,7 @@ class Rate:
         self._ticked = False
         self._sleepers: list[Alarm] = []
         timer.callback = self.tick
-        context.on_shutdown(self._on_shutdown)
+        context.wake_at_the_end(self._on_shutdown)
 
     def tick(self) -> None:
         """The timer ticks."""

@@ -32,6 +32,7 @@ class Context:
         """Whether it was shut down."""
         self.ended_by_signal = False
         self._callbacks: list[Callable[[], Callable[[], Any] | None]] = []
+        self._waiting: list[Callable[[], Callable[[], Any] | None]] = []
         self._nodes: list[Node] = []
         self.arguments = Arguments()
         self._domain_id = 0
@@ -127,22 +128,24 @@ class Context:
         return was_default
 
     def shut_down_by_signal(self) -> None:
-        """A signal ends it, at once; what hears of it does so a moment later, in a strand of its own."""
+        """A signal ends it, at once. What was given to `on_shutdown` is not called, as on a robot."""
         self.ended = self.ended_by_signal = True
-        self._process.simulation.put_back(self._process.add_strand(self._leave))
+        self._callbacks.clear()
+        self._leave()
 
     def _leave(self) -> None:
-        """Tell who wants to know of the end, and take the nodes out of the graph, for they could do nothing any more."""
+        """Take the nodes out of the graph, for they could do nothing any more, and tell who wants to know of the end."""
         contexts = contexts_of(self._process)
         if self in contexts:
             contexts.remove(self)
-        for reference in list(self._callbacks):
-            callback = reference()
-            if callback is not None:
-                callback()
-        self._callbacks.clear()
         for node in list(self._nodes):
             node._ros_shut()
+        for callbacks in (self._waiting, self._callbacks):
+            for reference in list(callbacks):
+                callback = reference()
+                if callback is not None:
+                    callback()
+            callbacks.clear()
 
     def destroy(self) -> None:
         """Let go of it; in the real one this frees the C object. A context that is still up is shut down."""
@@ -166,11 +169,18 @@ class Context:
         else:
             self._callbacks.append(_reference(callback))
 
-    def forget_callback(self, callback: Callable[[], Any]) -> None:
-        """No longer call what was given to `on_shutdown`."""
-        for place in reversed(range(len(self._callbacks))):
-            if self._callbacks[place]() == callback:
-                del self._callbacks[place]
+    def wake_at_the_end(self, callback: Callable[[], Any]) -> None:
+        """As `on_shutdown`, for rclpy's own: it is called when a signal ends the context, too."""
+        if self.ended:
+            callback()
+        else:
+            self._waiting.append(_reference(callback))
+
+    def let_sleep(self, callback: Callable[[], Any]) -> None:
+        """No longer call what was given to `wake_at_the_end`."""
+        for place in reversed(range(len(self._waiting))):
+            if self._waiting[place]() == callback:
+                del self._waiting[place]
                 return
 
     def track_node(self, node: Any) -> None:
@@ -184,8 +194,7 @@ class Context:
 
     def _end(self) -> None:
         """The process ends: what it leaves behind disappears."""
-        if not self.ended_by_signal:
-            self._callbacks.clear()
+        self._callbacks.clear()
         self.ended = True
         self._leave()
 

@@ -26,7 +26,7 @@ from .context import Context
 from .event_handler import EventHandler
 from .exceptions import NodeNameNonExistentError, NotInitializedException, RCLError, RCLInvalidROSArgsError
 from .guard_condition import GuardCondition
-from .impl.rcutils_logger import RcutilsLogger, publish_rosout
+from .impl.rcutils_logger import RcutilsLogger, publish_rosout_no_more
 from .logging_service import LoggingService
 from .parameter import PARAMETER_SEPARATOR_STRING as PARAMETER_SEPARATOR_STRING
 from .parameter import Parameter
@@ -280,7 +280,7 @@ class Node(NodeEntities, NodeNews, NodeParameters):
         for entity in list(self._ros_waiting_entities):
             self._ros_destroy(entity)
         if self._ros_rosout is not None:
-            publish_rosout(self._ros_logger.name, None)
+            publish_rosout_no_more(self._ros_logger.name, self._ros_entry.process)
         self._ros_destroyed = True
         self._ros_context.untrack_node(self)
         self._ros_graph.remove_node(self._ros_entry)

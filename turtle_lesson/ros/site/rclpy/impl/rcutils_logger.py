@@ -146,13 +146,16 @@ def forget_levels() -> None:
     _levels().clear()
 
 
-def publish_rosout(name: str, publish: Callable[[str, LoggingSeverity, FrameType], None] | None) -> None:
-    """Have what the logger of this name prints published too, or (None) no longer.
+def publish_rosout(name: str, publish: Callable[[str, LoggingSeverity, FrameType], None]) -> None:
+    """Have what the logger of this name prints published too.
 
     A process has one such publisher for a name. A second node of the name warns, and makes do with the first one's.
     """
     publishers = current_process().locals.setdefault("rclpy.rosout", {})
-    if publish is None:
-        publishers.pop(name, None)
-    elif publishers.setdefault(name, publish) is not publish:
+    if publishers.setdefault(name, publish) is not publish:
         RcutilsLogger("rcl.logging_rosout").warning(TWO_OF_A_NAME)
+
+
+def publish_rosout_no_more(name: str, process: Process) -> None:
+    """What the logger of this name prints in a process is published no longer."""
+    process.locals.get("rclpy.rosout", {}).pop(name, None)
