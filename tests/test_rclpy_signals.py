@@ -34,17 +34,23 @@ def test_ctrl_c_shuts_the_context_down_before_the_program_hears_of_it(world: Wor
     def program(found: list[Any]) -> None:
         rclpy.init(args=[])
         node = rclpy.create_node("n")
-        node.context.on_shutdown(lambda: found.append("shutdown"))
+        publisher, timer = node.create_publisher(String, "t", 1), node.create_timer(0.1, lambda: None)
+        node.context.on_shutdown(lambda: found.append("never called after a signal, as on a robot"))
         try:
             rclpy.spin(node)
         except KeyboardInterrupt:
             found.append(rclpy.ok())
+            with pytest.raises(RCLError) as caught:
+                publisher.publish(String(data="stop!"))
+            found.append(str(caught.value))
         finally:
+            timer.cancel()
+            node.get_logger().info("bye")
             node.destroy_node()
             rclpy.try_shutdown()
 
     found, process = told(world, program)
-    assert sorted(map(str, found)) == ["False", "shutdown"]
+    assert found == [False, "Failed to publish: publisher's context is invalid"]
     assert process.exit_code == 0
     assert world.graph.nodes == []
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable
 from types import CodeType, FrameType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from turtle_lesson.ros.core import EPOCH
 from turtle_lesson.ros.world import current_process, current_world
@@ -17,6 +17,9 @@ from turtle_lesson.ros.world import current_process, current_world
 from ._console import Line, print_line
 from ._log_filters import CallSite, filters_of
 from .logging_severity import LoggingSeverity
+
+if TYPE_CHECKING:
+    from turtle_lesson.ros.core import Process
 
 EVERYWHERE: dict[str, Any] = {}
 TWO_OF_A_NAME = (
