@@ -10,8 +10,10 @@ from typing import Any
 import pytest
 import rclpy
 from rclpy.context import Context
+from rclpy.exceptions import RCLError
 from rclpy.executors import ExternalShutdownException
 from rclpy.signals import SignalHandlerOptions, get_current_signal_handlers_options
+from std_msgs.msg import String
 
 from turtle_lesson.ros.core import Process
 from turtle_lesson.ros.world import World
