@@ -239,10 +239,11 @@ def record(
     However this ends, the bag is completed.
     """
     import rclpy
+    from rclpy.signals import SignalHandlerOptions
 
     recorder = None
     try:
-        rclpy.init(args=[])
+        rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)  # what is under way is recorded, too
         visible = not node_name.startswith("_")
         node = rclpy.create_node(node_name, start_parameter_services=visible, enable_rosout=False)
         names = tuple(node.resolve_topic_name(name) for name in selection.topics)

@@ -9,7 +9,7 @@ from turtle_lesson.ros.core import EPOCH, NANOSECONDS
 from turtle_lesson.ros.core.tracebacks import shown_path
 
 from .impl.logging_severity import LoggingSeverity
-from .impl.rcutils_logger import RcutilsLogger, publish_rosout
+from .impl.rcutils_logger import RcutilsLogger, is_on_rosout, publish_rosout
 from .qos import QoSProfile, qos_profile_parameter_events
 
 if TYPE_CHECKING:
@@ -34,9 +34,12 @@ class NodeNews:
 
         def create_publisher(self, msg_type: Any, topic: str, qos_profile: QoSProfile | int) -> Publisher: ...
 
-    def _ros_publish_rosout(self, profile: QoSProfile | int) -> Publisher:
+    def _ros_publish_rosout(self, profile: QoSProfile | int) -> None:
         """Publish on /rosout what the logger prints."""
         from rcl_interfaces.msg import Log
+
+        if is_on_rosout(self._ros_logger.name):
+            return
 
         publisher = self.create_publisher(Log, "/rosout", profile)
         trace = self._ros_graph.trace
@@ -51,7 +54,6 @@ class NodeNews:
                 trace.log.append((self._ros_simulation.now, int(severity), log.name, message))
 
         publish_rosout(self._ros_logger.name, publish)
-        return publisher
 
     def _ros_publish_parameter_events(self) -> Publisher:
         """Publish on /parameter_events what becomes of the parameters."""

@@ -96,9 +96,7 @@ class Node(NodeEntities, NodeNews, NodeParameters):
         self._ros_events: QoSEvents | None = None
         self._ros_destroyed = self._ros_shut_down = False
         self._ros_outlived: list[Any] = []
-        self._ros_rosout: Publisher | None = (
-            None  # an interrupted __init__ leaves a node that is destroyed all the same
-        )
+        self._ros_logs_on_rosout = False  # an interrupted __init__ leaves a node that is destroyed all the same
         self._ros_default_callback_group = MutuallyExclusiveCallbackGroup()
         self._ros_rate_group: CallbackGroup | None = None
         self._ros_clock = ROSClock()
@@ -108,7 +106,9 @@ class Node(NodeEntities, NodeNews, NodeParameters):
         given = [parameter for each in (common, own) for parameter in each.parameters_of(self._ros_entry.full_name)]
         overrides = [*given, *(parameter_overrides or [])]
         self._ros_setup_parameters(overrides, allow_undeclared_parameters)
-        self._ros_rosout = self._ros_publish_rosout(rosout_qos_profile) if enable_rosout else None
+        self._ros_logs_on_rosout = enable_rosout
+        if enable_rosout:
+            self._ros_publish_rosout(rosout_qos_profile)
         self._ros_event_publisher = self._ros_publish_parameter_events()
         if automatically_declare_parameters_from_overrides:
             self._ros_declare_overrides()
@@ -279,7 +279,7 @@ class Node(NodeEntities, NodeNews, NodeParameters):
             self.destroy_publisher(publisher)
         for entity in list(self._ros_waiting_entities):
             self._ros_destroy(entity)
-        if self._ros_rosout is not None:
+        if self._ros_logs_on_rosout:
             publish_rosout_no_more(self._ros_logger.name, self._ros_entry.process)
         self._ros_destroyed = True
         self._ros_context.untrack_node(self)

@@ -150,13 +150,16 @@ def forget_levels() -> None:
 
 
 def publish_rosout(name: str, publish: Callable[[str, LoggingSeverity, FrameType], None]) -> None:
-    """Have what the logger of this name prints published too.
+    """Have what the logger of this name prints published too."""
+    current_process().locals.setdefault("rclpy.rosout", {})[name] = publish
 
-    A process has one such publisher for a name. A second node of the name warns, and makes do with the first one's.
-    """
-    publishers = current_process().locals.setdefault("rclpy.rosout", {})
-    if publishers.setdefault(name, publish) is not publish:
-        RcutilsLogger("rcl.logging_rosout").warning(TWO_OF_A_NAME)
+
+def is_on_rosout(name: str) -> bool:
+    """Whether another node publishes what the logger of this name prints, of which is warned: it has to do for both."""
+    if name not in current_process().locals.get("rclpy.rosout", {}):
+        return False
+    RcutilsLogger("rcl.logging_rosout").warning(TWO_OF_A_NAME)
+    return True
 
 
 def publish_rosout_no_more(name: str, process: Process) -> None:
