@@ -23,20 +23,22 @@ BUTTON = """
 def _button():
     import signal
     shell = get_ipython()
+    real = {name: getattr(signal, name, None) for name in ("raise_signal", "setitimer")}  # a program's own are its world's
     def before(info):
-        signal.setitimer(signal.ITIMER_REAL, shell.meta.pop("stop_after", 0.0))
+        real["setitimer"](signal.ITIMER_REAL, shell.meta.pop("stop_after", 0.0))
     def after(*_):
-        signal.setitimer(signal.ITIMER_REAL, 0.0)
-    press = signal.raise_signal  # the real one: a world makes it send signals to the program that runs
+        real["setitimer"](signal.ITIMER_REAL, 0.0)
     def alarm(number, frame):
         handled = signal.getsignal(signal.SIGINT) is not signal.default_int_handler  # somebody minds it: a world that runs
+        if frame and (frame.f_code.co_name == "__del__" or frame.f_code.co_filename.endswith("weakref.py")):
+            return real["setitimer"](signal.ITIMER_REAL, 0.001)  # where Python itself would only print the interrupt
         while frame and (frame.f_globals.get("__name__") != "__main__" or frame.f_code in (before.__code__, after.__code__)):
             frame = frame.f_back
         if frame or handled:
-            press(signal.SIGINT)
+            real["raise_signal"](signal.SIGINT)
         else:  # between IPython's own lines: not yet in the cell, or no longer
-            signal.setitimer(signal.ITIMER_REAL, 0.001)
-    if hasattr(signal, "setitimer"):  # Windows has no such signals: there each cell is just run three times
+            real["setitimer"](signal.ITIMER_REAL, 0.001)
+    if real["setitimer"]:  # Windows has no such signals: there each cell is just run three times
         signal.signal(signal.SIGALRM, alarm)
         shell.events.register("pre_run_cell", before)
         shell.events.register("post_execute", after)

@@ -8,6 +8,7 @@ import signal
 import threading
 import warnings
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -44,9 +45,9 @@ def ask(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Ask]:
     yield ask
     client.stop_channels()
     manager.shutdown_kernel(now=True)
-    with warnings.catch_warnings():
+    with warnings.catch_warnings(), suppress(RuntimeError):  # no loop
         warnings.simplefilter("ignore", DeprecationWarning)
-        asyncio.get_event_loop().close()  # which jupyter_client leaves open
+        asyncio.get_event_loop().close()  # which jupyter_client may leave open
 
 
 def test_a_node_spins_in_a_thread_and_prints_to_the_cell_that_runs_it(ask: Ask) -> None:

@@ -7,7 +7,7 @@ and then), and greenlets cannot change thread. So each callback of a widget hops
 from __future__ import annotations
 
 import asyncio
-import threading
+from _thread import get_ident  # of the system's thread, whichever robot process is at work in it
 from collections.abc import Callable
 from typing import Any
 
@@ -16,7 +16,7 @@ class Loop:
     """The event loop of the cell in which this is made; without one (a plain script) calls happen at once."""
 
     def __init__(self) -> None:
-        self.thread = threading.get_ident()
+        self.thread = get_ident()
         try:
             self._loop: asyncio.AbstractEventLoop | None = asyncio.get_running_loop()
         except RuntimeError:
@@ -31,7 +31,7 @@ class Loop:
 
     def now_or_soon(self, action: Callable[..., object], *arguments: Any) -> None:
         """Call `action` at once if this is the loop's thread, otherwise have the loop call it."""
-        if threading.get_ident() == self.thread:
+        if get_ident() == self.thread:
             action(*arguments)
         else:
             self.soon(action, *arguments)

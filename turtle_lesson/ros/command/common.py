@@ -185,8 +185,9 @@ def direct_node(args: Namespace | None = None, name: str | None = None) -> Itera
     import time
 
     import rclpy
+    from rclpy.signals import SignalHandlerOptions
 
-    rclpy.init(args=[])
+    rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.SIGTERM)  # after Ctrl-C a goal is cancelled yet
     try:
         pid = current_process().pid
         node = rclpy.create_node(name or f"{HIDDEN_PREFIX}_{pid}", start_parameter_services=False)
