@@ -141,7 +141,6 @@ def test_lines(type_line, line: str, out: str) -> None:  # type: ignore[no-untyp
         ("catkin_make", "catkin_make: that is ROS 1; in ROS 2 it is colcon build."),
         ("git status", "git: not in this classroom's terminal; !git status asks your computer."),
         ("clear", "clear: JupyterLab's menu Edit clears the outputs of cells."),
-        ("export ROS_DOMAIN_ID=5", "export: %env NAME=value sets a variable of the notebook; "),
         ("'!ros2' topic list", "ros2: the ! asks your computer, which has no ros2; without the ! "),
     ],
 )

@@ -493,19 +493,3 @@ def test_stopping_cancels_timers_and_respawns(tmp_path: Path, capsys: pytest.Cap
     world.run(10)
     assert screen(capsys) == []
     assert not handle.running and len(world.processes) == 1
-
-
-def test_environment_variables_stay_in_the_launch_and_a_warning_says_so(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    import os
-
-    monkeypatch.setenv("COLOUR", "red")
-    launch(
-        tmp_path,
-        "SetEnvironmentVariable('COLOUR', 'blue'), LogInfo(msg=EnvironmentVariable('COLOUR')),\n" + node(),
-    )
-    lines = screen(capsys)
-    assert lines[0] == "[INFO] [launch.user]: blue"
-    assert lines[1].startswith("[WARNING] [launch]: in this classroom environment variables")
-    assert os.environ["COLOUR"] == "red"

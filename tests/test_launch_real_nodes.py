@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -73,6 +74,14 @@ if __name__ == '__main__':
     main()
 """
 ENDS = "import sys\nprint('done', file=sys.stderr)\nprint('no end', end='')\n"
+SURROUNDINGS = """\
+import os
+import rclpy
+rclpy.init()
+node = rclpy.create_node('surroundings')
+node.get_logger().info(f"sees {os.environ['COLOUR']} {os.getenv('SHAPE')}")
+rclpy.spin(node)
+"""
 STUBBORN = """\
 import time
 while True:
@@ -94,7 +103,7 @@ def generate_launch_description():
 def world(tmp_path: Path) -> Iterator[World]:
     world = open_world()
     programs = {"talker": TALKER, "raise_init": RAISES_IN_INIT, "raise_cb": RAISES_IN_CALLBACK}
-    programs |= {"ends": ENDS, "stubborn": STUBBORN}
+    programs |= {"ends": ENDS, "stubborn": STUBBORN, "surroundings": SURROUNDINGS}
     files = {name: write(tmp_path, text, f"{name}.py") for name, text in programs.items()}
     world.packages.add(Package("demo", tmp_path, executables=dict(files)))
     yield world
@@ -229,3 +238,35 @@ def test_a_required_node_that_dies_in_robot_time_ends_the_rest(
         "[ERROR] [talker-1]: process has died [pid 1002, exit code -2, cmd 'lib/demo/talker --ros-args -r __node:=a'].",
     ]
     assert not handle.running
+
+
+def test_environment_variables_reach_the_programs_and_not_the_notebook(
+    world: World, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLOUR", "red")
+    monkeypatch.setenv("SHAPE", "round")
+    actions = (
+        node("surroundings", name="'before'")
+        + "        SetEnvironmentVariable('COLOUR', 'blue'), UnsetEnvironmentVariable('SHAPE'),\n"
+        + "        SetEnvironmentVariable('RCUTILS_CONSOLE_OUTPUT_FORMAT', '{name}: {message}'),\n"
+        + node("surroundings", name="'after'")
+        + node("surroundings", name="'more'", additional_env="{'COLOUR': ['gr', 'een']}")
+        + node("surroundings", name="'alone'", env="{'COLOUR': 'black'}.items()")
+        + "        LogInfo(msg=EnvironmentVariable('COLOUR')),\n"
+    )
+    head = HEAD.replace(
+        "def generate",
+        "from launch.actions import LogInfo, SetEnvironmentVariable, UnsetEnvironmentVariable\n"
+        "from launch.substitutions import EnvironmentVariable\n\ndef generate",
+    )
+    start(world, tmp_path, actions, head)
+    run(world, 1)
+    lines = console(capsys, tmp_path)
+    assert "[INFO] [launch.user]: blue" in lines
+    assert [line for line in lines if "sees" in line] == [
+        "[surroundings-1] [INFO] [time] [before]: sees red round",
+        "[surroundings-2] after: sees blue None",
+        "[surroundings-3] more: sees green None",
+        "[surroundings-4] [INFO] [time] [alone]: sees black None",
+    ]
+    assert os.environ["COLOUR"] == "red"

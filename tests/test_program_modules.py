@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import datetime
 import importlib
+import os
+import subprocess
 import sys
 import textwrap
 from collections.abc import Callable
@@ -305,3 +307,36 @@ def test_a_robots_calendar_shows_robot_time_in_utc(world: World, write: Write, c
         "1970-01-01 00:00:00 datetime.timedelta(0) True 2027-01-15 00:00:00",
     ]
     assert datetime.datetime.now().year < 2100 and type(datetime.datetime.now()) is datetime.datetime
+
+
+def test_environment_variables_are_each_processes_own(
+    world: World, write: Write, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLOUR", "red")
+    program = write(
+        "program.py",
+        """
+        import os, sys, time
+        if sys.argv[1] == "0":
+            os.environ["COLOUR"] = "blue"
+            os.environ["SHAPE"] = "round"
+            del os.environ["SHAPE"]
+        time.sleep(1)
+        print(sys.argv[1], os.getenv("COLOUR"), os.environ["COLOUR"], "SHAPE" in os.environ, dict(os.environ)["COLOUR"])
+        try:
+            del os.environ["SHAPE"]
+        except KeyError as error:
+            print(error)
+        """,
+    )
+    assert outcome(world, capsys, program, program) == [
+        "0 blue blue False blue",
+        "'SHAPE'",
+        "1 red red False red",
+        "'SHAPE'",
+    ]
+    assert os.environ["COLOUR"] == "red"
+    assert "COLOUR=red" in subprocess.run([sys.executable, "-c", ENVIRONMENT], capture_output=True, text=True).stdout
+
+
+ENVIRONMENT = "import os; print(*(f'{name}={value}' for name, value in os.environ.items()))"

@@ -6,7 +6,7 @@ process lives in; a notebook cell sees the current one, and is itself the proces
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -16,6 +16,7 @@ from .core import EPOCH, Process, Simulation, running_strand, virtual_random, vi
 from .core.process import Output
 from .core.program import run_program
 from .core.stdlib import home, lend
+from .core.stdlib.environment import encoded
 from .core.tracebacks import is_library
 from .graph import Graph
 from .trace import Trace
@@ -69,14 +70,17 @@ class World:
         stdout: Output | None = None,
         stderr: Output | None = None,
         on_exit: Callable[[Process], None] | None = None,
+        environ: Mapping[str, str] | None = None,
     ) -> Process:
         """Start a process at this instant: a Python file, run as `__main__`, or a callable.
 
-        Does not wait for it. The file's errors are the process's: they are shown, and its exit code is 1.
+        Does not wait for it. The file's errors are the process's: they are shown, and its exit code is 1. Without
+        `environ` it has the environment variables of whoever starts it.
         """
         arguments = list(argv) or [str(target) if isinstance(target, Path) else name]
         process = self._make_process(name, argv=arguments, stdout=stdout, stderr=stderr, on_exit=on_exit)
         self.processes.append(process)
+        process.environ = encoded(environ)
         process.start(_program(target) if isinstance(target, Path) else target)
         return process
 

@@ -22,7 +22,21 @@ from .words import is_unfinished
 COMMANDS = ("ros2", "colcon", "source", "mkdir", "cd", "ls", "pwd", "cat", "touch", "jobs", "kill")
 """Words that are a command unless they are a variable."""
 
-UNSURE = ELSEWHERE | {"chmod", "cp", "echo", "grep", "head", "mv", "rm", "sort", "tail", "wc"}
+UNSURE = ELSEWHERE | {
+    "chmod",
+    "cp",
+    "echo",
+    "export",
+    "grep",
+    "head",
+    "mv",
+    "printenv",
+    "rm",
+    "sort",
+    "tail",
+    "unset",
+    "wc",
+}
 """Words that are a command where the statement is no Python."""
 
 OWN_MAGICS = ("ros2", "colcon", "source")
@@ -38,6 +52,7 @@ _FIRST = re.compile(
     re.DOTALL,
 )
 _PYTHON_NEXT = re.compile(r"\s*(?:[-+*/%&|^@]|//|\*\*|<<|>>|[=!<>]|:)?=|\s+(?:in|is|if|and|or|not|for)\b\s")
+_VARIABLE = re.compile(r"[A-Za-z_]\w*=\S*[ \t]+(?:\S+[ \t]+)*?(?:ros2|colcon|python3)[ \t]")
 _DEEPER = {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}
 _STRING = re.compile(r"(?i)(?:[rbfut]{0,3})('''|\"\"\"|'|\")")
 
@@ -100,6 +115,8 @@ def _is_command(lines: list[str], at: int, column: int, python: _Python) -> bool
         return word in OWN_MAGICS
     if sign == "!":
         return word in OWN_MAGICS and shutil.which(word) is None
+    if _VARIABLE.match(word + rest):
+        return not _is_python(_statement(lines, at, column))
     if _PYTHON_NEXT.match(rest):
         return False
     if word in COMMANDS or word == ".":

@@ -35,13 +35,11 @@ _HERE = {
     "cmake": "colcon build does that, from a package's CMakeLists.txt",
     "code": _EDITOR,
     "emacs": _EDITOR,
-    "export": "%env NAME=value sets a variable of the notebook; ROS 2 here needs none",
     "gazebo": "the simulated world is there already: turtlesim, which start() starts",
     "gedit": _EDITOR,
     "make": "colcon build does that, from a package's CMakeLists.txt",
     "nano": _EDITOR,
     "pip3": "%pip install NAME installs into this notebook's Python",
-    "printenv": "%env shows the variables of the notebook; ROS 2 here needs none",
     "python": _SCRIPT,
     "python3": _SCRIPT,
     "roscore": "ROS 2 needs none: its nodes find one another",
@@ -53,7 +51,6 @@ _HERE = {
     "rviz": _PICTURES,
     "rviz2": _PICTURES,
     "sudo": _NO_INSTALLING,
-    "unset": "%env shows the variables of the notebook; ROS 2 here needs none",
     "vi": _EDITOR,
     "vim": _EDITOR,
 }
@@ -66,9 +63,7 @@ _ON_THE_COMPUTER = frozenset((
 ELSEWHERE = frozenset({*_ROS_1, *_HERE, *_ON_THE_COMPUTER})
 """All these words."""
 
-NEVER_PYTHON = frozenset(
-    {*_ROS_1, *_HERE} - {"bash", "catkin", "code", "export", "make", "python", "sudo", "unset", "vi"}
-)
+NEVER_PYTHON = frozenset({*_ROS_1, *_HERE} - {"bash", "catkin", "code", "make", "python", "sudo", "vi"})
 """Those that nobody would call a variable, so that one alone on a line is meant for a terminal."""
 
 

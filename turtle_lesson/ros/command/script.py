@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from .terminal_variables import with_values
 from .words import HereText, Operator, Token, Word
 
 
@@ -90,9 +91,11 @@ def _check(command: Command, sign: str) -> None:
 
 
 def expand(word: Word, *, home: Path, exit_code: int) -> list[str]:
-    """The words that a word stands for: `~`, `$?` and patterns are replaced, everything else stays as it is typed."""
+    """The words that a word stands for: `~`, `$?`, `$NAME` and patterns are replaced, all else stays as it is typed."""
     if word.text == word.pattern == "$?":
         return [str(exit_code)]
+    if (text := with_values(word.pattern)) != word.pattern:
+        return [unquoted] if (unquoted := re.sub(r"\\(.)", r"\1", text)) else []
     if word.plain and (word.text == "~" or word.text.startswith("~/")):
         return [str(home) + word.text[1:]]
     if len(word.pattern) < 1000 and re.search(r"(?<!\\)[*?]", word.pattern):

@@ -25,6 +25,7 @@ from .script import Command, ShellSyntaxError, expand, pipelines
 from .streams import cell_streams
 from .terminal import BUILTINS
 from .terminal_io import Terminal
+from .terminal_variables import before_a_command, export, set_for_now
 from .words import UnfinishedError, tokens
 
 if TYPE_CHECKING:
@@ -112,6 +113,12 @@ class Shell:
             return _said(words[0], mistake, error)
 
     def _call(self, words: Sequence[str], given: str | None, out: Any, error: Any, background: bool) -> int:
+        if variables := before_a_command(words):
+            rest = words[len(variables) :]
+            if not rest:
+                return export(Terminal(self.world, out, error), list(words))
+            with set_for_now(variables):
+                return self._call(rest, given, out, error, background)
         name = words[0]
         if name == "ros2":
             return run_ros2(self.world, words, stdout=out, stderr=error, background=background)
@@ -140,7 +147,7 @@ def _not_found(words: Sequence[str]) -> str:
     if other:
         return f"{name.lstrip('!')}: {cut(other, 300)}."
     hint = did_you_mean(name[:100], [*PROGRAMS, *BUILTINS])
-    if not hint and re.match(r"\w+[(=\[.]", name):
+    if re.match(r"\w+[(=\[.]", name):
         hint = "If it is Python, write it on a line of its own: behind a command all is the terminal's."
     computer = (
         "In this classroom's terminal there are ros2, colcon, source and a few more; !command asks your computer."

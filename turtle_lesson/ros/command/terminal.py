@@ -7,6 +7,7 @@ from .terminal_files import cd, chmod, ls, mkdir, pwd, touch
 from .terminal_io import Builtin
 from .terminal_jobs import kill, list_jobs
 from .terminal_text import cat, echo, grep, head, sort, tail, wc
+from .terminal_variables import export, printenv, unset
 
 BUILTINS: dict[str, Builtin] = {
     "cat": cat,
@@ -14,6 +15,7 @@ BUILTINS: dict[str, Builtin] = {
     "chmod": chmod,
     "cp": cp,
     "echo": echo,
+    "export": export,
     "grep": grep,
     "head": head,
     "jobs": list_jobs,
@@ -21,10 +23,12 @@ BUILTINS: dict[str, Builtin] = {
     "ls": ls,
     "mkdir": mkdir,
     "mv": mv,
+    "printenv": printenv,
     "pwd": pwd,
     "rm": rm,
     "sort": sort,
     "tail": tail,
     "touch": touch,
+    "unset": unset,
     "wc": wc,
 }

@@ -1,7 +1,7 @@
 """A shell's line taken apart: words with their quotes, and the signs between commands.
 
-The rules are those of POSIX's shells, without what this classroom leaves out: variables, substitutions and braces stay as they
-are typed, so that `"{x: 5.0}"` needs no care.
+The rules are those of POSIX's shells, without what this classroom leaves out: substitutions, braces and what is between
+double quotes stay as they are typed, so that `"{x: 5.0}"` needs no care.
 """
 
 from __future__ import annotations

@@ -51,6 +51,7 @@ class Process:
 
     Attributes:
         is_notebook: whether it stands for a notebook, whose cells drive the simulation.
+        environ: the environment variables of its own, as the system encodes them; None: Python's own.
         strands: its lines of execution, in the order of their making; dead ones may be among them.
         modules: the Python modules of its own that a program has which was read from a file.
         before_exit: called when the main program has ended, the last one first: waits for what is still at work.
@@ -92,6 +93,7 @@ class Process:
         self.error: BaseException | None = None
         self.is_notebook = False
         self.modules: Any = None
+        self.environ: dict[Any, Any] | None = None
         self.main_strand: Strand | None = None
         self.strands: list[Strand] = []
         self._on_exit = on_exit

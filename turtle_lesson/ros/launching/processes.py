@@ -36,7 +36,7 @@ class Processes:
         self._service = service
         self._all: list[RunningProcess] = []
         self._ending: list[RunningProcess] | None = None
-        self._warned_of_environment = False
+        self._warned_of_folder = False
 
     def __iter__(self) -> Iterator[RunningProcess]:
         return iter(self._all)
@@ -52,7 +52,7 @@ class Processes:
         """Start an action's process."""
         if self._service.context.is_shutdown:
             return
-        self._warn_of_environment(action)
+        self._warn_of_folder(action)
         process = RunningProcess(self, self._service.screen, action)
         self._all.append(process)
         self._start(process)
@@ -62,15 +62,12 @@ class Processes:
             process.start(self._service.world)
             self._emit(ProcessStarted(**process.details()))
 
-    def _warn_of_environment(self, action: ExecuteLocal) -> None:
-        """Say once that environment variables and working folders stay outside of the processes."""
-        context, description = self._service.context, action.process_description
-        changed = context.environment != context._environment_at_start
-        custom = description.env or description.additional_env or description.cwd
-        if self._warned_of_environment or not (changed or custom):
+    def _warn_of_folder(self, action: ExecuteLocal) -> None:
+        """Say once that all processes have the notebook's working folder."""
+        if self._warned_of_folder or not action.process_description.cwd:
             return
-        self._warned_of_environment = True
-        what = "environment variables and working folders that a launch file sets do not reach the programs"
+        self._warned_of_folder = True
+        what = "all programs work in the notebook's folder, whatever cwd= says"
         self._service.screen.say("WARNING", "launch", f"in this classroom {what}")
 
     # -- what processes tell ------------------------------------------------------------------------------

@@ -63,6 +63,7 @@ class RunningProcess:
             stdout=out,
             stderr=err,
             on_exit=self._ended,
+            environ=self.action.process_details["env"],
         )
         self.action.process_details["pid"] = self.process.pid
         self._screen.say("INFO", self.name, f"process started with pid [{self.process.pid}]")

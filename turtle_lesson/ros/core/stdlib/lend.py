@@ -28,6 +28,7 @@ from ..program_modules import on_import
 from ..strand import Strand, getcurrent
 from . import (
     dates,
+    environment,
     exits,
     identity,
     local,
@@ -59,6 +60,7 @@ def install() -> None:
     _install_modules()
     _install_streams()
     _install_times()
+    os.environ.__class__ = environment.ProcessEnviron
     atexit.register(_restore)  # nothing may ask which greenlet runs while Python takes itself apart
     replace_function(atexit, "register", exits.register)
     replace_function(atexit, "unregister", exits.unregister)
@@ -110,6 +112,7 @@ def _restore() -> None:
             module.getcurrent = _nothing  # type: ignore[attr-defined]
     for owner, name, real in reversed(_replaced):
         setattr(owner, name, real)
+    os.environ.__class__ = os._Environ
     _replaced.clear()
 
 

@@ -45,6 +45,8 @@ class Executable:
         self.additional_env = additional_env
         self.final_cmd: list[str] = []
         self.final_name = ""
+        self.final_cwd: str | None = None
+        self.final_env: dict[str, str] = {}
 
     def prepare(self, context: LaunchContext, action: Action) -> None:
         """Perform the substitutions; name the process after its program, with a number."""
@@ -57,6 +59,18 @@ class Executable:
         host = context._host
         number = host.next_process_number() if host is not None else 1
         self.final_name = f"{base}-{number}"
+        self.final_cwd = perform_substitutions(context, self.cwd) if self.cwd else None
+        alone = context.environment if self.env is None else _variables(context, self.env)
+        self.final_env = {**alone, **_variables(context, self.additional_env or {})}
+
+
+def _variables(context: LaunchContext, given: Environment) -> dict[str, str]:
+    pairs = given.items() if isinstance(given, Mapping) else given
+    return {_text(context, name): _text(context, value) for name, value in pairs}
+
+
+def _text(context: LaunchContext, text: SomeSubstitutionsType) -> str:
+    return perform_substitutions(context, normalize_to_list_of_substitutions(text))
 
 
 def _pieces(text: SomeSubstitutionsType | None) -> list[Substitution] | None:

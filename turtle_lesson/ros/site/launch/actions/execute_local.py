@@ -107,8 +107,8 @@ class ExecuteLocal(Action):
             "action": self,
             "name": self.process_description.final_name,
             "cmd": self._program.argv,
-            "cwd": None,
-            "env": None,
+            "cwd": self.process_description.final_cwd,
+            "env": self.process_description.final_env,
         }
 
     def _chosen_output(self, context: LaunchContext) -> Any:
