@@ -12,7 +12,7 @@ from typing import Any
 from ..strand import Strand, getcurrent
 
 
-class ProcessEnviron(os._Environ):  # type: ignore[type-arg]
+class ProcessEnviron(os._Environ):
     """The type of `os.environ`: which variables it holds depends on who looks."""
 
     _data: Any = property(lambda self: vars(self)["_data"] if (own := _own()) is None else own)
@@ -22,13 +22,13 @@ class ProcessEnviron(os._Environ):  # type: ignore[type-arg]
         if own is None:
             super().__setitem__(key, value)
         else:
-            own[self.encodekey(key)] = self.encodevalue(value)  # type: ignore[attr-defined]
+            own[self.encodekey(key)] = self.encodevalue(value)
 
     def __delitem__(self, key: Any) -> None:
         own = _own()
         if own is None:
             super().__delitem__(key)
-        elif own.pop(self.encodekey(key), None) is None:  # type: ignore[attr-defined]
+        elif own.pop(self.encodekey(key), None) is None:
             raise KeyError(key)
 
 
