@@ -16,13 +16,27 @@ if TYPE_CHECKING:
     from .network import Conditions, Network
 
 
+REQUEST_SENT, REQUEST_RECEIVED, RESPONSE_SENT, RESPONSE_RECEIVED = range(4)
+"""What a witness is told of; the numbers are those of service_msgs/msg/ServiceEventInfo."""
+
+Witness = Callable[[int, "ClientEnd", int, Any], object]
+"""Called at one end of a service with what happens there: which of these, whose request, its number, the message."""
+
+
 class Request(NamedTuple):
-    """A request on its way: who asked, the number it has there, and the message."""
+    """A request on its way: who asked whom, the number it has there, and the message."""
 
     client: ClientEnd
     number: int
     message: Any
+    server: ServerEnd
     call: Call | None = None
+
+    def answer(self, message: Any) -> None:
+        """Send the answer to whoever asked."""
+        if self.server.witness is not None:
+            self.server.witness(RESPONSE_SENT, self.client, self.number, message)
+        self.client.reply(self.number, message)
 
 
 class ServerEnd:
@@ -34,6 +48,7 @@ class ServerEnd:
         self.type_name = type_name
         self.queue: deque[Request] = deque()
         self.wake: Callable[[], object] = nobody
+        self.witness: Witness | None = None
 
     def receive(self, request: Request) -> None:
         """A request arrives."""
@@ -41,6 +56,13 @@ class ServerEnd:
             request.client.trace.received(request.call, self.node)  # type: ignore[union-attr]
         self.queue.append(request)
         self.wake()
+
+    def take(self) -> Request:
+        """The oldest request."""
+        request = self.queue.popleft()
+        if self.witness is not None:
+            self.witness(REQUEST_RECEIVED, request.client, request.number, request.message)
+        return request
 
 
 class ClientEnd:
@@ -52,6 +74,7 @@ class ClientEnd:
         self.type_name = type_name
         self.queue: deque[tuple[int, Any]] = deque()
         self.wake: Callable[[], object] = nobody
+        self.witness: Witness | None = None
         self.simulation = simulation
         self.latency = latency_of(name)
         self._network = network
@@ -65,11 +88,13 @@ class ClientEnd:
         """Send a request to the servers; returns its number, by which the answer will be known."""
         self._sent += 1
         arrival = self.simulation.now + self.latency
+        if self.witness is not None:
+            self.witness(REQUEST_SENT, self, self._sent, message)
         call = None
         if self.trace is not None:
             call = self._calls[self._sent] = self.trace.asked(self, message._wire_copy())
         for server in servers:
-            request = Request(self, self._sent, message._wire_copy(), call)
+            request = Request(self, self._sent, message._wire_copy(), server, call)
             if self._lines is None:
                 self.simulation.at(arrival, server.receive, request)
             else:
@@ -86,6 +111,13 @@ class ClientEnd:
             self.simulation.at(arrival, self._receive, answer)
         else:
             self._line_to(self._receive, self.node).send(answer, self.simulation.now)
+
+    def take(self) -> tuple[int, Any]:
+        """The oldest answer, with the number of its request."""
+        number, response = self.queue.popleft()
+        if self.witness is not None:
+            self.witness(RESPONSE_RECEIVED, self, number, response)
+        return number, response
 
     def use(self, conditions: Conditions | None) -> None:
         """Have requests and answers travel under these conditions from now on; None for the usual ones.

@@ -15,7 +15,7 @@ from ._mistakes import shown
 from ._notebook import is_notebook
 from .callback_groups import CallbackGroup
 from .qos import QoSProfile
-from .service_introspection import ServiceIntrospectionState, refuse
+from .service_introspection import ServiceIntrospectionState, forget, introspect
 from .task import Future, at_once
 
 if TYPE_CHECKING:
@@ -72,8 +72,8 @@ class Client(Entity):
     def configure_introspection(
         self, clock: Any, service_event_qos_profile: QoSProfile, introspection_state: ServiceIntrospectionState
     ) -> None:
-        """Publish what is asked and answered, which is not built here: NotImplementedError for anything but OFF."""
-        refuse(introspection_state)
+        """Publish on …/_service_event what is asked and answered here, times being those of `clock`; OFF ends that."""
+        introspect(self, self._end, clock, service_event_qos_profile, introspection_state)
 
     def service_is_ready(self) -> bool:
         """Whether somebody offers the service now."""
@@ -182,7 +182,7 @@ class Client(Entity):
         return bool(self._end.queue)
 
     def _take(self) -> tuple[Any, ...] | None:
-        number, response = self._end.queue.popleft()
+        number, response = self._end.take()
         if self._end.queue:
             self._signal()
         future = self._waiting.pop(number, None)
@@ -207,4 +207,5 @@ class Client(Entity):
         """Leave the service; answers under way are dropped."""
         if not self._destroyed:
             super().destroy()
+            forget(self._end)
             self._of_node._ros_graph.remove_client(self._end)

@@ -10,7 +10,7 @@ from turtle_lesson.ros.graph import ServerEnd
 from ._entity import SERVICE, Entity
 from .callback_groups import CallbackGroup
 from .qos import QoSProfile
-from .service_introspection import ServiceIntrospectionState, refuse
+from .service_introspection import ServiceIntrospectionState, forget, introspect
 
 
 class Service(Entity):
@@ -51,14 +51,14 @@ class Service(Entity):
     def configure_introspection(
         self, clock: Any, service_event_qos_profile: QoSProfile, introspection_state: ServiceIntrospectionState
     ) -> None:
-        """Publish what is asked and answered, which is not built here: NotImplementedError for anything but OFF."""
-        refuse(introspection_state)
+        """Publish on …/_service_event what is asked and answered here, times being those of `clock`; OFF ends that."""
+        introspect(self, self._server, clock, service_event_qos_profile, introspection_state)
 
     def _has_work(self) -> bool:
         return bool(self._server.queue)
 
     def _take(self) -> tuple[Any, ...]:
-        request = self._server.queue.popleft()
+        request = self._server.take()
         if self._server.queue:
             self._signal()
         self._asking[id(request.message)] = request
@@ -71,16 +71,17 @@ class Service(Entity):
                 f"the callback of {self.service_name} returned {result!r}, where {self.srv_type.__name__}.Response is "
                 "expected: end it with `return response`"
             )
-        request.client.reply(request.number, result)
+        request.answer(result)
 
     def send_response(self, response: Any, header: Any) -> None:
         """Answer a request by hand."""
         if not isinstance(response, self.srv_type.Response):
             raise TypeError(f"{self.srv_type.__name__}.Response is expected, got {response!r}")
-        header.client.reply(header.number, response)
+        header.answer(response)
 
     def destroy(self) -> None:
         """Stop offering the service."""
         if not self._destroyed:
             super().destroy()
+            forget(self._server)
             self._server.node.process.locals["world"].graph.remove_server(self._server)

@@ -51,7 +51,7 @@ class Requests:
             handle = ServerGoalHandle(self, info, message.goal)  # type: ignore[arg-type]
             self._goals.add(handle)
         response = self._action_type.Impl.SendGoalService.Response(accepted=accepted, stamp=info.stamp)
-        request.client.reply(request.number, response)
+        request.answer(response)
         if handle is None:
             self._debug("New goal rejected: {}", message.goal_id)
             return
@@ -70,7 +70,7 @@ class Requests:
         response = self._action_type.Impl.CancelGoalService.Response()
         response.return_code, handles = goals_to_cancel(request.message.goal_info, self._goals)
         response.goals_canceling = [handle._goal_info for handle in handles if await self._cancel(handle)]
-        request.client.reply(request.number, response)
+        request.answer(response)
 
     async def _cancel(self, handle: ServerGoalHandle) -> bool:
         """Whether the program lets this goal be cancelled."""
@@ -93,8 +93,8 @@ class Requests:
         if self._goals.get(goal_id) is None:
             self._debug("Sending result response for unknown goal ID: {}", goal_id)
             unknown = self._action_type.Impl.GetResultService.Response(status=GoalStatus.STATUS_UNKNOWN)
-            request.client.reply(request.number, unknown)
+            request.answer(unknown)
             return
         response = self._goals.ask(goal_id, request)
         if response is not None:
-            request.client.reply(request.number, response)
+            request.answer(response)

@@ -29,6 +29,7 @@ from ._ids import new_goal_id
 
 if TYPE_CHECKING:
     from ..node import Node
+    from ..service_introspection import ServiceIntrospectionState
 
 __all__ = ["ActionClient", "ClientGoalHandle"]
 
@@ -93,15 +94,10 @@ class ActionClient(Waitable):
         self._readers = [parts["feedback"]._reader, parts["status"]._reader]
         for client, part in zip(self._clients, WORDS, strict=True):
             client._words = WORDS[part]
-        self._arrived = dict(
-            zip(
-                ("goal", "cancel", "result", "feedback", "status"),
-                [end.queue for end in (*(client._end for client in self._clients), *self._readers)],
-                strict=True,
-            )
-        )
-        self._entity = ActionEntity(self, parts, list(self._arrived.values()))
-        for end in (*(client._end for client in self._clients), *self._readers):
+        ends: list[Any] = [*(client._end for client in self._clients), *self._readers]
+        self._arrived = dict(zip(("goal", "cancel", "result", "feedback", "status"), ends, strict=True))
+        self._entity = ActionEntity(self, parts, [end.queue for end in ends])
+        for end in ends:
             end.wake = self._entity._arrive
         node._ros_keep(self._entity)
 
@@ -111,6 +107,13 @@ class ActionClient(Waitable):
 
     def __repr__(self) -> str:
         return f"<ActionClient of {self._name}>"
+
+    def configure_introspection(
+        self, clock: Any, service_event_qos_profile: QoSProfile, introspection_state: ServiceIntrospectionState
+    ) -> None:
+        """Publish what the action's three services are asked and answer; OFF ends that (newer than Jazzy)."""
+        for client in self._clients:
+            client.configure_introspection(clock, service_event_qos_profile, introspection_state)
 
     # -- the server ------------------------------------------------------------------------------------------------
 
@@ -212,11 +215,11 @@ class ActionClient(Waitable):
 
     def is_ready(self, wait_set: Any) -> bool:
         """Whether something has come."""
-        return any(self._arrived.values())
+        return any(end.queue for end in self._arrived.values())
 
     def take_data(self) -> dict[str, Any]:
         """Take one thing of each kind."""
-        return {kind: queue.popleft() for kind, queue in self._arrived.items() if queue}
+        return {kind: end.take() for kind, end in self._arrived.items() if end.queue}
 
     async def execute(self, taken_data: dict[str, Any]) -> None:
         """Give the futures their results, and feedback to its callback, in the order of rclpy."""

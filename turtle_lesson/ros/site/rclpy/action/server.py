@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from turtle_lesson.ros.trace import Callback
 
     from ..node import Node
+    from ..service_introspection import ServiceIntrospectionState
 
 __all__ = [
     "ActionServer",
@@ -119,14 +120,12 @@ class ActionServer(Requests, Waitable):
         self._name = names[""]
         parts = make_parts(node, self._action_type, names, profiles, make_service, node.create_publisher)
         self._feedback, self._status = parts["feedback"], parts["status"]
-        self._requests = {
-            "goal": parts["send_goal"]._server.queue,
-            "cancel": parts["cancel_goal"]._server.queue,
-            "result": parts["get_result"]._server.queue,
-        }
-        self._entity = ActionEntity(self, parts, list(self._requests.values()))
-        for part in ("send_goal", "cancel_goal", "get_result"):
-            parts[part]._server.wake = self._entity._arrive
+        self._services = [parts["send_goal"], parts["cancel_goal"], parts["get_result"]]
+        ends = [service._server for service in self._services]
+        self._requests = dict(zip(("goal", "cancel", "result"), ends, strict=True))
+        self._entity = ActionEntity(self, parts, [end.queue for end in ends])
+        for end in ends:
+            end.wake = self._entity._arrive
         node._ros_keep(self._entity)
 
     def __repr__(self) -> str:
@@ -136,6 +135,13 @@ class ActionServer(Requests, Waitable):
     def action_type(self) -> Any:
         """The action's class."""
         return self._action_type
+
+    def configure_introspection(
+        self, clock: Any, service_event_qos_profile: QoSProfile, introspection_state: ServiceIntrospectionState
+    ) -> None:
+        """Publish what the action's three services are asked and answer; OFF ends that (newer than Jazzy)."""
+        for service in self._services:
+            service.configure_introspection(clock, service_event_qos_profile, introspection_state)
 
     # -- callbacks -------------------------------------------------------------------------------------------------
 
@@ -165,11 +171,11 @@ class ActionServer(Requests, Waitable):
 
     def is_ready(self, wait_set: Any) -> bool:
         """Whether a request waits."""
-        return any(self._requests.values())
+        return any(end.queue for end in self._requests.values())
 
     def take_data(self) -> dict[str, Any]:
         """Take one request of each kind."""
-        return {kind: queue.popleft() for kind, queue in self._requests.items() if queue}
+        return {kind: end.take() for kind, end in self._requests.items() if end.queue}
 
     async def execute(self, taken_data: dict[str, Any]) -> None:
         """Do what the requests ask for."""
@@ -217,7 +223,7 @@ class ActionServer(Requests, Waitable):
         self._debug(f"Goal with ID {{}} finished with state {goal_handle.status}", goal_handle.goal_id)
         response = self._result_response(goal_handle.status, result)
         for request in self._goals.finish(goal_handle, response):
-            request.client.reply(request.number, response)
+            request.answer(response)
 
     def _result_response(self, status: int, result: Any) -> Any:
         try:
