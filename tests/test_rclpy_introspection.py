@@ -201,7 +201,7 @@ def test_a_program_that_is_told_by_parameters_what_to_publish(terminal: Terminal
     told = terminal.say("ros2 param set /watched_server introspection contents", "ros2 topic list")
     assert having(told, "Set", "_service_event") == ["Set parameter successful"]
     listen = "ros2 topic echo --once --field request /add_two_ints/_service_event"
-    assert having(terminal.say(listen), "Request") == ["[example_interfaces.srv.AddTwoInts_Request(a=2, b=3)]"]
+    assert "[example_interfaces.srv.AddTwoInts_Request(a=2, b=3)]" in terminal.say(listen)
     assert having(terminal.say("ros2 param set /watched_client introspection all"), "param") == [
         "Setting parameter failed: must be one of disabled, metadata, contents"
     ]

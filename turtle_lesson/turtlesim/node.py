@@ -53,12 +53,12 @@ class TurtlesimNode(Node):
         self.create_timer(TICK, self._on_tick)
 
     def _on_tick(self) -> None:
-        for action in list(self._turning):
+        for action in self._turning and list(self._turning):
             action.before_tick()
         hits = self._world.tick()
         if hits or self._pushing:
             self._report(hits)
-        for action in list(self._turning):
+        for action in self._turning and list(self._turning):
             action.after_tick()
         for shown in self._shown.values():
             shown.publish()

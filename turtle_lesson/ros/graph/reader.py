@@ -25,6 +25,8 @@ class Reader(End):
         super().__init__(node, topic, quality)
         self.queue: deque[Any] = deque(maxlen=quality.depth)
         self.times: deque[tuple[int, int]] | None = None
+        self.arrivals: deque[int] | None = None
+        """When each message that waits has come (ns), where a trace is kept."""
         self.beside: list[deque[Any]] = []
         """Queues in step with `queue`, which somebody keeps beside it."""
         self.wake: Callable[[], object] = nobody
@@ -83,6 +85,8 @@ class Reader(End):
         self.queue.append(wire)
         if self.times is not None:
             self.times.append((sent, now))
+        if self.arrivals is not None:
+            self.arrivals.append(now)
         self.wake()
 
     def take(self) -> Any:

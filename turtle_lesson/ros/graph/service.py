@@ -47,6 +47,8 @@ class ServerEnd:
         self.name = name
         self.type_name = type_name
         self.queue: deque[Request] = deque()
+        self.arrivals: deque[int] | None = None
+        """When each request that waits has come (ns), where a trace is kept."""
         self.wake: Callable[[], object] = nobody
         self.witness: Witness | None = None
 
@@ -55,6 +57,8 @@ class ServerEnd:
         if request.call is not None:
             request.client.trace.received(request.call, self.node)  # type: ignore[union-attr]
         self.queue.append(request)
+        if self.arrivals is not None:
+            self.arrivals.append(request.client.simulation.now)
         self.wake()
 
     def take(self) -> Request:

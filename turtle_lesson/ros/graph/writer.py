@@ -71,6 +71,8 @@ class Writer(End):
             if reader.times is not None:
                 now = self._simulation.now
                 reader.times.append((now - self._latency, now))
+            if reader.arrivals is not None:
+                reader.arrivals.append(self._simulation.now)
             reader.wake()
 
     def _deliver_kept(self, parcel: tuple[Reader, Any, int]) -> None:

@@ -10,7 +10,7 @@ import inspect
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from .callback_groups import CallbackGroup, begin_of
+from .callback_groups import CallbackGroup, begin_of, end_of
 from .exceptions import refuse_destroyed, refuse_ended
 
 if TYPE_CHECKING:
@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from .node import Node
 
 WAITABLE, TIMER, SUBSCRIPTION, GUARD, CLIENT, SERVICE = range(-1, 5)
+
+NO_TURN = (0, 0, 0)
+"""The place in a cycle of what no executor has had yet."""
 
 
 class Entity:
@@ -37,11 +40,13 @@ class Entity:
         self.callback_group: Any = callback_group
         self._begin = begin_of(callback_group)
         """Asks the group whether the callback may run, and takes it."""
+        self._end_run = end_of(callback_group)
+        """Frees the group again."""
         self._is_async = inspect.iscoroutinefunction(callback)
         self._executor: Executor | None = None
         self._node: Node | None = None
         self._listed_in: Executor | None = None
-        self._turn = (0, 0, 0)
+        self._turn = NO_TURN
         self._number = 0
         self._destroyed = False
         if callback_group is not None:

@@ -67,7 +67,7 @@ class Executor(ExecutorBase):
 
         The common case is that one callback became ready while the strand was waiting; it is run without a batch.
         """
-        simulation, context, signalled = self._simulation, self._context, self._signalled
+        simulation, context, signalled, execute = self._simulation, self._context, self._signalled, self._execute
         self._spinning.append(strand)
         self._begin_waiting(strand)
         try:
@@ -77,7 +77,7 @@ class Executor(ExecutorBase):
                     entity._listed_in = None
                     if entity._executor is self and entity._has_work():
                         if entity._begin(entity):
-                            self._execute(entity)
+                            execute(entity)
                         else:
                             self._held_up.append(entity)
                 elif signalled or self._batch or self._resumed:
@@ -85,7 +85,7 @@ class Executor(ExecutorBase):
                         job = self._next(strand, None, None)
                     except ShutdownException:
                         return
-                    self._execute(job)
+                    execute(job)
                 else:
                     simulation.park(strand)
                     if context.ended and not self._is_shutdown:

@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING, Any
 from turtle_lesson.ros.core import Strand
 from turtle_lesson.ros.world import current_process, current_world
 
-from ._entity import SERVICE, WAITABLE, Entity
+from ._entity import NO_TURN, SERVICE, WAITABLE, Entity
 from ._executor_errors import ExternalShutdownException, ShutdownException
 from ._mistakes import explain_call, no_node
-from ._tracing import trace_entity
+from ._tracing import begin_task, note_end, trace_entity
 from .context import Context
 from .exceptions import not_valid, refuse_destroyed
 from .task import Future, Task
@@ -34,8 +34,6 @@ class ExecutorBase:
     """Nodes, tasks, what is ready, and running it."""
 
     _in_order_of_arrival = False
-    _runs_in = "_execute"
-    """The method that runs a callback: a world that keeps a trace puts another in its place."""
 
     def __init__(self, *, context: Context | None = None) -> None:
         self._context = get_default_context() if context is None else context
@@ -78,17 +76,25 @@ class ExecutorBase:
         if node.executor is not None:
             node.executor.remove_node(node)
         self._nodes.append(node)
-        self._nodes_seen += 1
-        node._ros_executor, node._ros_place = self, self._nodes_seen  # type: ignore[assignment]
+        node._ros_executor = self  # type: ignore[assignment]
+        comes_again = node._ros_place == (self, self._nodes_seen)  # as it does with each rclpy.spin_once
+        if not comes_again:
+            self._nodes_seen += 1
+            node._ros_place = (self, self._nodes_seen)
         for entity in node._ros_entities():
-            self._adopt(entity, node)
+            if comes_again and entity._turn is not NO_TURN:
+                entity._executor = self  # type: ignore[assignment]
+                if entity._has_work():
+                    entity._signal()
+            else:
+                self._adopt(entity, node)
         return True
 
     def _adopt(self, entity: Entity, node: Node) -> None:
         entity._executor = self  # type: ignore[assignment]
-        entity._turn = (0 if entity._kind == WAITABLE else node._ros_place, entity._kind, entity._number)
+        entity._turn = (0 if entity._kind == WAITABLE else node._ros_place[1], entity._kind, entity._number)
         if self._trace is not None:
-            trace_entity(entity, node, self, self._trace)  # type: ignore[arg-type]
+            trace_entity(entity, node, self._trace)
         if entity._has_work():
             entity._signal()
 
@@ -203,6 +209,12 @@ class ExecutorBase:
         elif job._is_async:
             self._run_task(self._as_task(job))
         else:
+            traced = job._traced
+            if traced is not None:
+                began, arrivals = self._simulation.now, traced.arrivals
+                ready = job._next if arrivals is None else arrivals.popleft() if arrivals else began
+                begun = (ready, began)
+                traced.open.append(begun)
             try:
                 arguments = job._take()
                 if arguments is not None:
@@ -213,7 +225,10 @@ class ExecutorBase:
                 explain_call(job, arguments, error)
                 raise
             finally:
-                job.callback_group.ending_execution(job)
+                if traced is not None:
+                    traced.open.remove(begun)
+                    traced.ended.append((ready, began, self._simulation.now))
+                job._end_run(job)
                 if self._held_up:
                     self._release_held_up()
 
@@ -224,13 +239,17 @@ class ExecutorBase:
             waiting._signal()
 
     def _free(self, entity: Any) -> None:
-        entity.callback_group.ending_execution(entity)
+        entity._end_run(entity)
         self._release_held_up()
 
     def _as_task(self, entity: Any) -> Task:
+        traced = entity._traced
+        begun = None if traced is None else begin_task(entity, traced, self._simulation.now)
         task = Task(_call_and_await, (entity, entity._take()), executor=self)  # type: ignore[arg-type]
         task._entity, task._node = entity, entity._node
         task._finally = lambda: self._free(entity)
+        if traced is not None and begun is not None:
+            note_end(task, traced, begun, self._simulation)
         return task
 
     def _run_task(self, task: Task) -> None:

@@ -23,7 +23,6 @@ class MultiThreadedExecutor(Executor):
     """
 
     __module__ = "rclpy.executors"
-    _runs_in = "_execute_here"
 
     def __init__(self, num_threads: int | None = None, *, context: Context | None = None) -> None:
         super().__init__(context=context)

@@ -1,7 +1,7 @@
 """How callbacks get into the world's trace: when they were ready, began and ended.
 
-The executor of a node that is traced has methods of its own in place of two of its class's. One in a world without a
-trace has not, and so pays nothing.
+Those that run at once, as nearly all do, the executor notes itself (`ExecutorBase._execute`): a call for each would cost
+more than all that is noted.
 """
 
 from __future__ import annotations
@@ -18,20 +18,19 @@ from .time_source import TimeSource
 from .timer import Rate
 
 if TYPE_CHECKING:
-    from .executors import Executor
+    from turtle_lesson.ros.core import Simulation
+
     from .node import Node
     from .task import Task
 
 KINDS = {TIMER: "timer", SUBSCRIPTION: "subscription", SERVICE: "service"}
 
 
-def trace_entity(entity: Any, node: Node, executor: Executor, trace: Trace) -> None:
+def trace_entity(entity: Any, node: Node, trace: Trace) -> None:
     """Give what a node waits for its place in the trace, unless it is ROS's own."""
     kind, source, name = KINDS.get(entity._kind), _source(entity), name_of(entity.callback)
     if kind is None or node._ros_entry.hidden or source in PLUMBING or _is_ours(entity.callback):
         return
-    if executor._runs_in not in vars(executor):
-        _begin_to_trace(executor)
     if entity._traced is not None:
         return  # it has been traced in another executor
     if type(getattr(entity.callback, "__self__", None)).__module__.startswith("rclpy."):
@@ -44,53 +43,25 @@ def trace_entity(entity: Any, node: Node, executor: Executor, trace: Trace) -> N
         _note_arrivals(entity, trace)
 
 
-def _begin_to_trace(executor: Executor) -> None:
-    """Note from now on when this executor's callbacks run. Short, for it is done for each of them."""
-    simulation = executor._simulation
-    run_job, make_task = getattr(executor, executor._runs_in), executor._as_task
-
-    def run(job: Any) -> None:
-        traced = job._traced
-        if traced is None or traced.awaits:
-            run_job(job)
-            return
-        began = simulation.now
-        arrivals = traced.arrivals
-        ready = job._next if arrivals is None else arrivals.popleft() if arrivals else began
-        begun = (ready, began)
-        traced.open.append(begun)
-        try:
-            run_job(job)
-        finally:
-            traced.open.remove(begun)
-            traced.ended.append((ready, began, simulation.now))
-
-    def as_task(entity: Any) -> Task:
-        traced = entity._traced
-        if traced is None:
-            return make_task(entity)
-        begun = (_ready_since(entity, traced), simulation.now)
-        task = make_task(entity)
-        traced.open.append(begun)
-        free = task._finally
-
-        def end() -> None:
-            traced.open.remove(begun)
-            traced.ended.append((*begun, simulation.now))
-            if free is not None:
-                free()
-
-        task._finally = end
-        return task
-
-    setattr(executor, executor._runs_in, run)
-    executor._as_task = as_task  # type: ignore[method-assign]
+def begin_task(entity: Any, traced: Callback, now: int) -> tuple[int, int]:
+    """Note that a callback begins as a task: when it was ready, and `now` (ns)."""
+    arrivals = traced.arrivals
+    begun = (entity._next if arrivals is None else arrivals.popleft() if arrivals else now, now)
+    traced.open.append(begun)
+    return begun
 
 
-def _ready_since(entity: Any, traced: Callback) -> int:
-    if traced.arrivals is None:
-        return entity._next
-    return traced.arrivals.popleft() if traced.arrivals else entity._executor._simulation.now
+def note_end(task: Task, traced: Callback, begun: tuple[int, int], simulation: Simulation) -> None:
+    """Have it noted when a task is over that is a callback."""
+    free = task._finally
+
+    def end() -> None:
+        traced.open.remove(begun)
+        traced.ended.append((*begun, simulation.now))
+        if free is not None:
+            free()
+
+    task._finally = end
 
 
 def _source(entity: Any) -> str:
@@ -102,16 +73,9 @@ def _source(entity: Any) -> str:
 def _note_arrivals(entity: Any, trace: Trace) -> None:
     """Keep beside each message or request that waits when it came."""
     end = entity._reader if entity._kind == SUBSCRIPTION else entity._server
-    simulation, signal, queue = trace.simulation, entity._signal, end.queue
-    arrivals = entity._traced.arrivals = deque([simulation.now] * len(queue), maxlen=queue.maxlen)
-    getattr(end, "beside", []).append(arrivals)  # or what expires in the queue would leave its time behind
-    note = arrivals.append
-
-    def arrive() -> None:
-        note(simulation.now)
-        signal()
-
-    end.wake = arrive
+    queue = end.queue
+    end.arrivals = entity._traced.arrivals = deque([trace.simulation.now] * len(queue), maxlen=queue.maxlen)
+    getattr(end, "beside", []).append(end.arrivals)  # or what expires in the queue would leave its time behind
 
 
 def _is_ours(callback: Any) -> bool:

@@ -11,7 +11,7 @@ from typing import Any
 from turtle_lesson.ros.world import current_world
 
 from ._entity import WAITABLE, Entity
-from .callback_groups import begin_of
+from .callback_groups import begin_of, end_of
 from .guard_condition import GuardCondition
 from .timer import SHORTEST, Timer
 
@@ -81,7 +81,7 @@ class WaitableEntity(Entity):
         super().__init__(waitable.execute, None)
         self.waitable = waitable
         self.callback_group = waitable.callback_group
-        self._begin = begin_of(waitable.callback_group)
+        self._begin, self._end_run = begin_of(waitable.callback_group), end_of(waitable.callback_group)
         self._is_async = True
         self._simulation = current_world().sim
         self._wait_set: WaitSet | None = None

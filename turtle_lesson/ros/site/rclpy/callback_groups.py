@@ -86,5 +86,10 @@ def begin_of(group: CallbackGroup | None) -> Callable[[Any], bool]:
     return lambda entity: group.can_execute(entity) and group.beginning_execution(entity)
 
 
+def end_of(group: CallbackGroup | None) -> Callable[[Any], object]:
+    """What an executor calls after that."""
+    return _always if group is None else group.ending_execution
+
+
 def _always(entity: Any) -> bool:
     return True

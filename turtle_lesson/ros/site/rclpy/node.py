@@ -89,7 +89,7 @@ class Node(NodeEntities, NodeNews, NodeParameters):
         self._ros_simulation = world.sim
         self._ros_entry = NodeEntry(name, full_namespace, current_process())
         self._ros_executor: Executor | None = None
-        self._ros_place = 0
+        self._ros_place: tuple[Any, int] = (None, 0)
         self._ros_made = 0
         self._ros_publishers: list[Publisher] = []
         self._ros_waiting_entities: list[Entity] = []
