@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 # Before ours: hypothesis measures garbage collections with time.perf_counter. Were that the simulated one, a collection
 # in the middle of a simulated process would be a look at its clock.
 import hypothesis.internal.conjecture.junkdrawer  # noqa: F401
 import pytest
+from program_terminal import Terminal
 
 import turtle_lesson  # noqa: F401  (makes rclpy and the interface packages importable in every test)
 from turtle_lesson.ros.interfaces import registry
@@ -54,6 +56,18 @@ def run(world: World) -> Callable[..., list[Any]]:
         return found
 
     return run
+
+
+@pytest.fixture
+def terminal(
+    world: World, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> Iterator[Terminal]:
+    """A terminal where first_steps is built."""
+    monkeypatch.chdir(tmp_path)
+    terminal = Terminal(world, tmp_path, capsys)
+    terminal.build("first_steps")
+    yield terminal
+    terminal.close()
 
 
 def _with(program: Program, found: list[Any]) -> Callable[[], object]:

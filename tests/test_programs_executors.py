@@ -2,25 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from pathlib import Path
-
 import pytest
 from program_terminal import Terminal, having
-
-from turtle_lesson.ros.world import World
-
-
-@pytest.fixture
-def terminal(
-    world: World, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> Iterator[Terminal]:
-    """A terminal where first_steps is built."""
-    monkeypatch.chdir(tmp_path)
-    terminal = Terminal(world, tmp_path, capsys)
-    terminal.build("first_steps")
-    yield terminal
-    terminal.close()
 
 
 def first(*programs: str) -> list[str]:

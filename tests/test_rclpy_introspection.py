@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -16,8 +15,6 @@ from program_terminal import Terminal, having
 from rclpy.action import ActionClient, ActionServer
 from rclpy.qos import qos_profile_system_default
 from rclpy.service_introspection import ServiceIntrospectionState
-
-from turtle_lesson.ros.world import World
 
 Run = Callable[..., list[Any]]
 State = ServiceIntrospectionState
@@ -178,18 +175,6 @@ def test_an_actions_three_services_are_told(run: Run) -> None:
         for name in ("Fibonacci_GetResult_Event", "Fibonacci_SendGoal_Event")
         for kind in (SENT, RECEIVED, ANSWERED, GOT_ANSWER)
     ]
-
-
-@pytest.fixture
-def terminal(
-    world: World, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> Iterator[Terminal]:
-    """A terminal where first_steps is built."""
-    monkeypatch.chdir(tmp_path)
-    terminal = Terminal(world, tmp_path, capsys)
-    terminal.build("first_steps")
-    yield terminal
-    terminal.close()
 
 
 def test_a_program_that_is_told_by_parameters_what_to_publish(terminal: Terminal) -> None:
