@@ -158,6 +158,33 @@ def test_two_servers_of_a_name_both_work_and_the_first_answer_counts(run: Run) -
     assert run(server, other, program) == ["asked, too", 3]
 
 
+def test_a_program_that_replaces_send_response_answers_when_it_likes(run: Run) -> None:
+    def putting_off(found: list[Any]) -> None:
+        rclpy.init()
+        node = rclpy.create_node("server")
+        service = node.create_service(AddTwoInts, "add", lambda request, response: request.a + request.b)
+        send, waiting = service.send_response, []
+        service.send_response = lambda total, header: waiting.append((total, header))
+
+        def answer() -> None:
+            while waiting:
+                total, header = waiting.pop()
+                send(Response(sum=total), header)
+
+        node.create_timer(1.0, answer)
+        rclpy.spin(node)
+
+    def program(found: list[Any]) -> None:
+        node, client = start()
+        client.wait_for_service()
+        began = time.time()
+        future = client.call_async(Request(a=1, b=2))
+        rclpy.spin_until_future_complete(node, future)
+        found += [future.result(), f"{time.time() - began:.2f}"]
+
+    assert run(putting_off, program) == [Response(sum=3), "1.00"]
+
+
 # ---------------------------------------------------------------- errors in a service's callback
 
 

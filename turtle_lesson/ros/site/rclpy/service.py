@@ -65,18 +65,16 @@ class Service(Entity):
         return (request.message, self.srv_type.Response())
 
     def _done_with(self, arguments: tuple[Any, ...], result: Any) -> None:
-        request = self._asking.pop(id(arguments[0]))
-        if not isinstance(result, self.srv_type.Response):
-            raise TypeError(
-                f"the callback of {self.service_name} returned {result!r}, where {self.srv_type.__name__}.Response is "
-                "expected: end it with `return response`"
-            )
-        request.answer(result)
+        # A program may have put a function of its own in place of `send_response`, to answer later.
+        self.send_response(result, self._asking.pop(id(arguments[0])))
 
     def send_response(self, response: Any, header: Any) -> None:
-        """Answer a request by hand."""
+        """Answer a request: `header` tells which one (what rclpy hands over when a callback has returned)."""
         if not isinstance(response, self.srv_type.Response):
-            raise TypeError(f"{self.srv_type.__name__}.Response is expected, got {response!r}")
+            raise TypeError(
+                f"the callback of {self.service_name} returned {response!r}, where {self.srv_type.__name__}.Response is "
+                "expected: end it with `return response`"
+            )
         header.answer(response)
 
     def destroy(self) -> None:
