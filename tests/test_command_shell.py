@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import gc
 import re
+from io import StringIO
 from pathlib import Path
 
 import pytest
@@ -14,6 +16,7 @@ from turtle_lesson.ros.command import run
 from turtle_lesson.ros.command.groups import GROUPS, NOT_HERE
 from turtle_lesson.ros.command.parser import verb_parser
 from turtle_lesson.ros.command.shell import run_line
+from turtle_lesson.ros.command.streams import CellErrors, Errors
 from turtle_lesson.ros.command.usage import WIDTH, group_help, top_help
 from turtle_lesson.ros.command.words import Operator, UnfinishedError, Word, is_unfinished, tokens
 from turtle_lesson.ros.world import World
@@ -397,3 +400,17 @@ def _typed(world: World, words: list[str]) -> tuple[str, str, int]:
 def test_any_line_is_answered(world: World, text: str) -> None:
     """Whatever stands behind ros2 on a line; signs that write files or start other commands are left out."""
     run_line(world, "ros2 " + re.sub(r"[>;&|\n]", "", text))
+
+
+def test_a_commands_stderr_that_nobody_holds_any_more_leaves_the_cells_stream_alone() -> None:
+    class Cell(StringIO):
+        flushed = 0
+
+        def flush(self) -> None:
+            self.flushed += 1
+
+    cell = Cell()
+    for make in (lambda: CellErrors(cell, cell), lambda: Errors(cell), lambda: CellErrors(Errors(cell), cell)):
+        make().flush()
+    gc.collect()
+    assert cell.flushed == 3

@@ -140,6 +140,21 @@ def test_ros2_run_is_the_program_itself(
     assert [node.full_name for node in world.graph.nodes] == ["/bob"]
 
 
+def test_a_program_of_a_package_by_its_path(
+    world: World, begin: Launch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    begin(
+        "ExecuteProcess(cmd=[ExecutableInPackage(executable='listener', package='demo'), "
+        "'--ros-args', '-r', '__node:=ann']),"
+    )
+    run(world, 0.5)
+    assert [node.full_name for node in world.graph.nodes] == ["/ann"]
+    path = tmp_path / "lib" / "demo" / "listener"
+    assert world.packages.program_at(path.as_posix()) == ("demo", "listener")
+    others = [path.with_name("talker"), path.parent.with_name("other") / "listener", tmp_path / "demo" / "listener"]
+    assert [world.packages.program_at(each.as_posix()) for each in others] == [None, None, None]
+
+
 def test_a_wrong_command_says_so_where_it_prints(
     world: World, begin: Launch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

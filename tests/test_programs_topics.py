@@ -18,6 +18,13 @@ def test_every_way_to_write_a_publisher(terminal: Terminal, talker: str) -> None
     assert printed == [f'{time} {talker}: Publishing: "Hello: {number}"' for number, time in enumerate(times)]
 
 
+def test_a_program_is_started_by_its_path_too(terminal: Terminal) -> None:
+    printed = terminal.say("install/first_steps/lib/first_steps/talk_member_function &", seconds=0.6)
+    assert having(printed, "Hello") == ['0.5 talk_member_function: Publishing: "Hello: 0"']
+    missing = terminal.say("install/first_steps/lib/first_steps/talk")
+    assert "command not found" in missing[0] and terminal.codes == [127]
+
+
 @pytest.mark.parametrize("listener", ["hear_old_school", "hear_lambda", "hear_member_function"])
 def test_every_way_to_write_a_subscriber(terminal: Terminal, listener: str) -> None:
     printed = terminal.run(*first(listener, "talk_member_function"), seconds=1.2)
@@ -139,3 +146,12 @@ def test_a_single_file_is_run_by_python(terminal: Terminal) -> None:
         "publishing geometry_msgs.msg.Vector3(x=0.0, y=0.0, z=0.0)",
     ]
     assert terminal.interrupt() == ["publisher stopped cleanly"]
+
+
+def test_a_module_of_a_sourced_package_is_run_by_python(terminal: Terminal) -> None:
+    assert terminal.say("python3 -m first_steps.talk_any_type geometry_msgs/Vector3") == [
+        "publisher: beginning loop",
+        "publishing geometry_msgs.msg.Vector3(x=0.0, y=0.0, z=0.0)",
+    ]
+    assert terminal.interrupt() == ["publisher stopped cleanly"]
+    assert having(terminal.say("python3 -m first_steps.talk_no_type"), "runs a file that is there")

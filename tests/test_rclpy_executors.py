@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import time
 from collections.abc import Callable
 from typing import Any
@@ -690,3 +691,47 @@ def test_an_executor_of_ones_own_is_built_from_its_parts(run: Run) -> None:
         executor.spin()
 
     assert run(program) == ["tick", True, "tick", "tick"]
+
+
+# ---------------------------------------------------------------- a coroutine that only lets others go first
+
+
+@pytest.mark.parametrize("kind", [SingleThreadedExecutor, lambda: MultiThreadedExecutor(2)])
+def test_a_coroutine_that_lets_others_go_first_goes_on_with_the_next_spin(
+    run: Run, kind: Callable[[], Executor]
+) -> None:
+    def program(found: list[Any]) -> None:
+        node, executor = start(), kind()
+        executor.add_node(node)
+
+        async def in_three_steps() -> None:
+            for step in range(3):
+                found.append(step)
+                await asyncio.sleep(0)
+
+        bell = node.create_guard_condition(in_three_steps)
+        bell.trigger()
+        for timeout in (0, 0.1, 0, 0):
+            executor.spin_once(timeout_sec=timeout)
+            time.sleep(0.01)
+            found.append("spun")
+
+    assert run(program) == [0, "spun", 1, "spun", 2, "spun", "spun"]
+
+
+def test_a_coroutine_that_looks_again_and_again_does_not_hold_time_up(run: Run) -> None:
+    def program(found: list[Any]) -> None:
+        node, now, looks = start(), clock(), [0]
+
+        async def wait_for_half_a_second() -> None:
+            while now() < 0.5:
+                looks[0] += 1
+                await asyncio.sleep(0)
+            found.append((now(), looks[0] < 20))
+            rclpy.shutdown()
+
+        node.create_timer(0.1, lambda: None)
+        rclpy.get_global_executor().create_task(wait_for_half_a_second)
+        rclpy.spin(node)
+
+    assert run(program) == [(0.5, True)]

@@ -5,12 +5,13 @@ from __future__ import annotations
 import re
 import time
 from collections.abc import Callable
-from typing import Any
+from typing import Any, ClassVar
 
 import pytest
 import rclpy
 from rcl_interfaces.msg import Log
-from rclpy.impl.rcutils_logger import RcutilsLogger
+from rclpy.impl import rcutils_logger
+from rclpy.impl.rcutils_logger import CallerId, LoggingFilter, RcutilsLogger
 from rclpy.logging import LoggingSeverity
 from rclpy.node import Node
 
@@ -179,6 +180,102 @@ def test_one_line_of_a_program_keeps_to_its_severity_and_options(run: Run, capsy
         "filtered",
         "slow",
     ]
+
+
+def test_what_is_held_back_by_its_level_counts_for_no_filter(run: Run, capsys: Capture) -> None:
+    def program(logger: RcutilsLogger) -> None:
+        for level in (30, 10, 10):
+            logger.set_level(level)
+            logger.info("the first that is printed", once=True)
+            logger.info("the second that might be", skip_first=True)
+
+    assert logged(run, capsys, program) == ["[INFO]: the first that is printed", "[INFO]: the second that might be"]
+
+
+def test_a_throttled_line_that_skips_its_first_call_waits_for_the_next_turn(run: Run, capsys: Capture) -> None:
+    def program(logger: RcutilsLogger) -> None:
+        for number in range(10):
+            logger.info(f"call {number}", throttle_duration_sec=0.25, skip_first=True)
+            time.sleep(0.1)
+
+    assert logged(run, capsys, program) == ["[INFO]: call 3", "[INFO]: call 6", "[INFO]: call 9"]
+
+
+def test_each_logger_counts_for_itself_and_a_node_has_one(run: Run, capsys: Capture) -> None:
+    def program(found: list[Any]) -> None:
+        rclpy.init()
+        node = Node("n")
+        for _ in range(3):
+            node.get_logger().info("of the node", once=True)
+            rclpy.logging.get_logger("free").info("made anew", once=True)
+            node.get_logger().get_child("sub").info("a new child", once=True)
+
+    run(program)
+    lines = [line.rpartition(": ")[2] for line in capsys.readouterr().err.splitlines()]
+    assert [lines.count(text) for text in ("of the node", "made anew", "a new child")] == [1, 3, 3]
+
+
+def test_lines_of_one_name_in_two_places_are_throttled_apart(run: Run, capsys: Capture) -> None:
+    def program(logger: RcutilsLogger) -> None:
+        def complain() -> None:
+            logger.error("from one place", throttle_duration_sec=10.0)
+
+        for _ in range(3):
+            complain()
+            logger.error("from another", throttle_duration_sec=10.0)
+
+    assert logged(run, capsys, program) == ["[ERROR]: from one place", "[ERROR]: from another"]
+
+
+def test_a_filter_of_ones_own_is_asked_like_rclpys(run: Run, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    class EveryNth(LoggingFilter):
+        params: ClassVar[dict[str, Any]] = {"every_nth": None}
+
+        @classmethod
+        def initialize_context(cls, context: dict[str, Any], **kwargs: Any) -> None:
+            super().initialize_context(context, **kwargs)
+            context["calls"] = 0
+
+        @staticmethod
+        def should_log(context: dict[str, Any]) -> bool:
+            context["calls"] += 1
+            return bool(context["calls"] % context["every_nth"] == 0)
+
+    monkeypatch.setitem(rcutils_logger.supported_filters, "every_nth", EveryNth)
+
+    def program(logger: RcutilsLogger) -> None:
+        for number in range(7):
+            logger.info(f"call {number}", every_nth=3)
+        for number in range(7):
+            logger.info(f"never {number}", every_nth=2, once=True)  # once is asked first, and lets only the first pass
+
+    assert logged(run, capsys, program) == ["[INFO]: call 2", "[INFO]: call 5"]
+
+
+def test_the_filters_of_a_call_are_told_by_their_names() -> None:
+    asked = rcutils_logger.get_filters_from_kwargs
+    assert asked() == asked(once=False) == []
+    assert asked(once=True, skip_first=True, throttle_duration_sec=1.0) == ["throttle", "skip_first", "once"]
+    assert list(rcutils_logger.supported_filters) == ["throttle", "skip_first", "once"]
+    context: dict[str, Any] = {}
+    with pytest.raises(TypeError, match='Required parameter "once" was not specified for logging filter "Once"'):
+        rcutils_logger.Once.initialize_context(context)
+    rcutils_logger.SkipFirst.initialize_context(context, skip_first=True)
+    assert [rcutils_logger.SkipFirst.should_log(context) for _ in range(3)] == [False, True, True]
+    assert LoggingFilter.should_log({})
+
+
+def test_a_logger_knows_the_places_that_have_used_it(world: World, capsys: Capture) -> None:
+    logger = demo_logger()
+    for _ in range(2):
+        logger.info("here", once=True)
+    ((place, context),) = logger.contexts.items()
+    assert place[:2] == ("test_a_logger_knows_the_places_that_have_used_it", __file__)
+    assert (context["severity"], context["filters"], context["has_been_logged_once"]) == (20, ["once"], True)
+    one, other = CallerId(), CallerId()
+    assert one != other
+    assert one.function_name == other.function_name
+    assert (one.line_number, one.file_path) == (place.line_number + 4, __file__)
 
 
 # ---------------------------------------------------------------- levels and names
@@ -424,3 +521,41 @@ def test_levels_are_asked_for_and_set_by_services(world: World) -> None:
     getter = node.create_client(GetLoggerLevels, "/ns/demo/get_logger_levels")
     levels = getter.call(GetLoggerLevels.Request(names=["ns.demo", "y"])).levels
     assert [(each.name, each.level) for each in levels] == [("ns.demo", 10), ("y", 0)]
+
+
+def test_a_level_set_by_service_counts_for_children_until_they_have_their_own(world: World, capsys: Capture) -> None:
+    from rcl_interfaces.msg import LoggerLevel
+    from rcl_interfaces.srv import SetLoggerLevels
+
+    def program() -> None:
+        rclpy.init(args=[])
+        node = Node("demo", enable_logger_service=True)
+        child = node.get_logger().get_child("arm")
+        grandchild = child.get_child("hand")
+
+        def work() -> None:
+            node.get_logger().debug("node")
+            child.debug("arm")
+            grandchild.debug("hand")
+
+        node.create_timer(1.0, work)
+        rclpy.spin(node)
+
+    world.spawn(program, name="demo")
+    rclpy.init(args=[])
+    node = rclpy.create_node("asker")
+    world.sim.run_until(100_000_000)
+    client = node.create_client(SetLoggerLevels, "/demo/set_logger_levels")
+
+    def printed_with(name: str, level: int) -> list[str]:
+        client.call(SetLoggerLevels.Request(levels=[LoggerLevel(name=name, level=level)]))
+        capsys.readouterr()
+        world.sim.run_until(world.now + 1_000_000_000)
+        return [line.rpartition(": ")[2] for line in capsys.readouterr().err.splitlines()]
+
+    assert printed_with("other", 10) == []
+    assert printed_with("demo", 10) == ["node", "arm", "hand"]
+    assert printed_with("demo.arm", 40) == ["node"]
+    assert printed_with("demo.arm.hand", 10) == ["node", "hand"]
+    assert printed_with("demo.arm", 0) == ["node", "arm", "hand"]  # UNSET: that of the node again
+    assert printed_with("demo", 20) == ["hand"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import gc
 import time
 from collections.abc import Callable
@@ -13,6 +14,7 @@ from rclpy.callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup,
 from rclpy.executors import (
     ConditionReachedException,
     Executor,
+    ExternalShutdownException,
     MultiThreadedExecutor,
     SingleThreadedExecutor,
     TimeoutException,
@@ -23,6 +25,7 @@ from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
 from rclpy.task import Future
 from std_msgs.msg import String
+from std_srvs.srv import Trigger
 
 from turtle_lesson.ros.world import World
 
@@ -96,6 +99,84 @@ def test_waiting_for_a_callback_ends_with_a_timeout_or_when_a_condition_holds(ru
     assert run(program) == [("TimeoutException", 0.5), ("ConditionReachedException", 0.5)]
 
 
+def test_spin_goes_through_what_a_subclass_has_of_its_own(run: Run) -> None:
+    class Careful(SingleThreadedExecutor):
+        def __init__(self) -> None:
+            super().__init__()
+            self.story: list[str] = []
+
+        def add_node(self, node: Node) -> bool:
+            self.story.append(f"comes {node.get_name()}")
+            return super().add_node(node)
+
+        def remove_node(self, node: Node) -> None:
+            self.story.append(f"goes {node.get_name()}")
+            super().remove_node(node)
+
+        def spin_once(self, timeout_sec: float | None = None) -> None:
+            self.story.append("spins")
+            super().spin_once(timeout_sec)
+
+    def program(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        node, executor = rclpy.create_node("n"), Careful()
+        future = Future()
+        timer = node.create_timer(0.1, lambda: future.set_result("done"))
+        rclpy.spin_until_future_complete(node, future, executor=executor)
+        timer.cancel()
+        found += [future.result(), executor.get_nodes(), *executor.story]
+        executor.story.clear()
+        node.create_timer(0.1, rclpy.shutdown)
+        with contextlib.suppress(ExternalShutdownException):
+            rclpy.spin(node, executor=executor)
+        found += executor.story[:3]
+
+    assert run(program) == ["done", [], "comes n", "goes n", "comes n", "spins", "goes n"]
+
+
+def test_an_executor_that_counts_what_it_runs_and_stops_itself(run: Run) -> None:
+    class Limited(MultiThreadedExecutor):
+        def __init__(self, most: int) -> None:
+            super().__init__(num_threads=2)
+            self.left = most
+
+        def spin(self) -> None:
+            while self.left and self.context.ok():
+                self.spin_once(timeout_sec=1.0)
+                self.left -= 1
+
+    def program(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        node, executor = rclpy.create_node("n"), Limited(3)
+        node.create_timer(0.5, lambda: found.append(round(time.monotonic(), 1)))
+        executor.add_node(node)
+        executor.spin()
+        time.sleep(1.0)
+        found.append(executor.left)
+
+    assert run(program) == [0.5, 1.0, 1.5, 0]
+
+
+def test_what_a_callback_raises_stays_with_its_handler_until_it_is_asked_for(run: Run) -> None:
+    def program(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        node, executor = rclpy.create_node("n"), Priority()
+        executor.add_node(node)
+
+        def stumble() -> None:
+            timer.cancel()
+            raise ValueError("a stone")
+
+        timer = node.create_timer(0.1, stumble)
+        node.create_timer(0.2, lambda: found.append("walks on"))
+        handler, entity, its_node = executor.wait_for_ready_callbacks(timeout_sec=0.5)
+        handler()
+        found += [repr(handler.exception()), entity is timer, its_node is node]
+        executor.spin_once(timeout_sec=0.5)
+
+    assert run(program) == ["ValueError('a stone')", True, True, "walks on"]
+
+
 # ---------------------------------------------------------------- callback groups
 
 
@@ -167,6 +248,110 @@ def test_a_group_may_only_be_a_little_different_from_one_of_rclpys(run: Run) -> 
         assert group.has_entity(next(iter(node.timers)))
 
     assert run(program) == ["begin", "tick", "end"]
+
+
+class Gate(CallbackGroup):
+    """Lets callbacks through, one at a time, while it is open; remembers of which kind they were."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open = True
+        self.busy = False
+        self.seen: list[str] = []
+
+    def can_execute(self, entity: Any) -> bool:
+        return self.open and not self.busy
+
+    def beginning_execution(self, entity: Any) -> bool:
+        self.busy = True
+        self.seen.append(type(entity).__name__)
+        return True
+
+    def ending_execution(self, entity: Any) -> None:
+        self.busy = False
+
+
+def test_a_group_of_ones_own_is_asked_for_every_kind_of_callback(run: Run) -> None:
+    def program(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        node, group = rclpy.create_node("n"), Gate()
+        node.create_timer(0.1, lambda: found.append("timer"), callback_group=group)
+        node.create_subscription(String, "t", lambda message: found.append("message"), 10, callback_group=group)
+        node.create_service(Trigger, "s", lambda request, response: response, callback_group=group)
+        client = node.create_client(Trigger, "s", callback_group=group)
+        guard = node.create_guard_condition(lambda: found.append("guard"), callback_group=group)
+        node.create_publisher(String, "t", 10).publish(String())
+        guard.trigger()
+        future = client.call_async(Trigger.Request())
+        rclpy.spin_until_future_complete(node, future)
+        rclpy.spin_once(node, timeout_sec=0.2)
+        found.append(sorted(set(group.seen)))
+
+    *heard, kinds = run(program)
+    assert sorted(heard) == ["guard", "message", "timer"]
+    assert kinds == ["Client", "GuardCondition", "Service", "Subscription", "Timer"]
+
+
+def test_a_closed_gate_holds_messages_up_and_loses_none(run: Run) -> None:
+    def program(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        node, group = rclpy.create_node("n"), Gate()
+        group.open = False
+
+        def hear(message: String) -> None:
+            found.append((message.data, round(time.monotonic(), 1)))
+
+        def unlock() -> None:
+            group.open = True
+            opener.cancel()
+
+        node.create_subscription(String, "t", hear, 10, callback_group=group)
+        opener = node.create_timer(1.0, unlock)
+        publisher = node.create_publisher(String, "t", 10)
+        for text in "abc":
+            publisher.publish(String(data=text))
+        while time.monotonic() < 2.0:
+            rclpy.spin_once(node, timeout_sec=0.1)
+
+    assert run(program) == [("a", 1.0), ("b", 1.0), ("c", 1.0)]
+
+
+def test_a_group_is_free_again_after_a_callback_that_raised(run: Run) -> None:
+    def program(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        node, group = rclpy.create_node("n"), Gate()
+
+        def stumble() -> None:
+            raise ValueError("a stone")
+
+        node.create_timer(0.1, stumble, callback_group=group)
+        for _ in range(2):
+            with pytest.raises(ValueError, match="a stone"):
+                rclpy.spin_once(node)
+        found.append((group.busy, group.seen))
+
+    assert run(program) == [(False, ["Timer", "Timer"])]
+
+
+def test_a_coroutine_keeps_a_group_of_ones_own_while_it_waits(run: Run) -> None:
+    def program(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        node, group = rclpy.create_node("n"), Gate()
+        wake = Future()
+
+        async def patient() -> None:
+            waiting.cancel()
+            found.append("begins")
+            await wake
+            found.append("goes on")
+
+        waiting = node.create_timer(0.1, patient, callback_group=group)
+        node.create_timer(0.2, lambda: found.append("same group"), callback_group=group)
+        node.create_timer(0.7, lambda: wake.set_result(None) if not wake.done() else None)
+        while time.monotonic() < 0.75:
+            rclpy.spin_once(node, timeout_sec=0.05)
+
+    assert run(program) == ["begins", "goes on", "same group"]
 
 
 # ---------------------------------------------------------------- the executor of events

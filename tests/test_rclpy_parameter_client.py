@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,8 @@ import rclpy
 from hypothesis import given
 from hypothesis import strategies as st
 from rcl_interfaces.msg import ParameterDescriptor, ParameterValue
+from rclpy._rclpy_pybind11 import RCLError
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.node import Node
 from rclpy.parameter import (
     Parameter,
@@ -78,6 +81,56 @@ def test_only_what_is_typed_dynamically_can_be_deleted(client: AsyncParameterCli
     results = answer(client, client.delete_parameters(["any", "speed"])).results
     assert [each.reason for each in results] == ["", "Static parameter cannot be undeclared"]
     assert "any" not in answer(client, client.list_parameters()).result.names
+
+
+def test_where_one_name_is_unknown_nothing_is_told_of_any(client: AsyncParameterClient) -> None:
+    names = ["speed", "nonsense"]
+    assert list(answer(client, client.get_parameters(names)).values) == []
+    assert list(answer(client, client.get_parameter_types(names)).types) == []
+    assert list(answer(client, client.describe_parameters(names)).descriptors) == []
+    results = answer(client, client.set_parameters([Parameter(name, value=2.0) for name in names])).results
+    assert [each.successful for each in results] == [True, False]
+    assert "nonsense" in results[1].reason
+    assert not answer(client, client.set_parameters_atomically([Parameter("nonsense", value=1)])).result.successful
+
+
+def test_several_requests_may_be_under_way_and_each_future_has_its_own_answer(client: AsyncParameterClient) -> None:
+    told: list[str] = []
+    futures = [
+        client.set_parameters([Parameter("speed", value=2.0)], lambda _: told.append("set")),
+        client.get_parameters(["speed"], lambda _: told.append("got")),
+        client.list_parameters(["arm"], callback=lambda _: told.append("listed")),
+        client.describe_parameters(["speed"], lambda _: told.append("described")),
+        client.get_parameter_types(["speed"], lambda _: told.append("types")),
+        client.delete_parameters(["any"], lambda _: told.append("deleted")),
+    ]
+    for future in futures:
+        answer(client, future)
+    for _ in futures:
+        rclpy.spin_once(client.node, timeout_sec=0.01)
+    assert sorted(told) == ["deleted", "described", "got", "listed", "set", "types"]
+    assert parameter_value_to_python(futures[1].result().values[0]) == 2.0
+    assert list(futures[2].result().result.prefixes) == ["arm"]
+
+
+def test_a_callback_may_await_parameters_of_another_node(run: Run) -> None:
+    def program(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        node = Node("asker", namespace="deep")
+        client = AsyncParameterClient(node, "/demo", callback_group=MutuallyExclusiveCallbackGroup())
+        client.wait_for_services()
+
+        async def speed_up() -> None:
+            response = await client.get_parameters(["speed"])
+            speed = parameter_value_to_python(response.values[0])
+            result = await client.set_parameters([Parameter("speed", value=speed * 2)])
+            found.append((speed, result.results[0].successful))
+
+        node.create_timer(0.5, speed_up)
+        while time.monotonic() < 1.9:
+            rclpy.spin_once(node, timeout_sec=0.05)
+
+    assert run(lambda _: demo(), program) == [(0.5, True), (1.0, True), (2.0, True)]
 
 
 def test_a_callback_is_told_of_the_answer(client: AsyncParameterClient) -> None:
@@ -193,6 +246,80 @@ def test_callbacks_can_be_taken_away(run: Run) -> None:
         )
 
     assert changes(run, prepare) == ["speed", "speed", "name", 0]
+
+
+def test_nodes_are_chosen_by_a_content_filter_that_can_be_taken_away(run: Run) -> None:
+    def program(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        nodes = [Node(name) for name in "abc"]
+        for node in nodes:
+            node.declare_parameter("speed", 0.0)
+        handler = ParameterEventHandler(nodes[0])
+        handler.add_parameter_event_callback(lambda event: found.append(event.node))
+
+        def change() -> None:
+            for node in nodes:
+                node.set_parameters([Parameter("speed", value=1.0)])
+            for _ in range(9):
+                rclpy.spin_once(nodes[0], timeout_sec=0.1)
+            found.append("")
+
+        assert handler.configure_nodes_filter(["/a", "/c"])
+        assert handler.parameter_event_subscription.get_content_filter() == ("node = %0 OR node = %1", ["'/a'", "'/c'"])
+        change()
+        assert handler.configure_nodes_filter()
+        change()
+        with pytest.raises(RCLError, match="current subscriber has no content filter topic"):
+            handler.configure_nodes_filter([])
+
+    assert run(program) == ["/a", "/c", "", "/a", "/b", "/c", ""]
+
+
+def test_a_callback_may_take_itself_away(run: Run) -> None:
+    def prepare(handler: ParameterEventHandler, found: list[Any]) -> None:
+        def once(parameter: Any) -> None:
+            found.append((parameter.name, parameter.value.double_value))
+            handler.remove_parameter_callback(handle)
+
+        def first_event(event: Any) -> None:
+            found.append(event.node)
+            handler.remove_parameter_event_callback(event_handle)
+
+        handle = handler.add_parameter_callback("speed", "other", once)
+        handler.add_parameter_callback("speed", "other", lambda parameter: found.append("stays"))
+        event_handle = handler.add_parameter_event_callback(first_event)
+
+    assert changes(run, prepare) == ["/ns/watcher", "stays", ("speed", 2.0), 0]
+
+
+def test_what_is_deleted_is_no_change_of_a_value(run: Run) -> None:
+    def program(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        node = Node("n")
+        handler = ParameterEventHandler(node, callback_group=MutuallyExclusiveCallbackGroup())
+        handler.add_parameter_callback("speed", "", lambda parameter: found.append(parameter.value.integer_value))
+        handler.add_parameter_event_callback(lambda event: found.extend(each.name for each in event.deleted_parameters))
+        node.declare_parameter("speed", 5, ParameterDescriptor(dynamic_typing=True))
+        node.set_parameters([Parameter("speed")])
+        for _ in range(5):
+            rclpy.spin_once(node, timeout_sec=0.1)
+
+    assert run(program) == [5, "speed"]
+
+
+def test_the_callbacks_can_be_kept_without_a_node(world: World) -> None:
+    from rcl_interfaces.msg import ParameterEvent
+
+    heard: list[Any] = []
+    callbacks = ParameterEventHandler.Callbacks()
+    handle = callbacks.add_parameter_callback("speed", "/n", lambda parameter: heard.append(parameter.name))
+    callbacks.add_parameter_event_callback(lambda event: heard.append(event.node))
+    speed = Parameter("speed", value=1.0).to_parameter_msg()
+    callbacks.event_callback(ParameterEvent(node="/n", changed_parameters=[speed]))
+    callbacks.event_callback(ParameterEvent(node="/other", changed_parameters=[speed]))
+    assert heard == ["speed", "/n", "/other"]
+    callbacks.remove_parameter_callback(handle)
+    assert callbacks.parameter_callbacks == {}
 
 
 # ---------------------------------------------------------------- values from texts and files

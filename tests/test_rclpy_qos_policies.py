@@ -65,6 +65,7 @@ def test_presets_are_found_by_short_key() -> None:
     assert "action_status_default" in QoSPresetProfiles.short_keys()
     assert QoSPresetProfiles.ACTION_STATUS_DEFAULT.value.durability == DurabilityPolicy.TRANSIENT_LOCAL
     assert qos.qos_profile_rosout_default.lifespan == Duration(seconds=10)
+    assert QoSPresetProfiles.ROSOUT_DEFAULT.value is qos.qos_profile_rosout_default
     assert QoSProfile(history=HistoryPolicy.KEEP_ALL).depth == 10
 
 

@@ -45,6 +45,74 @@ def spin_in_thread(node: Node) -> threading.Thread:
     return thread
 
 
+# ---------------------------------------------------------------- loops that do nothing but ask
+
+WAYS_TO_ASK: dict[str, Callable[[Any], object]] = {
+    "a future": lambda it: it.future.done(),
+    "an event": lambda it: it.event.is_set(),
+    "a queue": lambda it: not it.queue.empty(),
+    "a lock": lambda it: it.lock.acquire(blocking=False),
+    "ROS": lambda it: not rclpy.ok() or it.seen,
+    "a thread": lambda it: not it.thread.is_alive() or it.seen,
+    "the graph": lambda it: it.node.count_publishers("late"),
+    "a publisher": lambda it: it.publisher.get_subscription_count(),
+    "a client": lambda it: it.client.service_is_ready(),
+}
+
+
+class Awaited:
+    """What a timer changes after half a second, in a node that a thread spins."""
+
+    def __init__(self) -> None:
+        self.node = start()
+        self.future, self.event, self.queue, self.lock = (
+            Future(),
+            threading.Event(),
+            queue.Queue[int](),
+            threading.Lock(),
+        )
+        self.lock.acquire()
+        self.seen = False
+        self.publisher = self.node.create_publisher(String, "early", 1)
+        self.client = self.node.create_client(AddTwoInts, "add")
+        self.timer = self.node.create_timer(0.5, self.happen)
+        self.thread = spin_in_thread(self.node)
+
+    def happen(self) -> None:
+        """The half second is over."""
+        self.timer.cancel()
+        self.seen = True
+        self.future.set_result(1)
+        self.event.set()
+        self.queue.put(1)
+        self.lock.release()
+        self.node.create_publisher(String, "late", 1)
+        self.node.create_subscription(String, "early", print, 1)
+        self.node.create_service(AddTwoInts, "add", print)
+
+
+@pytest.mark.parametrize("what", WAYS_TO_ASK)
+def test_a_loop_that_does_nothing_but_ask_ends_when_another_thread_has_done_it(run: Run, what: str) -> None:
+    def program(found: list[Any]) -> None:
+        it, now, asked = Awaited(), stop_watch(), 0
+        while not WAYS_TO_ASK[what](it):
+            asked += 1
+        found += [now(), asked > 100_000]
+
+    assert run(program) == [0.5, True]
+
+
+def test_asking_now_and_then_takes_no_time(run: Run) -> None:
+    def program(found: list[Any]) -> None:
+        it, clock = Awaited(), rclpy.clock.Clock()
+        began = clock.now()
+        for _ in range(90):
+            found.extend(ask for ask in WAYS_TO_ASK.values() if ask(it))
+        found.append((clock.now() - began).nanoseconds)
+
+    assert run(program) == [1_000]  # that of the second look at the clock
+
+
 # ---------------------------------------------------------------- spinning in a thread
 
 

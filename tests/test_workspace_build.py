@@ -541,3 +541,16 @@ def test_folders_that_cannot_be(tmp_path: Path, world: World, line: str) -> None
     out, err = io.StringIO(), io.StringIO()
     assert run(world, line.split(" "), stdout=out, stderr=err, cwd=tmp_path) == 1
     assert err.getvalue().splitlines()[-1].startswith("[0.200s] ERROR:colcon:colcon ")
+
+
+def test_a_python_package_brings_what_ament_cmake_core_has(package: Path, world: World) -> None:
+    change(package / CMAKE, "find_package(ament_cmake REQUIRED)\nfind_package(rosidl_default_generators REQUIRED)", "")
+    text = (package / CMAKE).read_text()
+    (package / CMAKE).write_text(text.replace(text[text.index("rosidl_generate") : text.index("install(PROGRAMS")], ""))
+    assert 'Unknown CMake command "ament_package"' in colcon(world).err
+    (package / "tools").mkdir()
+    (package / "tools/__init__.py").touch()
+    package_of_tools = "find_package(ament_cmake_python REQUIRED)\nament_python_install_package(tools)\n"
+    change(package / CMAKE, "ament_package()", f"{package_of_tools}ament_package()")
+    answer = colcon(world)
+    assert answer.code == 0, answer.err

@@ -13,6 +13,7 @@ from command_cases import cases
 from workspace_cases import XML, change, colcon, make_package, source_in, started, timeless
 
 import turtle_lesson
+from turtle_lesson.ros.command.shell import run_line
 from turtle_lesson.ros.interfaces.registry import registry
 from turtle_lesson.ros.workspace import setup_script
 from turtle_lesson.ros.workspace.create import create_package, parse
@@ -284,3 +285,12 @@ def test_a_setup_py_full_of_nonsense(
     (py_demo / "setup.py").write_text(text)
     answer = colcon(world)
     assert (answer.code, said in answer.err) == (1, True), answer.err
+
+
+def test_a_program_may_lie_in_a_file_whose_name_no_import_takes(
+    py_demo: Path, world: World, capsys: pytest.CaptureFixture[str]
+) -> None:
+    change(py_demo / "setup.py", "py_demo.hello:main", "py_demo.2_hellos:main")
+    (py_demo / "py_demo/hello.py").rename(py_demo / "py_demo/2_hellos.py")
+    assert run_line(world, "colcon build && source install/setup.bash && ros2 run py_demo hello") == 0
+    assert "Hi from py_demo." in capsys.readouterr().out

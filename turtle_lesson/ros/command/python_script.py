@@ -1,4 +1,5 @@
-"""`python3 FILE.py …`: runs a file as a program of this world, as `ros2 run` does with those of packages."""
+"""`python3 FILE.py …` and `python3 -m MODULE …`: run a file, or a module of a package that was sourced, as a program of this
+world, as `ros2 run` does with those of packages."""
 
 from __future__ import annotations
 
@@ -8,26 +9,51 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..console import CellOutput
+from ..workspace.current import current_packages
+from ..workspace.installed import python_folders
+from ..workspace.python_program import PythonProgram
 
 if TYPE_CHECKING:
     from ..world import World
 
 _PYTHON = re.compile(r"python(3(\.\d+)?)?")
+_AS_MODULE = "import runpy\nrunpy.run_module({!r}, run_name='__main__', alter_sys=True)\n"
 
 
 def names_a_script(words: Sequence[str]) -> bool:
-    """Whether a command is Python with a file that is there, and not `python3 -m …`, which the computer would have to do."""
-    return len(words) > 1 and _PYTHON.fullmatch(words[0]) is not None and _is_file(words[1])
+    """Whether a command is Python with a file or module that is there; all else the computer would have to do."""
+    return len(words) > 1 and _PYTHON.fullmatch(words[0]) is not None and _script(words[1:]) is not None
 
 
-def _is_file(name: str) -> bool:
-    return not name.startswith("-") and len(name) < 1000 and Path(name).is_file()
+def _script(arguments: Sequence[str]) -> Path | None:
+    """The file that Python would run."""
+    name = arguments[0]
+    if name == "-m":
+        return _module(arguments[1]) if len(arguments) > 1 else None
+    return Path(name) if not name.startswith("-") and len(name) < 1000 and Path(name).is_file() else None
+
+
+def _module(name: str) -> Path | None:
+    """The file of a module beside which the terminal stands, or of a package that was sourced."""
+    if not all(part.isidentifier() for part in name.split(".")):
+        return None
+    prefixes = [package.prefix for package in current_packages() if package.prefix is not None]
+    folders = [Path.cwd(), *(folder for prefix in prefixes for folder in python_folders(prefix))]
+    inner = Path(*name.split("."))
+    places = (folder / file for folder in folders for file in (inner.with_suffix(".py"), inner / "__main__.py"))
+    return next((place for place in places if place.is_file()), None)
 
 
 def run_script(world: World, words: Sequence[str]) -> int:
     """Start the program, let it begin, and leave it running; the exit code of one that has ended at once."""
     from .group_run_launch import leave
 
-    path, output = Path(words[1]), CellOutput(world.sim)
-    process = world.spawn(path, name=path.stem, argv=list(words[1:]), stdout=output, stderr=output)
+    path, output = _script(words[1:]), CellOutput(world.sim)
+    assert path is not None
+    target: Path | PythonProgram = path
+    name, arguments = path.stem, list(words[1:])
+    if arguments[0] == "-m":
+        name, arguments = arguments[1].rpartition(".")[2], [str(path), *arguments[2:]]
+        target = PythonProgram(path, (Path.cwd(),), _AS_MODULE.format(words[2]))
+    process = world.spawn(target, name=name, argv=arguments, stdout=output, stderr=output)
     return leave(process, " ".join(words), None)

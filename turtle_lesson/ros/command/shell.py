@@ -124,6 +124,9 @@ class Shell:
             return run_ros2(self.world, words, stdout=out, stderr=error, background=background)
         if name in {"colcon", "source", "."}:
             return _workspace(self.world, words, out, error)
+        if "/" in name and (program := self.world.packages.program_at(name)):
+            words = ["ros2", "run", *program, *words[1:]]
+            return run_ros2(self.world, words, stdout=out, stderr=error, background=background)
         if names_a_script(words):
             return run_script(self.world, words)
         if name in BUILTINS:

@@ -4,23 +4,20 @@ from __future__ import annotations
 
 import sys
 from contextlib import suppress
-from io import TextIOBase
 from typing import Any, TextIO
+
+from ..console import BorrowedStream
 
 LONGEST = 1500
 """How many characters of a line of stderr are shown: nobody reads on in a name of 10,000."""
 
 
-class CellErrors(TextIOBase):
+class CellErrors(BorrowedStream):
     """A cell's stderr. It flushes both streams where it writes: else Jupyter would mix up their order."""
 
     def __init__(self, target: TextIO, other: TextIO) -> None:
         self._target = target
         self._other = other
-
-    def writable(self) -> bool:
-        """It can be written to."""
-        return True
 
     def write(self, text: str) -> int:
         """Print a text, as it is."""
@@ -41,16 +38,12 @@ def cell_streams() -> tuple[TextIO, CellErrors]:
     return sys.stdout, CellErrors(sys.stderr, sys.stdout)
 
 
-class Errors(TextIOBase):
+class Errors(BorrowedStream):
     """A command's stderr: what was typed is repeated in it, so endless lines are cut and control characters named."""
 
     def __init__(self, target: Any) -> None:
         self._target = target
         self._column = 0
-
-    def writable(self) -> bool:
-        """It can be written to."""
-        return True
 
     def write(self, text: str) -> int:
         """Print a text, made fit to be printed."""

@@ -10,6 +10,8 @@ from importlib.machinery import SourceFileLoader
 from types import CodeType, ModuleType
 from typing import TYPE_CHECKING
 
+from .busy_loops import without_busy_loops
+
 if TYPE_CHECKING:
     from .program_modules import ProgramModules
 
@@ -20,12 +22,12 @@ _compiled: dict[str, tuple[bytes, bytes]] = {}
 def code_of(path: str, text: str | None = None) -> CodeType:
     """The code of a file as it is now, or of a text in its place."""
     if text is not None:
-        return compile(text, path, "exec", dont_inherit=True)
+        return compile(without_busy_loops(text, path), path, "exec", dont_inherit=True)
     with open(path, "rb") as file:
         source = file.read()
     known = _compiled.get(path)
     if known is None or known[0] != source:
-        code = compile(source, path, "exec", dont_inherit=True)
+        code = compile(without_busy_loops(source, path), path, "exec", dont_inherit=True)
         known = _compiled[path] = (source, marshal.dumps(code))
     copy: CodeType = marshal.loads(known[1])
     return copy

@@ -19,6 +19,7 @@ from importlib.machinery import ModuleSpec, PathFinder
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
+from .busy_loops import NAME, another_look
 from .program_code import ProgramLoader, code_of
 from .program_sys import ProgramSys
 
@@ -36,7 +37,7 @@ class ProgramModules:
         self._process = process
         self._folders = list(folders)
         self.sys = ProgramSys(process, [*self._folders, *sys.path], self.show)
-        self.builtins = {**vars(builtins), "__import__": self._import, "exit": _exit, "quit": _exit}
+        self.builtins = {**vars(builtins), "__import__": self._import, "exit": _exit, "quit": _exit, NAME: another_look}
         self._modules: dict[str, ModuleType] = {}
         self._own = {"__main__": True}
         self._looked_in: list[str] = []

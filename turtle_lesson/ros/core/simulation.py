@@ -50,6 +50,8 @@ class Simulation(Face):
         self.make_ready = self._ready.append
         """Queue a strand that is parked no longer; `wake` does it with all care."""
         self._count = 0
+        self.looks = 0
+        self.looked_at = 0
         self._limit = 0
         self._halted = False
         self._raising = False
@@ -117,14 +119,14 @@ class Simulation(Face):
         while self.now < time:
             self.park(strand)
 
-    def read_clock(self) -> int:
-        """The virtual time in ns, for somebody who looks at a clock: looking costs `CLOCK_READ`."""
+    def read_clock(self, cost: int = CLOCK_READ) -> int:
+        """The virtual time in ns, for somebody who looks at a clock: looking costs time itself (ns)."""
         if self._raising:
             return self.now  # somebody who was interrupted cleans up, all in this instant
         if running_strand() is not None:
-            self.sleep_until(self.now + CLOCK_READ)
+            self.sleep_until(self.now + cost)
         elif not self.running and not self.closed:
-            self.run_until(self.now + CLOCK_READ)
+            self.run_until(self.now + cost)
         return self.now
 
     # -- running ---------------------------------------------------------------------------------------------

@@ -14,6 +14,7 @@ from typing import Any
 from launch.actions.execute_local import Program
 
 from ..core.process import INTERRUPTED
+from ..core.tracebacks import shown_path
 from ..workspace.current import current_packages
 from ..workspace.errors import ExecutableNotFoundError, PackageNotFoundError
 
@@ -65,10 +66,10 @@ def _script(text: str, argv: list[str], shown: str) -> Program:
             code = run() or 0
         return code
 
-    return Program(_ending(main), argv, shown)
+    return Program(ending(main), argv, shown)
 
 
-def _ending(main: Main) -> Callable[[], None]:
+def ending(main: Main) -> Callable[[], None]:
     """A function that ends its process with the exit code that `main` gives; Ctrl-C ends it without a word."""
 
     def end() -> None:
@@ -108,12 +109,15 @@ def _simple(words: list[str], shown: str) -> Program:
     """One command: a program of a package, a Python file, or a function of this module."""
     if words[:2] == ["ros2", "run"] and len(words) > 2:
         return _ros2_run(words, shown)
+    packages = current_packages()
+    if "/" in words[0] and (found := packages.program_at(words[0])):
+        return Program(packages.executable(*found), words, shown.replace(words[0], shown_path(words[0]), 1))
     name = PurePath(words[0]).name
     if (words[0] == sys.executable or name in {"python", "python3"}) and len(words) > 1:
         return Program(_python_file(words[1], shown), words[1:], shown)
     if name.endswith(".py") and "/" in words[0]:
         return Program(_python_file(words[0], shown), words, shown)
-    return Program(_ending(_main(words)), words, shown)
+    return Program(ending(_main(words)), words, shown)
 
 
 def _python_file(name: str, shown: str) -> Path:
@@ -159,13 +163,13 @@ def _main(words: list[str]) -> Main:
                 f"ExecuteProcess(cmd='{' '.join(words)}'): a launch file is taken in by IncludeLaunchDescription",
                 "Write IncludeLaunchDescription(path_of_the_launch_file).",
             )
-        return lambda: _ros2(words)
+        return lambda: ros2(words)
     if name in _SMALL:
         return lambda: _SMALL[name](words[1:])
     raise UnknownCommand(*_refusal(words))
 
 
-def _ros2(words: list[str]) -> int:
+def ros2(words: list[str]) -> int:
     from ..command import run_here
 
     return run_here(words)

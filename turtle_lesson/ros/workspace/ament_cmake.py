@@ -219,6 +219,7 @@ class _Build:
             text = f"ament_python_install_package() the Python package folder '{folder}' doesn't exist"
             raise refused(text, where, f"Make {folder}/__init__.py, which may be empty.")
         self.python.append((folder, name))
+        self.commands |= COMMANDS_OF["ament_cmake_core"]  # which it finds (ament_cmake_python-extras.cmake)
 
     def _option(self, command: Command, word: str) -> str:
         args = command.args

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import keyword
 import os
 import re
 from pathlib import Path, PurePosixPath
@@ -194,9 +195,7 @@ class _Build:
                 raise BuildFailure(text, hint, seconds=0.5)
             name, module, function = match[1], match[2], match[3]
             self._check_entry(name, module, function)
-            text = _PROGRAM.format(
-                line=line.strip(), module=module, first=function.partition(".")[0], function=function
-            )
+            text = _PROGRAM.format(line=line.strip(), imports=_imports(module, function), function=function)
             items.append(Item(f"{place or 'bin'}/{name}", text=text, program=True))
         if items and place != f"lib/{self.found.name}":
             self.hints.append(
@@ -228,11 +227,18 @@ class _Build:
 _PROGRAM = """\
 #!/usr/bin/python3
 # EASY-INSTALL-ENTRY-SCRIPT: made by colcon build from the entry point '{line}'
-import sys
-
-from {module} import {first}
+{imports}
 
 sys.exit({function}())
 """
+
+
+def _imports(module: str, function: str) -> str:
+    """The lines that import `function`. A name such as 2_turtles.py suits no `import`, but is loaded all the same."""
+    first = function.partition(".")[0]
+    if all(part.isidentifier() and not keyword.iskeyword(part) for part in module.split(".")):
+        return f"import sys\n\nfrom {module} import {first}"
+    return f"import importlib\nimport sys\n\n{first} = importlib.import_module({module!r}).{first}"
+
 
 __all__ = ["SITE", "build_ament_python"]

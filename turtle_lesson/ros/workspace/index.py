@@ -89,6 +89,14 @@ class PackageIndex:
             return found.executables[executable]
         raise _no_executable(found, executable)
 
+    def program_at(self, path: str) -> tuple[str, str] | None:
+        """Package and name of the program that lies at a path, as ExecutableInPackage gives it; None for other paths."""
+        place = Path(path).absolute()
+        package = self._layers[place.parent.name][-1] if place.parent.name in self._layers else None
+        if package is None or place.name not in package.executables or place.parent != package.libexec.absolute():
+            return None
+        return package.name, place.name
+
 
 def _no_executable(package: Package, executable: str) -> ExecutableNotFoundError:
     libexec = shown_path(str(package.libexec))

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ..strand import Strand, getcurrent
 from .home import notebook_here, process_here
 from .locks import VirtualLock
+from .looking import looked_in_vain
 
 if TYPE_CHECKING:
     from ..process import Process
@@ -26,7 +27,7 @@ class Handle:
 
     def is_done(self) -> bool:
         """Whether it has ended."""
-        return not self.lock.locked()
+        return not self.lock.locked() or looked_in_vain()
 
     def join(self, timeout: float | None = None) -> None:
         """Wait until it has, at most `timeout` s."""

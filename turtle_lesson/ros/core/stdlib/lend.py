@@ -33,6 +33,7 @@ from . import (
     identity,
     local,
     locks,
+    looking,
     loop_functions,
     own_modules,
     pools,
@@ -124,6 +125,7 @@ def _install_locks() -> None:
     lock_kinds = (locks.RealLock, locks.VirtualLock)
     replace(threading, "Lock", facade(threading.Lock, locks.VirtualLock, lock_kinds))
     replace_function(threading, "RLock", _rlock)
+    replace_method(threading.Event, "is_set", looking.is_set)
     replace_method(threading.Condition, "wait", locks.condition_wait(threading.Condition.wait))
     replace_function(threading, "_time", _peek)
     replace_function(queue, "time", _peek)

@@ -19,6 +19,7 @@ from ..simulation import NANOSECONDS
 from ..strand import Strand, getcurrent, running_strand
 from .home import is_for_everybody, notebook_here
 from .hopeless import look_for_hope
+from .looking import count_look
 
 RealLock = type(allocate_lock())
 
@@ -48,6 +49,9 @@ class VirtualLock:
 
     def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
         """Take the lock, waiting for it if `blocking`, at most `timeout` seconds; whether it was taken."""
+        asking = getcurrent()
+        if type(asking) is Strand:
+            count_look(asking.simulation)  # queues are asked with their lock
         if not self._lock.acquire(False):
             allocate_lock().acquire(blocking, timeout)  # which refuses what a real one refuses
             if not blocking or timeout == 0:
@@ -57,9 +61,8 @@ class VirtualLock:
                 return self._acquire_outside(timeout)
             if not self._wait(strand, None if timeout < 0 else strand.simulation.now + nanoseconds(timeout)):
                 return False
-        strand = getcurrent()
-        if type(strand) is Strand:
-            self.owner = strand
+        if type(asking) is Strand:
+            self.owner = asking
         return True
 
     def release(self) -> None:

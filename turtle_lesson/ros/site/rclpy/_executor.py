@@ -80,7 +80,7 @@ class Executor(ExecutorBase):
                             execute(entity)
                         else:
                             self._held_up.append(entity)
-                elif signalled or self._batch or self._resumed:
+                elif signalled or self._batch or self._resumed or (self._polled and not self._has_polled):
                     try:
                         job = self._next(strand, None, None)
                     except ShutdownException:
@@ -116,7 +116,7 @@ class Executor(ExecutorBase):
         deadline = self._deadline(timeout_sec)
         if deadline is None and (problem := why_never_done(future, self, strand)):
             raise NeverWakes(problem)
-        while self._context.ok() and not future.done() and not future.cancelled() and not self._is_shutdown:
+        while self._context.ok() and not future._is_done() and not future.cancelled() and not self._is_shutdown:
             if deadline is not None and self._simulation.now >= deadline:
                 return
             left = None if deadline is None else (deadline - self._simulation.now) / NANOSECONDS
@@ -128,7 +128,7 @@ class Executor(ExecutorBase):
         self._watch(future)
         strand = running_strand()
         assert strand is not None
-        self._spin_once(strand, self._deadline(timeout_sec), future.done)
+        self._spin_once(strand, self._deadline(timeout_sec), future._is_done)
 
     def _watch(self, future: Future) -> None:
         """Look again when the future is done. It is asked for once, however often it is spun for."""

@@ -45,7 +45,8 @@ class ExecutorBase:
         self._signalled: list[Entity] = []
         self._batch: list[Job] = []
         self._resumed: list[Task] = []
-        self._polled: list[Task] = []
+        self._polled: list[Task] = []  # whose coroutine only let others go first, as with asyncio.sleep(0)
+        self._has_polled = False  # nothing has happened since they last looked
         self._held_up: list[Entity] = []
         self._waiter: Strand | None = None  # whom a signal wakes: the last of those who wait
         self._waiters: list[Strand] = []
@@ -151,17 +152,21 @@ class ExecutorBase:
                     self._held_up.append(job)
             if condition is not None and condition():
                 return None
-            if self._signalled or self._resumed:
+            if self._signalled or self._resumed or (self._polled and not self._has_polled):
                 self._begin_cycle()
                 continue
             if self._is_shutdown or not self._context.ok():
                 self._say_it_is_shut_down()
             if deadline is not None and self._simulation.now >= deadline:
-                return None
+                if not self._polled:
+                    return None
+                self._begin_cycle()
+                continue
             self._wait(strand, deadline)
 
     def _begin_cycle(self) -> None:
         """Take all that is ready now as the next batch."""
+        self._has_polled = not self._signalled and not self._resumed
         if self._in_order_of_arrival:
             batch: list[Job] = self._signalled[::-1]  # taken from the end
         else:

@@ -18,7 +18,7 @@ from .guard_condition import GuardCondition
 from .publisher import Publisher
 from .qos import QoSProfile, checked_profile, copied, qos_profile_services_default, usable_quality
 from .service import Service
-from .subscription import NO_FILTER, Subscription
+from .subscription import REFUSED, Subscription
 from .timer import Rate, Timer, period_ns
 
 if TYPE_CHECKING:
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from .executors import Executor
     from .impl.rcutils_logger import RcutilsLogger
     from .qos_overriding_options import QoSOverridingOptions
+    from .subscription_content_filter_options import ContentFilterOptions
     from .waitable import Waitable
 
 
@@ -118,26 +119,29 @@ class NodeEntities(NodeGraph):
         event_callbacks: SubscriptionEventCallbacks | None = None,
         qos_overriding_options: QoSOverridingOptions | None = None,
         raw: bool = False,
-        content_filter_options: Any = None,
+        content_filter_options: ContentFilterOptions | None = None,
     ) -> Subscription:
         """Have `callback(message)` called for each message of a topic; the queue keeps `qos_profile` of them.
+
+        With `content_filter_options` (since Kilted) only those come in that its expression is true for.
 
         Raises InvalidTopicNameException, AttributeError or RuntimeError (no message type), TypeError, ValueError,
         RCLError, InvalidQosOverridesError.
         """
         self._ros_check_alive("Failed to create subscription: rcl node's")
-        if content_filter_options is not None:
-            raise NotImplementedError(NO_FILTER)
         callbacks = checked_callbacks(event_callbacks, SubscriptionEventCallbacks)
         full_name = self._ros_full_name_of(topic)
         profile = self._ros_profile(Subscription, full_name, checked_profile(qos_profile), qos_overriding_options)
         quality = usable_quality(profile, "subscription")
         type_support.check_is_valid_msg_type(msg_type)
         self._ros_check_one_type("subscription", full_name, msg_type)
+        chosen = _prepared(msg_type, content_filter_options)
         reader = self._ros_graph.add_reader(self._ros_entry, full_name, msg_type._TYPE_NAME, quality)
         reader.profile = profile
         group = callback_group or self._ros_default_callback_group
         subscription = Subscription(reader, msg_type, topic, callback, group, profile, raw, callbacks)
+        if chosen is not None:
+            subscription._use_filter(*chosen)
         self._ros_keep(subscription)
         for handler in subscription.event_handlers:
             self._ros_keep(handler)
@@ -314,3 +318,12 @@ class NodeEntities(NodeGraph):
         """Take a rate away; False if it is not this node's."""
         rate.destroy()
         return self._ros_destroy(rate._timer)
+
+
+def _prepared(msg_type: Any, options: ContentFilterOptions | None) -> tuple[Any, Any] | None:
+    """A content filter, looked at before anything is made; None where none is asked for."""
+    if options is None:
+        return None
+    from ._content_filter import prepared
+
+    return prepared(msg_type, options, f"Failed to create subscription: {REFUSED}")

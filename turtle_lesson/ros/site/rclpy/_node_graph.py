@@ -6,6 +6,7 @@ import zlib
 from typing import TYPE_CHECKING, Any
 
 from turtle_lesson.ros.core import NANOSECONDS
+from turtle_lesson.ros.core.stdlib.looking import looked_in_vain
 from turtle_lesson.ros.graph import Graph, NodeEntry, Reader, Topic, Writer
 from turtle_lesson.ros.graph.names import remap
 
@@ -162,22 +163,22 @@ class NodeGraph:
     def count_publishers(self, topic_name: str) -> int:
         """How many publishers a topic has. The name is not remapped, nor in the next three."""
         self._ros_check_alive(f"Error in rcl_count_publishers: {NODE_S}")
-        return len(self._ros_graph.topic(self._ros_expanded(topic_name)).writers)
+        return len(self._ros_graph.topic(self._ros_expanded(topic_name)).writers) or int(looked_in_vain())
 
     def count_subscribers(self, topic_name: str) -> int:
         """How many subscriptions a topic has."""
         self._ros_check_alive(f"Error in rcl_count_subscribers: {NODE_S}")
-        return len(self._ros_graph.topic(self._ros_expanded(topic_name)).readers)
+        return len(self._ros_graph.topic(self._ros_expanded(topic_name)).readers) or int(looked_in_vain())
 
     def count_services(self, service_name: str) -> int:
         """How many servers a service has."""
         self._ros_check_alive(f"Error in rcl_count_services: {NODE_S}")
-        return len(self._ros_graph.servers(self._ros_expanded(service_name, is_service=True)))
+        return len(self._ros_graph.servers(self._ros_expanded(service_name, is_service=True))) or int(looked_in_vain())
 
     def count_clients(self, service_name: str) -> int:
         """How many clients a service has."""
         self._ros_check_alive(f"Error in rcl_count_clients: {NODE_S}")
-        return len(self._ros_graph.clients(self._ros_expanded(service_name, is_service=True)))
+        return len(self._ros_graph.clients(self._ros_expanded(service_name, is_service=True))) or int(looked_in_vain())
 
     def get_publishers_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[TopicEndpointInfo]:
         """The publishers of a topic, one by one."""

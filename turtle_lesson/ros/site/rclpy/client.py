@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from types import GenericAlias
 from typing import TYPE_CHECKING, Any
 
 from turtle_lesson.ros.core import NANOSECONDS, NeverWakes, running_strand
 from turtle_lesson.ros.core.stdlib.hopeless import wait_in_vain
+from turtle_lesson.ros.core.stdlib.looking import looked_in_vain
 from turtle_lesson.ros.graph import ClientEnd
 
 from ._blocking import drives_the_simulation
+from ._borrowed import borrowed
 from ._deadlock import Words, why_never_answered
 from ._entity import CLIENT, Entity
 from ._mistakes import shown
@@ -32,6 +35,7 @@ class Client(Entity):
 
     _kind = CLIENT
     _words = Words()
+    __class_getitem__: Any = classmethod(GenericAlias)  # newer releases: Client[…] in a hint
 
     def __init__(
         self,
@@ -78,7 +82,7 @@ class Client(Entity):
     def service_is_ready(self) -> bool:
         """Whether somebody offers the service now."""
         self._check_alive("failed to check service availability: rcl node's")
-        return bool(self._servers())
+        return bool(self._servers()) or looked_in_vain()
 
     def _servers(self) -> list[Any]:
         return self._of_node._ros_graph.servers(self._end.name, self._end.type_name)
@@ -209,3 +213,6 @@ class Client(Entity):
             super().destroy()
             forget(self._end)
             self._of_node._ros_graph.remove_client(self._end)
+
+
+__getattr__ = borrowed(__name__)

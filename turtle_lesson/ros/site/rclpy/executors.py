@@ -6,6 +6,7 @@ import inspect
 from collections.abc import Callable
 from typing import Any
 
+from ._borrowed import borrowed
 from ._executor import Executor
 from ._executor_errors import (
     ConditionReachedException,
@@ -36,3 +37,6 @@ async def await_or_execute(callback: Callable[..., Any], *args: Any) -> Any:
 
 class SingleThreadedExecutor(Executor):
     """Runs one callback after the other, in the thread that spins: a callback that sleeps holds up all others."""
+
+
+__getattr__ = borrowed(__name__)

@@ -9,6 +9,7 @@ from turtle_lesson.ros.graph import NodeEntry
 from turtle_lesson.ros.world import current_process, current_world
 
 from ._arguments import ArgumentError, Arguments, parse_arguments, tell_obsolete
+from ._borrowed import borrowed
 from ._entity import Entity, Handle
 from ._mistakes import set_by_init
 from ._node_entities import NodeEntities
@@ -304,3 +305,6 @@ def _own_arguments(cli_args: list[str] | None) -> Arguments:
         raise RCLInvalidROSArgsError(f"Failed to parse ROS arguments: {error}") from None
     tell_obsolete(own.obsolete)
     return own
+
+
+__getattr__ = borrowed(__name__)

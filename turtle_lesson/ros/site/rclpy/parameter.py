@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import array
 from enum import Enum
+from types import GenericAlias
 from typing import Any
+
+from ._borrowed import borrowed
 
 PARAMETER_SEPARATOR_STRING = "."
 
@@ -18,6 +21,8 @@ _PYTHON: dict[str, type] = {"BOOL": bool, "INTEGER": int, "DOUBLE": float, "STRI
 
 class Parameter:
     """`Parameter(name, type_, value)`; the type is found from the value if it is left out."""
+
+    __class_getitem__: Any = classmethod(GenericAlias)  # newer releases: Parameter[float] in a hint
 
     class Type(Enum):
         """The types that a parameter can have (rcl_interfaces/msg/ParameterType)."""
@@ -207,3 +212,6 @@ def _flat(prefix: str, values: dict[str, Any]) -> dict[str, Any]:
         else:
             found[name] = Message(name=name, value=get_parameter_value(str(value)))
     return found
+
+
+__getattr__ = borrowed(__name__)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from turtle_lesson.ros.core import NANOSECONDS, running_strand
 
 from ._blocking import drives_the_simulation
+from ._borrowed import borrowed
 from .callback_groups import CallbackGroup
 from .client import POLL, Client
 from .parameter import Parameter, parameter_dict_from_yaml_file
@@ -150,3 +151,6 @@ class AsyncParameterClient:
 
 def _messages(parameters: Sequence[Any]) -> list[Any]:
     return [each.to_parameter_msg() if isinstance(each, Parameter) else each for each in parameters]
+
+
+__getattr__ = borrowed(__name__)

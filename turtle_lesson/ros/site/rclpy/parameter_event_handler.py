@@ -37,6 +37,53 @@ class ParameterEventHandler:
     The newest callback is called first; those for one parameter go before those for whole events.
     """
 
+    class Callbacks:
+        """Keeps the callbacks, and calls those that an event concerns."""
+
+        def __init__(self) -> None:
+            self.parameter_callbacks: dict[tuple[str, str], list[ParameterCallbackHandle]] = {}
+            self.event_callbacks: list[ParameterEventCallbackHandle] = []
+
+        def event_callback(self, event: Any) -> None:
+            """Call what an event concerns."""
+            for (parameter_name, node_name), handles in list(self.parameter_callbacks.items()):
+                parameter = ParameterEventHandler.get_parameter_from_event(event, parameter_name, node_name)
+                if parameter is not None:
+                    for handle in list(handles):
+                        handle.callback(parameter)
+            for each in list(self.event_callbacks):
+                each.callback(event)
+
+        def add_parameter_callback(
+            self, parameter_name: str, node_name: str, callback: Callable[[Any], Any]
+        ) -> ParameterCallbackHandle:
+            """Have `callback(parameter)` called for a parameter of a node, which is given by its full name."""
+            handle = ParameterCallbackHandle(parameter_name, node_name, callback)
+            self.parameter_callbacks.setdefault((parameter_name, node_name), []).insert(0, handle)
+            return handle
+
+        def remove_parameter_callback(self, handle: ParameterCallbackHandle) -> None:
+            """No longer call a callback. Raises RuntimeError if it is not (or no longer) called."""
+            key = (handle.parameter_name, handle.node_name)
+            handles = self.parameter_callbacks.get(key, [])
+            if handle not in handles:
+                raise RuntimeError(GONE)
+            handles.remove(handle)
+            if not handles:
+                del self.parameter_callbacks[key]
+
+        def add_parameter_event_callback(self, callback: Callable[[Any], Any]) -> ParameterEventCallbackHandle:
+            """Have `callback(event)` called for each event."""
+            handle = ParameterEventCallbackHandle(callback)
+            self.event_callbacks.insert(0, handle)
+            return handle
+
+        def remove_parameter_event_callback(self, handle: ParameterEventCallbackHandle) -> None:
+            """No longer call a callback. Raises RuntimeError if it is not (or no longer) called."""
+            if handle not in self.event_callbacks:
+                raise RuntimeError(GONE)
+            self.event_callbacks.remove(handle)
+
     def __init__(
         self,
         node: Node,
@@ -50,13 +97,11 @@ class ParameterEventHandler:
 
         self.node = node
         self.qos_profile = qos_profile
-        self._for_parameters: dict[tuple[str, str], list[ParameterCallbackHandle]] = {}
-        self._for_events: list[ParameterEventCallbackHandle] = []
-        self._only_nodes: list[str] = []
+        self._callbacks = ParameterEventHandler.Callbacks()
         self.parameter_event_subscription = node.create_subscription(
             ParameterEvent,
             "/parameter_events",
-            self._heard,
+            self._callbacks.event_callback,
             qos_profile,
             callback_group=callback_group,
             event_callbacks=event_callbacks,
@@ -67,17 +112,6 @@ class ParameterEventHandler:
     def destroy(self) -> None:
         """Listen no more."""
         self.node.destroy_subscription(self.parameter_event_subscription)
-
-    def _heard(self, event: Any) -> None:
-        if self._only_nodes and event.node not in self._only_nodes:
-            return
-        for (parameter_name, node_name), handles in list(self._for_parameters.items()):
-            parameter = self.get_parameter_from_event(event, parameter_name, node_name)
-            if parameter is not None:
-                for handle in list(handles):
-                    handle.callback(parameter)
-        for each in list(self._for_events):
-            each.callback(event)
 
     # -- what an event says ----------------------------------------------------------------------------------------
 
@@ -104,37 +138,32 @@ class ParameterEventHandler:
 
         A relative `node_name` is in this node's namespace; '' is this node.
         """
-        full_name = self._resolve_path(node_name)
-        handle = ParameterCallbackHandle(parameter_name, full_name, callback)
-        self._for_parameters.setdefault((parameter_name, full_name), []).insert(0, handle)
-        return handle
+        return self._callbacks.add_parameter_callback(parameter_name, self._resolve_path(node_name), callback)
 
     def remove_parameter_callback(self, handle: ParameterCallbackHandle) -> None:
         """No longer call a callback. Raises RuntimeError if it is not (or no longer) called."""
-        key = (handle.parameter_name, handle.node_name)
-        handles = self._for_parameters.get(key, [])
-        if handle not in handles:
-            raise RuntimeError(GONE)
-        handles.remove(handle)
-        if not handles:
-            del self._for_parameters[key]
+        self._callbacks.remove_parameter_callback(handle)
 
     def add_parameter_event_callback(self, callback: Callable[[Any], Any]) -> ParameterEventCallbackHandle:
         """Have `callback(event)` called for each rcl_interfaces/msg/ParameterEvent."""
-        handle = ParameterEventCallbackHandle(callback)
-        self._for_events.insert(0, handle)
-        return handle
+        return self._callbacks.add_parameter_event_callback(callback)
 
     def remove_parameter_event_callback(self, handle: ParameterEventCallbackHandle) -> None:
         """No longer call a callback. Raises RuntimeError if it is not (or no longer) called."""
-        if handle not in self._for_events:
-            raise RuntimeError(GONE)
-        self._for_events.remove(handle)
+        self._callbacks.remove_parameter_event_callback(handle)
 
     def configure_nodes_filter(self, node_names: list[str] | None = None) -> bool:
-        """Hear only of these nodes (full names); None or none: of all. True, as with a middleware that can filter."""
-        self._only_nodes = list(node_names or [])
-        return True
+        """Hear only of these nodes (full names), by a content filter; None or none: of all again.
+
+        True if that is so now. Raises RCLError where there is no filter to be taken away.
+        """
+        listener = self.parameter_event_subscription
+        if not node_names:
+            listener.set_content_filter("", [])
+            return not listener.is_cft_enabled
+        anyone = " OR ".join(f"node = %{number}" for number in range(len(node_names)))
+        listener.set_content_filter(anyone, [f"'{name}'" for name in node_names])
+        return listener.is_cft_enabled
 
     def _resolve_path(self, node_path: str | None) -> str:
         if not node_path:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from types import GenericAlias
 from typing import Any, NoReturn
 
+from turtle_lesson.ros.core.stdlib.looking import looked_in_vain
 from turtle_lesson.ros.graph import Writer
 
 from ._blocking import drives_the_simulation
+from ._borrowed import borrowed
 from ._entity import Handle
 from ._mistakes import no_message
 from .callback_groups import CallbackGroup
@@ -20,6 +23,8 @@ FOR_EVER = Duration(seconds=-1)
 
 class Publisher:
     """Made by `Node.create_publisher`."""
+
+    __class_getitem__: Any = classmethod(GenericAlias)  # newer releases: Publisher[String] in a hint
 
     def __init__(
         self,
@@ -94,7 +99,8 @@ class Publisher:
 
     def get_subscription_count(self) -> int:
         """How many subscriptions get what this publishes."""
-        return len(self._end("failed to get subscription count: publisher's").readers)
+        readers = self._end("failed to get subscription count: publisher's").readers
+        return len(readers) or int(looked_in_vain())
 
     def assert_liveliness(self) -> None:
         """Say that this publisher is alive. One with MANUAL_BY_TOPIC says or publishes something within each lease."""
@@ -140,3 +146,6 @@ def _wait_for_all_acked(writer: Writer, timeout: int) -> bool:
         look = max(look, simulation.now + 1)
         simulation.sleep_until(look if deadline is None else min(look, deadline))
     return True
+
+
+__getattr__ = borrowed(__name__)

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from types import GenericAlias
 from typing import Any
 
 from turtle_lesson.ros.graph import ServerEnd
 
+from ._borrowed import borrowed
 from ._entity import SERVICE, Entity
 from .callback_groups import CallbackGroup
 from .qos import QoSProfile
@@ -17,6 +19,7 @@ class Service(Entity):
     """Made by `Node.create_service`. The callback gets the request and a fresh response, and returns the response."""
 
     _kind = SERVICE
+    __class_getitem__: Any = classmethod(GenericAlias)  # newer releases: Service[…] in a hint
 
     def __init__(
         self,
@@ -83,3 +86,6 @@ class Service(Entity):
             super().destroy()
             forget(self._server)
             self._server.node.process.locals["world"].graph.remove_server(self._server)
+
+
+__getattr__ = borrowed(__name__)

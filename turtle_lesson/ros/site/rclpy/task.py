@@ -9,9 +9,11 @@ import warnings
 import weakref
 from collections.abc import Callable, Generator
 from enum import Enum
+from types import GenericAlias
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from turtle_lesson.ros.core import NeverWakes, running_strand
+from turtle_lesson.ros.core.stdlib.looking import looked_in_vain
 
 from ._asyncio import FOR_ALL, called_by_its_loop, let_asyncio_go_on, refuse_in_a_cell
 from ._deadlock import why_never_awaited
@@ -44,6 +46,7 @@ class Future:
     """The client whose response this waits for, if any."""
     _request_number = 0
     _never_retrieved: weakref.finalize | None = None
+    __class_getitem__: Any = classmethod(GenericAlias)  # newer releases: Future[Trigger.Response] in a hint
 
     def __init__(self, *, executor: Executor | None = None) -> None:
         self._done = False
@@ -93,6 +96,10 @@ class Future:
 
     def done(self) -> bool:
         """Whether there is a result or an exception."""
+        return self._done or looked_in_vain()
+
+    def _is_done(self) -> bool:
+        """The same, for executors, which do not ask in vain: they wait when there is nothing to do."""
         return self._done
 
     def result(self) -> Any:

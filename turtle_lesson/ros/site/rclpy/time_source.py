@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from turtle_lesson.ros.core import NANOSECONDS, NeverWakes, Strand
 
 from ._alarm import somebody_spins
+from ._borrowed import borrowed
 from ._deadlock import keeps_taken
 from .clock import ROSClock
 from .clock_type import ClockType
@@ -155,3 +156,6 @@ class TimeSource:
             "meanwhile, so its time stands still. Use a timer; or a MultiThreadedExecutor, with this callback in a group "
             "of its own."
         )
+
+
+__getattr__ = borrowed(__name__)

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from turtle_lesson.ros.core import EPOCH
 
+from ._borrowed import borrowed
 from ._entity import TIMER, Entity
 from ._mistakes import shown
 from ._rate import Rate
@@ -242,3 +243,6 @@ def _by_name(callback: Callable[..., Any], name: str) -> Callable[[TimerInfo], A
         return callback(**{name: info})
 
     return call
+
+
+__getattr__ = borrowed(__name__)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 
+from turtle_lesson.ros.core.stdlib.looking import looked_in_vain
 from turtle_lesson.ros.world import current_process
 
 from ._arguments import tell_obsolete, without_ros_arguments
@@ -22,7 +23,10 @@ def get_default_context(*, shutting_down: bool = False) -> Context:
 
 def ok(*, context: Context | None = None) -> bool:
     """Whether ROS is initialized and not shut down in this process."""
-    return (get_default_context() if context is None else context).ok()
+    if not (get_default_context() if context is None else context).ok():
+        return False
+    looked_in_vain()  # it will most often be the condition of a loop
+    return True
 
 
 def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:

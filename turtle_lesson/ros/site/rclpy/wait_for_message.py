@@ -8,6 +8,7 @@ from turtle_lesson.ros.core import NANOSECONDS, running_strand
 
 from ._alarm import Alarm
 from ._blocking import drives_the_simulation
+from ._borrowed import borrowed
 
 if TYPE_CHECKING:
     from .node import Node
@@ -42,3 +43,6 @@ def wait_for_message(
 
 def _not_called(message: Any) -> None:
     """The callback of a subscription whose messages are taken by hand."""
+
+
+__getattr__ = borrowed(__name__)

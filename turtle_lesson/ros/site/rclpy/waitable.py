@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import GenericAlias
 from typing import Any
 
 from .callback_groups import CallbackGroup
@@ -59,6 +60,8 @@ class Waitable:
     guard conditions into, asks `is_ready` whenever one of those is, then calls `take_data` and awaits `execute`.
     `Node.add_waitable` hands it to a node (rclpy's waitable.py).
     """
+
+    __class_getitem__: Any = classmethod(GenericAlias)  # newer releases: ActionClient[Goal, Result, Feedback] in a hint
 
     def __init__(self, callback_group: CallbackGroup) -> None:
         self.callback_group = callback_group

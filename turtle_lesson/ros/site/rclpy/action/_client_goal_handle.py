@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import GenericAlias
 from typing import TYPE_CHECKING, Any
 
 from action_msgs.msg import GoalStatus
@@ -16,6 +17,9 @@ class ClientGoalHandle:
     """A goal, as the client sees it that has sent it. Made by ActionClient."""
 
     __module__ = "rclpy.action.client"
+    __class_getitem__: Any = classmethod(
+        GenericAlias
+    )  # newer releases: ClientGoalHandle[Goal, Result, Feedback] in a hint
 
     def __init__(self, action_client: ActionClient, goal_id: Any, goal_response: Any) -> None:
         self._action_client = action_client

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from types import GenericAlias
 from typing import TYPE_CHECKING, Any
 
 from action_msgs.msg import GoalStatus
@@ -21,6 +22,9 @@ class ServerGoalHandle:
     """
 
     __module__ = "rclpy.action.server"
+    __class_getitem__: Any = classmethod(
+        GenericAlias
+    )  # newer releases: ServerGoalHandle[Goal, Result, Feedback] in a hint
 
     def __init__(self, action_server: ActionServer, goal_info: Any, goal_request: Any) -> None:
         self._action_server: ActionServer | None = action_server

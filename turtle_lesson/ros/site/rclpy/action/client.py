@@ -13,6 +13,7 @@ from action_msgs.srv import CancelGoal
 from turtle_lesson.ros.core import running_strand
 
 from .._blocking import drives_the_simulation
+from .._borrowed import borrowed
 from .._mistakes import shown
 from ..callback_groups import CallbackGroup
 from ..client import Client
@@ -305,3 +306,6 @@ class ActionClient(Waitable):
 def _check_handle(goal_handle: Any) -> None:
     if not isinstance(goal_handle, ClientGoalHandle):
         raise TypeError(f"Expected type ClientGoalHandle but received {type(goal_handle)}")
+
+
+__getattr__ = borrowed(__name__)

@@ -15,6 +15,7 @@ from action_msgs.msg import GoalStatusArray
 from turtle_lesson.ros.core import NANOSECONDS
 from turtle_lesson.ros.core.tracebacks import print_error
 
+from .._borrowed import borrowed
 from ..callback_groups import CallbackGroup
 from ..exceptions import RCLError
 from ..qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
@@ -225,6 +226,10 @@ class ActionServer(Requests, Waitable):
         for request in self._goals.finish(goal_handle, response):
             request.answer(response)
 
+    def notify_goal_done(self) -> None:
+        """A goal has ended: look which ones have expired. The server does that for itself, too."""
+        self._forget_expired()
+
     def _result_response(self, status: int, result: Any) -> Any:
         try:
             return self._action_type.Impl.GetResultService.Response(status=status, result=result)
@@ -279,3 +284,6 @@ class ActionServer(Requests, Waitable):
 
     def _end(self) -> None:
         self._goals.forget_all()
+
+
+__getattr__ = borrowed(__name__)

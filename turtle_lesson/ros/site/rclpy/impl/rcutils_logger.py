@@ -6,7 +6,9 @@ RCUTILS_LOGGING_USE_STDOUT=1 on a robot, because Jupyter shows stderr as if it w
 
 from __future__ import annotations
 
+import os
 import sys
+from collections import namedtuple
 from collections.abc import Callable
 from types import CodeType, FrameType
 from typing import TYPE_CHECKING, Any
@@ -15,11 +17,30 @@ from turtle_lesson.ros.core import EPOCH
 from turtle_lesson.ros.world import current_process, current_world
 
 from ._console import Line, print_line
-from ._log_filters import CallSite, filters_of
+from ._log_filters import (
+    CallSite,
+    LoggingFilter,
+    Once,
+    SkipFirst,
+    Throttle,
+    get_filters_from_kwargs,
+    supported_filters,
+)
 from .logging_severity import LoggingSeverity
 
 if TYPE_CHECKING:
     from turtle_lesson.ros.core import Process
+
+__all__ = [
+    "CallerId",
+    "LoggingFilter",
+    "Once",
+    "RcutilsLogger",
+    "SkipFirst",
+    "Throttle",
+    "get_filters_from_kwargs",
+    "supported_filters",
+]
 
 EVERYWHERE: dict[str, Any] = {}
 TWO_OF_A_NAME = (
@@ -29,12 +50,31 @@ TWO_OF_A_NAME = (
 )
 
 
+class CallerId(namedtuple("CallerId", ["function_name", "file_path", "line_number", "last_index"])):
+    """A place in a program: that of a frame, or where this is made."""
+
+    __slots__ = ()
+
+    def __new__(cls, frame: FrameType | None = None) -> CallerId:
+        frame = frame or sys._getframe(1)
+        return cls._of(frame.f_code, frame.f_lineno, frame.f_lasti)
+
+    @classmethod
+    def _of(cls, code: CodeType, line: int, last_index: int) -> CallerId:
+        return super().__new__(cls, code.co_name, os.path.abspath(code.co_filename), line, last_index)
+
+
 class RcutilsLogger:
     """A logger with a name; `get_child` makes one below it, which takes over its level."""
 
     def __init__(self, name: str = "") -> None:
         self.name = name
         self._sites: dict[tuple[CodeType, int], CallSite] = {}
+
+    @property
+    def contexts(self) -> dict[CallerId, dict[str, Any]]:
+        """What is remembered of each place that has used this logger."""
+        return {CallerId._of(code, site.line, last): site.context for (code, last), site in self._sites.items()}
 
     def get_child(self, name: str) -> RcutilsLogger:
         """The logger `<this>.<name>`."""
@@ -86,17 +126,16 @@ class RcutilsLogger:
         name = options.pop("name", self.name) if options else self.name
         if not isinstance(message, str):
             raise TypeError(f"a log message must be a str, got {message!r}: write str(…) or an f-string")
-        filters = filters_of(options) if options else {}
         key = (frame.f_code, frame.f_lasti)  # in a cell each statement of a line has code of its own
         site = self._sites.get(key)
         if site is None:
-            site = self._sites[key] = CallSite(severity, name, filters)
-        else:
-            site.check(severity, name, filters)
+            site = self._sites[key] = CallSite(severity, name, options, frame.f_lineno)
+        elif options != site.options or name != site.name or severity != site.severity:
+            site.check(severity, name, options)
         if severity < _effective_level(name):
             return False
         now = current_world().sim.now
-        if not site.lets_through(now):
+        if site.filters and not site.lets_through():
             return False
         shelf = current_process().locals
         goes_to = shelf.get("rclpy.log_to", EVERYWHERE)

@@ -1,0 +1,128 @@
+"""Programs that start programs: `subprocess`, `os.system` and `os.popen` in robot time."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+import rclpy
+
+from turtle_lesson.ros.world import World
+
+Run = Callable[..., list[Any]]
+SECOND = 1_000_000_000
+
+
+@pytest.fixture
+def counter(tmp_path: Path) -> list[str]:
+    """The command of a program that counts to three, a number a second, and ends with code 7."""
+    path = tmp_path / "count.py"
+    path.write_text(
+        "import sys, time\nfor number in (1, 2, 3):\n    print(number, *sys.argv[1:])\n    time.sleep(1)\nsys.exit(7)\n"
+    )
+    return ["python3", str(path)]
+
+
+def test_a_program_waits_for_the_one_that_it_runs(world: World, run: Run, counter: list[str]) -> None:
+    def program(found: list[Any]) -> None:
+        found.append(subprocess.run([*counter, "sheep"], capture_output=True, text=True))
+        found.append(world.now / SECOND)
+
+    done, when = run(program)
+    assert (done.returncode, done.stdout, done.stderr) == (7, "1 sheep\n2 sheep\n3 sheep\n", "")
+    assert when == pytest.approx(3, abs=0.001)
+
+
+def test_lines_of_a_pipe_come_as_they_are_printed(world: World, run: Run, counter: list[str]) -> None:
+    def program(found: list[Any]) -> None:
+        with subprocess.Popen(counter, stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as child:
+            found += [(line, round(world.now / SECOND)) for line in child.stdout or ()]
+        found.append(child.returncode)
+
+    assert run(program) == [(b"1\n", 0), (b"2\n", 1), (b"3\n", 2), 7]
+
+
+def test_what_a_child_prints_goes_where_its_parent_prints(
+    run: Run, counter: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def program(found: list[Any]) -> None:
+        subprocess.check_call(["echo", "aloud"])
+        subprocess.call(counter, stdout=subprocess.DEVNULL)
+        with (tmp_path / "log").open("w") as log:
+            found.append(subprocess.call(counter, stdout=log))
+
+    assert run(program) == [7]
+    assert capsys.readouterr().out == "aloud\n"
+    assert (tmp_path / "log").read_text() == "1\n2\n3\n"
+
+
+def test_ros2_commands_are_run_in_the_same_world(run: Run) -> None:
+    def program(found: list[Any]) -> None:
+        rclpy.init()
+        rclpy.create_node("curious")
+        found.append(subprocess.check_output(["ros2", "node", "list"], text=True))
+        found.append(os.popen("ros2 node list && echo done").read())
+        found.append(os.system("ros2 topic list --wrong 2"))
+
+    assert run(program) == ["/curious\n", "/curious\ndone\n", 2 << 8]
+
+
+def test_a_child_is_ended_by_signals(world: World, run: Run, counter: list[str]) -> None:
+    def program(found: list[Any]) -> None:
+        for ask in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
+            child = subprocess.Popen(counter, stderr=subprocess.DEVNULL, start_new_session=True)
+            time.sleep(0.5)
+            found.append(child.poll())
+            child.send_signal(ask)
+            found.append(child.wait())
+
+    assert run(program) == [None, -2, None, -15, None, -9]
+
+
+def test_a_wait_may_be_too_short(world: World, run: Run, counter: list[str]) -> None:
+    def program(found: list[Any]) -> None:
+        try:
+            subprocess.run(counter, timeout=1.5)
+        except subprocess.TimeoutExpired as error:
+            found += [error.timeout, world.now / SECOND]
+        try:
+            subprocess.run(["ros2", "run", "nowhere", "nothing"], check=True, capture_output=True, text=True)
+        except subprocess.CalledProcessError as error:
+            found += [error.returncode, error.stderr]
+
+    timeout, when, code, said = run(program)
+    assert (timeout, code) == (1.5, 1)
+    assert when == pytest.approx(1.5, abs=0.001)
+    assert "'nowhere' not found" in said
+
+
+@pytest.mark.parametrize("command", ["killall turtlesim_node", "xterm -e htop", ""])
+def test_other_programs_of_the_computer_cannot_be_started(run: Run, command: str) -> None:
+    def program(found: list[Any]) -> None:
+        subprocess.run(command, shell=True)
+
+    with pytest.raises(NotImplementedError, match=r"ros2 commands, Python files, echo and sleep can|no command"):
+        run(program)
+
+
+@pytest.mark.parametrize("keywords", [{"stdin": subprocess.PIPE}, {"cwd": "/"}, {"stdout": 1}, {"input": "y"}])
+def test_what_a_child_cannot_have_is_said(run: Run, keywords: dict[str, Any]) -> None:
+    def program(found: list[Any]) -> None:
+        subprocess.run(["echo"], **keywords)
+
+    with pytest.raises(NotImplementedError, match="not built in this classroom"):
+        run(program)
+
+
+def test_outside_of_the_world_all_is_real(world: World) -> None:
+    said = subprocess.run([sys.executable, "-c", "print(6 * 7)"], capture_output=True, text=True)
+    assert said.stdout == "42\n"
+    with subprocess.Popen([sys.executable, "-c", "import sys; sys.exit(3)"]) as child:
+        assert (type(child).__name__, child.poll() or child.wait()) == ("Popen", 3)

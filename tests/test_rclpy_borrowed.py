@@ -1,0 +1,70 @@
+"""Names that programs take from a module of rclpy that has them only from another one."""
+
+from __future__ import annotations
+
+import importlib
+
+import pytest
+import rclpy
+from rclpy._borrowed import BORROWED
+
+LENT = [
+    (module, *name.partition("=")[::2], origin)
+    for module, origins in BORROWED.items()
+    for origin, names in origins.items()
+    for name in names.split()
+]
+
+
+@pytest.mark.parametrize(("module", "here", "there", "origin"), LENT)
+def test_a_borrowed_name_is_the_same_thing(module: str, here: str, there: str, origin: str) -> None:
+    lender = importlib.import_module(module)
+    lent = getattr(lender, here)
+    assert here in vars(lender) or lent is getattr(importlib.import_module(origin), there or here)
+
+
+def test_what_programs_write() -> None:
+    from action_msgs.msg import GoalStatus as TrueStatus
+    from rclpy.action.client import GoalStatus
+    from rclpy.action.server import GoalStatus as OfServers
+    from rclpy.node import MsgType, ParameterDescriptor, Rate, ReentrantCallbackGroup, SetParametersResult
+    from rclpy.parameter import ParameterType
+    from rclpy.subscription import MsgType as OfSubscriptions
+
+    assert GoalStatus is OfServers is TrueStatus
+    assert ParameterDescriptor(type=ParameterType.PARAMETER_BOOL).type == 1
+    assert SetParametersResult(successful=True).successful
+    assert issubclass(ReentrantCallbackGroup, rclpy.callback_groups.CallbackGroup)
+    assert Rate is rclpy.timer.Rate
+    assert MsgType is OfSubscriptions
+
+
+def test_a_name_that_nobody_has() -> None:
+    with pytest.raises(ImportError, match="cannot import name 'Telepathy' from 'rclpy.node'"):
+        exec("from rclpy.node import Telepathy")
+    with pytest.raises(AttributeError, match=r"module 'rclpy.action.client' has no attribute 'goal_status'"):
+        rclpy.action.client.goal_status  # noqa: B018
+
+
+def test_types_with_types_in_brackets() -> None:
+    from example_interfaces.action import Fibonacci
+    from rclpy.action import ActionClient, ActionServer
+    from rclpy.action.client import ClientGoalHandle
+    from rclpy.action.server import ServerGoalHandle
+    from rclpy.client import Client
+    from rclpy.lifecycle import LifecyclePublisher
+    from rclpy.parameter import Parameter
+    from rclpy.publisher import Publisher
+    from rclpy.service import Service
+    from rclpy.subscription import Subscription
+    from rclpy.task import Future, Task
+    from std_msgs.msg import String
+    from std_srvs.srv import Trigger
+
+    for kind in (Publisher, Subscription, LifecyclePublisher):
+        assert kind[String].__args__ == (String,)
+    for kind in (Client, Service):
+        assert kind[Trigger.Request, Trigger.Response].__origin__ is kind
+    for kind in (ActionClient, ActionServer, ClientGoalHandle, ServerGoalHandle):
+        assert len(kind[Fibonacci.Goal, Fibonacci.Result, Fibonacci.Feedback].__args__) == 3
+    assert [Future[int]().done(), Task[None].__origin__, Parameter[float]("a", value=0.5).value] == [False, Task, 0.5]

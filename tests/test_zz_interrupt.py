@@ -1,0 +1,81 @@
+"""A reader who runs a cell, runs it again and presses the stop button, and runs it once more: each cell of each page."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from random import Random
+from time import monotonic
+
+import pytest
+from nbclient import NotebookClient
+from nbclient.exceptions import CellExecutionError
+from nbformat import v4
+from test_pages import PAGES, code_cells
+
+LESSONS = [page for page in PAGES if page.stem[0].isdigit()][:: 1 if os.environ.get("TURTLE_LESSON_ALL_PAGES") else 3]
+"""Every third page: all of them take eight minutes (TURTLE_LESSON_ALL_PAGES=1)."""
+STOPS = ("KeyboardInterrupt", "CommandInterrupted")
+
+# The button is pressed in the kernel, and only while a cell runs: an interrupt that comes while ipykernel sends its
+# answer takes that answer away, with any notebook.
+BUTTON = """
+def _button():
+    import signal
+    shell = get_ipython()
+    real = {name: getattr(signal, name, None) for name in ("raise_signal", "setitimer")}  # a program's own are its world's
+    def before(info):
+        real["setitimer"](signal.ITIMER_REAL, shell.meta.pop("stop_after", 0.0))
+    def after(*_):
+        real["setitimer"](signal.ITIMER_REAL, 0.0)
+    def alarm(number, frame):
+        handled = signal.getsignal(signal.SIGINT) is not signal.default_int_handler  # somebody minds it: a world that runs
+        if frame and (frame.f_code.co_name == "__del__" or frame.f_code.co_filename.endswith("weakref.py")):
+            return real["setitimer"](signal.ITIMER_REAL, 0.001)  # where Python itself would only print the interrupt
+        while frame and (frame.f_globals.get("__name__") != "__main__" or frame.f_code in (before.__code__, after.__code__)):
+            frame = frame.f_back
+        if frame or handled:
+            real["raise_signal"](signal.SIGINT)
+        else:  # between IPython's own lines: not yet in the cell, or no longer
+            real["setitimer"](signal.ITIMER_REAL, 0.001)
+    if real["setitimer"]:  # Windows has no such signals: there each cell is just run three times
+        signal.signal(signal.SIGALRM, alarm)
+        shell.events.register("pre_run_cell", before)
+        shell.events.register("post_execute", after)
+_button()
+"""
+
+
+@pytest.mark.parametrize("page", LESSONS, ids=lambda page: page.stem)
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_an_interrupted_cell_can_be_run_again(page: Path) -> None:
+    cells = code_cells(page)
+    notebook = v4.new_notebook(cells=[*cells, v4.new_code_cell()])
+    client = NotebookClient(
+        notebook, timeout=60, kernel_name="python3", resources={"metadata": {"path": str(page.parent)}}
+    )
+    chance = Random(__import__("os").environ.get("SEED", "") + page.stem)
+
+    def run(source: str) -> tuple[str, str]:
+        """Run code: the name of the error in which it ended, or '', and what it said on stderr."""
+        cell = v4.new_code_cell(source)
+        try:
+            client.execute_cell(cell, len(cells))
+            ended = ""
+        except CellExecutionError as error:
+            ended = str(error.ename)
+        return ended, "".join(output.text for output in cell.outputs if output.get("name") == "stderr")
+
+    with client.setup_kernel():
+        run(BUTTON)
+        for cell in cells:
+            wanted = "raises-exception" in cell.metadata.tags
+            began = monotonic()
+            run(cell.source)
+            run(f"get_ipython().meta['stop_after'] = {chance.uniform(0, monotonic() - began)}")
+            ended, said = run(cell.source)
+            if ended in STOPS:
+                ended, said = run(cell.source)
+            assert not ended or wanted, cell.source
+            assert "Traceback" not in said, cell.source
+            assert "Warning" not in said, cell.source  # one of Python's own; a command may well say WARNING

@@ -1,0 +1,281 @@
+"""Programs that a program starts: `subprocess`, `os.system` and `os.popen` run further processes of the world.
+
+What they can start is what a launch file's ExecuteProcess can: `ros2 …`, Python files, echo, sleep. Whoever is no
+simulated process gets the real ones.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+from .core import NANOSECONDS, Process, Strand, running_strand
+from .core.stdlib import lend
+from .core.strand import getcurrent
+
+if TYPE_CHECKING:
+    from .core.process import Output
+
+_Real = subprocess.Popen
+_TO_FILE = (subprocess.PIPE, subprocess.STDOUT, subprocess.DEVNULL)
+
+
+def install() -> None:
+    """Put them in the place of the real ones; a second call changes nothing."""
+    if subprocess.Popen is _Real:
+        lend.replace(subprocess, "Popen", ClassroomPopen)
+        lend.replace_function(os, "system", _system)
+
+
+class ClassroomPopen(_Real):
+    """`subprocess.Popen`: in a simulated process a further one, which runs in robot time."""
+
+    __module__ = "subprocess"
+    __qualname__ = "Popen"
+    _simulated = _terminated = False
+
+    def __init__(self, args: Any, *positional: Any, **given: Any) -> None:
+        if type(getcurrent()) is not Strand:
+            super().__init__(args, *positional, **given)
+            return
+        self._simulated = True
+        self._begin(args, **dict(zip(_POSITIONAL, positional, strict=False)), **given)
+
+    def _begin(self, args: Any, **given: Any) -> None:
+        from .world import current_process
+
+        shell = bool(given.get("shell"))
+        text = any(given.get(name) for name in ("text", "universal_newlines", "encoding", "errors"))
+        _check(given)
+        self.args, self.returncode, self.stdin = args, None, None
+        self._ended = News()
+        self._child_created, self._sigint_wait_secs = False, 0.0  # what the real one's __del__ and __exit__ ask for
+        parent = current_process()
+        out, self.stdout = _stream(given.get("stdout"), parent.stdout, text)
+        both = given.get("stderr") == subprocess.STDOUT
+        err, self.stderr = (out, None) if both else _stream(given.get("stderr"), parent.stderr, text)
+        self._process = _start(_words(args, shell), shell, out, err, self._has_ended, given.get("env"))
+        self.pid = self._process.pid
+
+    def _has_ended(self, process: Process) -> None:
+        for pipe in (self.stdout, self.stderr):
+            if isinstance(pipe, Pipe):
+                pipe.end()
+        self._ended.tell()
+
+    def poll(self) -> int | None:
+        """The exit code, None while it runs."""
+        if not self._simulated:
+            return super().poll()
+        if self.returncode is None and self._process.exit_code is not None:
+            self.returncode = -signal.SIGTERM if self._terminated else self._process.exit_code
+        return self.returncode
+
+    def wait(self, timeout: float | None = None) -> int:
+        """Wait for its end, at most `timeout` s of robot time."""
+        if not self._simulated:
+            return super().wait(timeout)
+        if not self._ended.wait_for(lambda: self.poll() is not None, timeout):
+            raise subprocess.TimeoutExpired(self.args, timeout or 0.0)
+        return self.returncode
+
+    def communicate(self, input: Any = None, timeout: float | None = None) -> tuple[Any, Any]:
+        """Wait for its end; what it printed to the pipes."""
+        if not self._simulated:
+            return super().communicate(input, timeout)
+        if input:
+            raise NotImplementedError("input= is not built in this classroom: a program's child has no input")
+        self.wait(timeout)
+        return (self.stdout and self.stdout.read(), self.stderr and self.stderr.read())
+
+    def send_signal(self, sig: int) -> None:
+        """Send it a signal; without a handler of its own SIGTERM and SIGKILL end it."""
+        if not self._simulated:
+            super().send_signal(sig)
+        elif self.poll() is None:
+            self._terminated = sig == signal.SIGTERM and not self._process.handles(sig)
+            self._process.send_signal(sig)
+
+
+ClassroomPopen.__name__ = "Popen"
+
+_POSITIONAL = (
+    "bufsize", "executable", "stdin", "stdout", "stderr", "preexec_fn", "close_fds", "shell", "cwd", "env",
+)  # fmt: skip
+"""The names of `Popen`'s arguments after the first, when they are given by their place."""
+
+
+def _check(given: dict[str, Any]) -> None:
+    """Refuse what no simulated process can have."""
+    if given.get("stdin") not in (None, subprocess.DEVNULL):
+        raise NotImplementedError("stdin= is not built in this classroom: a program's child has no input")
+    folder = given.get("cwd")
+    if folder is not None and os.path.realpath(folder) != os.getcwd():
+        raise NotImplementedError("cwd= is not built in this classroom: a program's child has the folder of all others")
+
+
+def _words(args: Any, shell: bool) -> list[str]:
+    """A command's words; for a shell its text."""
+    if isinstance(args, (str, bytes, os.PathLike)):
+        return [os.fsdecode(args)]
+    return [os.fsdecode(word) for word in args][: 1 if shell else None]
+
+
+def _start(
+    words: list[str],
+    shell: bool,
+    out: Output | None,
+    err: Output | None,
+    ended: Callable[[Process], None],
+    environ: Any,
+) -> Process:
+    from .world import current_world
+
+    target, argv = _program(words, shell)
+    name = os.path.basename(argv[0]) if argv else "program"
+    return current_world().spawn(target, name=name, argv=argv, stdout=out, stderr=err, on_exit=ended, environ=environ)
+
+
+def _program(words: list[str], shell: bool) -> tuple[Any, list[str]]:
+    """What runs them. Raises NotImplementedError for what is no command of this classroom."""
+    from .launching import commands
+    from .workspace.errors import PackageNotFoundError
+
+    if not words or not words[0]:
+        raise NotImplementedError("there is no command to run")
+    if words[:2] == ["ros2", "launch"]:
+        return commands.ending(lambda: commands.ros2(words)), words
+    try:
+        program = commands.program(words, shell=shell)
+    except (commands.UnknownCommand, PackageNotFoundError) as error:
+        line = words[0] if shell else " ".join(words)
+        if line.startswith("ros2 run "):
+            return _failing(f"{error}"), words
+        raise NotImplementedError(_refusal(line, error)) from None
+    return program.target, program.argv
+
+
+def _refusal(line: str, error: Exception) -> str:
+    hint = getattr(error, "hint", "")
+    said = f"{error}" if not str(error).startswith("ExecuteProcess(") else "it is a program of the operating system"
+    return (
+        f"{line!r} cannot be started by a program in this classroom ({said}): ros2 commands, Python files, echo and "
+        f"sleep can. {hint}".strip()
+    )
+
+
+def _failing(sentence: str) -> Callable[[], None]:
+    """A command that only complains, as `ros2 run` does of a package that is not there."""
+
+    def complain() -> None:
+        print(sentence, file=sys.stderr)
+        sys.exit(1)
+
+    return complain
+
+
+class News:
+    """Something that strands wait for, in robot time."""
+
+    def __init__(self) -> None:
+        self._waiting: list[Strand] = []
+
+    def tell(self) -> None:
+        """Have those who wait look again."""
+        for strand in self._waiting:
+            strand.simulation.wake(strand)
+
+    def wait_for(self, is_there: Callable[[], bool], seconds: float | None = None) -> bool:
+        """Hold up the running strand until it is there, at most `seconds`; whether it is."""
+        strand = running_strand()
+        if strand is None:
+            return is_there()
+        simulation = strand.simulation
+        deadline = None if seconds is None else simulation.now + round(seconds * NANOSECONDS)
+        if deadline is not None:
+            simulation.at(deadline, simulation.wake, strand)
+        self._waiting.append(strand)
+        try:
+            while not is_there():
+                if deadline is not None and simulation.now >= deadline:
+                    return False
+                simulation.park(strand)
+            return True
+        finally:
+            self._waiting.remove(strand)
+
+
+class Pipe(io.TextIOBase):
+    """What a child prints, for its parent to read: lines as they come, and all when it has ended."""
+
+    def __init__(self, text: bool) -> None:
+        self._text = text
+        self._pending = ""
+        self._at_end = False
+        self._news = News()
+
+    def write(self, text: str) -> int:
+        """The child prints."""
+        self._pending += text
+        self._news.tell()
+        return len(text)
+
+    def end(self) -> None:
+        """Nothing more will come."""
+        self._at_end = True
+        self._news.tell()
+
+    def read(self, size: int | None = -1) -> Any:
+        """All, once the child has ended; or as many characters as are asked for."""
+        wanted = -1 if size is None else size
+        self._news.wait_for(lambda: self._at_end or 0 <= wanted <= len(self._pending))
+        return self._take(len(self._pending) if wanted < 0 else wanted)
+
+    def readline(self, size: int = -1) -> Any:  # type: ignore[override]
+        """The next line, as soon as there is one."""
+        self._news.wait_for(lambda: self._at_end or "\n" in self._pending)
+        return self._take((self._pending.find("\n") + 1) or len(self._pending))
+
+    def _take(self, count: int) -> str | bytes:
+        taken, self._pending = self._pending[:count], self._pending[count:]
+        return taken if self._text else taken.encode()
+
+    def __next__(self) -> Any:
+        if line := self.readline():
+            return line
+        raise StopIteration
+
+
+class _Nowhere(io.TextIOBase):
+    def write(self, text: str) -> int:
+        return len(text)
+
+
+def _stream(wanted: Any, inherited: Output | None, text: bool) -> tuple[Any, Any]:
+    """Where a child prints, and what its parent reads."""
+    if wanted is None:
+        return inherited, None
+    if wanted == subprocess.PIPE:
+        pipe = Pipe(text)
+        return pipe, pipe
+    if wanted == subprocess.DEVNULL:
+        return _Nowhere(), None
+    if isinstance(wanted, int):
+        raise NotImplementedError("a file's number is not built in this classroom: give the file itself, or PIPE")
+    return (wanted if isinstance(wanted, io.TextIOBase) else io.TextIOWrapper(wanted, write_through=True)), None
+
+
+def _system(real: Any, command: Any) -> int:
+    """`os.system`: run a shell's line, and wait for its end."""
+    if type(getcurrent()) is not Strand:
+        return real(command)
+    code = ClassroomPopen(command, shell=True).wait()
+    return code << 8 if code >= 0 else -code
+
+
+__all__: Sequence[str] = ["ClassroomPopen", "Pipe", "install"]
