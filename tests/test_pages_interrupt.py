@@ -15,7 +15,8 @@ from test_pages import PAGES, code_cells
 
 LESSONS = [page for page in PAGES if page.stem[0].isdigit()][:: 1 if os.environ.get("TURTLE_LESSON_ALL_PAGES") else 3]
 """Every third page: all of them take eight minutes (TURTLE_LESSON_ALL_PAGES=1)."""
-STOPS = ("KeyboardInterrupt", "CommandInterrupted")
+STOPS = ("KeyboardInterrupt", "CommandInterrupted", "NoneType")
+"""How an interrupted cell ends; ipykernel calls it NoneType where the result was just being shown."""
 
 # The button is pressed in the kernel, and only while a cell runs: an interrupt that comes while ipykernel sends its
 # answer takes that answer away, with any notebook.
