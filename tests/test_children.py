@@ -15,6 +15,7 @@ import pytest
 import rclpy
 
 from turtle_lesson.ros.world import World
+from turtle_lesson.underlay import underlay_packages
 
 Run = Callable[..., list[Any]]
 SECOND = 1_000_000_000
@@ -74,6 +75,25 @@ def test_ros2_commands_are_run_in_the_same_world(run: Run) -> None:
     assert run(program) == ["/curious\n", "/curious\ndone\n", 2 << 8]
 
 
+def test_a_launch_goes_on_until_it_is_interrupted(world: World, run: Run) -> None:
+    for package in underlay_packages():
+        world.packages.add(package)
+
+    def nodes() -> list[str]:
+        return subprocess.check_output(["ros2", "node", "list"], text=True).split()
+
+    def program(found: list[Any]) -> None:
+        with subprocess.Popen(["ros2", "launch", "turtlesim", "multisim.launch.py"]) as launch:
+            time.sleep(1)
+            found.append(nodes())
+            launch.send_signal(signal.SIGINT)
+        found += [launch.returncode, nodes()]
+        found.append(subprocess.run(["ros2", "launch", "turtlesim", "multi.launch.py"]).returncode)
+
+    both = ["/turtlesim1/turtlesim", "/turtlesim2/turtlesim"]
+    assert run(program, seconds=20) == [both, 0, [], 1]
+
+
 def test_a_child_is_ended_by_signals(world: World, run: Run, counter: list[str]) -> None:
     def program(found: list[Any]) -> None:
         for ask in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
@@ -119,6 +139,15 @@ def test_what_a_child_cannot_have_is_said(run: Run, keywords: dict[str, Any]) ->
 
     with pytest.raises(NotImplementedError, match="not built in this classroom"):
         run(program)
+
+
+def test_a_cell_may_ask_its_world(world: World) -> None:
+    assert subprocess.run(["ros2", "node", "list"], capture_output=True, text=True).stdout == ""
+    world.spawn(lambda: (rclpy.init(), rclpy.create_node("here"), time.sleep(99)), name="here")
+    assert os.popen("ros2 node list").read() == "/here\n"
+    assert os.system("ros2 node info /nobody") == 1 << 8
+    with pytest.raises(subprocess.TimeoutExpired):
+        subprocess.run(["ros2", "topic", "echo", "/rosout"], timeout=2)
 
 
 def test_outside_of_the_world_all_is_real(world: World) -> None:

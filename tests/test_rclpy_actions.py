@@ -42,6 +42,7 @@ from rclpy.action.server import (
     default_goal_callback,
     default_handle_accepted_callback,
 )
+from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import MultiThreadedExecutor
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.task import Future
@@ -340,6 +341,20 @@ def test_a_deferred_goal_waits_in_the_state_accepted(run: Run) -> None:
     assert run(program) == [GoalStatus.STATUS_ACCEPTED] * 2 + [GoalStatus.STATUS_EXECUTING, (4, [9])]
 
 
+def test_a_goal_put_off_is_executed_between_two_spins(run: Run) -> None:
+    def program(found: list[Any]) -> None:
+        handles: list[Any] = []
+        rclpy.init()
+        node = rclpy.create_node("both")
+        ActionServer(node, Fibonacci, "fibonacci", at_once, handle_accepted_callback=handles.append)
+        goal = send(node, ActionClient(node, Fibonacci, "fibonacci"))
+        found.append(node.executor is rclpy.get_global_executor())
+        handles[0].execute()
+        found += [handles[0].status, outcome(node, goal)]
+
+    assert run(program) == [True, GoalStatus.STATUS_EXECUTING, (4, [0])]
+
+
 def test_executing_needs_somebody_who_spins(run: Run) -> None:
     def program(found: list[Any]) -> None:
         handles: list[Any] = []
@@ -347,10 +362,34 @@ def test_executing_needs_somebody_who_spins(run: Run) -> None:
         node = rclpy.create_node("both")
         ActionServer(node, Fibonacci, "fibonacci", at_once, handle_accepted_callback=handles.append)
         send(node, ActionClient(node, Fibonacci, "fibonacci"))
-        with pytest.raises(RuntimeError, match=r"nobody spins <Node /both> now.*executor.add_node\(node\)"):
+        node.executor = None
+        with pytest.raises(RuntimeError, match=r"nobody spins <Node /both>, .*executor.add_node\(node\)"):
             handles[0].execute()
 
     run(program)
+
+
+def test_a_goal_of_the_same_number_is_rejected_even_while_the_first_is_thought_about(run: Run) -> None:
+    def program(found: list[Any]) -> None:
+        rclpy.init()
+        node, executor = rclpy.create_node("both"), MultiThreadedExecutor(3)
+        group = ReentrantCallbackGroup()
+
+        def think(_: Any) -> GoalResponse:
+            time.sleep(0.5)
+            return GoalResponse.ACCEPT
+
+        ActionServer(node, Fibonacci, "fibonacci", at_once, goal_callback=think, callback_group=group)
+        client = ActionClient(node, Fibonacci, "fibonacci", callback_group=group)
+        number = UUID(uuid=[7] * 16)
+        first = client.send_goal_async(Goal(order=1), goal_uuid=number)
+        again = node.create_client(SendGoal, "fibonacci/_action/send_goal", callback_group=group)
+        second = again.call_async(SendGoal.Request(goal_id=number, goal=Goal(order=2)))
+        for answer in (first, second):
+            rclpy.spin_until_future_complete(node, answer, executor)
+            found.append(answer.result().accepted)
+
+    assert sorted(run(program)) == [False, True]
 
 
 def test_callbacks_can_be_exchanged(run: Run) -> None:

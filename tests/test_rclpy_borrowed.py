@@ -40,7 +40,7 @@ def test_what_programs_write() -> None:
 
 
 def test_a_name_that_nobody_has() -> None:
-    with pytest.raises(ImportError, match="cannot import name 'Telepathy' from 'rclpy.node'"):
+    with pytest.raises(ImportError, match=r"cannot import name 'Telepathy' from 'rclpy\.node'"):
         exec("from rclpy.node import Telepathy")
     with pytest.raises(AttributeError, match=r"module 'rclpy.action.client' has no attribute 'goal_status'"):
         rclpy.action.client.goal_status  # noqa: B018

@@ -431,10 +431,15 @@ def test_a_node_is_added_once_and_moves_from_one_executor_to_the_other(run: Run)
         one, two = SingleThreadedExecutor(), SingleThreadedExecutor()
         found += [one.add_node(node), one.add_node(node), node.executor is one]
         found += [two.add_node(node), node.executor is two, one.get_nodes()]
-        rclpy.spin_once(node, timeout_sec=0.1)  # takes it over, and gives it up again
-        found += [node.executor, two.get_nodes()]
+        rclpy.spin_once(node, timeout_sec=0.1)  # takes it over, and gives it up again; the node remembers the last
+        last = rclpy.get_global_executor()
+        found += [node.executor is last, last.get_nodes(), two.get_nodes()]
+        node.executor = one
+        found += [node.executor is one, one.get_nodes() == [node]]
+        node.executor = None
+        found += [node.executor, one.get_nodes()]
 
-    assert run(program) == [True, False, True, True, True, [], None, []]
+    assert run(program) == [True, False, True, True, True, [], True, [], [], True, True, None, []]
 
 
 def test_only_nodes_can_be_spun(world: World) -> None:

@@ -70,10 +70,10 @@ class ExamPlace:
         from rclpy.executors import SingleThreadedExecutor
         from rclpy.task import Future
 
-        executor = next((node.executor for node in nodes if node.executor is not None), None)
+        executor = next((node._ros_executor for node in nodes if node._ros_executor is not None), None)
         if executor is None:
             executor = self._executor = self._executor or SingleThreadedExecutor()
-        added = [node for node in nodes if node.executor is None and executor.add_node(node)]
+        added = [node for node in nodes if node._ros_executor is None and executor.add_node(node)]
         try:
             before = self._world.now
             executor.spin_until_future_complete(Future(), (end - before) / NANOSECONDS)

@@ -1,28 +1,29 @@
 """Programs that a program starts: `subprocess`, `os.system` and `os.popen` run further processes of the world.
 
 What they can start is what a launch file's ExecuteProcess can: `ros2 …`, Python files, echo, sleep. Whoever is no
-simulated process gets the real ones.
+simulated process gets the real ones, except for `ros2 …` in a cell or in a launch file.
 """
 
 from __future__ import annotations
 
-import io
 import os
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from .core import NANOSECONDS, Process, Strand, running_strand
+from .child_streams import News, Pipe, stream_for
+from .core import Process, Strand
 from .core.stdlib import lend
+from .core.stdlib.home import notebook_here
 from .core.strand import getcurrent
 
 if TYPE_CHECKING:
     from .core.process import Output
 
 _Real = subprocess.Popen
-_TO_FILE = (subprocess.PIPE, subprocess.STDOUT, subprocess.DEVNULL)
 
 
 def install() -> None:
@@ -40,7 +41,7 @@ class ClassroomPopen(_Real):
     _simulated = _terminated = False
 
     def __init__(self, args: Any, *positional: Any, **given: Any) -> None:
-        if type(getcurrent()) is not Strand:
+        if type(getcurrent()) is not Strand and not _of_a_cell(args):
             super().__init__(args, *positional, **given)
             return
         self._simulated = True
@@ -56,9 +57,9 @@ class ClassroomPopen(_Real):
         self._ended = News()
         self._child_created, self._sigint_wait_secs = False, 0.0  # what the real one's __del__ and __exit__ ask for
         parent = current_process()
-        out, self.stdout = _stream(given.get("stdout"), parent.stdout, text)
+        out, self.stdout = stream_for(given.get("stdout"), parent.stdout, text)
         both = given.get("stderr") == subprocess.STDOUT
-        err, self.stderr = (out, None) if both else _stream(given.get("stderr"), parent.stderr, text)
+        err, self.stderr = (out, None) if both else stream_for(given.get("stderr"), parent.stderr, text)
         self._process = _start(_words(args, shell), shell, out, err, self._has_ended, given.get("env"))
         self.pid = self._process.pid
 
@@ -119,6 +120,13 @@ def _check(given: dict[str, Any]) -> None:
         raise NotImplementedError("cwd= is not built in this classroom: a program's child has the folder of all others")
 
 
+def _of_a_cell(args: Any) -> bool:
+    """Whether a cell, or a launch file that it loads, runs a `ros2` command, which only the world has."""
+    notebook = notebook_here()
+    first = args if isinstance(args, str) else next(iter(args), "") if isinstance(args, (list, tuple)) else ""
+    return notebook is not None and not notebook.simulation.running and str(first).split()[:1] == ["ros2"]
+
+
 def _words(args: Any, shell: bool) -> list[str]:
     """A command's words; for a shell its text."""
     if isinstance(args, (str, bytes, os.PathLike)):
@@ -149,7 +157,7 @@ def _program(words: list[str], shell: bool) -> tuple[Any, list[str]]:
     if not words or not words[0]:
         raise NotImplementedError("there is no command to run")
     if words[:2] == ["ros2", "launch"]:
-        return commands.ending(lambda: commands.ros2(words)), words
+        return partial(_launch, words[2:]), words
     try:
         program = commands.program(words, shell=shell)
     except (commands.UnknownCommand, PackageNotFoundError) as error:
@@ -169,6 +177,30 @@ def _refusal(line: str, error: Exception) -> str:
     )
 
 
+def _launch(words: list[str]) -> None:
+    """`ros2 launch` as a program of its own, which goes on until its programs have ended."""
+    from launch import LaunchDescription, LaunchService
+    from launch.actions import IncludeLaunchDescription
+    from launch.launch_description_sources import AnyLaunchDescriptionSource
+
+    from .launching import find_launch_file
+    from .launching.errors import LaunchError
+    from .world import current_world
+
+    given = [word.partition(":=") for word in words if ":=" in word]
+    names = [word for word in words if ":=" not in word and not word.startswith("-")]
+    try:
+        path = find_launch_file(current_world(), *names) if len(names) == 2 else "".join(names)
+    except LaunchError as error:
+        print(error.console, file=sys.stderr)
+        sys.exit(1)
+    source = AnyLaunchDescriptionSource(str(path))
+    service = LaunchService(argv=words)
+    included = IncludeLaunchDescription(source, launch_arguments=[(name, value) for name, _, value in given])
+    service.include_launch_description(LaunchDescription([included]))
+    sys.exit(service.run())
+
+
 def _failing(sentence: str) -> Callable[[], None]:
     """A command that only complains, as `ros2 run` does of a package that is not there."""
 
@@ -179,103 +211,12 @@ def _failing(sentence: str) -> Callable[[], None]:
     return complain
 
 
-class News:
-    """Something that strands wait for, in robot time."""
-
-    def __init__(self) -> None:
-        self._waiting: list[Strand] = []
-
-    def tell(self) -> None:
-        """Have those who wait look again."""
-        for strand in self._waiting:
-            strand.simulation.wake(strand)
-
-    def wait_for(self, is_there: Callable[[], bool], seconds: float | None = None) -> bool:
-        """Hold up the running strand until it is there, at most `seconds`; whether it is."""
-        strand = running_strand()
-        if strand is None:
-            return is_there()
-        simulation = strand.simulation
-        deadline = None if seconds is None else simulation.now + round(seconds * NANOSECONDS)
-        if deadline is not None:
-            simulation.at(deadline, simulation.wake, strand)
-        self._waiting.append(strand)
-        try:
-            while not is_there():
-                if deadline is not None and simulation.now >= deadline:
-                    return False
-                simulation.park(strand)
-            return True
-        finally:
-            self._waiting.remove(strand)
-
-
-class Pipe(io.TextIOBase):
-    """What a child prints, for its parent to read: lines as they come, and all when it has ended."""
-
-    def __init__(self, text: bool) -> None:
-        self._text = text
-        self._pending = ""
-        self._at_end = False
-        self._news = News()
-
-    def write(self, text: str) -> int:
-        """The child prints."""
-        self._pending += text
-        self._news.tell()
-        return len(text)
-
-    def end(self) -> None:
-        """Nothing more will come."""
-        self._at_end = True
-        self._news.tell()
-
-    def read(self, size: int | None = -1) -> Any:
-        """All, once the child has ended; or as many characters as are asked for."""
-        wanted = -1 if size is None else size
-        self._news.wait_for(lambda: self._at_end or 0 <= wanted <= len(self._pending))
-        return self._take(len(self._pending) if wanted < 0 else wanted)
-
-    def readline(self, size: int = -1) -> Any:  # type: ignore[override]
-        """The next line, as soon as there is one."""
-        self._news.wait_for(lambda: self._at_end or "\n" in self._pending)
-        return self._take((self._pending.find("\n") + 1) or len(self._pending))
-
-    def _take(self, count: int) -> str | bytes:
-        taken, self._pending = self._pending[:count], self._pending[count:]
-        return taken if self._text else taken.encode()
-
-    def __next__(self) -> Any:
-        if line := self.readline():
-            return line
-        raise StopIteration
-
-
-class _Nowhere(io.TextIOBase):
-    def write(self, text: str) -> int:
-        return len(text)
-
-
-def _stream(wanted: Any, inherited: Output | None, text: bool) -> tuple[Any, Any]:
-    """Where a child prints, and what its parent reads."""
-    if wanted is None:
-        return inherited, None
-    if wanted == subprocess.PIPE:
-        pipe = Pipe(text)
-        return pipe, pipe
-    if wanted == subprocess.DEVNULL:
-        return _Nowhere(), None
-    if isinstance(wanted, int):
-        raise NotImplementedError("a file's number is not built in this classroom: give the file itself, or PIPE")
-    return (wanted if isinstance(wanted, io.TextIOBase) else io.TextIOWrapper(wanted, write_through=True)), None
-
-
 def _system(real: Any, command: Any) -> int:
     """`os.system`: run a shell's line, and wait for its end."""
-    if type(getcurrent()) is not Strand:
+    if type(getcurrent()) is not Strand and not _of_a_cell(command):
         return real(command)
     code = ClassroomPopen(command, shell=True).wait()
     return code << 8 if code >= 0 else -code
 
 
-__all__: Sequence[str] = ["ClassroomPopen", "Pipe", "install"]
+__all__ = ["ClassroomPopen", "install"]

@@ -10,11 +10,11 @@ import contextlib
 from collections.abc import Callable
 
 from ..core import tracebacks
-from . import attributes, calls, imports, values
+from . import attributes, calls, devices, imports, values
 
 Adviser = Callable[[BaseException], str]
 
-ADVISERS: tuple[Adviser, ...] = (imports.advice, attributes.advice, calls.advice, values.advice)
+ADVISERS: tuple[Adviser, ...] = (imports.advice, attributes.advice, calls.advice, values.advice, devices.advice)
 
 
 def advise(error: BaseException) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from ..interfaces.registry import registry
 from ..workspace.errors import did_you_mean
+from .devices import KEYS, SCREEN
 
 FOLDERS = ("msg", "srv", "action")
 
@@ -24,14 +25,16 @@ FROM_ROS_1 = {
 }
 
 ABSENT = frozenset((
-    "ackermann_msgs", "can_msgs", "control_msgs", "controller_manager_msgs", "cv_bridge", "gazebo_msgs",
-    "geographic_msgs", "grid_map_msgs", "image_geometry", "image_transport", "irobot_create_msgs",
-    "joint_state_publisher", "laser_geometry", "launch_testing", "launch_testing_ros", "map_msgs", "mavros_msgs",
+    "ackermann_msgs", "angles", "bond", "can_msgs", "control_msgs", "controller_manager_msgs", "cv_bridge",
+    "demo_nodes_py", "diagnostic_updater", "gazebo_msgs", "geographic_msgs", "grid_map_msgs", "image_geometry",
+    "image_tools", "image_transport", "interactive_markers", "irobot_create_msgs", "joint_state_publisher",
+    "joy_teleop", "laser_geometry", "launch_pytest", "launch_testing", "launch_testing_ros", "map_msgs", "mavros_msgs",
     "moveit", "moveit_msgs", "moveit_py", "nav2_common", "nav2_msgs", "nav2_simple_commander", "octomap_msgs",
-    "pcl_msgs", "pcl_ros", "pointcloud2_msgs", "px4_msgs", "python_qt_binding", "qt_gui", "rclpy_message_converter",
-    "robot_localization", "robot_state_publisher", "ros2bag", "ros2cli", "ros2node", "ros2param", "ros2pkg", "ros2run",
-    "ros2topic", "ros_gz_interfaces", "rosbag2_py", "rqt_gui", "rqt_gui_py", "slam_toolbox", "tf2_kdl",
-    "turtlebot3_msgs", "ur_msgs", "vision_msgs", "webots_ros2_driver",
+    "pcl_msgs", "pcl_ros", "pendulum_msgs", "pointcloud2_msgs", "px4_msgs", "py_trees_ros", "python_qt_binding",
+    "qt_gui", "rclpy_message_converter", "robot_localization", "robot_state_publisher", "ros2_numpy", "ros2bag",
+    "ros2cli", "ros2node", "ros2param", "ros2pkg", "ros2run", "ros2topic", "ros_gz_interfaces", "rosbag2_py", "rqt_gui",
+    "rqt_gui_py", "slam_toolbox", "smach", "smach_ros", "teleop_twist_keyboard", "test_msgs", "tf2_kdl",
+    "turtlebot3_msgs", "ur_msgs", "vision_msgs", "webots_ros2_driver", "xacro",
 ))  # fmt: skip
 """Packages that a robot may have, and this classroom has not."""
 
@@ -50,6 +53,8 @@ def _no_module(name: str) -> str:
     top, _, rest = name.partition(".")
     if top in FROM_ROS_1:
         return FROM_ROS_1[top]
+    if top in _DEVICES:
+        return f"{top} is installed apart from ROS 2 ({_DEVICES[top][1]}). {_DEVICES[top][0]}"
     if top in ABSENT:
         return (
             f"{top} is a package of ROS 2 that this classroom does not have: a program that needs it runs on a robot "
@@ -102,6 +107,15 @@ def _of_ones_own(name: str) -> str:
 def _pip(name: str) -> str:
     return f"any other when it is installed for this Python (pip install {_ON_PYPI.get(name, name)})"
 
+
+_TURTLE = " If it has none, an editor may have put in a line like `from turtle import …`: delete that."
+_DEVICES = {
+    **{name: (KEYS, f"pip install {name}") for name in ("pynput", "keyboard", "sshkeyboard", "getkey", "readchar", "inputs")},
+    **{name: (SCREEN, f"pip install {name}") for name in ("PyQt5", "PyQt6", "PySide2", "PySide6", "pygame", "kivy")},
+    **dict.fromkeys(("tkinter", "_tkinter"), (SCREEN + _TURTLE, "sudo apt install python3-tk")),
+    "customtkinter": (SCREEN, "pip install customtkinter"), "wx": (SCREEN, "pip install wxPython"),
+}  # fmt: skip
+"""Modules that read keys or show windows: what stands in for that here, and how they are installed on a robot."""
 
 _ON_PYPI = {"cv2": "opencv-python", "PIL": "pillow", "yaml": "pyyaml", "serial": "pyserial", "sklearn": "scikit-learn"}
 

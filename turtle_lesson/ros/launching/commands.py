@@ -66,10 +66,10 @@ def _script(text: str, argv: list[str], shown: str) -> Program:
             code = run() or 0
         return code
 
-    return Program(ending(main), argv, shown)
+    return Program(_ending(main), argv, shown)
 
 
-def ending(main: Main) -> Callable[[], None]:
+def _ending(main: Main) -> Callable[[], None]:
     """A function that ends its process with the exit code that `main` gives; Ctrl-C ends it without a word."""
 
     def end() -> None:
@@ -117,7 +117,7 @@ def _simple(words: list[str], shown: str) -> Program:
         return Program(_python_file(words[1], shown), words[1:], shown)
     if name.endswith(".py") and "/" in words[0]:
         return Program(_python_file(words[0], shown), words, shown)
-    return Program(ending(_main(words)), words, shown)
+    return Program(_ending(_main(words)), words, shown)
 
 
 def _python_file(name: str, shown: str) -> Path:
@@ -163,13 +163,13 @@ def _main(words: list[str]) -> Main:
                 f"ExecuteProcess(cmd='{' '.join(words)}'): a launch file is taken in by IncludeLaunchDescription",
                 "Write IncludeLaunchDescription(path_of_the_launch_file).",
             )
-        return lambda: ros2(words)
+        return lambda: _ros2(words)
     if name in _SMALL:
         return lambda: _SMALL[name](words[1:])
     raise UnknownCommand(*_refusal(words))
 
 
-def ros2(words: list[str]) -> int:
+def _ros2(words: list[str]) -> int:
     from ..command import run_here
 
     return run_here(words)

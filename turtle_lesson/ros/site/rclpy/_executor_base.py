@@ -74,8 +74,8 @@ class ExecutorBase:
             refuse_destroyed(node._ros_simulation)
         if self._context.handle is None:
             raise not_valid("guard_condition")
-        if node.executor is not None:
-            node.executor.remove_node(node)
+        if node._ros_executor is not None:
+            node._ros_executor.remove_node(node)
         self._nodes.append(node)
         node._ros_executor = self  # type: ignore[assignment]
         comes_again = node._ros_place == (self, self._nodes_seen)  # as it does with each rclpy.spin_once

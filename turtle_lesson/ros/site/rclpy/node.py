@@ -223,17 +223,19 @@ class Node(NodeEntities, NodeNews, NodeParameters):
 
     @property
     def executor(self) -> Executor | None:
-        """The executor that runs the node's callbacks, if any."""
-        return self._ros_executor
+        """The executor that runs the node's callbacks, or was the last to do so, if any."""
+        return self._ros_executor or self._ros_place[0]
 
     @executor.setter
     def executor(self, new_executor: Executor | None) -> None:
-        if self._ros_executor is new_executor:
+        if self.executor is new_executor:
             return
-        if self._ros_executor is not None:
-            self._ros_executor.remove_node(self)
+        if self.executor is not None:
+            self.executor.remove_node(self)
+        self._ros_place = (None, 0)
         if new_executor is not None:
             new_executor.add_node(self)
+            self._ros_executor = new_executor
 
     @property
     def handle(self) -> Handle:

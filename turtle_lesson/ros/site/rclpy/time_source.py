@@ -149,7 +149,7 @@ class TimeSource:
         node, ear = self._node, self._clock_sub
         if node is None or ear is None:
             return
-        if somebody_spins(node.executor, strand) and not keeps_taken(ear.callback_group):
+        if somebody_spins(node._ros_executor, strand) and not keeps_taken(ear.callback_group):
             return
         raise NeverWakes(
             f"this sleep would never end: {node!r} follows {CLOCK_TOPIC} (use_sim_time is true), and cannot hear it "

@@ -99,7 +99,9 @@ def _found(functions: dict[Any, Callable[..., Any]], key: Any) -> Callable[..., 
     if key in functions:
         return functions[key]
     error = TypeException(f"Type {key} is not loaded or supported")
-    error.add_note("For the types of geometry_msgs write: import tf2_geometry_msgs")
+    clouds = "sensor_msgs" in str(key) and "geometry_msgs" not in str(key)
+    package = "sensor_msgs" if clouds else "geometry_msgs"
+    error.add_note(f"For the types of {package} write: import tf2_{package}")
     raise error
 
 

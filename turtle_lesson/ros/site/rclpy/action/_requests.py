@@ -48,6 +48,8 @@ class Requests:
         handle = None
         if accepted:
             info.stamp = self._node.get_clock().now().to_msg()
+            accepted = not self._came_meanwhile(message.goal_id)
+        if accepted:
             handle = ServerGoalHandle(self, info, message.goal)  # type: ignore[arg-type]
             self._goals.add(handle)
         response = self._action_type.Impl.SendGoalService.Response(accepted=accepted, stamp=info.stamp)
@@ -58,6 +60,14 @@ class Requests:
         self._debug("New goal accepted: {}", message.goal_id)
         self._publish_status()
         await call_back("handle_accepted_callback", self._handle_accepted_callback, handle)
+
+    def _came_meanwhile(self, goal_id: Any) -> bool:
+        """Whether a goal of the same number was accepted while the goal callback of this one decided."""
+        if self._goals.get(goal_id) is None:
+            return False
+        text = f"Failed to accept new goal with ID {goal_id.uuid}: goal ID already exists"
+        self._node.get_logger().error(text)
+        return True
 
     async def _is_acceptable(self, goal: Any) -> bool:
         response = await call_back("goal_callback", self._goal_callback, goal)

@@ -199,7 +199,7 @@ class ActionServer(Requests, Waitable):
         executor = self._node.executor
         if executor is None:
             raise RuntimeError(
-                f"nobody spins {self._node!r} now, so nobody could call the execute callback of {self._name}: add the "
+                f"nobody spins {self._node!r}, so nobody could call the execute callback of {self._name}: add the "
                 "node to an executor first, with executor.add_node(node)"
             )
         self._goals.begin(goal_handle)
