@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -62,6 +63,20 @@ def test_what_a_child_prints_goes_where_its_parent_prints(
     assert run(program) == [7]
     assert capsys.readouterr().out == "aloud\n"
     assert (tmp_path / "log").read_text() == "1\n2\n3\n"
+
+
+def test_a_child_has_the_variables_that_it_is_given(run: Run, tmp_path: Path) -> None:
+    script = tmp_path / "who.py"
+    script.write_text("import os\nprint(os.environ.get('WHO'))\n")
+
+    def program(found: list[Any]) -> None:
+        with tempfile.NamedTemporaryFile() as log:
+            subprocess.run([sys.executable, script], env={**os.environ, "WHO": "me"}, stdout=log, check=True)
+            log.seek(0)
+            found.append(log.read())
+        found.append(subprocess.check_output([sys.executable, script]))
+
+    assert run(program) == [b"me\n", b"None\n"]
 
 
 def test_ros2_commands_are_run_in_the_same_world(run: Run) -> None:

@@ -17,7 +17,7 @@ from rosidl_runtime_py import message_to_csv, message_to_yaml, set_message_field
 
 from turtle_lesson.ros.command.common import CommandError
 from turtle_lesson.ros.command.types import message_class, service_class
-from turtle_lesson.ros.command.values import NoYaml, read_yaml
+from turtle_lesson.ros.command.values import NoYaml, populate, read_yaml
 from turtle_lesson.ros.interfaces import InvalidDefinition, registry
 from turtle_lesson.ros.world import World
 
@@ -139,3 +139,17 @@ def test_a_definition_of_ones_own_that_is_refused_says_why(world: World, tmp_pat
             message_class("bad_msgs/msg/Bad")
     finally:
         registry.remove("bad_msgs")
+
+
+@pytest.mark.parametrize(
+    ("typed", "said"),
+    [
+        ("off: 1", "'bool'\nYAML reads off as false: put the field's name in quotes, 'off'."),
+        ("yes: 1", "'bool'"),
+        ("3: 1", "'int'"),
+    ],
+)
+def test_a_fields_name_that_yaml_takes_for_something_else(world: World, typed: str, said: str) -> None:
+    with pytest.raises(CommandError) as caught:
+        populate(service_class("turtlesim/srv/SetPen").Request(), read_yaml("{r: 7, " + typed + "}"))
+    assert str(caught.value) == f"Failed to populate field: attribute name must be string, not {said}"

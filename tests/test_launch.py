@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -264,6 +265,17 @@ def test_nested_parameters_get_dots_and_files_keep_their_place(
     ]
     warning = f"[WARNING] [launch_ros.actions.node]: Parameter file path is not a file: {missing}"
     assert warning in screen(capsys)
+
+
+def test_a_parameter_of_a_name_that_no_rule_can_hold_is_given_in_a_file(tmp_path: Path) -> None:
+    world, _ = launch(tmp_path, node(parameters="[{'~speed': 0.7, 'b': 1, 'a-b': [1, 2]}, {'/abs': 'x, y'}]"))
+    argv = world.argv()
+    files = [Path(word) for before, word in pairwise(argv) if before == "--params-file"]
+    values = [yaml.safe_load(file.read_text())["/**"]["ros__parameters"] for file in files]
+    assert values == [{"~speed": 0.7}, {"a-b": [1, 2]}, {"/abs": "x, y"}]
+    assert [word for word in argv if word not in map(str, files)] == [
+        *["--ros-args", "--params-file", "-p", "b:=1", "--params-file", "--params-file"],
+    ]
 
 
 # -- arguments, conditions, groups, includes --------------------------------------------------------------

@@ -320,3 +320,24 @@ def test_mistakes_are_told_with_their_line(tmp_path: Path, action: str, reason: 
         launch(tmp_path, action)
     assert reason in caught.value.reason and hint in caught.value.hint
     assert caught.value.line == 14
+
+
+@pytest.mark.parametrize(
+    ("prefix", "terminal"),
+    [
+        ("'xterm -e'", "xterm"),
+        ("['gnome-terminal ', '-- ']", "gnome-terminal"),
+        ("[LaunchConfiguration('t', default='/usr/bin/konsole'), ' -e']", "konsole"),
+        ("''", ""),
+    ],
+)
+def test_a_node_that_is_to_have_a_terminal_runs_without_one(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], prefix: str, terminal: str
+) -> None:
+    launch(tmp_path, node(prefix=prefix))
+    lines = screen(capsys)
+    warning = (
+        f"[WARNING] [launch]: there is no {terminal} in this classroom: navigator-1 runs without a terminal of its own"
+    )
+    assert lines[: len(lines) - 1] == ([warning] if terminal else [])
+    assert lines[-1].startswith("[INFO] [navigator-1]: process started")

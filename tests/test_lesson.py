@@ -14,6 +14,7 @@ from typing import Any
 import pytest
 
 from turtle_lesson import Lesson, start
+from turtle_lesson.ros.command.shell import run_line
 from turtle_lesson.ros.core import EPOCH, WorldClosed
 from turtle_lesson.ros.launching import LaunchError
 from turtle_lesson.turtlesim.obstacles import Box, Circle
@@ -238,3 +239,18 @@ def test_the_clock_of_nodes_begins_at_the_epoch(lesson: Lesson) -> None:
     rclpy.init()
     now = rclpy.create_node("me").get_clock().now().nanoseconds
     assert EPOCH <= now < EPOCH + 1_000_000
+
+
+def test_a_second_simulator_is_pointed_out(lesson: Lesson, capsys: pytest.CaptureFixture[str]) -> None:
+    world = lesson._world
+    run_line(world, "ros2 run turtlesim turtlesim_node")
+    said = "There are two simulators now, and both do what they are asked: start(simulator=False) begins none."
+    assert capsys.readouterr().out.splitlines()[-1] == said
+    run_line(world, "ros2 run turtlesim draw_square")
+    assert said not in capsys.readouterr().out
+
+
+def test_a_first_simulator_is_alone(capsys: pytest.CaptureFixture[str]) -> None:
+    world = start(simulator=False)._world
+    run_line(world, "ros2 run turtlesim turtlesim_node")
+    assert "two simulators" not in capsys.readouterr().out

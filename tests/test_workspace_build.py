@@ -554,3 +554,11 @@ def test_a_python_package_brings_what_ament_cmake_core_has(package: Path, world:
     change(package / CMAKE, "ament_package()", f"{package_of_tools}ament_package()")
     answer = colcon(world)
     assert answer.code == 0, answer.err
+
+
+def test_who_has_a_package_in_cpp_is_told_how_to_build_the_others(package: Path, world: World) -> None:
+    change(package / CMAKE, "# line 10", "add_executable(fast src/fast.cpp)")
+    answer = colcon(world)
+    assert answer.code == 1
+    assert "colcon build --packages-skip robot_controller" in answer.err
+    assert colcon(world, "build --packages-skip robot_controller").code == 0

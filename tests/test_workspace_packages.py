@@ -257,6 +257,55 @@ def test_modules_may_lie_in_a_folder_of_their_own(py_demo: Path, world: World) -
     assert started(world, "py_demo", "hello") == "Hi from py_demo.\n"
 
 
+def with_tools(py_demo: Path, listed: str) -> None:
+    """Give the package a subpackage that its program needs, data files and a script; `listed` is what setup.py says."""
+    (py_demo / "py_demo/tools").mkdir()
+    (py_demo / "py_demo/tools/__init__.py").write_text("")
+    (py_demo / "py_demo/tools/names.py").write_text("WHO = 'tools'\n")
+    (py_demo / "py_demo/tools/words.txt").write_text("some words")
+    (py_demo / "scripts").mkdir()
+    for name in ("greet.py", "wave.py"):
+        (py_demo / "scripts" / name).write_text("print('Hi from a script.')\n")
+        (py_demo / "scripts" / name).chmod(0o755)
+    change(py_demo / "setup.py", "find_packages(exclude=['test'])", listed)
+    hello = py_demo / "py_demo/hello.py"
+    hello.write_text("from py_demo.tools.names import WHO\n" + hello.read_text())
+
+
+@pytest.mark.parametrize("name", ["py_demo.tools", "py_demo/tools"])
+def test_a_subpackage_is_installed_if_it_is_listed(py_demo: Path, world: World, name: str) -> None:
+    listed = f"['py_demo', {name!r}], package_data={{'py_demo.tools': ['*.txt']}}, scripts=['scripts/greet.py']"
+    with_tools(py_demo, listed)
+    change(py_demo / "setup.py", "data_files=[", "data_files=[('lib/py_demo', ['scripts/wave.py']),")
+    answer = colcon(world)
+    assert (answer.code, answer.err) == (0, "")
+    source_in(world)
+    assert started(world, "py_demo", "hello") == "Hi from py_demo.\n"
+    assert started(world, "py_demo", "greet.py") == started(world, "py_demo", "wave.py") == "Hi from a script.\n"
+    installed = next(Path("install/py_demo/lib").glob("python*/site-packages/py_demo/tools"))
+    assert sorted(path.name for path in installed.iterdir()) == ["__init__.py", "names.py", "words.txt"]
+
+
+def test_scripts_run_where_they_lie(py_demo: Path) -> None:
+    with_tools(py_demo, "['py_demo', 'py_demo.tools'], scripts=['scripts/greet.py']")
+    lesson = turtle_lesson.start(package=py_demo, simulator=False)
+    assert started(lesson._world, "py_demo", "greet.py") == "Hi from a script.\n"
+    assert started(lesson._world, "py_demo", "hello") == "Hi from py_demo.\n"
+    lesson._world.close()
+
+
+def test_a_subpackage_that_is_not_listed_is_left_out(
+    py_demo: Path, world: World, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with_tools(py_demo, "['py_demo']")
+    assert run_line(world, "colcon build && source install/setup.bash && ros2 run py_demo hello") == 1
+    said = capsys.readouterr()
+    assert "ModuleNotFoundError: No module named 'py_demo.tools'" in said.out + said.err
+    assert "setup.py leaves it out: add 'py_demo.tools' to its packages=[…]" in said.out + said.err
+
+    assert run_line(world, "colcon build --symlink-install && ros2 run py_demo hello") == 0
+
+
 SETUP = "from setuptools import setup\nsetup(name='py_demo', {})\n"
 
 

@@ -32,7 +32,7 @@ ABSENT = frozenset((
     "moveit", "moveit_msgs", "moveit_py", "nav2_common", "nav2_msgs", "nav2_simple_commander", "octomap_msgs",
     "pcl_msgs", "pcl_ros", "pendulum_msgs", "pointcloud2_msgs", "px4_msgs", "py_trees_ros", "python_qt_binding",
     "qt_gui", "rclpy_message_converter", "robot_localization", "robot_state_publisher", "ros2_numpy", "ros2bag",
-    "ros2cli", "ros2node", "ros2param", "ros2pkg", "ros2run", "ros2topic", "ros_gz_interfaces", "rosbag2_py", "rqt_gui",
+    "ros2cli", "ros2node", "ros2param", "ros2pkg", "ros2run", "ros2topic", "ros_gz_interfaces", "rqt_gui",
     "rqt_gui_py", "slam_toolbox", "smach", "smach_ros", "teleop_twist_keyboard", "test_msgs", "tf2_kdl",
     "turtlebot3_msgs", "ur_msgs", "vision_msgs", "webots_ros2_driver", "xacro",
 ))  # fmt: skip
@@ -80,7 +80,24 @@ def _parent(name: str) -> str:
         has = [folder for folder in FOLDERS if registry.package(above).names_in(folder)]
         return f"The package {above} has {' and '.join(has)}, and no {last}."
     inner = set(FOLDERS) if above in registry.packages() else _submodules(module)
+    if left_out := _left_out(above, last):
+        return left_out
     return did_you_mean(last, inner) or f"There is a module {above}, but it has no module {last}."
+
+
+def _left_out(above: str, last: str) -> str:
+    """What to do about a folder of modules that is there, but that setup.py does not list."""
+    from ..workspace.current import current_packages
+
+    top = above.partition(".")[0]
+    packages = current_packages()
+    source = packages.get(top).source if top in packages else None
+    if source is None or not source.joinpath(*above.split("."), last).is_dir():
+        return ""
+    return (
+        f"The folder {last} is there, but setup.py leaves it out: add '{above}.{last}' to its packages=[…], or write "
+        "packages=find_packages(); then build again."
+    )
 
 
 def _submodules(module: object) -> set[str]:

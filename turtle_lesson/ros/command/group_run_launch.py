@@ -28,6 +28,7 @@ from .parser import cut
 
 if TYPE_CHECKING:
     from ..launching.handle import LaunchHandle
+    from ..world import World
 
 SIGNAL_TEXTS = {-2: "Interrupt", -9: "Killed", -15: "Terminated"}
 
@@ -176,6 +177,7 @@ def leave(what: Process | LaunchHandle, words: str, seconds: float | None) -> in
     """Let it begin, say how to end it if it goes on, and leave it running."""
     world = current_world()
     job = jobs(world).add(Job(words.strip(), what))
+    simulators = len(world.graph.servers("/spawn"))
     world.sim.settle()
     if seconds is not None:
         run_for(world, seconds)
@@ -185,8 +187,15 @@ def leave(what: Process | LaunchHandle, words: str, seconds: float | None) -> in
         for twin in jobs(world).like(job):
             twice = f"The same goes on as [{twin.number}]: everything in it is there twice now."
             print(f"{twice} To end that: kill -INT %{twin.number}")
+        if len(world.graph.servers("/spawn")) > simulators and _has_one_of_its_own(world):
+            print("There are two simulators now, and both do what they are asked: start(simulator=False) begins none.")
         return 0
     return _code_of(what)
+
+
+def _has_one_of_its_own(world: World) -> bool:
+    """Whether `start()` has begun a simulator, which no job is."""
+    return any(server.node.process.name == "turtlesim" for server in world.graph.servers("/spawn"))
 
 
 def _code_of(what: Process | LaunchHandle) -> int:

@@ -17,7 +17,18 @@ if TYPE_CHECKING:
     from ..world import World
 
 _PYTHON = re.compile(r"python(3(\.\d+)?)?")
-_AS_MODULE = "import runpy\nrunpy.run_module({!r}, run_name='__main__', alter_sys=True)\n"
+_AS_MODULE = """\
+from importlib.util import find_spec
+
+__spec__ = find_spec({name!r})
+if __spec__.submodule_search_locations is not None:
+    __spec__ = find_spec({name!r} + ".__main__")
+__file__, __package__, __loader__ = __spec__.origin, __spec__.parent, __spec__.loader
+del find_spec
+exec(__loader__.get_code(__spec__.name))
+"""
+"""Runs a module in the place of the main program. (runpy would change `sys.modules` when the program is interrupted,
+at a time when those of the notebook are in it.)"""
 
 
 def names_a_script(words: Sequence[str]) -> bool:
@@ -54,6 +65,6 @@ def run_script(world: World, words: Sequence[str]) -> int:
     name, arguments = path.stem, list(words[1:])
     if arguments[0] == "-m":
         name, arguments = arguments[1].rpartition(".")[2], [str(path), *arguments[2:]]
-        target = PythonProgram(path, (Path.cwd(),), _AS_MODULE.format(words[2]))
+        target = PythonProgram(path, (Path.cwd(),), _AS_MODULE.format(name=words[2]))
     process = world.spawn(target, name=name, argv=arguments, stdout=output, stderr=output)
     return leave(process, " ".join(words), None)

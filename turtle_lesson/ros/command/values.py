@@ -80,7 +80,7 @@ def populate(message: Any, values: Any) -> list[Callable[[Any], None]]:
     try:
         return set_message_fields(message, values, expand_header_auto=True, expand_time_now=True)
     except (TypeError, AttributeError, ValueError, AssertionError, OverflowError, RecursionError) as error:
-        notes = getattr(error, "__notes__", []) if isinstance(error, AttributeError) else []
+        notes = getattr(error, "__notes__", []) if isinstance(error, (AttributeError, TypeError)) else []
         raise CommandError(f"Failed to populate field: {error}", "\n".join(notes)) from None
 
 

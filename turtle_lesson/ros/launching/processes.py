@@ -53,6 +53,7 @@ class Processes:
         if self._service.context.is_shutdown:
             return
         self._warn_of_folder(action)
+        self._warn_of_terminal(action)
         process = RunningProcess(self, self._service.screen, action)
         self._all.append(process)
         self._start(process)
@@ -69,6 +70,13 @@ class Processes:
         self._warned_of_folder = True
         what = "all programs work in the notebook's folder, whatever cwd= says"
         self._service.screen.say("WARNING", "launch", f"in this classroom {what}")
+
+    def _warn_of_terminal(self, action: ExecuteLocal) -> None:
+        """Say that a program has no window of its own to run in."""
+        if action.terminal:
+            name = action.process_description.final_name
+            text = f"there is no {action.terminal} in this classroom: {name} runs without a terminal of its own"
+            self._service.screen.say("WARNING", "launch", text)
 
     # -- what processes tell ------------------------------------------------------------------------------
 

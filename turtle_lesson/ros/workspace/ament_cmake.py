@@ -194,7 +194,10 @@ class _Build:
 
     def _on_add_executable(self, command: Command, where: str) -> None:
         what = f"{command.name}({' '.join(command.args[:1])} …)"
-        hint = "Write the node in Python and install it: install(PROGRAMS … DESTINATION lib/${PROJECT_NAME})."
+        hint = (
+            "Write the node in Python and install it: install(PROGRAMS … DESTINATION lib/${PROJECT_NAME}). The other "
+            f"packages are built by: colcon build --packages-skip {self.found.name}"
+        )
         raise refused(f"{what} builds a C++ program; this classroom builds and runs Python only", where, hint)
 
     _on_add_library = _on_add_executable

@@ -88,8 +88,10 @@ class _Build:
                 place = self._folder(name).relative_to(self.found.path).as_posix()
                 text = f"error: package directory '{place}' does not exist\n"
                 raise BuildFailure(text, f"setup.py names it in packages=…; make {place}/__init__.py.", seconds=0.5)
-        for name in sorted(top):
-            items.append(Item(f"{SITE}/{name}", self._folder(name)))
+        if self.environment.symlink:  # colcon then puts the whole source folder on the path
+            items += [Item(f"{SITE}/{name}", self._folder(name)) for name in sorted(top)]
+        else:
+            items += [item for name in dict.fromkeys(packages) for item in self._files_of(name)]
         for module in self._names("py_modules"):
             file = self.found.path / f"{module}.py"
             if not file.is_file():
@@ -106,9 +108,25 @@ class _Build:
         items.append(Item(f"{info}/top_level.txt", text="".join(f"{name}\n" for name in sorted(top))))
         return items
 
+    def _files_of(self, package: str) -> list[Item]:
+        """What is installed of a package: its own modules, and the other files that `package_data=` names."""
+        folder = self._folder(package)
+        patterns = self.setup.get("package_data") or {}
+        patterns = patterns if isinstance(patterns, dict) else {}
+        wanted = ["*.py", *_texts(patterns.get("")), *_texts(patterns.get(package))]
+        if self.setup.get("include_package_data") and (self.found.path / "MANIFEST.in").is_file():
+            wanted.append("**/*")
+        inside = [Path(os.path.normpath(match)) for pattern in wanted for match in folder.glob(pattern)]
+        files = sorted({file for file in inside if file.is_file() and file.is_relative_to(folder)})
+        place = PurePosixPath(SITE, *package.split("."))
+        kept = [file for file in files if file.suffix != ".pyc"]
+        return [Item(f"{place}/{file.relative_to(folder).as_posix()}", file) for file in kept]
+
     def _names(self, option: str) -> list[str]:
-        """The modules that `packages=` or `py_modules=` lists."""
+        """The modules that `packages=` or `py_modules=` lists. setuptools takes `a/b` for `a.b`, too."""
         given = self.setup.get(option) or []
+        if option == "packages" and isinstance(given, list):
+            given = [name.replace("/", ".").strip(".") if isinstance(name, str) else name for name in given]
         if not isinstance(given, list) or not all(
             isinstance(name, str) and all(map(str.isidentifier, name.split("."))) for name in given
         ):
@@ -156,7 +174,8 @@ class _Build:
             raise BuildFailure(
                 text, f"setup.py names it in data_files. {did_you_mean(name, there)}".strip(), seconds=0.6
             )
-        return Item(f"{parts.as_posix()}/{source.name}", source)
+        can_run = os.name != "nt" and os.access(source, os.X_OK)  # a program stays one
+        return Item(f"{parts.as_posix()}/{source.name}", source, program=can_run)
 
     def _with_markers(self, items: list[Item]) -> list[Item]:
         name = self.found.name
@@ -186,7 +205,7 @@ class _Build:
 
     def _programs(self) -> list[Item]:
         place = install_scripts(self.found.path)
-        items = []
+        items = [self._script(place, str(name)) for name in _texts(self.setup.get("scripts"))]
         for line in self._entry_lines():
             match = _ENTRY.fullmatch(line)
             if match is None:
@@ -203,6 +222,13 @@ class _Build:
                 f"script_dir=$base/lib/{self.found.name} and [install] install_scripts=$base/lib/{self.found.name}."
             )
         return items
+
+    def _script(self, place: str | None, name: str) -> Item:
+        source = self.found.path / name
+        if not source.is_file():
+            text = f"error: file '{source}' does not exist\n"
+            raise BuildFailure(text, f"setup.py names {name} in scripts=….", seconds=0.5)
+        return Item(f"{place or 'bin'}/{source.name}", source, program=True)
 
     def _check_entry(self, name: str, module: str, function: str) -> None:
         """A real build does not look; the program would end with an error when it is run."""
@@ -242,3 +268,8 @@ def _imports(module: str, function: str) -> str:
 
 
 __all__ = ["SITE", "build_ament_python"]
+
+
+def _texts(given: Any) -> list[str]:
+    """The texts of an option that may be a list, a text or left out."""
+    return [given] if isinstance(given, str) else [each for each in given or [] if isinstance(each, str)]

@@ -26,7 +26,7 @@ PYTHON_PACKAGES = _words(
     """
     launch launch_ros launch_xml launch_yaml launch_testing launch_testing_ros ament_index_python ament_copyright
     ament_flake8 ament_pep257 ros2launch ros2run ros2cli ros2pkg ros2topic rosidl_adapter rosidl_cli tf2_ros_py
-    rosidl_parser rosidl_runtime_py sensor_msgs_py tf_transformations
+    rosidl_parser rosidl_runtime_py rosbag2_py sensor_msgs_py tf_transformations
     """
 )
 """Packages that package.xml may name, but that `find_package` cannot find: they are Python alone."""

@@ -87,18 +87,22 @@ def read_source_package(folder: Path | str) -> Package:
 
 def _read_ament_python(folder: Path, manifest: Manifest) -> Package:
     """What a build would install, used where it lies."""
-    outcome = build_ament_python(read_found(folder, folder), Environment(folder / "install", folder / "build"))
+    outcome = build_ament_python(
+        read_found(folder, folder), Environment(folder / "install", folder / "build", symlink=True)
+    )
     if outcome.code:
         raise PackageError(f"a build would refuse it:\n{outcome.stderr.strip()}", folder / "setup.py")
     share, libexec = f"share/{manifest.name}/", f"lib/{manifest.name}/"
     modules = {item.source.parent for item in outcome.items if item.source and item.target.startswith(f"{SITE}/")}
-    programs = {item.target.removeprefix(libexec): item for item in outcome.items if item.target.startswith(libexec)}
+    programs = [item for item in outcome.items if item.program and item.target.startswith(libexec)]
     return Package(
         name=manifest.name,
         share=folder,
         executables={
-            name: PythonProgram(folder / "lib" / manifest.name / name, tuple(sorted(modules)), item.text)
-            for name, item in programs.items()
+            item.target.removeprefix(libexec): PythonProgram(
+                item.source or folder / item.target, tuple(sorted(modules)), None if item.source else item.text
+            )
+            for item in programs
         },
         source=folder,
         installed={

@@ -12,6 +12,9 @@ from . import (
     frontend,
     launch_description_sources,
     logging,
+    some_actions_type,
+    some_entities_type,
+    some_substitutions_type,
     substitutions,
     utilities,
 )
@@ -60,6 +63,9 @@ __all__ = [
     "frontend",
     "launch_description_sources",
     "logging",
+    "some_actions_type",
+    "some_entities_type",
+    "some_substitutions_type",
     "substitutions",
     "utilities",
 ]

@@ -2,8 +2,26 @@
 
 from launch._missing import explain_missing
 
-from . import actions, descriptions, event_handlers, events, parameter_descriptions, substitutions
+from . import (
+    actions,
+    descriptions,
+    event_handlers,
+    events,
+    parameter_descriptions,
+    parameters_type,
+    remap_rule_type,
+    substitutions,
+)
 
-__all__ = ["actions", "descriptions", "event_handlers", "events", "parameter_descriptions", "substitutions"]
+__all__ = [
+    "actions",
+    "descriptions",
+    "event_handlers",
+    "events",
+    "parameter_descriptions",
+    "parameters_type",
+    "remap_rule_type",
+    "substitutions",
+]
 
 __getattr__ = explain_missing(__name__, {"utilities": ""})

@@ -115,11 +115,16 @@ class ParameterFile:
         if not perform_typed_substitution(context, self.__allow_substs, bool) or not path.is_file():
             return path
         text = perform_substitutions(context, parse_substitution(path.read_text(encoding="utf-8")))
-        folder = mkdtemp(prefix="launch_params_")
-        weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)  # when the launch is forgotten
-        copy = Path(folder) / path.name
-        copy.write_text(text, encoding="utf-8")
-        return copy
+        return file_for_this_launch(self, path.name, text)
+
+
+def file_for_this_launch(owner: object, name: str, text: str) -> Path:
+    """A file of parameters that is there as long as `owner`, which is a part of the launch description."""
+    folder = mkdtemp(prefix="launch_params_")
+    weakref.finalize(owner, shutil.rmtree, folder, ignore_errors=True)
+    file = Path(folder) / name
+    file.write_text(text, encoding="utf-8")
+    return file
 
 
 __getattr__ = explain_missing(__name__, {})

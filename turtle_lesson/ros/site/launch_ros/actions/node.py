@@ -26,10 +26,11 @@ from turtle_lesson.ros.core.tracebacks import shown_path
 from .._names import check_namespace, check_node_name, in_namespace
 from .._parsing import nested_parameters, remap_rules
 from .._values import as_argument, parameters_in
-from ..parameter_descriptions import Parameter, ParameterFile
+from ..parameter_descriptions import Parameter, ParameterFile, file_for_this_launch
 from ..substitutions import ExecutableInPackage
 
 Remapping = tuple[SomeSubstitutionsType, SomeSubstitutionsType]
+_FITS_A_RULE = re.compile(r"[A-Za-z_]\w*(\.\w+)*", re.ASCII)
 
 
 @expose_action("node")
@@ -169,13 +170,21 @@ class Node(ExecuteProcess):
                     words += ["--params-file", str(_parameter_file(context, entry[1]))]
             elif isinstance(entry, Mapping):
                 for name, value in parameters_in(context, entry):
-                    words += ["-p", f"{name}:={as_argument(value)}"]
+                    words += self._words_for(name, value)
             elif isinstance(entry, Parameter):
-                name, value = entry.evaluate(context)
-                words += ["-p", f"{name}:={as_argument(value)}"]
+                words += self._words_for(*entry.evaluate(context))
             else:
                 words += ["--params-file", str(_parameter_file(context, entry))]
         return words
+
+    def _words_for(self, name: str, value: Any) -> list[str]:
+        """What gives a parameter: a rule that one can read, or for a name that none can hold, as `~speed`, a file."""
+        if _FITS_A_RULE.fullmatch(name):
+            return ["-p", f"{name}:={as_argument(value)}"]
+        import yaml
+
+        text = yaml.safe_dump({"/**": {"ros__parameters": {name: value}}}, allow_unicode=True)
+        return ["--params-file", str(file_for_this_launch(self, "parameter.yaml", text))]
 
     def _remapping_words(self, context: LaunchContext) -> list[str]:
         own = [(_text(context, source), _text(context, target)) for source, target in self.__remappings]
