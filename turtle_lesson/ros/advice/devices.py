@@ -1,0 +1,32 @@
+"""What a program in the classroom has not: a terminal whose keys it reads, a screen, somebody who answers."""
+
+from __future__ import annotations
+
+KEYS = (
+    "A program here has no terminal of its own whose keys it could read. In a notebook lesson.teleop() drives a turtle, "
+    "and `ros2 topic pub` sends any message; on a robot the program is run in a terminal."
+)
+SCREEN = (
+    "A program here has no screen for a window of its own. What it shows, lesson.dashboard() may show; its nodes can do "
+    "their work without the window."
+)
+ANSWER = "Nobody could answer input() here: give the values as arguments (sys.argv) or as parameters (-p name:=value)."
+
+_BY_KIND = {
+    "termios.error": KEYS, "_curses.error": KEYS, "tty.error": KEYS, "builtins.EOFError": ANSWER,
+    "IPython.core.error.StdinNotImplementedError": ANSWER, "ipykernel.kernelbase.StdinNotImplementedError": ANSWER,
+}  # fmt: skip
+_SCREEN_WORDS = ("no display", "could not connect to display", "couldn't connect to display", "cannot open display")
+
+
+def advice(error: BaseException) -> str:
+    """A sentence about a device that is not there."""
+    kind = f"{type(error).__module__}.{type(error).__qualname__}"
+    text = str(error)
+    if kind == "builtins.EOFError" and "reading a line" not in text:
+        return ""
+    if kind in _BY_KIND:
+        return _BY_KIND[kind]
+    if kind == "io.UnsupportedOperation" and text == "fileno":
+        return KEYS
+    return SCREEN if any(words in text for words in _SCREEN_WORDS) else ""
