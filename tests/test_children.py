@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import signal
 import subprocess
@@ -121,6 +122,21 @@ def test_a_child_is_ended_by_signals(world: World, run: Run, counter: list[str])
     assert run(program) == [None, -2, None, -15, None, -9]
 
 
+def test_ctrl_c_reaches_the_children_too(world: World, counter: list[str]) -> None:
+    children: list[subprocess.Popen[bytes]] = []
+
+    def program() -> None:
+        for keywords in ({}, {"start_new_session": True}):
+            children.append(subprocess.Popen(counter, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, **keywords))
+        time.sleep(99)
+
+    parent = world.spawn(program, name="parent", stderr=io.StringIO())
+    world.sim.run_until(SECOND)
+    parent.interrupt()
+    world.sim.run_until(9 * SECOND)
+    assert (parent.exit_code, [child.poll() for child in children]) == (-2, [-2, 7])
+
+
 def test_a_wait_may_be_too_short(world: World, run: Run, counter: list[str]) -> None:
     def program(found: list[Any]) -> None:
         try:
@@ -138,13 +154,45 @@ def test_a_wait_may_be_too_short(world: World, run: Run, counter: list[str]) -> 
     assert "'nowhere' not found" in said
 
 
-@pytest.mark.parametrize("command", ["killall turtlesim_node", "xterm -e htop", ""])
-def test_other_programs_of_the_computer_cannot_be_started(run: Run, command: str) -> None:
+@pytest.mark.parametrize("command", ["killall turtlesim_node", "ros2 topic list && clear", "xterm -e ros2 run a b"])
+def test_what_only_the_world_knows_and_cannot_do_is_refused(run: Run, command: str) -> None:
     def program(found: list[Any]) -> None:
         subprocess.run(command, shell=True)
 
-    with pytest.raises(NotImplementedError, match=r"ros2 commands, Python files, echo and sleep can|no command"):
+    with pytest.raises(NotImplementedError, match="ros2 commands, Python files, echo and sleep can"):
         run(program)
+
+
+def test_all_else_is_run_by_the_computer_and_takes_no_robot_time(world: World, run: Run) -> None:
+    def program(found: list[Any]) -> None:
+        found.append(subprocess.check_output([sys.executable, "-c", "print(6 * 7)"]))
+        found.append(os.system("cd ."))
+        with subprocess.Popen([sys.executable, "-c", "print(input())"], stdin=-1, stdout=-1, text=True) as child:
+            found.append(child.communicate("yes"))
+        found.append(world.now)
+
+    assert run(program) == [b"42\n", 0, ("yes\n", None), 0]
+    with pytest.raises(FileNotFoundError):
+        run(lambda found: subprocess.run(["no-such-program"]))
+
+
+@pytest.mark.skipif(os.name == "nt", reason="the commands are those of other systems")
+def test_what_a_ros2_command_prints_can_be_piped(run: Run, tmp_path: Path) -> None:
+    def program(found: list[Any]) -> None:
+        found.append(os.popen("ros2 topic list | grep ros | wc -l").read().strip())
+        found.append(os.system(f"ros2 topic list > {tmp_path}/topics; true"))
+        found.append(os.system("ros2 topic list | grep -q nothing"))
+
+    assert run(program) == ["1", 0, 1 << 8]
+    assert (tmp_path / "topics").read_text() == "/parameter_events\n/rosout\n"
+
+
+def test_a_setup_file_has_been_sourced_already(run: Run) -> None:
+    def program(found: list[Any]) -> None:
+        line = "source /opt/ros/humble/setup.bash && . install/setup.sh; ros2 topic list"
+        found.append(subprocess.check_output(line, shell=True, executable="/bin/bash"))
+
+    assert run(program) == [b"/parameter_events\n/rosout\n"]
 
 
 @pytest.mark.parametrize("keywords", [{"stdin": subprocess.PIPE}, {"cwd": "/"}, {"stdout": 1}, {"input": "y"}])

@@ -286,6 +286,28 @@ def test_a_subpackage_is_installed_if_it_is_listed(py_demo: Path, world: World, 
     assert sorted(path.name for path in installed.iterdir()) == ["__init__.py", "names.py", "words.txt"]
 
 
+def test_what_else_setuptools_takes(py_demo: Path, world: World) -> None:
+    """Entry points in one text, files named by MANIFEST.in, a data file without a folder."""
+    with_tools(py_demo, "['py_demo', 'py_demo.tools'], include_package_data=True")
+    (py_demo / "py_demo/tools/deep").mkdir()
+    (py_demo / "py_demo/tools/deep/more.yaml").write_text("more: 1")
+    (py_demo / "MANIFEST.in").write_text("include py_demo/tools/*.txt\nrecursive-include py_demo *.yaml  # all\n")
+    text = (py_demo / "setup.py").read_text()
+    entries = "entry_points='[console_scripts]\\nhello = py_demo.hello:main\\n[gui_scripts]\\nwindow=py_demo.hello:main',\n)\n"
+    (py_demo / "setup.py").write_text(text[: text.index("entry_points=")] + entries)
+    change(py_demo / "setup.py", "data_files=[", "data_files=['setup.cfg',")
+    answer = colcon(world)
+    assert (answer.code, answer.err) == (0, "")
+    source_in(world)
+    assert started(world, "py_demo", "hello") == started(world, "py_demo", "window") == "Hi from py_demo.\n"
+    installed = next(Path("install/py_demo/lib").glob("python*/site-packages/py_demo"))
+    files = sorted(
+        path.relative_to(installed).as_posix() for path in installed.rglob("*") if path.suffix in (".txt", ".yaml")
+    )
+    assert files == ["tools/deep/more.yaml", "tools/words.txt"]
+    assert Path("install/py_demo/setup.cfg").is_file()
+
+
 def test_scripts_run_where_they_lie(py_demo: Path) -> None:
     with_tools(py_demo, "['py_demo', 'py_demo.tools'], scripts=['scripts/greet.py']")
     lesson = turtle_lesson.start(package=py_demo, simulator=False)
@@ -323,6 +345,11 @@ SETUP = "from setuptools import setup\nsetup(name='py_demo', {})\n"
         (SETUP.format("data_files=[(1, 2)]"), "which is no ('folder', ['file', …])"),
         (SETUP.format("data_files={'a': 1}"), "which is no ('folder', ['file', …])"),
         (SETUP.format("data_files=[3, None]"), "which is no ('folder', ['file', …])"),
+        (SETUP.format("data_files=[('share/py_demo', 'setup.py')]"), "write ('share/py_demo', ['setup.py'])"),
+        (
+            SETUP.format("data_files=[('share/py_demo', [__import__('os').path.abspath('setup.cfg')])]"),
+            "seen from the folder that setup.py lies in: 'setup.cfg'",
+        ),
         (SETUP.format("entry_points={'console_scripts': 5}"), "Invalid entry point"),
         (SETUP.format("entry_points=[5]"), "entry_points must be a dictionary"),
     ],

@@ -1,12 +1,14 @@
 """Programs that a program starts: `subprocess`, `os.system` and `os.popen` run further processes of the world.
 
-What they can start is what a launch file's ExecuteProcess can: `ros2 …`, Python files, echo, sleep. Whoever is no
-simulated process gets the real ones, except for `ros2 …` in a cell or in a launch file.
+What they can start in it is what a launch file's ExecuteProcess can: `ros2 …`, Python files, echo, sleep. All else is run by
+the computer itself, and takes no robot time; so it is for whoever is no simulated process, except for `ros2 …` in a cell or
+a launch file.
 """
 
 from __future__ import annotations
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -24,6 +26,8 @@ if TYPE_CHECKING:
     from .core.process import Output
 
 _Real = subprocess.Popen
+Plan = tuple[Any, list[str]]
+"""A program's file or function, and its arguments."""
 
 
 def install() -> None:
@@ -41,16 +45,17 @@ class ClassroomPopen(_Real):
     _simulated = _terminated = False
 
     def __init__(self, args: Any, *positional: Any, **given: Any) -> None:
-        if type(getcurrent()) is not Strand and not _of_a_cell(args):
+        everything = {**dict(zip(_POSITIONAL, positional, strict=False)), **given}
+        plan = _plan(args, bool(everything.get("shell")))
+        if plan is None:
             super().__init__(args, *positional, **given)
-            return
-        self._simulated = True
-        self._begin(args, **dict(zip(_POSITIONAL, positional, strict=False)), **given)
+        else:
+            self._simulated = True
+            self._begin(plan, args, everything)
 
-    def _begin(self, args: Any, **given: Any) -> None:
+    def _begin(self, plan: Plan, args: Any, given: dict[str, Any]) -> None:
         from .world import current_process
 
-        shell = bool(given.get("shell"))
         text = any(given.get(name) for name in ("text", "universal_newlines", "encoding", "errors"))
         _check(given)
         self.args, self.returncode, self.stdin = args, None, None
@@ -60,8 +65,10 @@ class ClassroomPopen(_Real):
         out, self.stdout = stream_for(given.get("stdout"), parent.stdout, text)
         both = given.get("stderr") == subprocess.STDOUT
         err, self.stderr = (out, None) if both else stream_for(given.get("stderr"), parent.stderr, text)
-        self._process = _start(_words(args, shell), shell, out, err, self._has_ended, given.get("env"))
+        self._process = _start(plan, out, err, self._has_ended, given.get("env"))
         self.pid = self._process.pid
+        if not any(given.get(name) for name in _OWN_TERMINAL):
+            parent.followers.append(self._process)
 
     def _has_ended(self, process: Process) -> None:
         for pipe in (self.stdout, self.stderr):
@@ -111,6 +118,10 @@ _POSITIONAL = (
 """The names of `Popen`'s arguments after the first, when they are given by their place."""
 
 
+_OWN_TERMINAL = ("start_new_session", "preexec_fn", "process_group")
+"""With any of these a child is out of reach of its parent's Ctrl-C (preexec_fn is os.setsid, as a rule)."""
+
+
 def _check(given: dict[str, Any]) -> None:
     """Refuse what no simulated process can have."""
     if given.get("stdin") not in (None, subprocess.DEVNULL):
@@ -120,52 +131,69 @@ def _check(given: dict[str, Any]) -> None:
         raise NotImplementedError("cwd= is not built in this classroom: a program's child has the folder of all others")
 
 
-def _of_a_cell(args: Any) -> bool:
-    """Whether a cell, or a launch file that it loads, runs a `ros2` command, which only the world has."""
-    notebook = notebook_here()
-    first = args if isinstance(args, str) else next(iter(args), "") if isinstance(args, (list, tuple)) else ""
-    return notebook is not None and not notebook.simulation.running and str(first).split()[:1] == ["ros2"]
+def _plan(args: Any, shell: bool) -> Plan | None:
+    """How the world runs a command; None if the computer is to run it.
 
-
-def _words(args: Any, shell: bool) -> list[str]:
-    """A command's words; for a shell its text."""
-    if isinstance(args, (str, bytes, os.PathLike)):
-        return [os.fsdecode(args)]
-    return [os.fsdecode(word) for word in args][: 1 if shell else None]
-
-
-def _start(
-    words: list[str],
-    shell: bool,
-    out: Output | None,
-    err: Output | None,
-    ended: Callable[[Process], None],
-    environ: Any,
-) -> Process:
-    from .world import current_world
-
-    target, argv = _program(words, shell)
-    name = os.path.basename(argv[0]) if argv else "program"
-    return current_world().spawn(target, name=name, argv=argv, stdout=out, stderr=err, on_exit=ended, environ=environ)
-
-
-def _program(words: list[str], shell: bool) -> tuple[Any, list[str]]:
-    """What runs them. Raises NotImplementedError for what is no command of this classroom."""
+    Raises:
+        NotImplementedError: for a command that the computer could not run, and the world cannot.
+    """
     from .launching import commands
     from .workspace.errors import PackageNotFoundError
 
-    if not words or not words[0]:
-        raise NotImplementedError("there is no command to run")
-    if words[:2] == ["ros2", "launch"]:
+    words = _words(args, shell)
+    line = " ".join(words)
+    if not line.strip() or (type(getcurrent()) is not Strand and not _of_a_cell(line)):
+        return None
+    if line.startswith("ros2 launch ") and not (shell and set(line) & set(";&|<>")):
+        words = line.split() if shell else words
         return partial(_launch, words[2:]), words
     try:
         program = commands.program(words, shell=shell)
     except (commands.UnknownCommand, PackageNotFoundError) as error:
-        line = words[0] if shell else " ".join(words)
+        if shell and (parts := _PIPED.fullmatch(line)) and not _OF_THE_WORLD.search(parts[3]):
+            return partial(_piped, parts[1], parts[3] if parts[2] == "|" else f"cat {parts[2]} {parts[3]}"), words
         if line.startswith("ros2 run "):
             return _failing(f"{error}"), words
-        raise NotImplementedError(_refusal(line, error)) from None
+        if _OF_THE_WORLD.search(line):
+            raise NotImplementedError(_refusal(line, error)) from None
+        return None
     return program.target, program.argv
+
+
+def _of_a_cell(line: str) -> bool:
+    """Whether a cell, or a launch file that it loads, runs a `ros2` command, which only the world has."""
+    notebook = notebook_here()
+    return notebook is not None and not notebook.simulation.running and line.split()[:1] == ["ros2"]
+
+
+def _words(args: Any, shell: bool) -> list[str]:
+    """A command's words; for a shell its text, without a setup file, as what it sets up is there already."""
+    one = isinstance(args, (str, bytes, os.PathLike))
+    words = [os.fsdecode(args)] if one else [os.fsdecode(word) for word in args][: 1 if shell else None]
+    return [_SETUP.sub("", words[0])] if shell and words else words
+
+
+_SETUP = re.compile(r"^\s*(?:(?:source|\.)\s+\S*setup\.\w+\s*(?:&&|;)\s*)+")
+_PIPED = re.compile(r"(ros2 [^|<>;&]+)(\||>>?)([^|<>;&].*)", re.DOTALL)
+_OF_THE_WORLD = re.compile(r"(?:^|[\s;&|('\"])(?:ros2|colcon|killall|pkill)\b")
+
+
+def _start(
+    plan: Plan, out: Output | None, err: Output | None, ended: Callable[[Process], None], environ: Any
+) -> Process:
+    from .world import current_world
+
+    target, argv = plan
+    name = os.path.basename(argv[0]) or "program"
+    return current_world().spawn(target, name=name, argv=argv, stdout=out, stderr=err, on_exit=ended, environ=environ)
+
+
+def _piped(first: str, rest: str) -> None:
+    """A `ros2` command in the world, whose output the computer's commands read when it has ended."""
+    said = ClassroomPopen(first, shell=True, stdout=subprocess.PIPE, text=True).communicate()[0]
+    with _Real(rest, shell=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as reader:
+        print(reader.communicate(said)[0], end="")
+    sys.exit(reader.returncode)
 
 
 def _refusal(line: str, error: Exception) -> str:
@@ -213,7 +241,7 @@ def _failing(sentence: str) -> Callable[[], None]:
 
 def _system(real: Any, command: Any) -> int:
     """`os.system`: run a shell's line, and wait for its end."""
-    if type(getcurrent()) is not Strand and not _of_a_cell(command):
+    if _plan(command, shell=True) is None:
         return real(command)
     code = ClassroomPopen(command, shell=True).wait()
     return code << 8 if code >= 0 else -code

@@ -54,6 +54,7 @@ class Process:
         environ: the environment variables of its own, as the system encodes them; None: Python's own.
         strands: its lines of execution, in the order of their making; dead ones may be among them.
         modules: the Python modules of its own that a program has which was read from a file.
+        followers: processes that it has started in the same terminal, which Ctrl-C reaches, too.
         before_exit: called when the main program has ended, the last one first: waits for what is still at work.
         exit_functions: called after that, the last one first: what the program gave to `atexit.register`.
         at_exit: called at the very end, the last one first, however the process ends: what libraries clean up.
@@ -84,6 +85,7 @@ class Process:
         self.stderr: Any = stderr
         self.exit_code: int | None = None
         self.locals: dict[str, Any] = {}
+        self.followers: list[Process] = []
         self.before_exit: list[Callable[[], None]] = []
         self.exit_functions: list[Callable[[], object]] = []
         self.at_exit: list[Callable[[], None]] = []
@@ -132,6 +134,9 @@ class Process:
 
     def interrupt(self) -> None:
         """Do as Ctrl-C in a terminal would: SIGINT, which raises KeyboardInterrupt in the main strand, now."""
+        for process in self.followers:
+            if process.alive:
+                process.interrupt()
         self.send_signal(signal.SIGINT)
 
     def handles(self, number: int) -> bool:

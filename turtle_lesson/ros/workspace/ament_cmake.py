@@ -14,7 +14,7 @@ from ..core.tracebacks import shown_path
 from ..interfaces.registry import Registry
 from . import manifest_check
 from .cmake import CMakeError, CMakeFile, Command, evaluate
-from .cmake_install import install_entries, install_item, refused, unreadable
+from .cmake_install import install_entries, install_items, refused, unreadable
 from .cmake_interfaces import InterfaceCheck, not_found
 from .cmake_refusals import refusal
 from .cmake_text import SHARE, cmake_message
@@ -78,6 +78,7 @@ class _Build:
         self.warnings: list[str] = []
         self.hints: list[str] = []
         self.python: list[tuple[str, str]] = []
+        self.modules: list[Item] = []
         self.project, self.project_line = "Project", 1  # as CMake pretends where there is no project()
 
     def run(self) -> Outcome:
@@ -224,6 +225,14 @@ class _Build:
         self.python.append((folder, name))
         self.commands |= COMMANDS_OF["ament_cmake_core"]  # which it finds (ament_cmake_python-extras.cmake)
 
+    def _on_ament_python_install_module(self, command: Command, where: str) -> None:
+        name = command.args[0] if command.args else ""
+        if not name.endswith(".py") or not (self.found.path / name).is_file():
+            text = f"ament_python_install_module() the Python module file '{self.found.path / name}' doesn't exist"
+            raise refused(text, where, "Name a file that is there, as seen from CMakeLists.txt.")
+        place = "/".join(filter(None, (_PYTHON_PLACE, self._option(command, "DESTINATION_SUFFIX"))))
+        self.modules.append(Item(f"{place}/{Path(name).name}", self.found.path / name))
+
     def _option(self, command: Command, word: str) -> str:
         args = command.args
         return args[args.index(word) + 1] if word in args[:-1] else ""
@@ -274,9 +283,10 @@ class _Build:
     # -- install ---------------------------------------------------------------------------------------------------
 
     def _items(self, cmake: CMakeFile) -> list[Item]:
-        items = [install_item(self.found, entry, self.hints) for entry in install_entries(cmake)]
+        items = [item for entry in install_entries(cmake) for item in install_items(self.found, entry, self.hints)]
         for folder, name in self.python:
             items.append(Item(f"{_PYTHON_PLACE}/{name}", self.found.path / folder))
+        items += self.modules
         for check in self.checks:
             items += interface_items(self.found, check.files)
         check_targets(items)
@@ -349,7 +359,7 @@ class _Build:
         stdout = [f"-- Found {name}" for name in sorted(self.seen)]
         stdout += ["-- Configuring done", "-- Generating done"]
         text = with_hint("".join(self.warnings), self.hints)
-        paths = [_PYTHON_PLACE] if self.python else []
+        paths = [_PYTHON_PLACE] if self.python or self.modules else []
         return Outcome(0, text, stdout, seconds, items, self.found.runtime_dependencies(), paths)
 
 

@@ -6,14 +6,17 @@ import importlib.util
 import keyword
 import os
 import re
+from glob import glob
 from pathlib import Path, PurePosixPath
 from typing import Any
 
 from ..core.tracebacks import shown_path
 from . import manifest_check
 from .discover import Found
+from .entry_points import program_lines
 from .errors import did_you_mean
 from .outcome import PYTHON, BuildFailure, Environment, Item, Outcome, check_targets, with_hint
+from .setup_manifest import files_in_manifest
 from .setup_script import SetupError, install_scripts, read_setup
 
 SITE = f"lib/{PYTHON}/site-packages"
@@ -114,9 +117,10 @@ class _Build:
         patterns = self.setup.get("package_data") or {}
         patterns = patterns if isinstance(patterns, dict) else {}
         wanted = ["*.py", *_texts(patterns.get("")), *_texts(patterns.get(package))]
-        if self.setup.get("include_package_data") and (self.found.path / "MANIFEST.in").is_file():
-            wanted.append("**/*")
-        inside = [Path(os.path.normpath(match)) for pattern in wanted for match in folder.glob(pattern)]
+        found = [match for pattern in wanted for match in glob(str(folder / pattern), recursive=True)]
+        if self.setup.get("include_package_data"):
+            found += files_in_manifest(self.found.path)
+        inside = [Path(os.path.normpath(match)) for match in found]
         files = sorted({file for file in inside if file.is_file() and file.is_relative_to(folder)})
         place = PurePosixPath(SITE, *package.split("."))
         kept = [file for file in files if file.suffix != ".pyc"]
@@ -152,8 +156,13 @@ class _Build:
         items = []
         given = self.setup.get("data_files") or []
         for entry in given if isinstance(given, list) else [given]:
+            if isinstance(entry, str):
+                items.append(self._data_file("", entry))
+                continue
             files = entry[1] if isinstance(entry, list) and len(entry) == 2 else None
-            files = [files] if isinstance(files, str) else files
+            if isinstance(files, str) and isinstance(entry[0], str):
+                hint = f"data_files wants a list of files, also of one: write ('{entry[0]}', ['{files}'])."
+                raise BuildFailure("AssertionError\n", hint, seconds=0.5)
             if not isinstance(files, list) or not all(isinstance(name, str) for name in [entry[0], *files]):
                 text = f"error: data_files has {str(entry)[:80]}, which is no ('folder', ['file', …])\n"
                 raise BuildFailure(text, "Write ('share/' + package_name, ['package.xml']),.", seconds=0.5)
@@ -166,6 +175,11 @@ class _Build:
         if parts.is_absolute() or ".." in parts.parts or ":" in place:
             text = f"error: data_files: '{place}' lies outside of the package's install folder\n"
             raise BuildFailure(text, f"Use a place such as 'share/{self.found.name}'.", seconds=0.5)
+        if Path(name).is_absolute():
+            text = f"AssertionError: 'data_files' must be relative, '{name}' is absolute\n"
+            inside = source.relative_to(self.found.path) if source.is_relative_to(self.found.path) else source.name
+            hint = f"Name the file as seen from the folder that setup.py lies in: '{inside}'."
+            raise BuildFailure(text, hint, seconds=0.5)
         if not source.is_file():
             there = [
                 path.relative_to(self.found.path).as_posix() for path in self.found.path.rglob("*") if path.is_file()
@@ -175,7 +189,7 @@ class _Build:
                 text, f"setup.py names it in data_files. {did_you_mean(name, there)}".strip(), seconds=0.6
             )
         can_run = os.name != "nt" and os.access(source, os.X_OK)  # a program stays one
-        return Item(f"{parts.as_posix()}/{source.name}", source, program=can_run)
+        return Item((parts / source.name).as_posix(), source, program=can_run)
 
     def _with_markers(self, items: list[Item]) -> list[Item]:
         name = self.found.name
@@ -194,14 +208,11 @@ class _Build:
     # -- programs --------------------------------------------------------------------------------------------------
 
     def _entry_lines(self) -> list[str]:
-        entries = self.setup.get("entry_points") or {}
-        if not isinstance(entries, dict):
+        lines = program_lines(self.setup.get("entry_points") or {})
+        if lines is None:
             hint = "Write entry_points={'console_scripts': ['name = package.module:main']},."
             raise BuildFailure("error: entry_points must be a dictionary\n", hint, seconds=0.5)
-        lines = entries.get("console_scripts") or []
-        if isinstance(lines, str):
-            return [line for line in lines.splitlines() if line.strip()]
-        return [str(line) for line in lines] if isinstance(lines, list) else [str(lines)]
+        return lines
 
     def _programs(self) -> list[Item]:
         place = install_scripts(self.found.path)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from glob import glob
 from pathlib import Path
 
 from ..core.tracebacks import shown_path
@@ -61,6 +62,8 @@ class Installed:
     destination: str
     line: int
     name: str | None = None
+    options: tuple[str, ...] = ()
+    """The words behind the names, DESTINATION and all others."""
 
 
 @dataclass
@@ -122,7 +125,8 @@ class CMakeFile:
         for command in self._installs(kind):
             names, options = _until(command.args[1:], _INSTALL_WORDS)
             destination = self._destination(command, options)
-            found += [Installed(name, destination, command.line, options.get("RENAME")) for name in names]
+            rename, words = options.get("RENAME"), command.args[1 + len(names) :]
+            found += [Installed(name, destination, command.line, rename, words) for name in names]
         return found
 
     def _installs(self, kind: str) -> list[Command]:
@@ -246,9 +250,30 @@ class _Evaluator:
         elif call.name == "project" and args:
             self.variables["PROJECT_NAME"] = self.variables["CMAKE_PROJECT_NAME"] = args[0]
         elif call.name == "file" and args[:1] in {("GLOB",), ("GLOB_RECURSE",)}:
-            reason = f"file({args[0]} …) is not understood in this classroom; name the files one by one"
-            raise CMakeError(reason, call.line, self.file)
+            self._glob(args, call)
         yield Command(call.name, args, call.line)
+
+    def _glob(self, args: tuple[str, ...], call: Call) -> None:
+        """`file(GLOB variable [RELATIVE folder] pattern …)`: the paths of what is there, sorted."""
+        names = [word for word in args[2:] if word != "CONFIGURE_DEPENDS"]
+        here = self.variables["CMAKE_CURRENT_SOURCE_DIR"]
+        beside = None
+        if "RELATIVE" in names[:-1]:
+            place = names.index("RELATIVE")
+            beside = names[place + 1]
+            del names[place : place + 2]
+        if len(args) < 2 or "LIST_DIRECTORIES" in names or beside not in (None, here):
+            reason = (
+                f"file({args[0]} …) with these words is not understood in this classroom; name the files one by one"
+            )
+            raise CMakeError(reason, call.line, self.file)
+        found: set[str] = set()
+        for pattern in names:
+            path = Path(here, pattern)
+            inner = path.parent.rglob(path.name) if args[0] == "GLOB_RECURSE" else map(Path, glob(str(path)))
+            found |= {each.as_posix() for each in inner if args[0] == "GLOB" or each.is_file()}
+        start = "" if beside is None else f"{here}/"
+        self.variables[args[1]] = ";".join(each.removeprefix(start) for each in sorted(found))
 
     def _arguments(self, call: Call) -> tuple[str, ...]:
         values: list[str] = []

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path, PurePosixPath
 
 from ..core.tracebacks import shown_path
 from .cmake import CMakeError, CMakeFile, Installed, Program
+from .cmake_directory import RUNS, directory_items
 from .cmake_text import cmake_message
 from .discover import Found
 from .errors import did_you_mean
@@ -45,6 +47,22 @@ def install_item(found: Found, entry: Entry, hints: list[str]) -> Item:
     name = "" if inside else entry.name or Path(entry.source).name
     target = "/".join(filter(None, (entry.destination, name)))
     return Item(target, source, program=isinstance(entry, Program))
+
+
+def install_items(found: Found, entry: Entry, hints: list[str]) -> list[Item]:
+    """The same, a folder file by file."""
+    item = install_item(found, entry, hints)
+    if isinstance(entry, Program) or item.source is None:
+        return [item]
+    if not item.source.is_dir():
+        return [replace(item, program=RUNS in entry.options)]
+    items = directory_items(item.target, item.source, entry.options)
+    if entry.destination == f"lib/{found.name}" and not any(each.program for each in items) and items:
+        hints.append(
+            f"CMakeLists.txt, line {entry.line}: what install(DIRECTORY …) installs cannot be run. Write install(PROGRAMS "
+            "<file>.py … DESTINATION lib/${PROJECT_NAME}), or add USE_SOURCE_PERMISSIONS."
+        )
+    return items
 
 
 def _lacking(found: Found, entry: Entry) -> str:
