@@ -27,6 +27,14 @@ _INSTALL_WORDS = {
     "COMPONENT", "OPTIONAL", "TYPE", "EXCLUDE_FROM_ALL", "USE_SOURCE_PERMISSIONS", "PATTERN", "REGEX",
     "EXCLUDE", "FILES_MATCHING", "MESSAGE_NEVER",
 }  # fmt: skip
+_INSTALL_FOLDERS = {
+    f"CMAKE_INSTALL_{name}DIR": folder
+    for name, folder in {
+        "BIN": "bin", "LIB": "lib", "LIBEXEC": "libexec", "INCLUDE": "include", "DATA": "share", "DATAROOT": "share",
+        "DOC": "share/doc", "SYSCONF": "etc", "MAN": "share/man",
+    }.items()
+}  # fmt: skip
+"""What include(GNUInstallDirs) sets."""
 INTERFACE_WORDS = {
     "DEPENDENCIES", "LIBRARY_NAME", "SKIP_INSTALL", "SKIP_GROUP_MEMBERSHIP_CHECK", "ADD_LINTER_TESTS",
 }  # fmt: skip
@@ -62,7 +70,7 @@ class Installed:
     destination: str
     line: int
     name: str | None = None
-    options: tuple[str, ...] = ()
+    options: tuple[str, ...] = field(default=(), compare=False)
     """The words behind the names, DESTINATION and all others."""
 
 
@@ -249,6 +257,8 @@ class _Evaluator:
             self.variables[args[1]] = ";".join(filter(None, [self.variables.get(args[1], ""), *args[2:]]))
         elif call.name == "project" and args:
             self.variables["PROJECT_NAME"] = self.variables["CMAKE_PROJECT_NAME"] = args[0]
+        elif call.name == "include" and args[:1] == ("GNUInstallDirs",):
+            self.variables |= _INSTALL_FOLDERS
         elif call.name == "file" and args[:1] in {("GLOB",), ("GLOB_RECURSE",)}:
             self._glob(args, call)
         yield Command(call.name, args, call.line)

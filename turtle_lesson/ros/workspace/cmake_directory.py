@@ -1,4 +1,4 @@
-"""`install(DIRECTORY …)`: which files of a folder are installed, and which of them can be run (facts: CMake's documentation)."""
+"""`install(DIRECTORY …)`: which files of a folder are installed, and which of them can be run. Facts: CMake's documentation."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def _first_filter(options: Sequence[str]) -> int:
 
 def _filters(options: Sequence[str]) -> list[Filter]:
     starts = [place for place, word in enumerate(options[:-1]) if word in _FILTERS]
-    ends = [*starts[1:], len(options)]
+    ends = [*starts[1:], len(options)][: len(starts)]
     return [
         Filter(options[start], options[start + 1], frozenset(options[start + 2 : end]))
         for start, end in zip(starts, ends, strict=True)

@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from turtle_lesson.ros.world import current_process
+
 from ._blocking import drives_the_simulation, in_a_plain_cell, spin_live
 from ._missing import explain_missing
 from .context import Context
@@ -88,13 +90,11 @@ def init(
 
 def get_global_executor() -> Executor:
     """The executor that this process's `spin` functions use unless they are given another one."""
-    from turtle_lesson.ros.world import current_process
-
-    from .executors import SingleThreadedExecutor
-
     shelf = current_process().locals
     executor = shelf.get("rclpy.executor")
     if executor is None or not executor.context.ok():
+        from .executors import SingleThreadedExecutor
+
         executor = shelf["rclpy.executor"] = SingleThreadedExecutor()
     return executor
 
