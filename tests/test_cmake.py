@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -127,6 +129,35 @@ def test_one_branch_of_nested_conditions_counts() -> None:
     assert [name for name, _ in lines(text)] == ["d", "g"]
 
 
+def test_files_are_found_by_patterns(tmp_path: Path) -> None:
+    for name in ("msg/B.msg", "msg/A.msg", "msg/deep/C.msg", "msg/notes.txt"):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).touch()
+    text = (
+        "file(GLOB near RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS msg/*.msg)\nsee(${near})\n"
+        "file(GLOB_RECURSE all msg/*.msg)\nsee(${all})\nfile(GLOB none *.cpp)\nsee(${none})"
+    )
+    seen = [command.args for command in evaluate(text, folder=tmp_path).commands if command.name == "see"]
+    there = [f"{tmp_path.as_posix()}/msg/{name}.msg" for name in ("A", "B", "deep/C")]
+    assert seen == [("msg/A.msg", "msg/B.msg"), tuple(there), ()]
+
+
+def test_loops_go_over_lists() -> None:
+    text = (
+        "set(both c d)\nset(f before)\nforeach(f a b)\n"
+        "  if(f STREQUAL a)\n    see(${f})\n  else()\n    see(no ${f})\n  endif()\n"
+        "endforeach()\nforeach(f IN LISTS both ITEMS e)\n  foreach(g 1 2)\n    see(${f}${g})\n  endforeach()\nendforeach()\n"
+        "foreach(f ${nothing})\n  see(never)\nendforeach()\nsee(${f})"
+    )
+    seen = [" ".join(command.args) for command in evaluate(text).commands if command.name == "see"]
+    assert seen == ["a", "no b", "c1", "c2", "d1", "d2", "e1", "e2", "before"]
+
+
+def test_folders_of_an_installation_have_names() -> None:
+    text = "include(GNUInstallDirs)\nsee(${CMAKE_INSTALL_BINDIR} ${CMAKE_INSTALL_LIBDIR} ${CMAKE_INSTALL_DATADIR})"
+    assert lines(text)[-1] == ("see", ("bin", "lib", "share"))
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [
@@ -141,10 +172,23 @@ def test_one_branch_of_nested_conditions_counts() -> None:
         ("set(a ${b)", "line 1: '${b': a ${ is not closed by }"),
         ("foreach(a b)\nset(c d)", "line 1: this foreach() has no endforeach()"),
         (
-            "foreach(f a)\ninstall(PROGRAMS ${f} DESTINATION x)\nendforeach()",
+            "foreach(f RANGE 3)\ninstall(PROGRAMS ${f} DESTINATION x)\nendforeach()",
             "line 2: install() inside of foreach()",
         ),
-        ("file(GLOB m msg/*.msg)", "line 1: file(GLOB …) is not understood"),
+        (
+            "foreach(f a)\nbreak()\ninstall(PROGRAMS ${f} DESTINATION x)\nendforeach()",
+            "line 3: install() inside of foreach()",
+        ),
+        (
+            "function(f a)\ninstall(PROGRAMS ${f} DESTINATION x)\nendfunction()",
+            "line 2: install() inside of function()",
+        ),
+        (
+            "foreach(a 1 2 3 4 5 6 7 8)\n" * 6 + "endforeach()\n" * 6,
+            "line 6: foreach() goes around more than 10000 times",
+        ),
+        ("file(GLOB m LIST_DIRECTORIES true *)", "line 1: file(GLOB …) with these words is not understood"),
+        ("file(GLOB m RELATIVE /etc *)", "line 1: file(GLOB …) with these words is not understood"),
         ("set(a b)", "line 1: there is no project(…)"),
         ("project()", "line 1: project() needs a name"),
         ("project(p)\ninstall(PROGRAMS a.py)", "line 2: install(PROGRAMS …) needs a DESTINATION"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from pathlib import Path
 
 import pytest
@@ -78,3 +79,50 @@ def test_a_definition_that_nobody_names_is_spoken_of(
     answer = colcon(world)
     assert answer.code == 2
     assert "msg/Extra.msg is there, but CMakeLists.txt does not name it" in answer.err
+
+
+@pytest.mark.parametrize(
+    ("options", "installed"),
+    [
+        ("DIRECTORY tools/ DESTINATION x", "notes.txt old/late.py run.py"),
+        ("DIRECTORY tools DESTINATION x", "tools/notes.txt tools/old/late.py tools/run.py"),
+        ("DIRECTORY tools/ DESTINATION x USE_SOURCE_PERMISSIONS", "notes.txt old/late.py* run.py*"),
+        ("DIRECTORY tools/ DESTINATION x FILE_PERMISSIONS OWNER_READ OWNER_EXECUTE", "notes.txt* old/late.py* run.py*"),
+        ('DIRECTORY tools/ DESTINATION x PATTERN "old" EXCLUDE', "notes.txt run.py"),
+        ('DIRECTORY tools/ DESTINATION x FILES_MATCHING PATTERN "*.py"', "old/late.py run.py"),
+        ('DIRECTORY tools/ DESTINATION x FILES_MATCHING REGEX "tools/[a-z]+[.]py$"', "run.py"),
+        ('DIRECTORY tools/ DESTINATION x PATTERN "run.py" PERMISSIONS OWNER_EXECUTE', "notes.txt old/late.py run.py*"),
+        ("FILES tools/run.py tools/notes.txt DESTINATION x", "notes.txt run.py"),
+        ("FILES tools/run.py DESTINATION x PERMISSIONS OWNER_READ OWNER_EXECUTE", "run.py*"),
+    ],
+)
+def test_which_files_of_a_folder_are_installed_and_which_can_be_run(
+    demo: Path, world: World, options: str, installed: str
+) -> None:
+    """As a real CMake does it. A star marks what can be run."""
+    for name in ("run.py", "notes.txt", "old/late.py"):
+        (demo / "tools" / name).parent.mkdir(parents=True, exist_ok=True)
+        (demo / "tools" / name).write_text("#!/usr/bin/env python3\n")
+        (demo / "tools" / name).chmod(0o755 if name.endswith(".py") else 0o644)
+    change(demo / "CMakeLists.txt", "# line 5", f"install({options})")
+    assert colcon(world).code == 0
+    place = Path("install/demo/x")
+    files = sorted(path for path in place.rglob("*") if path.is_file())
+    found = [path.relative_to(place).as_posix() + ("*" if os.access(path, os.X_OK) else "") for path in files]
+    assert " ".join(found) == installed
+
+
+def test_programs_installed_as_a_mere_folder_cannot_be_run(demo: Path, world: World) -> None:
+    (demo / "tools").mkdir()
+    (demo / "tools/run.py").write_text("#!/usr/bin/env python3\n")
+    change(demo / "CMakeLists.txt", "# line 5", "install(DIRECTORY tools/ DESTINATION lib/${PROJECT_NAME})")
+    assert "line 5: what install(DIRECTORY …) installs cannot be run. Write install(PROGRAMS" in colcon(world).err
+
+
+def test_a_single_python_module_is_installed(demo: Path, world: World) -> None:
+    (demo / "helpers.py").write_text("")
+    lines = "find_package(ament_cmake_python REQUIRED)\nament_python_install_module(helpers.py)"
+    change(demo / "CMakeLists.txt", "# line 5", lines)
+    assert (colcon(world).code, len(list(Path("install/demo").rglob("dist-packages/helpers.py")))) == (0, 1)
+    change(demo / "CMakeLists.txt", "helpers.py", "helper.py")
+    assert "the Python module file" in colcon(world).err

@@ -9,11 +9,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from glob import glob
 from pathlib import Path
 
 from ..core.tracebacks import shown_path
 from .cmake_conditions import is_true
+from .cmake_glob import INSTALL_FOLDERS, globbed
+from .cmake_loops import MOST_ROUNDS, body_of, can_be_unrolled, loop_values
 from .cmake_syntax import Argument, Call, CMakeError, check_blocks, read_calls
 
 __all__ = ["CMakeError", "CMakeFile", "Command", "Installed", "Program", "read_cmake"]
@@ -27,14 +28,6 @@ _INSTALL_WORDS = {
     "COMPONENT", "OPTIONAL", "TYPE", "EXCLUDE_FROM_ALL", "USE_SOURCE_PERMISSIONS", "PATTERN", "REGEX",
     "EXCLUDE", "FILES_MATCHING", "MESSAGE_NEVER",
 }  # fmt: skip
-_INSTALL_FOLDERS = {
-    f"CMAKE_INSTALL_{name}DIR": folder
-    for name, folder in {
-        "BIN": "bin", "LIB": "lib", "LIBEXEC": "libexec", "INCLUDE": "include", "DATA": "share", "DATAROOT": "share",
-        "DOC": "share/doc", "SYSCONF": "etc", "MAN": "share/man",
-    }.items()
-}  # fmt: skip
-"""What include(GNUInstallDirs) sets."""
 INTERFACE_WORDS = {
     "DEPENDENCIES", "LIBRARY_NAME", "SKIP_INSTALL", "SKIP_GROUP_MEMBERSHIP_CHECK", "ADD_LINTER_TESTS",
 }  # fmt: skip
@@ -196,16 +189,38 @@ class _Evaluator:
         self.file = file
         self._branches: list[str] = []  # one per open if: "taken", "waiting" for its branch, or "done"
         self._loops: list[str] = []
+        self._rounds = 0
 
     def run(self, calls: list[Call]) -> Iterator[Command]:
         """The commands that take effect."""
-        for call in calls:
+        place = 0
+        while place < len(calls):
+            call = calls[place]
+            place += 1
             if self._loops:
                 self._inside_loop(call)
             elif not self._conditional(call) and self._active:
                 if call.name == "return":
                     return
-                yield from self._effect(call)
+                if call.name == "foreach" and can_be_unrolled(call, body := body_of(calls, place)):
+                    yield from self._rounds_of(call, body)
+                    place += len(body) + 1
+                else:
+                    yield from self._effect(call)
+
+    def _rounds_of(self, call: Call, body: list[Call]) -> Iterator[Command]:
+        """The commands of a loop's body, once for each value."""
+        name, *words = self._arguments(call)
+        before = self.variables.get(name)
+        for value in loop_values(words, self.variables):
+            self._rounds += 1
+            if self._rounds > MOST_ROUNDS:
+                raise CMakeError(f"foreach() goes around more than {MOST_ROUNDS} times", call.line, self.file)
+            self.variables[name] = value
+            yield from self.run(body)
+        self.variables.pop(name, None)
+        if before is not None:
+            self.variables[name] = before
 
     @property
     def _active(self) -> bool:
@@ -258,32 +273,16 @@ class _Evaluator:
         elif call.name == "project" and args:
             self.variables["PROJECT_NAME"] = self.variables["CMAKE_PROJECT_NAME"] = args[0]
         elif call.name == "include" and args[:1] == ("GNUInstallDirs",):
-            self.variables |= _INSTALL_FOLDERS
+            self.variables |= INSTALL_FOLDERS
         elif call.name == "file" and args[:1] in {("GLOB",), ("GLOB_RECURSE",)}:
-            self._glob(args, call)
+            found = globbed(args, self.variables["CMAKE_CURRENT_SOURCE_DIR"])
+            if found is None:
+                reason = (
+                    f"file({args[0]} …) with these words is not understood in this classroom; name the files one by one"
+                )
+                raise CMakeError(reason, call.line, self.file)
+            self.variables[args[1]] = ";".join(found)
         yield Command(call.name, args, call.line)
-
-    def _glob(self, args: tuple[str, ...], call: Call) -> None:
-        """`file(GLOB variable [RELATIVE folder] pattern …)`: the paths of what is there, sorted."""
-        names = [word for word in args[2:] if word != "CONFIGURE_DEPENDS"]
-        here = self.variables["CMAKE_CURRENT_SOURCE_DIR"]
-        beside = None
-        if "RELATIVE" in names[:-1]:
-            place = names.index("RELATIVE")
-            beside = names[place + 1]
-            del names[place : place + 2]
-        if len(args) < 2 or "LIST_DIRECTORIES" in names or beside not in (None, here):
-            reason = (
-                f"file({args[0]} …) with these words is not understood in this classroom; name the files one by one"
-            )
-            raise CMakeError(reason, call.line, self.file)
-        found: set[str] = set()
-        for pattern in names:
-            path = Path(here, pattern)
-            inner = path.parent.rglob(path.name) if args[0] == "GLOB_RECURSE" else map(Path, glob(str(path)))
-            found |= {each.as_posix() for each in inner if args[0] == "GLOB" or each.is_file()}
-        start = "" if beside is None else f"{here}/"
-        self.variables[args[1]] = ";".join(each.removeprefix(start) for each in sorted(found))
 
     def _arguments(self, call: Call) -> tuple[str, ...]:
         values: list[str] = []
