@@ -1,10 +1,10 @@
-"""The packages with programs that a fresh ROS 2 has, below those of a learner: turtlesim, tf2_ros and tf2_tools."""
+"""The packages with programs that a fresh ROS 2 has, below those of a learner: turtlesim, tf2, the demos."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
-from .ros.tools import program, tf2_packages
+from .ros.tools import demo_packages, program, tf2_packages
 from .ros.workspace.package import Package, Target
 from .sourced import HERE
 
@@ -18,4 +18,4 @@ def underlay_packages() -> list[Package]:
     programs: dict[str, Target] = {name: program(f"turtle_lesson.turtlesim.{name}") for name in others}
     programs["turtle_teleop_key"] = program("turtle_lesson.turtlesim.teleop_turtle_key")
     turtlesim = Package("turtlesim", HERE / "turtlesim", executables={"turtlesim_node": SIMULATOR, **programs})
-    return [turtlesim, *tf2_packages()]
+    return [turtlesim, *tf2_packages(), *demo_packages()]

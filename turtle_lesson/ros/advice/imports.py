@@ -26,7 +26,7 @@ FROM_ROS_1 = {
 
 ABSENT = frozenset((
     "ackermann_msgs", "angles", "bond", "can_msgs", "control_msgs", "controller_manager_msgs", "cv_bridge",
-    "demo_nodes_py", "diagnostic_updater", "gazebo_msgs", "geographic_msgs", "grid_map_msgs", "image_geometry",
+    "diagnostic_updater", "gazebo_msgs", "geographic_msgs", "grid_map_msgs", "image_geometry",
     "image_tools", "image_transport", "interactive_markers", "irobot_create_msgs", "joint_state_publisher",
     "joy_teleop", "laser_geometry", "launch_pytest", "launch_testing", "launch_testing_ros", "map_msgs", "mavros_msgs",
     "moveit", "moveit_msgs", "moveit_py", "nav2_common", "nav2_msgs", "nav2_simple_commander", "octomap_msgs",

@@ -1,9 +1,10 @@
-"""Programs that come with a ROS 2: `ros2 run tf2_ros …`, `ros2 run tf2_tools …`. Each is plain rclpy.
+"""Programs that come with a ROS 2: `ros2 run tf2_ros …`, `tf2_tools …`, `demo_nodes_py …`. Each is plain rclpy.
 
 - ``tf2_echo``: prints the transform between two frames, again and again;
 - ``tf2_monitor``: says how old transforms are when they come;
 - ``static_transform_publisher``: tells of a frame that never moves;
-- ``view_frames``: draws the tree of all frames.
+- ``view_frames``: draws the tree of all frames;
+- ``demos``: talker, listener, and a service that adds.
 """
 
 from __future__ import annotations
@@ -14,9 +15,10 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
-from ..workspace.package import Package
+from ..workspace.package import Package, Target
 
-SITE = Path(__file__).resolve().parents[1] / "site"
+HERE = Path(__file__).resolve().parent
+SITE = HERE.parent / "site"
 _PROGRAMS = {
     "tf2_ros": ("static_transform_publisher", "tf2_echo", "tf2_monitor"),
     "tf2_tools": ("view_frames",),
@@ -31,10 +33,21 @@ def tf2_packages() -> list[Package]:
     ]
 
 
-def program(module: str) -> Callable[[], object]:
-    """What runs the `main()` of a module, which is imported only then."""
-    return partial(_run, module)
+def demo_packages() -> list[Package]:
+    """The demos, as Python packages and as what they are called where they are C++."""
+    names = ("talker", "listener", "add_two_ints_server", "add_two_ints_client")
+    programs: dict[str, Target] = {name: program(f"{__name__}.demos.{name}") for name in names}
+    of_cpp = {**programs, "talker": program(f"{__name__}.demos.talker", "main_of_cpp")}
+    return [
+        Package("demo_nodes_py", HERE / "demos", executables=programs),
+        Package("demo_nodes_cpp", HERE / "demos", executables=of_cpp),
+    ]
 
 
-def _run(module: str) -> object:
-    sys.exit(importlib.import_module(module).main())
+def program(module: str, function: str = "main") -> Callable[[], object]:
+    """What runs a function of a module, which is imported only then."""
+    return partial(_run, module, function)
+
+
+def _run(module: str, function: str) -> object:
+    sys.exit(getattr(importlib.import_module(module), function)())
