@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+import rclpy
 
 from turtle_lesson import Lesson, start
 
@@ -273,3 +274,21 @@ def test_a_callback_that_raises_ends_in_the_trace_too(lesson: Lesson, capsys: py
     lesson._world.spawn(broken, name="broken")
     lesson.run(1)
     assert "on_timer (every 0.1 s): 1 call; it lasted 0.20 s." in lesson.plot_timeline("/broken").text
+
+
+def test_a_node_of_very_many_topics_has_the_first_ones_noted(lesson: Lesson) -> None:
+    from std_msgs.msg import Int32
+
+    def program() -> None:
+        rclpy.init()
+        node = rclpy.create_node("many")
+        for _ in range(2):  # the second publisher of a topic is no further topic
+            publishers = [node.create_publisher(Int32, f"t{number}", 10) for number in range(40)]
+        for publisher in publishers:
+            publisher.publish(Int32())
+
+    lesson._world.spawn(program, name="many")
+    lesson.run(0.1)
+    assert "/t31: 1 message" in lesson.plot_timeline("/t31").text
+    with pytest.raises(ValueError, match="/t32 is not noted: of each node only its first 32 topics are"):
+        lesson.plot_timeline("/t32")

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from ..ros.trace.trace import TOPICS
 from .recording import NANOSECONDS
 from .system import EVERYWHERE, PARAMETER_SERVICES, is_hidden
 from .words import count, listed, number, rate
@@ -92,7 +93,7 @@ def lanes_of(
     Raises TypeError for what is no name, ValueError for one that is unknown, with the names that are perhaps meant.
     """
     nodes = list(dict.fromkeys(callback.node for callback in trace.callbacks))
-    topics = {topic for topic, _ in trace.published} | {
+    topics = trace.not_noted.union(topic for topic, _ in trace.published) | {
         each for each in known_topics if not is_hidden(each) and each not in EVERYWHERE
     }
     lanes: list[Lane] = []
@@ -129,6 +130,11 @@ def _unknown(name: str, nodes: list[str], topics: list[str]) -> str:
 
 
 def _topic_lane(trace: Any, topic: str, window: Window) -> Lane:
+    if topic in trace.not_noted:
+        raise ValueError(
+            f"{topic} is not noted: of each node only its first {TOPICS} topics are. `ros2 topic hz {topic}` "
+            "measures any."
+        )
     by_node = {
         node: times[window.holds(times)]
         for (name, node), stamps in sorted(trace.published.items())

@@ -142,6 +142,7 @@ class ShownTurtle:
         self._action = RotateAction(node, turtle, turning)
         # One message each, filled anew and published 62.5 times a second: publish() keeps no hold of it.
         self._pose, self._colour = Pose(), Color()
+        self._publish_pose, self._publish_colour = self._pose_publisher.publish, self._colour_publisher.publish
         self._colour_in_message = (0, 0, 0)
 
     def publish(self) -> None:
@@ -154,11 +155,11 @@ class ShownTurtle:
             pose.theta = turtle.theta
             pose.linear_velocity = turtle.speed
             pose.angular_velocity = turtle.angular
-        self._pose_publisher.publish(self._pose)
+        self._publish_pose(self._pose)
         if turtle.colour != self._colour_in_message:
             self._colour_in_message = turtle.colour
             self._colour.r, self._colour.g, self._colour.b = turtle.colour
-        self._colour_publisher.publish(self._colour)
+        self._publish_colour(self._colour)
 
     def close(self) -> None:
         """Take the turtle's topics, services and action out of the graph."""

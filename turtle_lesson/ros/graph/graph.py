@@ -103,6 +103,7 @@ class Graph:
         node.writers.append(writer)
         if self.trace is not None:
             writer.note = self.trace.publisher(node, name)
+            writer.arrange()
         writer.topic.add_writer(writer, type_name)
         self._changed()
         return writer

@@ -50,14 +50,16 @@ class Writer(End):
 
     def write(self, message: Any) -> None:
         """Send a message: a copy, rounded to the wire's precision, to every matched reader."""
-        simulation = self._simulation
+        if self._idle:
+            return
+        now = self._simulation.now
         if self.note is not None:
-            self.note(simulation.now)
+            self.note(now)
         if self._also is not None:
             self._also(message)
         if self._usual:
             wire = message._wire_copy()
-            simulation.at(simulation.now + self._latency, self._deliver, (self._usual, wire))
+            self._simulation.at(now + self._latency, self._deliver, (self._usual, wire))
 
     def _deliver(self, parcel: tuple[tuple[Reader, ...], Any]) -> None:
         readers, wire = parcel
@@ -97,6 +99,7 @@ class Writer(End):
         if self._lines:
             steps.append(self._send_by_lines)
         self._also = None if not steps else steps[0] if len(steps) == 1 else partial(_do_all, steps)
+        self._idle = not steps and not self._usual and self.note is None
 
     def _wants_line(self, reader: Reader) -> bool:
         return reader.watches or self.quality.lifespan is not None or self.topic.conditions is not None

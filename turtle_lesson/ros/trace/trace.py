@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import deque
+from collections import Counter, deque
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 
 MESSAGES = 50_000
 """How many messages of each publisher are kept, the newest: 13 minutes of a turtle's pose."""
+
+TOPICS = 32
+"""On how many topics a node's messages are noted, the first ones: of a thousand turtles nobody plots them all."""
 
 CALLS = 1_000
 
@@ -30,6 +33,9 @@ class Trace:
         self.simulation = simulation
         self.published: dict[tuple[str, str], deque[int]] = {}
         """By topic and node (full names), when each message was published (ns)."""
+        self.not_noted: set[str] = set()
+        """Topics beyond the first ones of their publishers' nodes."""
+        self._topics: Counter[str] = Counter()
         self.callbacks: list[Callback] = []
         self.calls: deque[Call] = deque(maxlen=CALLS)
         self.log: deque[tuple[int, int, str, str]] = deque(maxlen=LINES)
@@ -44,7 +50,14 @@ class Trace:
         """What a new publisher tells the time of each message, if it is to tell it."""
         if node.hidden or topic in PLUMBING:
             return None
-        return self.published.setdefault((topic, node.full_name), deque(maxlen=MESSAGES)).append
+        times = self.published.get((topic, node.full_name))
+        if times is None:
+            self._topics[node.full_name] += 1
+            if self._topics[node.full_name] > TOPICS:
+                self.not_noted.add(topic)
+                return None
+            times = self.published[topic, node.full_name] = deque(maxlen=MESSAGES)
+        return times.append
 
     def asked(self, client: Any, message: Any) -> Call:
         """A client asks."""

@@ -91,10 +91,9 @@ def make_parts(
 
 def _detached(node: Node, part: Any) -> Any:
     """What the node has just made, no longer among the things that it has."""
-    lists: tuple[list[Any], list[Any]] = (node._ros_waiting_entities, node._ros_publishers)
-    for things in lists:
-        if part in things:
-            things.remove(part)
+    things: list[Any] = node._ros_waiting_entities if isinstance(part, Entity) else node._ros_publishers
+    place = next(place for place in reversed(range(len(things))) if things[place] is part)  # it is among the last
+    del things[place]
     if isinstance(part, Entity):
         part._executor = None
     return part
