@@ -7,12 +7,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ..core.tracebacks import shown_path
-from .ament_python import SITE, build_ament_python
 from .cmake import CMakeError, CMakeFile, Program, read_cmake
-from .discover import read_found
 from .errors import PackageError
 from .manifest import Manifest, read_manifest
-from .outcome import Environment
 from .python_program import PythonProgram
 
 Target = Path | Callable[[], object]
@@ -87,6 +84,10 @@ def read_source_package(folder: Path | str) -> Package:
 
 def _read_ament_python(folder: Path, manifest: Manifest) -> Package:
     """What a build would install, used where it lies."""
+    from .ament_python import SITE, build_ament_python  # not for each start of a lesson
+    from .discover import read_found
+    from .outcome import Environment
+
     outcome = build_ament_python(
         read_found(folder, folder), Environment(folder / "install", folder / "build", symlink=True)
     )
