@@ -7,6 +7,7 @@ import os
 import random
 import signal
 import sys
+import sysconfig
 import threading
 import time
 from pathlib import Path
@@ -23,6 +24,7 @@ from turtle_lesson.ros.core import (
     drive,
     interrupts,
 )
+from turtle_lesson.ros.core.virtual_time import real_monotonic
 from turtle_lesson.ros.world import World, open_world
 
 SECOND = 1_000_000_000
@@ -290,6 +292,29 @@ def test_an_interrupt_freezes_a_computation_and_the_next_run_goes_on(world: Worl
     enough.set()
     world.sim.run_until(SECOND)
     assert log == ["done"]
+
+
+def test_an_interrupt_does_not_freeze_what_jupyter_does_with_its_locks(world: World, monkeypatch) -> None:
+    """As it would if it froze a print: Jupyter's thread would wait for ever for the lock that the print holds."""
+    monkeypatch.setattr(interrupts, "interrupt_patience", 0.05)
+    jupyter = {"__name__": "ipykernel.iostream", "until": real_monotonic() + 0.6, "now": real_monotonic}
+    exec(
+        compile("def flush():\n  while now() < until: pass", f"{sysconfig.get_path('stdlib')}/iostream.py", "exec"),
+        jupyter,
+    )
+    log: list[str] = []
+
+    def prints() -> None:
+        jupyter["flush"]()
+        log.append("flushed")
+
+    world.spawn(prints, name="prints")
+    timer = threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        world.sim.run_until(SECOND)
+    timer.join()
+    assert log == ["flushed"]
 
 
 def test_a_callback_that_never_ends_is_found_and_explained(world: World, monkeypatch, capsys) -> None:

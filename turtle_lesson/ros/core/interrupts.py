@@ -18,9 +18,13 @@ from typing import TYPE_CHECKING, Any
 from .careful import loop_aside
 from .errors import NeverReturns
 from .strand import Strand, running_strand
+from .tracebacks import is_library, is_ours
 
 if TYPE_CHECKING:
     from .simulation import Simulation
+
+JUPYTER = {"IPython", "comm", "debugpy", "ipykernel", "jupyter_client", "tornado", "traitlets", "zmq"}
+"""The packages that Jupyter's kernel is made of."""
 
 _monotonic = time.monotonic  # the real one, whatever time.monotonic becomes
 
@@ -65,7 +69,7 @@ class Guard:
         if tripped is None:
             self.interrupted = True
             self.simulation.halt()
-        elif tripped == self.simulation.now:  # else time has passed since the watchdog looked
+        elif tripped == self.simulation.now and not _jupyter_is_at_work(frame):  # else time has passed since it looked
             strand = running_strand()
             if self.interrupted:
                 self._freeze(strand)
@@ -92,6 +96,19 @@ class Guard:
             "this world could happen. A callback should do a little and return; let a timer call it again. "
             "To wait inside a loop, call time.sleep(seconds); to wait for another callback, await a future."
         )
+
+
+def _jupyter_is_at_work(frame: FrameType | None) -> bool:
+    """Whether code of Jupyter's was called here, as by a print. It may hold a lock that Jupyter's threads wait for."""
+    while frame is not None:
+        name = frame.f_globals.get("__name__", "").partition(".")[0]
+        if name in JUPYTER:
+            return True
+        file = frame.f_code.co_filename
+        if is_ours(file) or not is_library(file):
+            return False
+        frame = frame.f_back
+    return False
 
 
 class _Watchdog:

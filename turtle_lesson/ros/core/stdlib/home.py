@@ -23,6 +23,7 @@ from inspect import CO_OPTIMIZED
 from types import FrameType
 from typing import TYPE_CHECKING, Any
 
+from ..interrupts import JUPYTER
 from ..strand import Strand, getcurrent, greenlet
 from ..tracebacks import is_library
 
@@ -37,7 +38,6 @@ _ON_THE_WAY = {
     "_threading_local",
     "tf2_ros.transform_listener",
 }
-JUPYTER = {"IPython", "comm", "debugpy", "ipykernel", "jupyter_client", "tornado", "traitlets", "zmq"}
 _OURS = (__name__.rpartition(".")[0], "turtle_lesson.ros.core.virtual_time")
 
 
