@@ -16,6 +16,7 @@ import turtle_lesson  # noqa: F401  (makes rclpy and the interface packages impo
 from turtle_lesson.ros.interfaces import registry
 from turtle_lesson.ros.interfaces.registry import forget_modules
 from turtle_lesson.ros.world import World, open_world
+from turtle_lesson.underlay import underlay_packages
 
 SECOND = 1_000_000_000
 
@@ -59,15 +60,29 @@ def run(world: World) -> Callable[..., list[Any]]:
 
 
 @pytest.fixture
-def terminal(
+def empty_terminal(
     world: World, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> Iterator[Terminal]:
-    """A terminal where first_steps is built."""
+    """A terminal in an empty folder."""
     monkeypatch.chdir(tmp_path)
     terminal = Terminal(world, tmp_path, capsys)
-    terminal.build("first_steps")
     yield terminal
     terminal.close()
+
+
+@pytest.fixture
+def terminal(empty_terminal: Terminal) -> Terminal:
+    """A terminal where first_steps is built."""
+    empty_terminal.build("first_steps")
+    return empty_terminal
+
+
+@pytest.fixture
+def fresh_terminal(empty_terminal: Terminal) -> Terminal:
+    """A terminal of a fresh ROS 2, with the simulator and the demos."""
+    for package in underlay_packages():
+        empty_terminal.world.packages.add(package)
+    return empty_terminal
 
 
 def _with(program: Program, found: list[Any]) -> Callable[[], object]:

@@ -272,6 +272,15 @@ def test_an_interrupt_pauses_the_world_and_the_next_run_goes_on(world: World) ->
     assert log == list(range(1000))
 
 
+def run_and_interrupt(world: World) -> None:
+    """Run for a second of robot time, and press Ctrl-C after a tenth of a real one."""
+    timer = threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        world.sim.run_until(SECOND)
+    timer.join()
+
+
 def test_an_interrupt_freezes_a_computation_and_the_next_run_goes_on(world: World, monkeypatch) -> None:
     monkeypatch.setattr(interrupts, "interrupt_patience", 0.05)
     log: list[str] = []
@@ -283,11 +292,7 @@ def test_an_interrupt_freezes_a_computation_and_the_next_run_goes_on(world: Worl
         log.append("done")
 
     world.spawn(computes, name="computes")
-    timer = threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT))
-    timer.start()
-    with pytest.raises(KeyboardInterrupt):
-        world.sim.run_until(SECOND)
-    timer.join()
+    run_and_interrupt(world)
     assert log == []
     enough.set()
     world.sim.run_until(SECOND)
@@ -309,11 +314,7 @@ def test_an_interrupt_does_not_freeze_what_jupyter_does_with_its_locks(world: Wo
         log.append("flushed")
 
     world.spawn(prints, name="prints")
-    timer = threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT))
-    timer.start()
-    with pytest.raises(KeyboardInterrupt):
-        world.sim.run_until(SECOND)
-    timer.join()
+    run_and_interrupt(world)
     assert log == ["flushed"]
 
 

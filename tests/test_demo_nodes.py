@@ -2,28 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from pathlib import Path
-
 import pytest
 from program_terminal import Terminal, having
 
-from turtle_lesson.ros.world import World
-from turtle_lesson.underlay import underlay_packages
-
 
 @pytest.fixture
-def shop(
-    world: World, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> Iterator[Terminal]:
-    """A terminal of a fresh ROS 2."""
-    monkeypatch.chdir(tmp_path)
-    for package in underlay_packages():
-        world.packages.add(package)
-    terminal = Terminal(world, tmp_path, capsys)
-    terminal.build()
-    yield terminal
-    terminal.close()
+def shop(fresh_terminal: Terminal) -> Terminal:
+    """A terminal in which nothing was built."""
+    fresh_terminal.build()
+    return fresh_terminal
 
 
 def test_a_talker_and_a_listener_as_recorded(shop: Terminal) -> None:

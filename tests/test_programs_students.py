@@ -2,28 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from pathlib import Path
-
 import pytest
 from program_terminal import PACKAGES, Terminal, having
 
-from turtle_lesson.ros.world import World
-from turtle_lesson.underlay import underlay_packages
-
 
 @pytest.fixture
-def terminal(
-    world: World, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> Iterator[Terminal]:
+def terminal(fresh_terminal: Terminal) -> Terminal:
     """A terminal where a student's packages are built, and the simulator is there."""
-    monkeypatch.chdir(tmp_path)
-    for package in underlay_packages():
-        world.packages.add(package)
-    terminal = Terminal(world, tmp_path, capsys)
-    terminal.build("student_tools", "student_turtles")
-    yield terminal
-    terminal.close()
+    fresh_terminal.build("student_tools", "student_turtles")
+    return fresh_terminal
 
 
 def run(terminal: Terminal, *programs: str, seconds: float = 0.0) -> list[str]:

@@ -99,11 +99,9 @@ class Graph:
 
     def add_writer(self, node: NodeEntry, name: str, type_name: str, quality: Quality) -> Writer:
         """A node's new publisher."""
-        writer = Writer(node, self.topic(name), quality)
+        note = None if self.trace is None else self.trace.publisher(node, name)
+        writer = Writer(node, self.topic(name), quality, note)
         node.writers.append(writer)
-        if self.trace is not None:
-            writer.note = self.trace.publisher(node, name)
-            writer.arrange()
         writer.topic.add_writer(writer, type_name)
         self._changed()
         return writer

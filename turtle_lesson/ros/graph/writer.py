@@ -27,11 +27,13 @@ class Writer(End):
     plain publisher pays nothing for it.
     """
 
-    def __init__(self, node: NodeEntry, topic: Topic, quality: Quality) -> None:
+    def __init__(
+        self, node: NodeEntry, topic: Topic, quality: Quality, note: Callable[[int], object] | None = None
+    ) -> None:
         super().__init__(node, topic, quality)
         self.readers: tuple[Reader, ...] = ()
         self.alive = True
-        self.note: Callable[[int], object] | None = None
+        self.note = note
         """Told the time (ns) of each message, where a trace is kept."""
         self._simulation = topic.simulation
         self._latency = topic.latency
