@@ -225,7 +225,7 @@ def test_a_required_node_that_dies_in_robot_time_ends_the_rest(
     actions = node("talker", name="'a'") + node("raise_cb", name="'b'", on_exit="Shutdown()")
     head = HEAD.replace("from launch_ros", "from launch.actions import Shutdown\nfrom launch_ros")
     handle = start(world, tmp_path, actions, head)
-    run(world, 1)
+    run(world, 2)
     lines = [line for line in console(capsys, tmp_path) if not line.startswith("[talker-1]  ")]
     first = next(number for number, line in enumerate(lines) if "process has died" in line)
     assert lines[first:] == [
@@ -260,7 +260,7 @@ def test_environment_variables_reach_the_programs_and_not_the_notebook(
         "from launch.substitutions import EnvironmentVariable\n\ndef generate",
     )
     start(world, tmp_path, actions, head)
-    run(world, 1)
+    run(world, 2)
     lines = console(capsys, tmp_path)
     assert "[INFO] [launch.user]: blue" in lines
     assert [line for line in lines if "sees" in line] == [

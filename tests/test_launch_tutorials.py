@@ -111,7 +111,7 @@ def test_managed_nodes_are_led_through_their_states(party: Workshop) -> None:
     lines = party.say("ros2 launch turtle_party managed_launch.py", seconds=1)
     assert logged(lines) == ["inactive now", "active now"]
     assert sorted(line for line in lines if line.startswith("0.")) == [
-        *["0.0 one: activated", "0.0 one: configured", "0.0 two: activated", "0.0 two: configured"]
+        *["0.3 one: activated", "0.3 one: configured", "0.6 two: activated", "0.6 two: configured"]
     ]
     assert party.say("ros2 lifecycle get /one", "ros2 lifecycle get /two") == ["active [3]", "active [3]"]
     assert "/launch_ros_1002" in party.say("ros2 node list")

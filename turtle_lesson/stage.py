@@ -82,7 +82,7 @@ class WorldStage:
         ]
         handle = launching.launch_description(self._world, LaunchDescription(nodes))
         jobs(self._world).add(Job("ros2 launch trouble.launch.py", handle))
-        self._world.sim.settle()
+        handle.wait_until_up()
 
     def stop_simulator(self) -> None:
         """Ctrl-C for the turtle simulator."""

@@ -72,17 +72,18 @@ class World:
         stderr: Output | None = None,
         on_exit: Callable[[Process], None] | None = None,
         environ: Mapping[str, str] | None = None,
+        start_up: int = 0,
     ) -> Process:
         """Start a process at this instant: a Python file, run as `__main__`, or a callable.
 
         Does not wait for it. The file's errors are the process's: they are shown, and its exit code is 1. Without
-        `environ` it has the environment variables of whoever starts it.
+        `environ` it has the environment variables of whoever starts it. Its main program begins `start_up` ns later.
         """
         arguments = list(argv) or [str(target) if isinstance(target, Path) else name]
         process = self._make_process(name, argv=arguments, stdout=stdout, stderr=stderr, on_exit=on_exit)
         self.processes.append(process)
         process.environ = encoded(environ)
-        process.start(_program(target) if isinstance(target, Path) else target)
+        process.start(_program(target) if isinstance(target, Path) else target, start_up)
         return process
 
     def close(self) -> None:

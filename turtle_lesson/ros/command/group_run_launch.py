@@ -1,4 +1,4 @@
-"""`ros2 run` and `ros2 launch`: they start what they are asked for and return; it goes on while the world runs.
+"""`ros2 run` and `ros2 launch`: they start what they are asked for, return when it is up, and it goes on while the world runs.
 
 In a terminal both go on until Ctrl-C. Here a last line says how to end them, and `--for SECONDS` lets robot time pass first.
 """
@@ -178,9 +178,11 @@ def leave(what: Process | LaunchHandle, words: str, seconds: float | None) -> in
     world = current_world()
     job = jobs(world).add(Job(words.strip(), what))
     simulators = len(world.graph.servers("/spawn"))
-    world.sim.settle()
-    if seconds is not None:
-        run_for(world, seconds)
+    if seconds is None and not isinstance(what, Process):
+        what.wait_until_up()
+    else:
+        world.sim.settle()
+        run_for(world, seconds or 0.0)
     sys.stdout.flush()
     if job.running:
         print(f"[{job.number}] {cut(job.words, 200)} goes on. Its Ctrl-C is: kill -INT %{job.number}")

@@ -110,15 +110,18 @@ class Process:
         """Whether the process has not ended yet."""
         return self.exit_code is None
 
-    def start(self, program: Callable[[], object]) -> None:
-        """Begin to run `program` as the process's main strand, at this instant."""
+    def start(self, program: Callable[[], object], start_up: int = 0) -> None:
+        """Begin to run `program` as the process's main strand, `start_up` ns from now. Until then it can be ended as ever."""
 
         def main() -> None:
             self._run_main(program)
 
         self.main_strand = self.add_strand(main)
         self.main_strand.parked = True
-        self.simulation.wake(self.main_strand)
+        if start_up:
+            self.simulation.at(self.simulation.now + start_up, self.simulation.wake, self.main_strand)
+        else:
+            self.simulation.wake(self.main_strand)
 
     def add_strand(self, target: Callable[[], Any]) -> Strand:
         """Make another line of execution in this process; it starts when it is made ready."""

@@ -4,7 +4,8 @@
     handle.stop()                                            # as Ctrl-C in a terminal
 
 A description is walked through in the cell that asks for it; its processes start at the current instant and
-run when the world runs.
+run when the world runs. The Python programs come up one after the other, 0.3 s of robot time each, in the order of their
+start; all others (turtlesim, echo) at once. `handle.wait_until_up()` lets that time pass.
 """
 
 from __future__ import annotations

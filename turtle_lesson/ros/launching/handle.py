@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ..command.driving import run_for
+from ..core import NANOSECONDS
+
 if TYPE_CHECKING:
     from ..core import Process
     from .service import LaunchService
@@ -30,6 +33,12 @@ class LaunchHandle:
     def running(self) -> bool:
         """Whether a process of it runs, or something in it is still to come."""
         return self._service.running
+
+    def wait_until_up(self) -> None:
+        """Let robot time pass until the programs that have been started so far are up, one after the other."""
+        world = self._service.world
+        run_for(world, max(0, self._service.processes.up_at - world.now) / NANOSECONDS)
+        world.sim.settle()
 
     def stop(self) -> None:
         """End it, as Ctrl-C in its terminal would. Does nothing if it has ended already."""

@@ -25,8 +25,11 @@ if TYPE_CHECKING:
 
     from .service import LaunchService
 
+START_UP = 300_000_000
+"""How long, in ns, a Python program takes from its process's start to its first line. Those of a launch take turns."""
+
 RESPAWN_PAUSE = 0.25
-"""How long, in s, a process that respawns without a delay stays away: what starting a real one takes."""
+"""How long, in s, a process stays away that respawns without a delay and is no Python program, so that robot time passes."""
 
 
 class Processes:
@@ -37,6 +40,8 @@ class Processes:
         self._all: list[RunningProcess] = []
         self._ending: list[RunningProcess] | None = None
         self._warned_of_folder = False
+        self.up_at = 0
+        """The robot time, in ns, at which the last of the programs that have been started is up."""
 
     def __iter__(self) -> Iterator[RunningProcess]:
         return iter(self._all)
@@ -60,8 +65,16 @@ class Processes:
 
     def _start(self, process: RunningProcess) -> None:
         if not self._service.context.is_shutdown:
-            process.start(self._service.world)
+            process.start(self._service.world, self._start_up(process))
             self._emit(ProcessStarted(**process.details()))
+
+    def _start_up(self, process: RunningProcess) -> int:
+        """How long a process takes until its program begins (ns): Python programs come up one after the other."""
+        if not process.is_python:
+            return 0
+        now = self._service.world.sim.now
+        self.up_at = max(self.up_at, now) + START_UP
+        return self.up_at - now
 
     def _warn_of_folder(self, action: ExecuteLocal) -> None:
         """Say once that all processes have the notebook's working folder."""
@@ -102,7 +115,7 @@ class Processes:
         self._emit(ExecutionComplete(action=process.action))
         if process.wants_respawn() and not self._service.context.is_shutdown:
             process.retries += 1
-            pause = process.action.respawn_delay or RESPAWN_PAUSE
+            pause = process.action.respawn_delay or (0.0 if process.is_python else RESPAWN_PAUSE)
             self._service.call_later(pause, lambda: self._start(process))
 
     def _emit(self, event: Event) -> None:

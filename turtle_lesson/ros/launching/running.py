@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import signal
+from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Any
 
+from ..workspace.python_program import PythonProgram
 from .output import LineWriter, Screen
 
 if TYPE_CHECKING:
@@ -50,8 +52,15 @@ class RunningProcess:
         """What its events carry."""
         return dict(self.action.process_details or {})
 
-    def start(self, world: World) -> None:
-        """Start it at this instant."""
+    @property
+    def is_python(self) -> bool:
+        """Whether a robot starts Python for it: a node of a package, a Python file, a `ros2` command."""
+        program = self.action._program
+        assert program is not None
+        return isinstance(program.target, (Path, PythonProgram)) or PurePath(program.argv[0]).name == "ros2"
+
+    def start(self, world: World, start_up: int) -> None:
+        """Start it at this instant; its main program begins `start_up` ns later."""
         program = self.action._program
         assert program is not None and self.action.process_details is not None
         out, err = self._writer("stdout"), self._writer("stderr")
@@ -64,6 +73,7 @@ class RunningProcess:
             stderr=err,
             on_exit=self._ended,
             environ=self.action.process_details["env"],
+            start_up=start_up,
         )
         self.action.process_details["pid"] = self.process.pid
         self._screen.say("INFO", self.name, f"process started with pid [{self.process.pid}]")
