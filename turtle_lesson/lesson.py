@@ -20,6 +20,7 @@ from .ros.world import World, open_world, wall_time
 from .shelf import Shelf
 from .sourced import HERE, real_ros
 from .underlay import SIMULATOR, underlay_packages
+from .workspace import Workspace, workspace
 
 if TYPE_CHECKING:
     from .exam_place import ExamPlace
@@ -37,21 +38,29 @@ LONGEST_RUN = 1e9
 """Seconds of robot time that one run may take: thirty years are enough for every mistake."""
 
 
-def start(seed: int = 0, package: str | Path | None = "finished", simulator: bool = True) -> Lesson:
+def start(
+    seed: int = 0, package: str | Path | None = "finished", simulator: bool = True, *, page: str | None = None
+) -> Lesson:
     """Make a fresh world, in which nothing of an earlier one goes on, and return the `Lesson` that runs it.
 
     Its terminal is fresh, too: commands work in the notebook's own folder again, whatever `cd` did before.
 
     Args:
         seed: decides about all random numbers in the world; the same seed gives the same run.
-        package: "finished" (the lesson's own robot_controller), None (no such package, as before it is built), or the
-            folder of another package's source.
+        package: "finished" (the lesson's own robot_controller), "mine" (the learner's own in `workspace`: built if its
+            sources have changed, and sourced, as the start-up file of a terminal may do), None (no such package, as before
+            it is built), or the folder of another package's source.
         simulator: whether the turtle simulator runs from the beginning.
+        page: a page of the lesson, such as "04_status_monitor": what the pages before it would have left in the learner's
+            package is brought where it is missing, and the package that results is "mine", and listed.
 
-    Raises RuntimeError where a real ROS 2 is sourced, ValueError for anything else as `package`.
+    Raises RuntimeError where a real ROS 2 is sourced, ValueError for anything else as `package` or `page`.
     """
     _check_no_real_ros()
     _check_seed(seed)
+    mine = None
+    if page is not None or package == "mine":
+        mine, package = _learners_package(seed, page), None
     source = _package_folder(package)
     world = open_world(seed)
     open_terminal()
@@ -61,7 +70,28 @@ def start(seed: int = 0, package: str | Path | None = "finished", simulator: boo
         world.packages.add(each)
     if source is not None:
         _install(world, source)
+    if mine is not None:
+        mine.source(world)
     return Lesson(world, simulator=simulator)
+
+
+def _learners_package(seed: int, page: str | None) -> Workspace:
+    """The learner's workspace: prepared for a page if one is named, and built; says which files it has."""
+    from .story import page_named
+
+    mine = workspace()
+    if page is not None:
+        mine.prepare(page_named(page))
+        print(mine.state())
+    if (mine.package / "package.xml").exists() and not mine.is_built:
+        world = open_world(seed)  # one of its own: building takes robot time, and the lesson's world begins at 0 s
+        for each in underlay_packages():
+            world.packages.add(each)
+        if said := mine.build(world):
+            print(
+                f"{said.rstrip()}\nThe package was not built, so what was built before is used, if there is anything."
+            )
+    return mine
 
 
 def _check_no_real_ros() -> None:
@@ -87,7 +117,7 @@ def _package_folder(package: str | Path | None) -> Path | None:
     if isinstance(package, (str, Path)) and Path(package).is_dir():
         return Path(package).resolve()
     raise ValueError(
-        f'package must be "finished", None or the folder of a package, got {package!r}, which is no folder here'
+        f'package must be "finished", "mine", None or the folder of a package, got {package!r}, which is no folder here'
     )
 
 
@@ -114,7 +144,7 @@ class Lesson(Shelf, Insight):
 
     def __init__(self, world: World, *, simulator: bool = True) -> None:
         self._world = world
-        self._player = Player(world.sim)
+        self._player = Player(world)
         set_player(world, self._player)
         self._launched: dict[tuple[Path, str], LaunchHandle] = {}
         self._recorder: Recorder | None = None
@@ -167,7 +197,7 @@ class Lesson(Shelf, Insight):
     def play(self, rate: float = 1.0) -> None:
         """Let robot time go on by itself, `rate` times as fast as real time, until `pause()`. Other cells work on.
 
-        `math.inf` is as fast as possible.
+        Nodes that were made in cells are spun meanwhile, as `spin` does it. `math.inf` is as fast as possible.
         """
         self._player.play(rate)
 
@@ -206,6 +236,11 @@ class Lesson(Shelf, Insight):
         return set_conditions(self._world.graph, topic, latency, jitter, loss)
 
     # -- programs --------------------------------------------------------------------------------------------------
+
+    @property
+    def workspace(self) -> Workspace:
+        """The learner's own workspace: `.state()` tells what is in it, `.reset("05")` puts it back as page 05 finds it."""
+        return workspace()
 
     def launch(self, package: str, launch_file: str, **arguments: Any) -> LaunchHandle:
         """Start what a package's launch file says: `ros2 launch package launch_file name:=value …`.

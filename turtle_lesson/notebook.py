@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+from pathlib import Path
 from types import TracebackType
 from typing import Any
 
@@ -14,7 +16,10 @@ def prepare(shell: Any) -> None:
 
     Where a real ROS 2 is sourced, its own commands are to be used: `!ros2 …`.
     """
+    if folder := os.environ.get("TURTLE_LESSON_FOLDER"):  # tests give each page a fresh folder
+        os.chdir(folder)
     shell.register_magic_function(solution, "cell")
+    _guard_the_workspace(shell)
     shell.set_custom_exc((Exception, KeyboardInterrupt), _show)
     if not real_ros():
         from .ros.command import magics
@@ -24,6 +29,28 @@ def prepare(shell: Any) -> None:
 
 def solution(line: str, cell: str) -> None:
     """`%%solution NAME`: does nothing. To run a folded solution, delete this first line of its cell."""
+
+
+def _guard_the_workspace(shell: Any) -> None:
+    """Have `%%writefile` ask before it replaces what a learner wrote in the package. Elsewhere it is IPython's own."""
+    original = shell.find_cell_magic("writefile")
+    if getattr(original, "is_turtle_lesson", False):
+        return
+
+    def writefile(line: str, cell: str) -> None:
+        from .workspace import workspace
+
+        words = line.split()
+        file = Path(words[-1].strip("'\"")).expanduser().absolute() if words else Path()
+        mine = workspace()
+        if words[:-1] in ([], ["-a"], ["--append"]) and file.is_relative_to(mine.package):
+            print(mine.write(file, cell, append=len(words) == 2))
+        else:
+            original(line, cell)
+
+    writefile.is_turtle_lesson = True  # type: ignore[attr-defined]
+    writefile.__doc__ = original.__doc__
+    shell.register_magic_function(writefile, "cell")
 
 
 def _show(

@@ -1,0 +1,248 @@
+"""The learner's own package: it grows from page to page, and nothing in it is lost."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import nbformat
+import pytest
+
+from turtle_lesson import story
+from turtle_lesson.workspace import Workspace, workspace
+
+NODE = "robot_controller/navigator_node.py"
+CMAKE = "cmake_minimum_required(VERSION 3.8)\nproject(robot_controller)\nament_package()\n"
+MANIFEST = """<?xml version="1.0"?>
+<package format="3">
+  <name>robot_controller</name>
+  <version>0.1.0</version>
+  <description>Drives a turtle</description>
+  <maintainer email="me@example.org">me</maintainer>
+  <license>Apache-2.0</license>
+  <buildtool_depend>ament_cmake</buildtool_depend>
+  <export><build_type>ament_cmake</build_type></export>
+</package>
+"""
+INSTALL = """install(PROGRAMS robot_controller/navigator_node.py
+  DESTINATION lib/${PROJECT_NAME} RENAME navigator)
+"""
+WITH_NODE = CMAKE.replace("ament_package()", f"{INSTALL}ament_package()")
+
+
+def writes(path: str, text: str, append: bool = False) -> str:
+    return f"%%writefile {'-a ' if append else ''}{story.PACKAGE}{path}\n{text}".rstrip("\n")
+
+
+def code(source: str, **metadata: Any) -> Any:
+    return nbformat.v4.new_code_cell(source, metadata=metadata)
+
+
+def exercise(source: str, solution: str) -> list[Any]:
+    of = {"exercise": "x"}
+    return [
+        code(source, tags=["exercise"], turtle_lesson=of),
+        code(f"%%solution x\n{solution}", tags=["solution"], turtle_lesson=of),
+    ]
+
+
+@pytest.fixture
+def pages(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Published pages of which 02 makes the package, and 03 writes a node in two parts and an exercise."""
+    folder = tmp_path / "published"
+    folder.mkdir()
+    cells: dict[str, list[Any]] = {page: [] for page in story.PAGES}
+    cells["02_services_and_interfaces"] = [
+        code("print('no file')"),
+        code("%%writefile workspace/elsewhere.txt\nnot of the package"),
+        code(writes("CMakeLists.txt", CMAKE)),
+        code(writes("package.xml", MANIFEST)),
+    ]
+    cells["03_navigator"] = [
+        code(writes(NODE, "first = 1\n")),
+        code(writes(NODE, "\nsecond = 2\n", append=True)),
+        code(writes("CMakeLists.txt", WITH_NODE)),
+        *exercise(writes(NODE, "stub = 0\n"), writes(NODE, "solved = 3\n")),
+    ]
+    for page, its in cells.items():
+        nbformat.write(nbformat.v4.new_notebook(cells=its), folder / f"{page}.ipynb")
+    monkeypatch.setattr(story, "PUBLISHED", folder)
+    story.versions.cache_clear()
+    yield folder
+    story.versions.cache_clear()
+
+
+@pytest.fixture
+def mine(pages: Path, tmp_path: Path) -> Workspace:
+    return Workspace(tmp_path / "workspace")
+
+
+def run_page(mine: Workspace, page: str) -> None:
+    """Write what the page's cells write, as its reader would."""
+    mine.prepare(page)
+    for path, text in story.versions(page):
+        mine.write(mine.package / path, text, append=False)
+
+
+def node(mine: Workspace) -> str:
+    return (mine.package / NODE).read_text()
+
+
+# -- the story ---------------------------------------------------------------------------------------------------------
+
+
+def test_a_page_begins_with_what_the_pages_before_it_leave(pages: Path) -> None:
+    assert story.files_before("02_services_and_interfaces") == {}
+    assert story.files_before("03_navigator") == {"CMakeLists.txt": CMAKE, "package.xml": MANIFEST}
+    assert story.files_before("04_status_monitor") == {
+        "CMakeLists.txt": WITH_NODE,
+        "package.xml": MANIFEST,
+        NODE: "solved = 3\n",
+    }
+
+
+def test_each_state_that_a_page_passes_through_is_known(pages: Path) -> None:
+    states = [text for path, text in story.versions("03_navigator") if path == NODE]
+    assert states == ["first = 1\n", "first = 1\n\nsecond = 2\n", "solved = 3\n"]
+
+
+def test_a_page_may_be_named_by_its_number(pages: Path) -> None:
+    assert story.page_named("04") == "04_status_monitor"
+    assert story.page_named("04_status_monitor") == "04_status_monitor"
+    with pytest.raises(ValueError, match="Did you mean"):
+        story.page_named("04_status")
+
+
+# -- filling in --------------------------------------------------------------------------------------------------------
+
+
+def test_what_is_missing_is_filled_in(mine: Workspace) -> None:
+    mine.prepare("04_status_monitor")
+    assert node(mine) == "solved = 3\n"
+    assert mine.state().splitlines() == [
+        "Your package workspace/src/robot_controller:",
+        "  CMakeLists.txt                      filled in",
+        "  package.xml                         filled in",
+        "  robot_controller/navigator_node.py  filled in",
+    ]
+
+
+def test_the_state_is_the_same_when_the_cell_is_run_twice(mine: Workspace) -> None:
+    mine.prepare("04_status_monitor")
+    before = mine.state()
+    mine.prepare("04_status_monitor")
+    assert mine.state() == before
+
+
+def test_a_learners_file_is_kept(mine: Workspace) -> None:
+    run_page(mine, "03_navigator")
+    (mine.package / NODE).write_text("my_own = 4\n")
+    mine.prepare("04_status_monitor")
+    assert node(mine) == "my_own = 4\n"
+    assert f"{NODE}  yours" in mine.state()
+
+
+def test_a_page_that_was_left_in_its_middle_is_completed(mine: Workspace) -> None:
+    mine.prepare("03_navigator")
+    mine.write(mine.package / NODE, "first = 1\n", append=False)
+    mine.prepare("04_status_monitor")
+    assert node(mine) == "solved = 3\n"
+
+
+def test_a_cmake_file_of_the_learners_own_gets_the_lines_that_are_missing(mine: Workspace) -> None:
+    mine.prepare("03_navigator")
+    own = CMAKE.replace("ament_package", "# mine\nament_package")
+    (mine.package / "CMakeLists.txt").write_text(own)
+    mine.prepare("04_status_monitor")
+    merged = (mine.package / "CMakeLists.txt").read_text()
+    assert "# mine\n" in merged and INSTALL in merged
+    mine.prepare("04_status_monitor")
+    assert (mine.package / "CMakeLists.txt").read_text() == merged
+
+
+def test_files_of_the_learners_own_beside_the_packages_stay(mine: Workspace) -> None:
+    mine.prepare("03_navigator")
+    diary = mine.package / "diary.txt"
+    diary.write_text("day one")
+    for page in story.PAGES[3:]:
+        run_page(mine, page)
+    assert diary.read_text() == "day one"
+
+
+def test_a_damaged_memory_makes_every_file_the_learners_own(mine: Workspace) -> None:
+    mine.prepare("04_status_monitor")
+    (mine.folder / ".pages.json").write_text("{")
+    mine.prepare("04_status_monitor")
+    assert "filled in" not in mine.state()
+
+
+# -- reset -------------------------------------------------------------------------------------------------------------
+
+
+def test_reset_puts_the_package_back_and_keeps_a_copy(mine: Workspace) -> None:
+    run_page(mine, "03_navigator")
+    (mine.package / NODE).write_text("broken(\n")
+    assert "is kept in workspace/kept/1" in mine.reset("04")
+    assert node(mine) == "solved = 3\n"
+    assert (mine.folder / "kept" / "1" / "robot_controller" / NODE).read_text() == "broken(\n"
+    mine.reset("02")
+    assert not mine.package.exists()
+    assert (mine.folder / "kept" / "2" / "robot_controller" / NODE).read_text() == "solved = 3\n"
+
+
+def test_reset_of_a_page_that_does_not_exist_changes_nothing(mine: Workspace) -> None:
+    mine.prepare("04_status_monitor")
+    with pytest.raises(ValueError, match="there is no page"):
+        mine.reset("99")
+    assert node(mine) == "solved = 3\n"
+
+
+# -- cells that write --------------------------------------------------------------------------------------------------
+
+
+def test_a_cell_may_be_edited_and_run_again(mine: Workspace) -> None:
+    mine.prepare("03_navigator")
+    assert mine.write(mine.package / NODE, "a = 1\n", append=False).startswith("Writing ")
+    assert mine.write(mine.package / NODE, "a = 2\n", append=False).startswith("Overwriting ")
+    assert node(mine) == "a = 2\n"
+
+
+def test_a_text_is_appended_once(mine: Workspace) -> None:
+    mine.prepare("03_navigator")
+    mine.write(mine.package / NODE, "a = 1\n", append=False)
+    for _ in range(2):
+        mine.write(mine.package / NODE, "b = 2\n", append=True)
+    assert node(mine) == "a = 1\nb = 2\n"
+
+
+def test_what_was_changed_by_hand_is_replaced_only_when_the_cell_is_run_again(mine: Workspace) -> None:
+    mine.prepare("03_navigator")
+    mine.write(mine.package / NODE, "a = 1\n", append=False)
+    (mine.package / NODE).write_text("by_hand = 1\n")
+    assert "holds changes of your own" in mine.write(mine.package / NODE, "a = 1\n", append=False)
+    assert "holds changes of your own" in mine.write(mine.package / NODE, "b = 2\n", append=True)
+    assert node(mine) == "by_hand = 1\n"
+    assert "holds changes of your own" in mine.write(mine.package / NODE, "a = 1\n", append=False)
+    assert mine.write(mine.package / NODE, "a = 1\n", append=False).startswith("Overwriting ")
+    assert node(mine) == "a = 1\n"
+    assert (mine.folder / "kept" / "1" / NODE).read_text() == "by_hand = 1\n"
+
+
+def test_an_earlier_page_asks_before_it_replaces_the_work_of_a_later_one(mine: Workspace) -> None:
+    mine.prepare("06_parameters_and_launch")
+    mine.write(mine.package / NODE, "my_work_of_page_06 = 1\n", append=False)
+    mine.prepare("03_navigator")
+    assert "holds changes of your own" in mine.write(mine.package / NODE, "first = 1\n", append=False)
+    assert node(mine) == "my_work_of_page_06 = 1\n"
+
+
+def test_a_later_page_goes_on_from_an_earlier_one(mine: Workspace) -> None:
+    mine.prepare("03_navigator")
+    mine.write(mine.package / NODE, "my_solution_of_page_03 = 1\n", append=False)
+    mine.prepare("06_parameters_and_launch")
+    assert node(mine) == "my_solution_of_page_03 = 1\n"
+    assert mine.write(mine.package / NODE, "of_page_06 = 1\n", append=False).startswith("Overwriting ")
+
+
+def test_the_workspace_is_beside_the_notebook(tmp_path: Path) -> None:
+    assert workspace().folder.name == "workspace"

@@ -1,0 +1,97 @@
+"""The story of the pages: which files of the learner's package each page leaves, read from the published pages themselves.
+
+A page writes the package by cells that begin with `%%writefile` (or `%%writefile -a`). Those cells, with each exercise's stub
+replaced by its solution, are replayed here as text; nothing is run.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator
+from functools import cache
+
+from .lab.checks.registry import PAGES
+from .lab.widgets.typed_names import did_you_mean
+from .sourced import HERE
+
+PUBLISHED = HERE.parent / "notebooks"
+PACKAGE = "workspace/src/robot_controller/"
+"""Where the learner's package is, seen from the notebook's folder."""
+
+_WRITE = re.compile(r"%%writefile\s+(?P<append>-a\s+|--append\s+)?(?P<file>\S+)[^\S\n]*\n(?P<text>.*)", re.DOTALL)
+
+
+def page_named(name: str) -> str:
+    """The page of this name; its number alone is enough: "04". Raises ValueError, which names the pages."""
+    matches = [page for page in PAGES if name in (page, page.partition("_")[0])]
+    if matches:
+        return matches[0]
+    hint = did_you_mean(name, PAGES) if isinstance(name, str) else ""
+    raise ValueError(f"there is no page {name!r}. {hint or 'There are ' + ', '.join(PAGES)}.".replace("?.", "?"))
+
+
+def files_before(page: str) -> dict[str, str]:
+    """The files of the package when a page begins: their text by their path in the package.
+
+    Raises FileNotFoundError where the published pages are missing.
+    """
+    files: dict[str, str] = {}
+    for earlier in PAGES[: PAGES.index(page)]:
+        for path, text in versions(earlier):
+            files[path] = text
+    return dict(sorted(files.items()))
+
+
+def is_published(path: str, text: str, before: str) -> bool:
+    """Whether a page before this one writes exactly this text into a file, as a last or a passing state."""
+    return any((path, text) in versions(earlier) for earlier in PAGES[: PAGES.index(before)])
+
+
+@cache
+def versions(page: str) -> tuple[tuple[str, str], ...]:
+    """Each state of each file of the package that a page writes, in the page's order: (path in the package, text)."""
+    states: list[tuple[str, str]] = []
+    latest: dict[str, str] = _last_states(page)
+    for source in _cells(page):
+        match = _WRITE.match(source)
+        if match is None or not match["file"].startswith(PACKAGE):
+            continue
+        path = match["file"].removeprefix(PACKAGE)
+        text = match["text"] if match["text"].endswith("\n") else match["text"] + "\n"  # as the magic is given it
+        latest[path] = latest.get(path, "") + text if match["append"] else text
+        states.append((path, latest[path]))
+    return tuple(states)
+
+
+def _last_states(page: str) -> dict[str, str]:
+    """What the pages before leave; a page may append to it."""
+    place = PAGES.index(page)
+    return {} if place == 0 else files_before(page)
+
+
+def _cells(page: str) -> Iterator[str]:
+    """The sources of a published page's code cells, each exercise as its solution has it."""
+    file = PUBLISHED / f"{page}.ipynb"
+    if not file.is_file():
+        raise FileNotFoundError(f"the published page {file.name} is missing: it would be in {PUBLISHED}")
+    cells = [
+        (_exercise(cell), cell["metadata"].get("tags", []), _source(cell))
+        for cell in json.loads(file.read_text(encoding="utf-8"))["cells"]
+        if cell["cell_type"] == "code"
+    ]
+    solutions = {name: source.partition("\n")[2] for name, tags, source in cells if "solution" in tags}
+    for name, tags, source in cells:
+        if "exercise" in tags:
+            yield solutions.get(name, source)
+        elif "solution" not in tags:
+            yield source
+
+
+def _exercise(cell: dict) -> str:
+    return cell["metadata"].get("turtle_lesson", {}).get("exercise", "")
+
+
+def _source(cell: dict) -> str:
+    source = cell["source"]
+    return source if isinstance(source, str) else "".join(source)
