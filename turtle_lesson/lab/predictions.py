@@ -181,8 +181,8 @@ def ask(name: str, question: str, kind: Kind, guess: Any = None) -> Asked:
     return Asked(found)
 
 
-def tell(name: str, value: Any) -> Outcome:
-    """Say what came of it. Raises ValueError for a name that was never asked, and for a value that is none."""
+def tell(name: str, value: Any, because: str = "") -> Outcome:
+    """Say what came of it, and why. Raises ValueError for a name that was never asked, and for a value that is none."""
     if name not in _questions:
         from .widgets.typed_names import did_you_mean, enumerated
 
@@ -190,7 +190,7 @@ def tell(name: str, value: Any) -> Outcome:
         raise ValueError(f"nothing was asked under the name {name!r}. {hint} Run the cell with lesson.predict first.")
     found = _questions[name]
     found.outcome = found.kind.read(value)
-    return Outcome(found)
+    return Outcome(found, because)
 
 
 class Asked:
@@ -219,8 +219,9 @@ class Asked:
 class Outcome:
     """Guess and outcome side by side."""
 
-    def __init__(self, question: Question) -> None:
+    def __init__(self, question: Question, because: str = "") -> None:
         kind = question.kind
+        self.because = because
         self.title = question.question
         self.guess = kind.shown(question.guess) if question.guess is not None else NO_GUESS
         self.outcome = kind.shown(question.outcome)
@@ -236,6 +237,7 @@ class Outcome:
                     f"  your guess: {self.guess}",
                     f"  outcome:    {self.outcome}",
                     self.verdict and f"  {self.verdict}",
+                    self.because,
                 ],
             )
         )
@@ -247,6 +249,7 @@ class Outcome:
         return (
             f"<p>{html.escape(self.title)}</p><table><thead><tr><th {cell}>your guess</th><th {cell}>outcome</th></tr></thead>"
             f"<tbody><tr>{cells}</tr></tbody></table>{picture}<p>{html.escape(self.verdict)}</p>"
+            + (f"<p>{html.escape(self.because)}</p>" if self.because else "")
         )
 
 
