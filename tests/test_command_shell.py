@@ -125,6 +125,20 @@ def test_lines(type_line, line: str, out: str) -> None:  # type: ignore[no-untyp
     assert type_line(line)[1] == out
 
 
+def test_the_end_of_a_stretch_is_no_error(type_line, folder: Path) -> None:  # type: ignore[no-untyped-def]
+    remark = "(stopped after 0.5 s of robot time; --for SECONDS makes it longer or shorter)\n"
+    code, out, error = type_line("ros2 topic pub /x std_msgs/msg/Int32 --for 0.5")
+    assert (code, out[-len(remark) :], error) == (2, remark, "")
+
+
+@pytest.mark.parametrize("rest", ["> kept.txt", "| grep -c publishing"])
+def test_what_is_handed_on_holds_no_remark(type_line, folder: Path, rest: str) -> None:  # type: ignore[no-untyped-def]
+    _, out, error = type_line(f"ros2 topic pub /x std_msgs/msg/Int32 --for 0.5 {rest}; cat kept.txt 2> none.txt")
+    assert "publish" in out or out == "1\n"
+    assert "stopped after" not in out
+    assert error.startswith("(stopped after 0.5 s")
+
+
 @pytest.mark.parametrize(
     ("line", "text"),
     [

@@ -25,6 +25,9 @@ __all__ = ["live_rate", "run", "run_here"]
 BACKGROUND = "background"
 """The mark of a process that goes on in the background: its verb never ends by itself."""
 
+SHOWN = "shown"
+"""The mark of a command whose output is shown in the cell: it goes to no file and to no pipe."""
+
 INTERRUPTED = 2
 """The exit code of a `ros2` command that was ended by Ctrl-C."""
 
@@ -64,7 +67,8 @@ def run(
             return _run_in_cell(call, out_to, error_to)
         if background:
             return _start_in_background(world, call, words)
-        return _run_as_process(world, call, words, out_to, error_to)
+        shown = stdout is None or stdout is sys.stdout
+        return _run_as_process(world, call, words, out_to, error_to, shown)
 
 
 def run_here(words: Sequence[str]) -> int:
@@ -110,12 +114,12 @@ def _program(call: Call) -> Callable[[], None]:
     return main
 
 
-def _run_as_process(world: World, call: Call, words: Sequence[str], stdout: Any, stderr: Any) -> int:
+def _run_as_process(world: World, call: Call, words: Sequence[str], stdout: Any, stderr: Any, shown: bool) -> int:
     waiter = Waiter(world, call.prog)
     process = world.spawn(
         _program(call), name="ros2", argv=words, stdout=stdout, stderr=stderr, on_exit=waiter.ended
     )  # fmt: skip
-    process.locals["cwd"] = Path.cwd()
+    process.locals.update({"cwd": Path.cwd(), SHOWN: shown})
     reason = waiter.wait(process)
     if reason:
         print(f"{call.prog}: {reason}", file=stderr)

@@ -61,6 +61,7 @@ __all__ = [
     "of_the_classroom",
     "positive_float",
     "publishers",
+    "remark",
     "services",
     "spin_for",
     "stretch_of",
@@ -78,7 +79,7 @@ class CommandError(Exception):
 
 
 class Interrupted(Exception):
-    """Ends a command as Ctrl-C does in a terminal: the exit code is 2. Its text, if any, goes to stderr."""
+    """Ends a command as Ctrl-C does in a terminal: the exit code is 2. Its text, if any, is a remark, not an error."""
 
 
 @dataclass(frozen=True)
@@ -104,7 +105,7 @@ class Command:
             return 1
         except Interrupted as error:
             if str(error):
-                print(error, file=sys.stderr)
+                remark(str(error))
             return INTERRUPTED
 
 
@@ -149,8 +150,14 @@ def stretch_of(args: Namespace) -> float | None:
 
 
 def end_of_stretch(seconds: float) -> Interrupted:
-    """What an endless verb raises when its stretch is over: says so, as the last line on stderr."""
+    """What an endless verb raises when its stretch is over: says so in a last line."""
     return Interrupted(f"(stopped after {seconds:g} s of robot time; --for SECONDS makes it longer or shorter)")
+
+
+def remark(sentence: str) -> None:
+    """Print a sentence of the lesson's own, below the output; on stderr where the output goes to a file or a pipe."""
+    shown = current_process().locals.get("shown", False)
+    print(sentence, file=sys.stdout if shown else sys.stderr)
 
 
 def now() -> float:

@@ -16,7 +16,7 @@ from typing import Any
 from turtle_lesson.ros.bags.errors import BagError
 
 from .bag_arguments import info_arguments, play_arguments, reader_arguments, record_arguments
-from .common import Command, current_process, end_of_stretch, now, stretch_of
+from .common import Command, current_process, end_of_stretch, now, remark, stretch_of
 
 
 def _record(args: Namespace) -> int:
@@ -47,7 +47,7 @@ def _record(args: Namespace) -> int:
         say("WARN", sentence)
     say("INFO", "Recording stopped")
     if seconds is not None and now() >= began + seconds and args.seconds is None:
-        print(end_of_stretch(seconds), file=sys.stderr)
+        remark(str(end_of_stretch(seconds)))
     return 0
 
 
@@ -115,7 +115,7 @@ def _play(args: Namespace) -> int:
     except BagError as error:
         return _error(str(error))
     if not ended and seconds is not None and args.seconds is None:
-        print(end_of_stretch(seconds), file=sys.stderr)
+        remark(str(end_of_stretch(seconds)))
     return 1 if bag.damage else 0
 
 
