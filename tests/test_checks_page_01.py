@@ -42,7 +42,7 @@ def test_reporter(which: Any, passed: bool) -> None:
     assert result.passed == passed
     news = row(result, "the newest x")
     assert news.seen.startswith("it said ")
-    assert bool(news.next_step) != passed
+    assert bool(news.advice.direction) != passed
 
 
 def test_reporter_without_a_turtle() -> None:

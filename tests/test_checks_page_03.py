@@ -105,7 +105,7 @@ def test_pirouettes_are_counted() -> None:
     result = lesson.check("short_way")
     assert row(result, "the turtle within").good
     assert row(result, "turns of 400°").mark == "✗"
-    assert "math.remainder" in row(result, "turns of 400°").next_step
+    assert "math.remainder" in row(result, "turns of 400°").advice.direction
 
 
 def test_what_refuses_nothing_is_no_navigator_yet(capsys: pytest.CaptureFixture[str]) -> None:

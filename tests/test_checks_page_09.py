@@ -43,7 +43,7 @@ def test_another_case_does_not_count(check: str) -> None:
         run_line(lesson._world, command)
     result = lesson.check(check)
     assert not result.passed
-    assert "Another one is asked for" in result.rows[0].next_step
+    assert "Another one is asked for" in result.rows[0].advice.direction
 
 
 @pytest.mark.parametrize("check", CASES)

@@ -90,7 +90,7 @@ def test_on_site(lesson: Lesson) -> None:
 
 def test_on_site_without_any_node_asks_for_one_launch(lesson: Lesson) -> None:
     result = lesson.check("on_site")
-    steps = [each.next_step for each in result.rows if each.expected.startswith("one node")]
+    steps = [each.advice.direction for each in result.rows if each.expected.startswith("one node")]
     assert len(steps) == 3
     assert all("ros2 launch robot_controller start_system.launch.py" in step for step in steps)
     assert not any("ros2 run" in step for step in steps)

@@ -22,7 +22,24 @@ def test_points_survive_a_restart_and_a_later_failure(tmp_path: Path) -> None:
     later = ProgressFile(tmp_path / FILE)
     later.note(result("counter", passed=False))
     assert later.points() == {"counter": 3}
-    assert json.loads((tmp_path / FILE).read_text()) == {"format": 1, "points": {"counter": 3}}
+    kept = json.loads((tmp_path / FILE).read_text())
+    assert kept == {"format": 1, "points": {"counter": 3}, "failures": {"counter": 1}}
+
+
+def test_failures_in_a_row_are_counted_over_restarts_and_begin_anew_when_it_is_passed(tmp_path: Path) -> None:
+    counts = [
+        ProgressFile(tmp_path / FILE).note(result("counter", passed=good)) for good in (False, False, True, False)
+    ]
+    assert counts == [1, 2, 0, 1]
+    in_memory = ProgressFile(None)
+    assert [in_memory.note(result(name, passed=False)) for name in ("counter", "doubler", "counter")] == [1, 1, 2]
+
+
+def test_a_file_of_an_older_version_has_no_failures(tmp_path: Path) -> None:
+    (tmp_path / FILE).write_text('{"format": 1, "points": {"counter": 3}}')
+    file = ProgressFile(tmp_path / FILE)
+    assert file.note(result("counter", passed=False)) == 1
+    assert file.points() == {"counter": 3}
 
 
 def test_two_notebooks_at_once_lose_nothing(tmp_path: Path) -> None:
@@ -77,3 +94,4 @@ def test_the_table_shows_what_is_open() -> None:
         "  02_services_and_interfaces  ████████············   3 of  7  open: interfaces"
     )
     assert shown._repr_html_().count("<meter") == 2
+    assert shown.so_far("02_services_and_interfaces") == "3 of 7 points on this page, 9 of 13 in all."

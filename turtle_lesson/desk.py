@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import dataclasses
 import io
 import re
 import sys
@@ -32,7 +33,8 @@ class Desk:
         """Look at the running system, and say what an exercise expects of it, what was seen, and what to do next.
 
         Robot time goes by meanwhile; the result says how much. What the nodes log is not shown, errors are. All
-        expectations met earn the check's points, which `progress()` adds up.
+        expectations met earn the check's points, which `progress()` adds up. The more often a check has failed in a
+        row, the more the advice says.
 
         Raises ValueError for a name that no check has.
         """
@@ -41,8 +43,9 @@ class Desk:
         wanted = checks.find(name)
         with _quiet():
             result = checks.run(wanted, self._make_exam_place())
-        progress_file().note(result)
-        return result
+        failures = progress_file().note(result)
+        so_far = self.progress().so_far(result.page)
+        return dataclasses.replace(result, failures=failures, so_far=so_far)
 
     def progress(self) -> Progress:
         """The points of all pages so far. They are kept in a small file beside the notebooks."""
@@ -79,11 +82,14 @@ class Desk:
         kind = predictions.kind_of(choices, unit, on_map)
         return predictions.ask(name, question, kind, guess)
 
-    def outcome(self, name: str, value: Any) -> Outcome:
-        """What came of it: the reader's guess and the true value, side by side."""
+    def outcome(self, name: str, value: Any, because: str = "") -> Outcome:
+        """What came of it: the reader's guess and the true value, side by side, and `because`, which explains the value.
+
+        An explanation that is given here is read after the guess, not beside the question.
+        """
         from .lab import predictions
 
-        return predictions.tell(name, value)
+        return predictions.tell(name, value, because)
 
 
 @cache

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 from .ros.core import NANOSECONDS
-from .ros.core.errors import SimulationError, WorldClosed
+from .ros.core.driving import drive
+from .ros.core.errors import NeverReturns, SimulationError, WorldClosed
 
 if TYPE_CHECKING:
     from .lab.obstacle_board import ObstacleBoard
+    from .ros.core.strand import Strand
     from .ros.world import World
 
 
@@ -17,14 +19,14 @@ class ExamPlace:
     """A `Place` (see lab/checks/exam.py).
 
     A node that was made in a cell is only alive while that cell spins it. While a check looks, such nodes are spun; what
-    their callbacks raise is kept in `troubles`, and they go on.
+    their callbacks raise is kept in `errors`, and they go on.
     """
 
     def __init__(self, world: World, node: Any, board: ObstacleBoard) -> None:
         self._world = world
         self.node = node
         self._board = board
-        self.troubles: list[str] = []
+        self._errors: list[tuple[str, Exception]] = []
         self._executor: Any = None  # one for all steps: it keeps the coroutines that wait from one step to the next
 
     @property
@@ -38,6 +40,18 @@ class ExamPlace:
         return self._world.sim.closed
 
     @property
+    def errors(self) -> list[tuple[str, Exception]]:
+        """What callbacks of the cells' nodes have raised while a check looked, and what ended programs, with their names."""
+        programs = [(each.name, each.error) for each in self._world.processes]
+        return [*self._errors, *((name, error) for name, error in programs if isinstance(error, Exception))]
+
+    @property
+    def strands(self) -> list[Strand]:
+        """The lines of execution of all processes that wait somewhere."""
+        processes = [*self._world.processes, self._world.notebook]
+        return [each for process in processes if process.alive for each in process.strands if each.parked]
+
+    @property
     def obstacles(self) -> tuple[Any, ...]:
         """The obstacles in the world."""
         return self._board.obstacles
@@ -45,6 +59,10 @@ class ExamPlace:
     def put(self, obstacles: Iterable[Any]) -> None:
         """Replace them."""
         self._board.put(obstacles)
+
+    def call(self, function: Callable[..., Any], *arguments: Any) -> Any:
+        """Call a function of the learner's as a cell would: it may sleep, and is stopped if it computes without end."""
+        return drive(self._world.sim, self._world.notebook, function, *arguments)
 
     def step(self, seconds: float) -> None:
         """Let robot time pass. Raises KeyboardInterrupt, and SimulationError where the world itself cannot go on."""
@@ -56,11 +74,9 @@ class ExamPlace:
             except Exception as error:
                 if type(error) in (SimulationError, WorldClosed):
                     raise  # the world itself cannot go on; the other kinds are of a callback
-                self._note(error)
-
-    def _note(self, error: Exception) -> None:
-        text = " ".join(str(error).split())
-        self.troubles.append(f"a callback in a cell raised {type(error).__name__}: {text}")
+                self._errors.append(("", error))
+                if isinstance(error, NeverReturns):
+                    return
 
     def _spin_cells(self, end: int) -> bool:
         """Spin the nodes of the notebook's cells until `end` (ns); whether there are any."""

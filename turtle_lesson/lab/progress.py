@@ -27,38 +27,46 @@ BAR = 20
 
 
 class ProgressFile:
-    """Best points for each check, kept in a file; in memory alone where `path` is None."""
+    """Best points for each check, and how often it has failed in a row, kept in a file; in memory where `path` is None."""
 
     def __init__(self, path: Path | None) -> None:
         self.path = path
         self._points: dict[str, int] = {}
+        self._failures: dict[str, int] = {}
         self.remark = ""
         """What went wrong with the file, as a sentence; "" if nothing did."""
 
-    def note(self, result: CheckResult) -> None:
-        """Keep what a check has earned, if it is more than before."""
-        if result.earned > self.points().get(result.name, 0):
-            self._points[result.name] = result.earned
+    def note(self, result: CheckResult) -> int:
+        """Keep what a check has earned, if it is more than before; returns how often it has failed in a row."""
+        before = self.points().get(result.name, 0), self._failures.get(result.name, 0)
+        self._points[result.name] = max(result.earned, before[0])
+        self._failures[result.name] = failures = 0 if result.passed else before[1] + 1
+        if (self._points[result.name], failures) != before:
             self._write()
+        return failures
 
     def points(self) -> dict[str, int]:
         """Earned points by the name of the check."""
-        for name, points in self._read().items():
-            self._points[name] = max(points, self._points.get(name, 0))
-        return dict(self._points)
+        points, failures = self._read()
+        for name, each in points.items():
+            self._points[name] = max(each, self._points.get(name, 0))
+        self._failures.update(failures)
+        return {name: each for name, each in self._points.items() if each}
 
-    def _read(self) -> dict[str, int]:
+    def _read(self) -> tuple[dict[str, int], dict[str, int]]:
+        """Points and failures in a row that the file tells."""
         if self.path is None or not self.path.is_file():
-            return {}
+            return {}, {}
         try:
-            return _points_in(json.loads(self.path.read_text(encoding="utf-8")))
+            content = json.loads(self.path.read_text(encoding="utf-8"))
+            return _numbers_in(content, "points"), _numbers_in({"failures": {}, **content}, "failures")
         except OSError as error:
             self.remark = (
                 f"{self.path.name} cannot be read ({error.strerror}); points are only kept until the kernel ends."
             )
         except (ValueError, RecursionError):
             self._set_aside()
-        return {}
+        return {}, {}
 
     def _set_aside(self) -> None:
         assert self.path is not None
@@ -72,7 +80,11 @@ class ProgressFile:
     def _write(self) -> None:
         if self.path is None:
             return
-        content = {"format": FORMAT, "points": dict(sorted(self._points.items()))}
+        kept = {"points": self._points, "failures": self._failures}
+        content = {
+            "format": FORMAT,
+            **{key: {k: v for k, v in sorted(each.items()) if v} for key, each in kept.items()},
+        }
         beside = self.path.with_name(f"{self.path.name}.{os.getpid()}")
         try:
             beside.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
@@ -84,11 +96,11 @@ class ProgressFile:
             )
 
 
-def _points_in(content: Any) -> dict[str, int]:
-    points = content.get("points") if isinstance(content, dict) and content.get("format") == FORMAT else None
-    if not isinstance(points, dict) or not all(type(each) is int and each >= 0 for each in points.values()):
+def _numbers_in(content: Any, key: str) -> dict[str, int]:
+    numbers = content.get(key) if isinstance(content, dict) and content.get("format") == FORMAT else None
+    if not isinstance(numbers, dict) or not all(type(each) is int and each >= 0 for each in numbers.values()):
         raise ValueError("not a file of points")
-    return points
+    return numbers
 
 
 def unused(path: Path) -> Path:
@@ -139,6 +151,11 @@ class Progress:
     def points(self) -> int:
         """Points to be had."""
         return sum(each.points for each in self.pages)
+
+    def so_far(self, page: str) -> str:
+        """The points of a page and in all: "7 of 10 points on this page, 23 of 131 in all."."""
+        here = next(each for each in self.pages if each.page == page)
+        return f"{here.earned} of {count(here.points, 'point')} on this page, {self.earned} of {self.points} in all."
 
     @property
     def headline(self) -> str:

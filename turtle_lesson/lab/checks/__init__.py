@@ -49,12 +49,13 @@ from .exam import Answer, Exam, Heard
 from .fields import field, interface
 from .registry import PAGES, Check, Expectation, all_checks, check, checks_of, find
 from .result import METADATA, CheckResult
-from .rows import CannotLook, OutOfTime, Row, Seen
+from .rows import Advice, CannotLook, OutOfTime, Row, Seen, Stopped
 from .runner import run
 
 __all__ = [
     "METADATA",
     "PAGES",
+    "Advice",
     "Answer",
     "CannotLook",
     "Check",
@@ -65,6 +66,7 @@ __all__ = [
     "OutOfTime",
     "Row",
     "Seen",
+    "Stopped",
     "all_checks",
     "check",
     "checks_of",

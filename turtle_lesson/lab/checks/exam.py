@@ -6,6 +6,7 @@ remembers (`once`), so that several expectations can be about the same drive.
 
 from __future__ import annotations
 
+import time
 from collections import Counter
 from collections.abc import Callable, Hashable, Iterable, Iterator
 from contextlib import contextmanager, suppress
@@ -13,24 +14,25 @@ from dataclasses import dataclass
 from types import TracebackType
 from typing import Any, Protocol, TypeVar
 
-from ...ros.core.virtual_time import real_monotonic
+from ...ros.core.errors import NeverReturns
 from ..channel import with_time
 from ..recording import NANOSECONDS
-from ..words import listed
+from ..words import listed, number
+from .failures import never_returned, unreturned
 from .fields import filled, interface
 from .graph_view import GraphView
-from .rows import CannotLook, OutOfTime
+from .rows import CannotLook, OutOfTime, Stopped
 
 T = TypeVar("T")
 
 PIECE = 0.1
-"""Robot time, s, that passes between two looks at the real clock."""
+"""Robot time, s, that passes between two looks at how much was computed."""
 
 MOMENT = 0.02
 """Robot time, s, between two looks at whether something has come; after the first few looks it is a PIECE."""
 
-PATIENCE = 25.0
-"""Real time, s, after which a check gives up on a system that is too slow to be looked at."""
+WORK = 90.0
+"""CPU time, s, after which a check stops a system that computes too much; a good one needs a few seconds."""
 
 MOST_HEARD = 500_000
 """Messages that one ear keeps at most."""
@@ -53,8 +55,17 @@ class Place(Protocol):
         ...
 
     @property
-    def troubles(self) -> list[str]:
-        """What callbacks of the notebook's own cells have raised, in words."""
+    def errors(self) -> list[tuple[str, Exception]]:
+        """The errors that callbacks of the notebook's cells have raised, or that ended a program; with its name, or ""."""
+        ...
+
+    @property
+    def strands(self) -> list[Any]:
+        """The lines of execution that wait somewhere."""
+        ...
+
+    def call(self, function: Callable[..., Any], *arguments: Any) -> Any:
+        """Call a function of the learner's as a cell would; raises what it raises."""
         ...
 
     def step(self, seconds: float) -> None:
@@ -102,11 +113,12 @@ class Exam(GraphView):
         self.began = place.now
         self._until = place.now + limit
         self._limit = limit
-        self._real_begin = real_monotonic()
+        self._work_begin = time.thread_time()
+        self._stopped = ""
         self._origin = place.node.get_clock().now().nanoseconds - round(place.now * NANOSECONDS)
         self._memory: dict[Hashable, Any] = {}
         self._clean_up: list[Callable[[], object]] = []
-        self._troubles_before = len(place.troubles)
+        self._errors_before = [error for _, error in place.errors]
         self.nodes_before: Counter[str] = Counter()
         self.log: list[tuple[int, str, str]] = []
         """Level, name of the logger and text of each line that was logged since the exam began."""
@@ -162,12 +174,31 @@ class Exam(GraphView):
     def _step(self, seconds: float) -> None:
         if self.now + seconds > self._until + 1e-9:
             raise OutOfTime(f"the {self._limit:g} s of robot time that this check may take are over")
-        if real_monotonic() - self._real_begin > PATIENCE:
-            raise OutOfTime(
-                f"the check had taken {PATIENCE:g} s of real time by then: does a callback compute for long, or is a "
-                "timer's period tiny?"
+        if not self._stopped and time.thread_time() - self._work_begin > WORK:
+            self._stopped = (
+                f"{number(self.now - self.began, 1)} s of robot time took {WORK:g} s of computing: is a timer's period "
+                "tiny, or does a callback compute for long?"
             )
+        self._raise_if_stopped()
         self.place.step(seconds)
+        self._raise_if_stopped()
+
+    def _raise_if_stopped(self) -> None:
+        """Raise Stopped where the learner's code was stopped because it let no time pass; nothing is tried again."""
+        if not self._stopped:
+            endless = [error for error in self.errors() if isinstance(error, NeverReturns)]
+            self._stopped = never_returned(endless[0]) if endless else ""
+        if self._stopped:
+            raise Stopped(self._stopped)
+
+    def call(self, function: Callable[..., Any], *arguments: Any) -> Any:
+        """Call a function of the learner's. Raises what it raises; Stopped if it computes without end."""
+        self._raise_if_stopped()
+        try:
+            return self.place.call(function, *arguments)
+        except NeverReturns as error:
+            self._stopped = never_returned(error)
+            raise Stopped(self._stopped) from None
 
     # -- listening ---------------------------------------------------------------------------------------------------
 
@@ -218,9 +249,18 @@ class Exam(GraphView):
 
         self.subscribe(Log, "/rosout", hear)
 
-    def troubles(self) -> list[str]:
-        """What callbacks in the notebook's own cells have raised since the exam began."""
-        return self.place.troubles[self._troubles_before :]
+    def errors(self) -> list[Exception]:
+        """What the learner's code has raised since the exam began: in a callback of a cell's node, or in a program."""
+        return [error for _, error in self.place.errors if all(error is not old for old in self._errors_before)]
+
+    @property
+    def stopped(self) -> str:
+        """Why the learner's code was stopped; "" if it was not."""
+        return self._stopped
+
+    def unreturned(self) -> str:
+        """The callbacks that are not done at this moment, with the line that each is in; "" if there is none."""
+        return "; ".join(unreturned(self.place.strands))
 
     # -- acting ------------------------------------------------------------------------------------------------------
 

@@ -171,14 +171,16 @@ def no_errors() -> Expectation:
             raise CannotLook("no node was there that could go wrong")
         if exam.now - exam.began < A_WHILE:
             exam.wait(A_WHILE)
-        wrong = [f"{name}: {text}" for level, name, text in exam.log if level >= ERROR] + exam.troubles()
+        if raised := exam.errors():
+            raise raised[0]
+        wrong = [f"{name}: {text}" for level, name, text in exam.log if level >= ERROR]
         gone = sorted(exam.nodes_before - exam.nodes())
         if gone:
             wrong.append(f"{listed(gone)} ended")
         if not wrong:
             return Seen(True, "none")
         more = f" (and {count(len(wrong) - 1, 'more', 'more')})" if len(wrong) > 1 else ""
-        return Seen(False, _short(wrong[0]) + more, "Read the error from its last line up: it names the line.")
+        return Seen(False, _short(wrong[0]) + more, "Read what stands in the log: which callback says it, and when?")
 
     return Expectation("no error meanwhile", look)
 

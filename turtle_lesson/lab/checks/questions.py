@@ -9,8 +9,8 @@ from ..words import number
 from .exam import Exam
 from .parts import set_parameter
 from .registry import Expectation
-from .rows import CannotLook, Seen
-from .streams import judge_rate
+from .rows import Advice, CannotLook, Seen
+from .streams import brief, judge_rate
 
 
 def answers(
@@ -19,7 +19,7 @@ def answers(
     request: dict[str, Any],
     right: Callable[[Any], bool],
     expected: str,
-    next_step: str = "",
+    next_step: str | Advice = "",
     timeout: float = 2.0,
 ) -> Expectation:
     """A service answers a request rightly within the timeout (s). `expected` says both in words: "2 + 3 is 5"."""
@@ -27,11 +27,19 @@ def answers(
     def look(exam: Exam) -> Seen:
         answer = exam.ask(service, type_name, timeout, **request)
         if answer.response is None:
-            return Seen(False, f"no answer within {timeout:g} s", "Does its callback end, with `return response`?")
-        seen = f"{answer.response}"
-        return Seen(bool(right(answer.response)), seen if len(seen) <= 120 else f"{seen[:119]}…", next_step)
+            return no_answer(exam, f"no answer within {timeout:g} s")
+        return Seen(bool(right(answer.response)), brief(answer.response), next_step)
 
     return Expectation(expected, look)
+
+
+def no_answer(exam: Exam, words: str) -> Seen:
+    """What is said where a request was not answered: the learner's error comes first, or where its callback still is."""
+    if raised := exam.errors():
+        raise raised[-1]
+    waiting = exam.unreturned()
+    direction = "Does the callback end with `return response`?" if not waiting else "What does the callback wait for?"
+    return Seen(False, f"{words}; {waiting}" if waiting else words, direction)
 
 
 def rate_follows(owner: str, parameter: str, value: int | float, topic: str, type_name: str) -> Expectation:

@@ -51,6 +51,8 @@ class Check:
     points: int
     limit: float
     make: Callable[[], Iterable[Expectation]]
+    learnt: str = ""
+    """What the exercise teaches, in a sentence that is shown when it is passed."""
 
     @property
     def expectations(self) -> tuple[Expectation, ...]:
@@ -64,7 +66,7 @@ _checks: dict[str, Check] = {}
 Maker = Callable[[], Iterable[Expectation]]
 
 
-def check(name: str, *, page: str, points: int, limit: float) -> Callable[[Maker], Check]:
+def check(name: str, *, page: str, points: int, limit: float, learnt: str = "") -> Callable[[Maker], Check]:
     """Decorator that makes a check of a function which returns its expectations; its docstring is the title.
 
     Args:
@@ -72,13 +74,14 @@ def check(name: str, *, page: str, points: int, limit: float) -> Callable[[Maker
         page: one of `PAGES`.
         points: what it is worth, if every expectation is met.
         limit: robot time, in s, that it may take at most; what is not looked at by then is marked with –.
+        learnt: one sentence that is shown when the check is passed: what the learner can do now.
     """
     if page not in PAGES:
         raise ValueError(f"there is no page {page!r}. {did_you_mean(page, PAGES)}".strip())
 
     def register(function: Maker) -> Check:
         title = (function.__doc__ or "").strip().splitlines()[0]
-        made = Check(name, title, page, points, limit, function)
+        made = Check(name, title, page, points, limit, function, learnt)
         _checks[name] = made
         return made
 

@@ -1,15 +1,15 @@
-"""What `lesson.check` answers: a table, for the eyes and in plain text, and its figures for who collects points."""
+"""What `lesson.check` answers: a table, in HTML and in plain text, and its figures for a program that collects points."""
 
 from __future__ import annotations
 
 import html
 import textwrap
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from ..words import count, number
-from .rows import GOOD, IN_WORDS, Row
+from .rows import BAD, GOOD, IN_WORDS, OPEN, STOPPED, Row
 
 METADATA = "turtle_lesson_check"
 """Where an output's metadata holds the figures of a result: what `turtle-lesson grade` reads."""
@@ -19,6 +19,9 @@ WIDTH = 100
 
 WIDEST = 50
 """Characters of its middle column at most; a longer expectation pushes what was seen into the next line."""
+
+POINTER = "The hints are below the exercise: open the first one."
+"""What is said from the third failure on, where no row names a hint of its own."""
 
 
 @dataclass(frozen=True)
@@ -32,11 +35,22 @@ class CheckResult:
     rows: tuple[Row, ...]
     seconds: float
     """Robot time that went by."""
+    learnt: str = ""
+    """What the exercise teaches, in a sentence; shown when the check is passed."""
+    failures: int = 1
+    """How often the check has failed in a row, this time included: decides how much advice is shown."""
+    so_far: str = ""
+    """The points of the page and in all, in words; shown when the check is passed."""
 
     @property
     def passed(self) -> bool:
         """Whether everything is as expected."""
         return bool(self.rows) and all(row.good for row in self.rows)
+
+    @property
+    def stopped(self) -> bool:
+        """Whether the learner's code had to be stopped."""
+        return any(row.mark == STOPPED for row in self.rows)
 
     @property
     def earned(self) -> int:
@@ -51,7 +65,13 @@ class CheckResult:
     def figures(self) -> dict[str, Any]:
         """What a collector of points needs, as JSON can hold it."""
         rows = [
-            {"mark": row.mark, "expected": row.expected, "seen": row.seen, "next": row.next_step} for row in self.rows
+            {
+                "mark": row.mark,
+                "expected": row.expected,
+                "seen": "; ".join(filter(None, (row.seen, *row.trace.splitlines()))),
+                "next": row.advice.direction,
+            }
+            for row in self.rows
         ]
         return {
             "name": self.name,
@@ -62,44 +82,91 @@ class CheckResult:
             "rows": rows,
         }
 
-    # -- as text -----------------------------------------------------------------------------------------------------
+    # -- in words ----------------------------------------------------------------------------------------------------
+
+    @property
+    def mark(self) -> str:
+        """✓, ✗, or ■ where the learner's code was stopped."""
+        return GOOD if self.passed else STOPPED if self.stopped else BAD
 
     @property
     def headline(self) -> str:
         """The result in one line."""
+        return f"{self.mark} {self._words}"
+
+    @property
+    def _words(self) -> str:
         done = f"{self.good} of {count(len(self.rows), 'expectation')} met"
         points = f"{self.earned} of {count(self.points, 'point')}"
-        return f"{GOOD if self.passed else '✗'} {self.name}: {done}, {points}. {self.title}"
+        return f"{self.name}: {'stopped; ' if self.stopped else ''}{done}, {points}. {self.title}"
 
     @property
     def footnote(self) -> str:
         """How much robot time it took."""
         return f"{number(self.seconds, 1)} s of robot time went by." if self.seconds else "No robot time went by."
 
+    @property
+    def closing(self) -> list[str]:
+        """What is said below the rows: what was learnt and the points so far, or where the hints are."""
+        if self.passed:
+            return [line for line in (self.learnt, self.so_far) if line]
+        own = any(row.advice.hint for row in self.rows)
+        return [POINTER] if self.failures > 2 and not own else []
+
+    def _groups(self) -> Iterator[list[Row]]:
+        """The rows in their order; those that were not looked at for the same reason stand together, at the first."""
+        for index, row in enumerate(self.rows):
+            if row.mark != OPEN:
+                yield [row]
+            elif all(row.seen != before.seen for before in self.rows[:index]):
+                yield [each for each in self.rows[index:] if (each.mark, each.seen) == (OPEN, row.seen)]
+
     def __repr__(self) -> str:
-        return "\n".join([*_wrapped(self.headline, "", "  "), *self._plain_rows(), self.footnote])
+        closing = [line for each in self.closing for line in _wrapped(each, "  ", "  ")]
+        return "\n".join([*_wrapped(self.headline, "", "  "), *self._plain_rows(), *closing, self.footnote])
 
     def _plain_rows(self) -> Iterable[str]:
-        wide = min(max((len(row.expected) for row in self.rows), default=0), WIDEST)
-        for row in self.rows:
+        groups = list(self._groups())
+        wide = min(max((len(group[0].expected) for group in groups if len(group) == 1), default=0), WIDEST)
+        for row, *more in groups:
+            if more:
+                yield from _wrapped(_folded(row, more), f"  {OPEN} ", "    ")
+                continue
             first = f"  {row.mark} {row.expected.ljust(wide)}  "
             if len(row.expected) > wide:
                 yield from _wrapped(row.expected, f"  {row.mark} ", "    ")
                 first = " " * (wide + 6)
             yield from _wrapped(row.seen, first, " " * (wide + 6))
-            if row.next_step:
-                yield from _wrapped(row.next_step, "      → ", "        ")
+            yield from (f"        {line}" for line in row.trace.splitlines())
+            if said := row.advice.after(self.failures):
+                yield from _wrapped(said, "      → ", "        ")
 
     # -- in a notebook -----------------------------------------------------------------------------------------------
 
     def _repr_html_(self) -> str:
-        head = "".join(f"<th {_CELL}>{word}</th>" for word in ("", "expected", "seen"))
-        rows = "".join(map(_html_row, self.rows))
+        rows = "".join(self._html_row(row, more) for row, *more in self._groups())
+        closing = "".join(f'<p style="margin: 0.4em 0">{html.escape(line)}</p>' for line in self.closing)
         return (
-            f"<p><strong>{html.escape(self.headline)}</strong></p>"
-            f'<table style="border-collapse: collapse; max-width: 60rem"><thead><tr>{head}</tr></thead>'
-            f"<tbody>{rows}</tbody></table><p><small>{self.footnote}</small></p>"
+            f'<div style="border-left: 4px solid {_EDGES[self.mark]}; padding-left: 0.8em">'
+            f'<p style="margin: 0.4em 0">{_html_mark(self.mark)} <strong>{html.escape(self._words)}</strong></p>'
+            f'<table style="border-collapse: collapse; max-width: 60rem"><thead><tr><td></td>'
+            f"<th {_CELL}>expected</th><th {_CELL}>seen</th></tr></thead>"
+            f"<tbody>{rows}</tbody></table>{closing}<p><small>{self.footnote}</small></p></div>"
         )
+
+    def _html_row(self, row: Row, more: list[Row]) -> str:
+        if more:
+            names = "".join(f"<li>{html.escape(each.expected)}</li>" for each in (row, *more))
+            summary = f"<summary>{html.escape(_folded(row, more))}</summary>"
+            folded = f"<details>{summary}<ul>{names}</ul></details>"
+            return f'<tr><td {_CELL}>{_html_mark(OPEN)}</td><td {_CELL} colspan="2">{folded}</td></tr>'
+        seen = html.escape(row.seen)
+        if row.trace:
+            seen += f'<pre style="white-space: pre-wrap; margin: 0.3em 0">{html.escape(row.trace)}</pre>'
+        if said := row.advice.after(self.failures):
+            seen += f"<br><em>→ {html.escape(said)}</em>"
+        cells = (_html_mark(row.mark), html.escape(row.expected), seen)
+        return f"<tr>{''.join(f'<td {_CELL}>{cell}</td>' for cell in cells)}</tr>"
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> Any:
         """What Jupyter shows, and as metadata of the output the figures."""
@@ -107,13 +174,26 @@ class CheckResult:
 
 
 _CELL = 'style="text-align: left; vertical-align: top; white-space: normal"'
+_GREEN, _RED, _GREY, _BROWN = "#1a7f37", "#cf222e", "#6e7781", "#9a6700"
+_BADGES = {GOOD: _GREEN, BAD: _RED, OPEN: _GREY, STOPPED: _BROWN}
+"""White on each of these has a contrast of 4.5 : 1 or more, and each stands out from a light and from a dark page."""
+_EDGES = {
+    GOOD: f"var(--jp-success-color1, {_GREEN})",
+    BAD: f"var(--jp-error-color1, {_RED})",
+    STOPPED: f"var(--jp-warn-color1, {_BROWN})",
+}
 
 
-def _html_row(row: Row) -> str:
-    next_step = f"<br><em>→ {html.escape(row.next_step)}</em>" if row.next_step else ""
-    mark = f'<span role="img" aria-label="{IN_WORDS[row.mark]}"><strong>{row.mark}</strong></span>'
-    seen = f"{html.escape(row.seen)}{next_step}"
-    return f"<tr><td {_CELL}>{mark}</td><td {_CELL}>{html.escape(row.expected)}</td><td {_CELL}>{seen}</td></tr>"
+def _folded(row: Row, more: list[Row]) -> str:
+    return f"{len(more) + 1} more expectations were {row.seen}"
+
+
+def _html_mark(mark: str) -> str:
+    style = (
+        f"display: inline-block; width: 1.5em; line-height: 1.5em; border-radius: 0.4em; text-align: center; "
+        f"color: #fff; background: {_BADGES[mark]}"
+    )
+    return f'<strong role="img" aria-label="{IN_WORDS[mark]}" style="{style}">{mark}</strong>'
 
 
 def _wrapped(text: str, first: str, other: str) -> list[str]:

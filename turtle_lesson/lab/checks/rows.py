@@ -1,12 +1,12 @@
-"""What looking at one expectation gives: ✓ or ✗ with what was seen, or – with the reason why nobody looked."""
+"""What looking at one expectation gives: ✓, ✗ with what was seen, – with the reason why not, or ■ where code was stopped."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import NamedTuple
 
-GOOD, BAD, OPEN = "✓", "✗", "–"
-IN_WORDS = {GOOD: "yes", BAD: "no", OPEN: "not looked at"}
+GOOD, BAD, OPEN, STOPPED = "✓", "✗", "–", "■"
+IN_WORDS = {GOOD: "yes", BAD: "no", OPEN: "not looked at", STOPPED: "stopped"}
 
 
 class CannotLook(Exception):
@@ -14,15 +14,40 @@ class CannotLook(Exception):
 
 
 class OutOfTime(CannotLook):
-    """The time of the check is over."""
+    """The robot time of the check is over."""
+
+
+class Stopped(CannotLook):
+    """The learner's code let no time pass and was stopped; the message says where."""
+
+
+@dataclass(frozen=True, slots=True)
+class Advice:
+    """What is said of a ✗, in three steps: at the first failure of a check, at the second, and from the third on.
+
+    Attributes:
+        symptom: what the fault looks like, where the row's own words do not say it yet.
+        direction: where to look, or what to think about; not the line to write.
+        hint: which hint to open ("Open Hint 2 under the exercise."); shown together with the direction.
+    """
+
+    symptom: str = ""
+    direction: str = ""
+    hint: str = ""
+
+    def after(self, failures: int) -> str:
+        """What is said when a check has failed so many times in a row."""
+        if failures <= 1:
+            return self.symptom
+        return self.direction if failures == 2 else " ".join(filter(None, (self.direction, self.hint)))
 
 
 class Seen(NamedTuple):
-    """What was seen: whether it is as expected, in words, and what to try if it is not."""
+    """What was seen: whether it is as expected, in words, and advice if it is not; a plain text is the direction."""
 
     good: bool
     words: str
-    next_step: str = ""
+    advice: str | Advice = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,8 +57,10 @@ class Row:
     mark: str
     expected: str
     seen: str
-    next_step: str = ""
-    """What helps most; only where the mark is ✗."""
+    advice: Advice = Advice()
+    """Only where the mark is ✗ or ■."""
+    trace: str = ""
+    """Lines of the learner's code in which an error came up, outermost first."""
 
     @property
     def good(self) -> bool:

@@ -2,48 +2,75 @@
 
 from __future__ import annotations
 
+from ...ros.core.errors import NeverReturns
+from ...ros.core.tracebacks import learners_frames
 from .exam import Exam, Place
+from .failures import STOP_ADVICE, in_words, row_of
 from .registry import Check, Expectation
 from .result import CheckResult
-from .rows import BAD, GOOD, OPEN, CannotLook, Row
+from .rows import BAD, GOOD, OPEN, STOPPED, Advice, CannotLook, Row, Seen, Stopped
+
+NO_ERROR = "no error meanwhile"
+"""What is expected of every learner's code, whatever else a check expects."""
+
+ENDS = "every callback returns"
 
 
 def run(check: Check, place: Place) -> CheckResult:
     """Look at everything that a check expects of the system at `place`."""
     if place.ended:
-        return CheckResult(check.name, check.title, check.page, check.points, _over(check), 0.0)
+        return _result(check, _over(check), 0.0)
     began = place.now
     with Exam(place, check.limit) as exam:
-        rows = tuple(_look(each, exam) for each in check.expectations)
-    seconds = round(place.now - began, 3)
-    return CheckResult(check.name, check.title, check.page, check.points, rows, seconds)
+        rows = [_look(each, exam) for each in check.expectations]
+        rows = _with_errors(rows, exam)
+    return _result(check, tuple(rows), round(place.now - began, 3))
+
+
+def _result(check: Check, rows: tuple[Row, ...], seconds: float) -> CheckResult:
+    return CheckResult(check.name, check.title, check.page, check.points, rows, seconds, check.learnt)
 
 
 def _over(check: Check) -> tuple[Row, ...]:
     """What is said of a world that has ended."""
     step = "Use the lesson that start() returned last, or run the set-up cell again."
-    gone = Row(BAD, "a world to look at", "it was closed by a later start()", step)
+    gone = Row(BAD, "a world to look at", "it was closed by a later start()", Advice(step, step))
     rest = (Row(OPEN, each.expected, _because("the world has ended")) for each in check.expectations)
     return gone, *rest
 
 
 def _look(expectation: Expectation, exam: Exam) -> Row:
     try:
-        good, words, next_step = expectation.look(exam)
+        seen = Seen(*expectation.look(exam))
+    except Stopped:
+        return Row(OPEN, expectation.expected, _because("your code was stopped"))
     except CannotLook as reason:
         return Row(OPEN, expectation.expected, _because(str(reason)))
     except Exception as error:  # whatever a learner's classes may do
-        return Row(BAD, expectation.expected, f"looking at it raised {_named(error)}", _ODD)
-    return Row(GOOD if good else BAD, expectation.expected, words, "" if good else next_step)
+        if learners_frames(error.__traceback__):
+            return row_of(error, expectation.expected)
+        return Row(BAD, expectation.expected, f"looking at it raised {in_words(error)}", _ODD)
+    if seen.good:
+        return Row(GOOD, expectation.expected, seen.words)
+    advice = seen.advice if isinstance(seen.advice, Advice) else Advice(direction=seen.advice)
+    return Row(BAD, expectation.expected, seen.words, advice)
 
 
-_ODD = "Run the cells from the set-up cell on again; if it stays, compare your interfaces and types with the page's."
+_ODD = Advice(
+    direction="Run the cells from the set-up cell on again; if it stays, compare your interfaces and types with the page's."
+)
+
+
+def _with_errors(rows: list[Row], exam: Exam) -> list[Row]:
+    """The rows with the learner's own error first, since it explains the others; nothing is added to a good result."""
+    if exam.stopped:
+        return [Row(STOPPED, ENDS, exam.stopped, STOP_ADVICE), *rows]
+    error = next((each for each in exam.errors() if not isinstance(each, NeverReturns)), None)
+    if error is None or all(row.good for row in rows):
+        return sorted(rows, key=lambda row: not row.trace)
+    first = row_of(error, NO_ERROR)
+    return [first, *(row for row in rows if row.expected != NO_ERROR and row.trace != first.trace)]
 
 
 def _because(reason: str) -> str:
     return f"not looked at, because {reason}"
-
-
-def _named(error: Exception) -> str:
-    text = " ".join(str(error).split())
-    return f"{type(error).__name__}: {text[:200]}" if text else type(error).__name__

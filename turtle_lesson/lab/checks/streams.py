@@ -11,7 +11,7 @@ from ..words import count, number
 from .exam import Exam, Heard
 from .fields import field
 from .registry import Expectation
-from .rows import CannotLook, Seen
+from .rows import Advice, CannotLook, Seen
 
 Judge = Callable[[list[Heard]], Seen]
 
@@ -72,7 +72,7 @@ def some(exam: Exam, topic: str, type_name: str, seconds: float) -> list[Heard]:
 
 
 def in_range(
-    topic: str, type_name: str, path: str, low: float, high: float, seconds: float = 2.0, next_step: str = ""
+    topic: str, type_name: str, path: str, low: float, high: float, seconds: float = 2.0, next_step: str | Advice = ""
 ) -> Expectation:
     """A field such as "battery" stays within limits, both included, in every message."""
 
@@ -111,7 +111,7 @@ def relays(
     said_on: str,
     said_type: str,
     pairs: Sequence[tuple[dict[str, Any], Callable[[Any], bool], str]],
-    next_step: str = "",
+    next_step: str | Advice = "",
     timeout: float = 1.0,
 ) -> Expectation:
     """Each message that is put on one topic is answered on another within the timeout (s).
@@ -127,11 +127,32 @@ def relays(
             before = len(answers)
             exam.publish(heard_on, heard_type, **fields)
             if not exam.wait_for(_any_since(answers, before, right), timeout):
-                came = count(len(answers) - before, "other message")
-                return Seen(False, f"{words}: not within {timeout:g} s; {came} came", next_step)
+                return _instead(exam, words, [each.message for each in answers[before:]], timeout, next_step)
         return Seen(True, ", ".join(words for _, _, words in pairs))
 
     return Expectation(f"{heard_on} is answered on {said_on}", look)
+
+
+def _instead(exam: Exam, words: str, came: list[Any], timeout: float, advice: str | Advice) -> Seen:
+    """What is said where the right message did not come: the learner's error, or what came instead."""
+    if raised := exam.errors():
+        raise raised[-1]
+    if came:
+        return Seen(False, f"{words}: {brief(came[-1])} came", advice)
+    waiting = exam.unreturned()
+    nothing = f"{words}: nothing came within {timeout:g} s"
+    return Seen(False, f"{nothing}; {waiting}" if waiting else nothing, advice)
+
+
+MOST_WORDS = 120
+"""Characters of a message that are shown."""
+
+
+def brief(message: Any) -> str:
+    """A message in a few words: the value of its field where it has but one."""
+    names = list(message.get_fields_and_field_types())
+    text = repr(getattr(message, names[0])) if len(names) == 1 else str(message)
+    return text if len(text) <= MOST_WORDS else f"{text[: MOST_WORDS - 1]}…"
 
 
 def _any_since(answers: list[Heard], before: int, right: Callable[[Any], bool]) -> Callable[[], bool]:

@@ -31,7 +31,7 @@ def advised(expectation: Expectation, step: str) -> Expectation:
     """The same expectation with another next step: here something is to be found, not written."""
 
     def look(exam: Exam) -> Seen:
-        return expectation.look(exam)._replace(next_step=step)
+        return expectation.look(exam)._replace(advice=step)
 
     return Expectation(expectation.expected, look)
 

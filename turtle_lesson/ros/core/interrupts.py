@@ -29,7 +29,14 @@ JUPYTER = {"IPython", "comm", "debugpy", "ipykernel", "jupyter_client", "tornado
 _monotonic = time.monotonic  # the real one, whatever time.monotonic becomes
 
 patience = 10.0
-"""How long, in seconds of real time, a callback may compute while the virtual clock stands still."""
+"""How many seconds of CPU time a callback may compute while the virtual clock stands still.
+
+The wall clock would make it a matter of what else the machine has to do. It only counts for a callback that does not
+compute at all, but waits for something outside the simulation.
+"""
+
+BLOCKED = 0.02
+"""A thread that gets less CPU time than this share of the wall clock's waits for something."""
 
 interrupt_patience = 1.0
 """How long after Ctrl-C, in seconds of real time, a computing callback is waited for before it is frozen."""
@@ -131,20 +138,34 @@ class _Watchdog:
 
     def _loop(self) -> None:
         seen: tuple[object, int] | None = None
-        since = _monotonic()
+        since, computed = _monotonic(), _main_threads_work()
         while True:
             self._wanted.wait()
             guard = self._guard
             if guard is not None:
                 state = (guard, guard.simulation.now)
-                limit = interrupt_patience if guard.interrupted else patience
+                waited, work = _monotonic() - since, _main_threads_work() - computed
                 if state != seen:
-                    seen, since = state, _monotonic()
-                elif _monotonic() - since > limit and not _being_debugged():
-                    since = _monotonic()
+                    seen, since, computed = state, _monotonic(), _main_threads_work()
+                elif _is_too_much(waited, work, guard.interrupted) and not _being_debugged():
+                    since, computed = _monotonic(), _main_threads_work()
                     guard.tripped_at = guard.simulation.now
                     _interrupt_main_thread()
             _sleep(min(0.25, patience / 4, interrupt_patience / 4))
+
+
+def _is_too_much(waited: float, work: float, interrupted: bool) -> bool:
+    """Whether the clock has stood still for too long: seconds by the wall clock, and of CPU time of the main thread."""
+    if interrupted:
+        return waited > interrupt_patience
+    return work > patience or (waited > patience and work < BLOCKED * waited)
+
+
+def _main_threads_work() -> float:
+    """The CPU time, in s, of the main thread; of the whole process where the system does not tell threads apart."""
+    if not hasattr(time, "pthread_getcpuclockid"):
+        return time.process_time()
+    return time.clock_gettime(time.pthread_getcpuclockid(threading.main_thread().ident or 0))
 
 
 def _interrupt_main_thread() -> None:
