@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Any
 
@@ -11,15 +12,21 @@ from nbclient import NotebookClient
 from pages_report import row
 
 PAGES = sorted((Path(__file__).resolve().parents[1] / "notebooks").glob("*.ipynb"))
+HALF_PAGES = ("03b_answer_on_arrival",)
 
 
-def run(cells: list[Any], page: Path) -> list[Any]:
-    """Run cells in a fresh kernel; the cells with their outputs. Raises CellExecutionError if one of them fails."""
+def run(cells: list[Any], folder: Path) -> list[Any]:
+    """Run cells in a fresh kernel, in a folder; the cells with their outputs. Raises CellExecutionError if one fails."""
     notebook = nbformat.v4.new_notebook(cells=cells)
-    NotebookClient(
-        notebook, timeout=60, kernel_name="python3", resources={"metadata": {"path": str(page.parent)}}
-    ).execute()
+    client_in(folder, notebook).execute()
     return notebook.cells
+
+
+def client_in(folder: Path, notebook: Any) -> NotebookClient:
+    """A client whose kernel begins in this folder, as that of a page which lies there."""
+    os.environ.pop("TURTLE_LESSON_FOLDER", None)  # names the folder of pages that are compared by nbval
+    resources = {"metadata": {"path": str(folder)}}
+    return NotebookClient(notebook, timeout=120, kernel_name="python3", resources=resources)
 
 
 def code_cells(page: Path) -> list[Any]:
@@ -44,13 +51,14 @@ def test_it_is_stored_as_it_was_run(page: Path) -> None:
 def test_its_figures_are_those_of_a_good_page(page: Path) -> None:
     """What pages_report.py prints: few words and short cells, a picture early, guesses, exercises, pictures that speak."""
     _, cells, median, longest, words, _, in_a_row, picture, predictions, exercises, spoken = row(page)
-    assert 40 <= int(cells) <= 70
+    half = page.stem in HALF_PAGES
+    assert (20 if half else 40) <= int(cells) <= (40 if half else 70)
     assert float(median) <= 3
     assert int(longest) <= 15
     assert 25 <= int(words) <= 35
     assert int(in_a_row) <= 3
     assert 1 <= int(picture) <= 7
-    assert int(predictions) == 2
-    assert int(exercises) == (2 if page.stem.startswith("00") else 3)
+    assert int(predictions) == (1 if half else 2)
+    assert int(exercises) >= (2 if half or page.stem.startswith("00") else 3)
     with_text, _, pictures = spoken.partition(" of ")
     assert with_text == pictures

@@ -8,10 +8,9 @@ from random import Random
 from time import monotonic
 
 import pytest
-from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionError
 from nbformat import v4
-from test_pages import PAGES, code_cells
+from test_pages import PAGES, client_in, code_cells
 
 LESSONS = [page for page in PAGES if page.stem[0].isdigit()][:: 1 if os.environ.get("TURTLE_LESSON_ALL_PAGES") else 3]
 """Every third page: all of them take eight minutes (TURTLE_LESSON_ALL_PAGES=1)."""
@@ -52,12 +51,9 @@ _button()
 
 @pytest.mark.parametrize("page", LESSONS, ids=lambda page: page.stem)
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
-def test_an_interrupted_cell_can_be_run_again(page: Path) -> None:
+def test_an_interrupted_cell_can_be_run_again(page: Path, tmp_path: Path) -> None:
     cells = code_cells(page)
-    notebook = v4.new_notebook(cells=[*cells, v4.new_code_cell()])
-    client = NotebookClient(
-        notebook, timeout=60, kernel_name="python3", resources={"metadata": {"path": str(page.parent)}}
-    )
+    client = client_in(tmp_path, v4.new_notebook(cells=[*cells, v4.new_code_cell()]))
     chance = Random(page.stem)
 
     def run(source: str) -> tuple[str, str]:

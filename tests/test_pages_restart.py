@@ -25,13 +25,13 @@ def sections(page: Path) -> list[tuple[str, list[Any]]]:
 
 @pytest.mark.parametrize("page", LESSONS, ids=lambda page: page.stem)
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
-def test_each_section_runs_after_a_restart(page: Path) -> None:
+def test_each_section_runs_after_a_restart(page: Path, tmp_path: Path) -> None:
     (_, opening), *later = sections(page)
     set_up = opening[0]
     assert set_up.source.startswith("%load_ext turtle_lesson"), "a page begins with its set-up cell"
     assert len(set_up.source.splitlines()) <= 3
-    run([copy_of(cell) for cell in opening], page)
+    run([copy_of(cell) for cell in opening], tmp_path)
     for title, cells in later:
-        executed = run([copy_of(cell) for cell in (set_up, *cells)], page)  # a kernel of its own
+        executed = run([copy_of(cell) for cell in (set_up, *cells)], tmp_path)  # a kernel of its own
         said = "".join(output.text for cell in executed for output in cell.outputs if output.get("name") == "stderr")
         assert "Traceback" not in said, title
