@@ -9,18 +9,29 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from . import junit, pages
+from . import junit, learner, pages
 from .grade import TIMEOUT, grade
 from .report import as_json, in_words
+from .server import serve
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Carry out a command line; returns the exit code: 0, 1 where something could not be done, 2 for a wrong use."""
-    options = _parser().parse_args(arguments)
+    """Carry out a command line; returns the exit code: 0, 1 where something could not be done, 2 for a wrong use.
+
+    Without a command it opens the lesson.
+    """
+    parser = _parser()
+    options, more = parser.parse_known_args((sys.argv[1:] if arguments is None else arguments) or ["open"])
+    if more and options.act is not _open:
+        parser.error(f"unrecognized arguments: {' '.join(more)}")
+    options.more = more
     try:
         return options.act(options)
     except pages.PageError as error:
         print(f"turtle-lesson {options.command}: {error}", file=sys.stderr)
+        return 1
+    except OSError as error:
+        print(f"turtle-lesson {options.command}: {error.filename}: {error.strerror}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print("stopped", file=sys.stderr)
@@ -30,13 +41,40 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="turtle-lesson",
-        description="Learners' copies of the lesson's pages: grade them, reset them, strip solutions.",
+        description="Open the lesson's pages in JupyterLab (the default), reset them, grade copies, strip solutions.",
     )
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    _add_open(commands)
     _add_grade(commands)
     _add_reset(commands)
     _add_student(commands)
     return parser
+
+
+def _add_open(commands: argparse._SubParsersAction) -> None:
+    text = (
+        "Open your own folder of the lesson's pages in JupyterLab. It is made if it is not there; what you did stays."
+    )
+    opening = commands.add_parser(
+        "open",
+        help="your folder of pages, in JupyterLab",
+        description=f"{text} Options that are not listed here are handed to JupyterLab.",
+    )
+    where = f"your folder (default: this one if it is yours already, or else {learner.FOLDER} in it)"
+    opening.add_argument("folder", nargs="?", type=Path, metavar="DIR", help=where)
+    opening.add_argument("--no-browser", action="store_true", help="only print the address")
+    opening.add_argument(
+        "--port", type=int, metavar="N", help="port of this machine (default: 8888 or the next free one)"
+    )
+    begun = "bring the pages, the workspace and the points that you began in the checkout's notebooks"
+    opening.add_argument("--take-along", action="store_true", help=begun)
+    _add_from(opening)
+    opening.set_defaults(act=_open)
+
+
+def _add_from(command: argparse.ArgumentParser) -> None:
+    where = "folder of the published pages (default: those of the checkout that this command belongs to)"
+    command.add_argument("--from", dest="source", type=Path, metavar="FOLDER", help=where)
 
 
 def _add_grade(commands: argparse._SubParsersAction) -> None:
@@ -56,17 +94,17 @@ def _add_grade(commands: argparse._SubParsersAction) -> None:
 
 
 def _add_reset(commands: argparse._SubParsersAction) -> None:
-    text = "Put a page back into its published state. What it was is kept beside it, as NAME.mine-1.ipynb."
+    text = "Put a page back into its published state, in your folder without outputs."
+    text += " What it was is kept beside it, as NAME.mine-1.ipynb."
     reset = commands.add_parser("reset", help="a page as it was published", description=text)
     reset.add_argument("notebook", type=Path, metavar="NOTEBOOK")
-    where = "folder of the published pages (default: those of the checkout that this command belongs to)"
-    reset.add_argument("--from", dest="source", type=Path, metavar="FOLDER", help=where)
+    _add_from(reset)
     reset.set_defaults(act=_reset)
 
 
 def _add_student(commands: argparse._SubParsersAction) -> None:
-    text = "Write a page without its solutions."
-    student = commands.add_parser("student", help="a page without solutions", description=text)
+    text = "Write a page without its solutions and outputs."
+    student = commands.add_parser("student", help="a page without solutions and outputs", description=text)
     student.add_argument("notebook", type=Path, metavar="NOTEBOOK")
     where = "file or folder to write to (default: NAME.student.ipynb beside it)"
     student.add_argument("--to", type=Path, metavar="PATH", help=where)
@@ -116,8 +154,19 @@ def _tell(done: int, amount: int, name: str) -> None:
         )
 
 
+def _open(options: argparse.Namespace) -> int:
+    here = Path(".") if learner.is_learners(Path(".")) else Path(learner.FOLDER)
+    folder = learner.LearnersFolder(options.folder or here)
+    said = folder.update(options.source) + (folder.take_along() if options.take_along else [])
+    print("\n".join([*said, f"Your pages are in {folder.path.resolve()}. Ctrl-C, pressed twice here, ends JupyterLab."]))
+    return serve(folder.path, options.port, not options.no_browser, options.more)
+
+
 def _reset(options: argparse.Namespace) -> int:
-    kept = pages.reset(options.notebook, options.source)
+    path, home = options.notebook, options.notebook.parent
+    published = pages.published(path, options.source)
+    mine = learner.is_learners(home)
+    kept = learner.LearnersFolder(home).reset(path, published) if mine else pages.reset(path, published)
     print(
         f"{options.notebook} is as it was published."
         + (f" Yours is kept as {kept.name}." if kept else " It was already.")

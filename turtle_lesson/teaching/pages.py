@@ -1,4 +1,4 @@
-"""Pages as files: finding them, putting them back into their published state, and stripping solutions."""
+"""Pages as files: finding them, clearing outputs, stripping solutions, and putting pages back as they were published."""
 
 from __future__ import annotations
 
@@ -49,12 +49,26 @@ def read(path: Path) -> Any:
         raise PageError(f"{path} cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:
         raise PageError(f"{path} is no notebook: it holds no text") from None
+    return parse(text, path)
+
+
+def parse(text: str | bytes, path: Path) -> Any:
+    """The notebook that a text is. Raises PageError, which says why it is none."""
     try:
         notebook = nbformat.reads(text, as_version=4)
         nbformat.validate(notebook)
     except Exception as error:  # nbformat raises many kinds
         reason = " ".join(str(error).split())[:120]
         raise PageError(f"{path} is no notebook: {reason or type(error).__name__}") from None
+    return notebook
+
+
+def clear(notebook: Any) -> Any:
+    """Take the outputs and execution counts out of a notebook, and return it. Ids, tags and all else stay."""
+    for cell in notebook.cells:
+        if cell.cell_type == "code":
+            cell.outputs, cell.execution_count = [], None
+    notebook.metadata.pop("widgets", None)  # what widgets showed
     return notebook
 
 
@@ -70,60 +84,65 @@ def page_of(path: Path, notebook: Any = None) -> str:
 # -- reset -------------------------------------------------------------------------------------------------------------
 
 
-def reset(path: Path, source: Path | None = None) -> Path | None:
-    """Put a page back into its published state; returns where the learner's copy is kept, None if nothing had changed.
+def reset(path: Path, published: str | bytes) -> Path | None:
+    """Put a page back into its published state; returns where the learner's copy is kept, None if nothing had changed."""
+    content = published.encode() if isinstance(published, str) else published
+    if path.is_file() and path.read_bytes() == content:
+        return None
+    kept = None
+    if path.exists():
+        kept = unused(path, "mine")
+        shutil.copy2(path, kept)
+    elif not path.parent.is_dir():
+        raise PageError(f"{path.parent} is not there")
+    path.write_bytes(content)
+    return kept
+
+
+def unused(path: Path, word: str) -> Path:
+    """NAME.word-1.ipynb, or the first number that is free."""
+    number = 1
+    while (found := path.with_name(f"{path.stem}.{word}-{number}.ipynb")).exists():
+        number += 1
+    return found
+
+
+def published(path: Path, source: Path | None = None) -> bytes:
+    """The published page that a copy is of.
 
     Published is what lies in `source`; without one, what the checkout's version control holds, or else what lies in the
     checkout's `notebooks`. Raises PageError where it is found in neither.
     """
     if path.suffix != ".ipynb":
         raise PageError(f"{path} is no notebook: its name should end in .ipynb")
-    published = _published(path, source)
-    if path.is_file() and path.read_bytes() == published:
-        return None
-    kept = None
-    if path.exists():
-        kept = _unused(path)
-        shutil.copy2(path, kept)
-    elif not path.parent.is_dir():
-        raise PageError(f"{path.parent} is not there")
-    path.write_bytes(published)
-    return kept
-
-
-def _unused(path: Path) -> Path:
-    """NAME.mine-1.ipynb, or the first number that is free."""
-    number = 1
-    while (found := path.with_name(f"{path.stem}.mine-{number}.ipynb")).exists():
-        number += 1
-    return found
-
-
-def _published(path: Path, source: Path | None) -> bytes:
-    name = _published_name(path)
-    if source is not None:
-        file = source / name
-        if not file.is_file():
-            raise PageError(f"there is no {name} in {source}")
-        return file.read_bytes()
-    committed = _from_git(name)
-    if committed is not None:
-        return committed
+    name = published_name(path)
+    content = find_published(name, source)
     file = PUBLISHED / name
-    if file.is_file() and file.resolve() != path.resolve():
-        return file.read_bytes()
-    if file.is_file():
+    if source is not None and content is None:
+        raise PageError(f"there is no {name} in {source}")
+    if content is None:
+        raise PageError(
+            f"the published {name} is not here (it would be in {PUBLISHED}). Run the command from the lesson's checkout, "
+            "or name a folder of published pages: --from FOLDER"
+        )
+    if source is None and file.resolve() == path.resolve() and _from_git(name) is None:
         raise PageError(
             f"{name} is the published page itself, and the checkout has no version control to ask for what it was. "
             "Download the lesson once more, and name its folder of notebooks: --from FOLDER"
         )
-    raise PageError(
-        f"the published {name} is not here (it would be in {PUBLISHED}). Run the command from the lesson's checkout, or "
-        "name a folder of published pages: --from FOLDER"
-    )
+    return content
 
 
-def _published_name(path: Path) -> str:
+def find_published(name: str, source: Path | None = None) -> bytes | None:
+    """The published page of a name; None if there is none."""
+    committed = _from_git(name) if source is None else None
+    if committed is not None:
+        return committed
+    file = (source or PUBLISHED) / name
+    return file.read_bytes() if file.is_file() else None
+
+
+def published_name(path: Path) -> str:
     """The page's own file name: that of the copy, or of the page whose name is a part of it."""
     if (PUBLISHED / path.name).is_file():
         return path.name
@@ -150,8 +169,8 @@ def _from_git(name: str) -> bytes | None:
 
 
 def without_solutions(path: Path, to: Path | None = None) -> tuple[Path, int]:
-    """Write a page without the cells tagged "solution"; returns where, and how many cells that were."""
-    notebook = read(path)
+    """Write a page without outputs and the cells tagged "solution"; returns where, and how many cells that were."""
+    notebook = clear(read(path))
     target = _target(path, to)
     cells = [cell for cell in notebook.cells if SOLUTION not in cell.metadata.get("tags", [])]
     removed = len(notebook.cells) - len(cells)

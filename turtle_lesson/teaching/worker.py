@@ -19,7 +19,7 @@ from nbclient.exceptions import DeadKernelError
 from nbclient.util import ensure_async
 
 from ..lab.checks.result import METADATA
-from .pages import PageError, page_of, read
+from .pages import PageError, clear, page_of, read
 
 SHARE = 0.4
 """What part of the copy's time one cell may take."""
@@ -54,13 +54,10 @@ def main(arguments: list[str]) -> None:
 def examine(path: Path, folder: Path, seconds: float) -> dict[str, Any]:
     """Run a copy for at most `seconds`: its page, the checks that it asks for, their results, and what went wrong."""
     try:
-        notebook = read(path)
+        notebook = clear(read(path))
     except PageError as error:
         reason = str(error).removeprefix(f"{path} ")
         return {"problem": reason, "page": page_of(path)}
-    for cell in notebook.cells:
-        if cell.cell_type == "code":
-            cell.outputs, cell.execution_count = [], None
     problem = _run(notebook, folder, seconds)
     return {
         "page": page_of(path, notebook),

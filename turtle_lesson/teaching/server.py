@@ -1,0 +1,56 @@
+"""JupyterLab for a learner's folder, on this machine only."""
+
+from __future__ import annotations
+
+import os
+import socket
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from .pages import PageError
+
+KERNELS = Path(__file__).resolve().parent / "jupyter"
+"""Holds the description of the kernel that says which cell to run after a restart."""
+
+FIRST = "00_welcome.ipynb"
+
+
+def serve(folder: Path, port: int | None, browser: bool, more: Sequence[str]) -> int:
+    """Run JupyterLab on the first page of a folder until it is stopped; where the system can, in place of this process.
+
+    Args:
+        folder: all that it shows.
+        port: None takes 8888, or the next one that is free.
+        browser: whether to open one.
+        more: further options of JupyterLab's.
+    """
+    words = [sys.executable, "-m", "jupyterlab", "--Application.log_level=WARN", *more]
+    words.append(f"--LabApp.default_url=/lab/tree/{FIRST}")
+    words += [f"--ServerApp.root_dir={folder.resolve()}", "--ServerApp.ip=127.0.0.1"]
+    words += ["--LabApp.check_for_updates_class=jupyterlab.NeverCheckForUpdate", "--LabApp.news_url=None"]
+    if port is not None:
+        _check_free(port)
+        words += [f"--ServerApp.port={port}", "--ServerApp.port_retries=0"]
+    if not browser:
+        words.append("--no-browser")
+    paths = [str(KERNELS), *filter(None, [os.environ.get("JUPYTER_PATH")])]
+    environment = {**os.environ, "JUPYTER_PATH": os.pathsep.join(paths)}
+    sys.stdout.flush()
+    if os.name == "posix":
+        os.execve(sys.executable, words, environment)
+    return subprocess.call(words, env=environment)
+
+
+def _check_free(port: int) -> None:
+    with socket.socket() as probe:
+        if os.name == "posix":  # as Jupyter's own: a port that was used a moment ago is free
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind(("127.0.0.1", port))
+        except OSError as error:
+            reason = (error.strerror or str(error)).lower()
+            raise PageError(
+                f"port {port} cannot be used: {reason}. Leave --port out, and a free one is found."
+            ) from None
