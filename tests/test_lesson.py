@@ -175,6 +175,40 @@ def test_live_mode_paces_the_world_to_the_wall(lesson: Lesson) -> None:
     assert after == played
 
 
+def test_live_mode_spins_the_nodes_of_the_cells(lesson: Lesson) -> None:
+    import rclpy
+
+    async def live() -> float:
+        lesson.play(rate=10.0)
+        await asyncio.sleep(0.3)
+        lesson.pause()
+        return lesson.now
+
+    rclpy.init()
+    node, called = rclpy.create_node("mine"), []
+    node.create_timer(0.1, lambda: called.append(lesson.now))
+    played = asyncio.run(live())
+    assert len(called) == pytest.approx(played / 0.1, abs=1)
+    lesson.spin(1.0)
+    assert len(called) == pytest.approx((played + 1.0) / 0.1, abs=1)
+
+
+def test_a_callback_that_raises_ends_live_mode(lesson: Lesson, capsys: pytest.CaptureFixture[str]) -> None:
+    import rclpy
+
+    async def live() -> None:
+        lesson.play(rate=10.0)
+        await asyncio.sleep(0.3)
+
+    rclpy.init()
+    node = rclpy.create_node("mine")
+    node.create_timer(0.1, lambda: 1 / 0)
+    asyncio.run(live())
+    said = capsys.readouterr()
+    assert "Live mode has stopped, because of this" in said.out
+    assert "ZeroDivisionError" in said.out + said.err
+
+
 def test_an_interrupt_ends_live_mode_but_not_the_event_loop(lesson: Lesson, capsys: pytest.CaptureFixture[str]) -> None:
     def busy() -> None:
         while True:

@@ -65,6 +65,11 @@ def test_every_recorded_case_is_tried() -> None:
     assert [case.command.partition("# ")[2] for case in cases("colcon_build.txt")] == list(BROKEN)
 
 
+def test_commas_between_the_names_are_named(package: Path, world: World) -> None:
+    change(package / CMAKE, 'TurtleStatus.msg"', 'TurtleStatus.msg",')
+    assert "Hint: CMake separates names by spaces or new lines: leave the commas out." in colcon(world).err
+
+
 def test_usage(package: Path, world: World) -> None:
     for case in cases("colcon_usage.txt"):
         answer = colcon(world, case.command.partition(" ")[2])
@@ -90,8 +95,7 @@ def test_the_tree(package: Path, world: World, tmp_path: Path) -> None:
     tree = {path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*")}
     install = "install/robot_controller"
     for path in (
-        "build/COLCON_IGNORE", "build/.built_by", "build/robot_controller/CMakeCache.txt",
-        "build/robot_controller/colcon_build.rc", "install/COLCON_IGNORE", "install/.colcon_install_layout",
+        "build/COLCON_IGNORE", "build/.built_by", "build/robot_controller/colcon_build.rc", "install/COLCON_IGNORE", "install/.colcon_install_layout",
         "install/setup.bash", "install/local_setup.bash", "log/COLCON_IGNORE", "log/latest_build/logger_all.log",
         f"{install}/lib/robot_controller/navigator",
         f"{install}/local/lib/python3.10/dist-packages/robot_controller/msg/_turtle_status.py",

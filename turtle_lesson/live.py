@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import asyncio
 from collections import deque
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from .ros.core import NANOSECONDS
 from .ros.core.tracebacks import print_error
 from .ros.core.virtual_time import real_monotonic
 
 if TYPE_CHECKING:
-    from .ros.core import Simulation
+    from .ros.world import World
 
 STEP = 1 / 30
 LONGEST_WORK = 0.03
@@ -30,11 +30,46 @@ MOST = 1e6
 """Seconds of robot time in one step at most; an infinite rate, which is as fast as possible, never gets there."""
 
 
-class Player:
-    """Plays a simulation in the notebook's event loop."""
+class CellNodes:
+    """Lets robot time pass, and has the callbacks of the nodes that were made in the notebook's cells called meanwhile."""
 
-    def __init__(self, simulation: Simulation) -> None:
-        self._simulation = simulation
+    def __init__(self, world: World) -> None:
+        self._world = world
+        self._executor: Any = None  # one for all steps: it keeps the coroutines that wait from one step to the next
+
+    def run_until(self, end: int) -> None:
+        """Go on until `end` (ns of robot time). Raises what a callback raises; then not all of that time has passed."""
+        if not self._spin(end):
+            self._world.sim.run_until(end)
+
+    def _spin(self, end: int) -> bool:
+        """Spin the nodes until `end`; whether there are any, and time has passed."""
+        context = self._world.notebook.locals.get("rclpy.context")
+        nodes = list(context._nodes) if context is not None and context.ok() else []
+        if not nodes:
+            return False
+        from rclpy.executors import SingleThreadedExecutor
+        from rclpy.task import Future
+
+        executor = next((node._ros_executor for node in nodes if node._ros_executor is not None), None)
+        if executor is None:
+            executor = self._executor = self._executor or SingleThreadedExecutor()
+        added = [node for node in nodes if node._ros_executor is None and executor.add_node(node)]
+        try:
+            before = self._world.now
+            executor.spin_until_future_complete(Future(), (end - before) / NANOSECONDS)
+            return self._world.now > before  # an executor that was shut down lets no time pass
+        finally:
+            for node in added:
+                executor.remove_node(node)
+
+
+class Player:
+    """Plays a world in the notebook's event loop. Nodes that were made in cells are spun meanwhile."""
+
+    def __init__(self, world: World) -> None:
+        self._simulation = world.sim
+        self._cells = CellNodes(world)
         self._task: asyncio.Task[None] | None = None
         self._rate = 1.0
         self._watch = Stopwatch()
@@ -119,7 +154,7 @@ class Player:
         simulation = self._simulation
         deadline = real_monotonic() + LONGEST_WORK
         while simulation.now < until and real_monotonic() < deadline:
-            simulation.run_until(min(until, simulation.now + PIECE))
+            self._cells.run_until(min(until, simulation.now + PIECE))
         return simulation.now >= until
 
 

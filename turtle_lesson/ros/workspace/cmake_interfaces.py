@@ -100,6 +100,8 @@ class InterfaceCheck:
         folder = self._found.path
         there = sorted(path.relative_to(folder).as_posix() for path in folder.rglob(f"*{Path(name).suffix or '.msg'}"))
         hint = did_you_mean(name, there) or (f"There are: {', '.join(there)}." if there else "Write that file first.")
+        if name.endswith(","):
+            hint = "CMake separates names by spaces or new lines: leave the commas out."
         raise self._refused(93, text, hint)
 
     def _parses(self, name: str) -> None:
