@@ -18,6 +18,7 @@ PAGES = (
     "01_publish_and_subscribe",
     "02_services_and_interfaces",
     "03_navigator",
+    "03b_answer_on_arrival",
     "04_status_monitor",
     "05_obstacle_detector",
     "06_parameters_and_launch",
@@ -29,7 +30,7 @@ PAGES = (
 )
 """The lesson's pages, in their order."""
 
-MODULES = tuple(f"page_{number:02}" for number in range(12))
+MODULES = tuple(f"page_{page.partition('_')[0]}" for page in PAGES)
 """The modules beside this one that define checks; a page's own is read when a check is first asked for."""
 
 
