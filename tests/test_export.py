@@ -27,6 +27,7 @@ def test_the_finished_package(lesson: Lesson, tmp_path: Path) -> None:
     result = lesson.export("robot_controller", to="robot")
     assert repr(result) == (
         "robot_controller is in robot/src/robot_controller/; how to build it is in README.md beside src/.\n"
+        "Take src/ and README.md to the robot, and no build/, install/ or log/: it builds its own.\n"
         "programs: navigator, obstacle_detector, status_monitor\n"
         "interfaces: msg/TurtleStatus.msg, srv/NavigateTo.srv"
     )
@@ -43,6 +44,7 @@ def test_its_readme_says_how_to_build_it(lesson: Lesson) -> None:
     for line in (
         "rosdep install --from-paths src", "colcon build\n", "source install/setup.bash\n",
         "ros2 launch robot_controller start_system.launch.py\n", "ros2 run turtlesim turtlesim_node", "Humble",
+        "rm -rf build install log",
     ):  # fmt: skip
         assert line in text
 
@@ -51,6 +53,16 @@ def test_what_is_exported_builds(lesson: Lesson, monkeypatch: pytest.MonkeyPatch
     lesson.export("robot_controller", to="robot")
     monkeypatch.chdir("robot")
     assert colcon(lesson._world).err == ""
+
+
+def test_what_a_build_here_has_left_is_named(lesson: Lesson, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert lesson.export("robot_controller", to="robot").notes == []
+    monkeypatch.chdir("robot")
+    colcon(lesson._world)
+    monkeypatch.chdir("..")
+    again = lesson.export("robot_controller", to="robot", overwrite=True)
+    assert again.notes == ["robot holds build/, install/, log/ of a build on this computer: leave them behind"]
+    assert again.notes[0] in Path("robot/README.md").read_text()
 
 
 def test_a_learners_package_comes_before_the_finished_one(lesson: Lesson, tmp_path: Path) -> None:

@@ -147,6 +147,27 @@ def test_an_ament_python_package(tmp_path: Path) -> None:
     assert said.stdout == "Hi from py_demo.\n"
 
 
+@pytest.mark.parametrize("line", ["build", "build --symlink-install"])
+def test_a_workspace_that_was_built_here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, line: str) -> None:
+    """The whole folder comes to a robot, with the build, install and log of the lesson's own colcon in it."""
+    monkeypatch.chdir(tmp_path)
+    start(simulator=False).export("robot_controller", to=tmp_path)
+    words = "py_demo --build-type ament_python --node-name hello --destination-directory src"
+    create_package(parse(words.split()))
+    world = open_world()
+    assert [colcon(world, line).code, colcon(world, line).code] == [0, 0]
+    assert {"build", "install", "log"} <= {path.name for path in tmp_path.iterdir()}
+    sources = {path: path.read_bytes() for path in (tmp_path / "src").rglob("*") if path.is_file()}
+    result = build(tmp_path)
+    assert result.returncode == 0, result.stdout + result.stderr
+    check_installed(tmp_path, ["navigator", "obstacle_detector", "status_monitor"], "start_system.launch.py")
+    assert (tmp_path / "build/robot_controller/CMakeCache.txt").is_file()
+    assert os.access(tmp_path / "install/py_demo/lib/py_demo/hello", os.X_OK)
+    assert {path: path.read_bytes() for path in sources} == sources
+    again = real(f"{PYTHON} /usr/bin/colcon build", tmp_path)
+    assert again.returncode == 0, again.stdout + again.stderr
+
+
 @pytest.fixture(scope="module")
 def generators(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The setup file of a workspace in which the stand-in is built."""

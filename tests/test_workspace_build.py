@@ -95,8 +95,9 @@ def test_the_tree(package: Path, world: World, tmp_path: Path) -> None:
     tree = {path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*")}
     install = "install/robot_controller"
     for path in (
-        "build/COLCON_IGNORE", "build/.built_by", "build/robot_controller/colcon_build.rc", "install/COLCON_IGNORE", "install/.colcon_install_layout",
-        "install/setup.bash", "install/local_setup.bash", "log/COLCON_IGNORE", "log/latest_build/logger_all.log",
+        "build/COLCON_IGNORE", "build/.built_by", "build/robot_controller/colcon_build.rc", "install/COLCON_IGNORE",
+        "install/.colcon_install_layout", "install/setup.bash", "install/local_setup.bash", "log/COLCON_IGNORE",
+        "log/latest_build/logger_all.log",
         f"{install}/lib/robot_controller/navigator",
         f"{install}/local/lib/python3.10/dist-packages/robot_controller/msg/_turtle_status.py",
         f"{install}/local/lib/python3.10/dist-packages/robot_controller/srv/__init__.py",
@@ -114,6 +115,7 @@ def test_the_tree(package: Path, world: World, tmp_path: Path) -> None:
         f"{install}/share/robot_controller/package.xml",
     ):  # fmt: skip
         assert path in tree or (tmp_path / path).exists(), path
+    assert "build/robot_controller/CMakeCache.txt" not in tree  # a real colcon would take it for CMake's own
 
 
 def test_what_is_gone_from_the_source_is_gone_after_the_build(package: Path, world: World, tmp_path: Path) -> None:

@@ -46,7 +46,7 @@ _PYTHON_PLACE = f"local/lib/{PYTHON}/dist-packages"
 
 def build_ament_cmake(found: Found, environment: Environment) -> Outcome:
     """Build one package: what it prints, and what is to be installed if nothing is refused."""
-    again = (environment.build / found.name / "Makefile").is_file()
+    again = (environment.build / found.name / "colcon_build.rc").is_file()
     build = _Build(found, environment, again)
     try:
         return build.run()

@@ -51,6 +51,7 @@ class Exported:
 
     def __repr__(self) -> str:
         lines = [f"{self.name} is in {shown_path(str(self.package))}/; how to build it is in README.md beside src/."]
+        lines.append("Take src/ and README.md to the robot, and no build/, install/ or log/: it builds its own.")
         lines.append(f"programs: {', '.join(self.programs) or 'none'}")
         lines.append(f"interfaces: {', '.join(self.interfaces) or 'none'}")
         return "\n".join(lines + [f"look at: {note}" for note in self.notes])
@@ -171,6 +172,11 @@ def _describe(found: Found, target: Path, outcome: Outcome) -> Exported:
         notes.append(
             f"{shown_path(str(target))} lies in this workspace, where colcon build now finds {found.name} twice"
         )
+    folder = target.parent.parent
+    if built := [f"{name}/" for name in ("build", "install", "log") if (folder / name).is_dir()]:
+        notes.append(
+            f"{shown_path(str(folder))} holds {', '.join(built)} of a build on this computer: leave them behind"
+        )
     text = (target / "package.xml").read_text(encoding="utf-8")
     notes += [
         f"package.xml still says '{word}'" for word in ("TODO: Package description", "TODO: License") if word in text
@@ -228,6 +234,9 @@ source install/setup.bash
 ```
 
 Type these in the folder in which this file lies. If colcon is not content, its message names the file and the line.
+
+The sources in `src/` are all that a robot needs. If `build/`, `install/` or `log/` came along from another computer, delete
+them first: `rm -rf build install log`.
 
 ## Run
 

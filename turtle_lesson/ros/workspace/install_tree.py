@@ -155,15 +155,14 @@ def _shell_lines(name: str, hooks: dict[str, str], prefix: str) -> str:
 
 
 def _note_build(found: Found, environment: Environment) -> None:
-    """The build folder, which remembers where the source is and that it went well."""
+    """The build folder, which remembers where the source is and that it went well.
+
+    There is no CMakeCache.txt in it: a real colcon, to which somebody may take this folder, runs CMake where there is none.
+    """
     folder = environment.build / found.name
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "colcon_build.rc").write_text("0\n", encoding="utf-8")
     (folder / "source_folder.txt").write_text(f"{found.path.resolve()}\n", encoding="utf-8")
-    if found.kind != "ros.ament_python":
-        cache = f"CMAKE_HOME_DIRECTORY:INTERNAL={found.path.resolve()}\n"
-        (folder / "CMakeCache.txt").write_text(cache, encoding="utf-8")
-        (folder / "Makefile").write_text("# The classroom's build needs no make.\n", encoding="utf-8")
 
 
 def write_setup_files(install: Path, names: Iterable[str]) -> None:
