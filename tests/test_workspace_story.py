@@ -215,6 +215,26 @@ def test_a_text_is_appended_once(mine: Workspace) -> None:
     assert node(mine) == "a = 1\nb = 2\n"
 
 
+def test_a_changed_part_takes_the_place_of_the_one_that_defines_the_same(mine: Workspace) -> None:
+    mine.prepare("03_navigator")
+    for text in ("class A:\n", "    def one(self): ...\n", "    def two(self): ...\n\nA()\n"):
+        mine.write(mine.package / NODE, text, append=text != "class A:\n")
+    mine.write(mine.package / NODE, "\n    async def one(self, x): ...\n", append=True)
+    assert node(mine) == "class A:\n\n    async def one(self, x): ...\n    def two(self): ...\n\nA()\n"
+    (mine.package / NODE).write_text("by_hand = 1\n")
+    for _ in range(2):
+        mine.write(mine.package / NODE, "def one(): ...\n", append=True)
+    assert node(mine) == "by_hand = 1\ndef one(): ...\n"
+
+
+def test_the_story_replaces_parts_as_the_cells_do(pages: Path) -> None:
+    cells = [writes(NODE, "import a"), writes(NODE, "def b(): 1", append=True), writes(NODE, "c = 1", append=True)]
+    cells.append(writes(NODE, "async def b(): 2", append=True))
+    page = nbformat.v4.new_notebook(cells=[code(each) for each in cells])
+    nbformat.write(page, pages / "03b_answer_on_arrival.ipynb")
+    assert story.versions("03b_answer_on_arrival")[-1] == (NODE, "import a\nasync def b(): 2\nc = 1\n")
+
+
 def test_what_was_changed_by_hand_is_replaced_only_when_the_cell_is_run_again(mine: Workspace) -> None:
     mine.prepare("03_navigator")
     mine.write(mine.package / NODE, "a = 1\n", append=False)

@@ -19,6 +19,7 @@ PUBLISHED = HERE.parent / "notebooks"
 PACKAGE = "workspace/src/robot_controller/"
 """Where the learner's package is, seen from the notebook's folder."""
 
+_DEFINITION = re.compile(r"\s*\n( *)(?:async )?(?:def|class) (\w+)")
 _WRITE = re.compile(r"%%writefile\s+(?P<append>-a\s+|--append\s+)?(?P<file>\S+)[^\S\n]*\n(?P<text>.*)", re.DOTALL)
 
 
@@ -52,16 +53,29 @@ def is_published(path: str, text: str, before: str) -> bool:
 def versions(page: str) -> tuple[tuple[str, str], ...]:
     """Each state of each file of the package that a page writes, in the page's order: (path in the package, text)."""
     states: list[tuple[str, str]] = []
-    latest: dict[str, str] = _last_states(page)
+    latest = {path: [text] for path, text in _last_states(page).items()}
     for source in _cells(page):
         match = _WRITE.match(source)
         if match is None or not match["file"].startswith(PACKAGE):
             continue
         path = match["file"].removeprefix(PACKAGE)
         text = match["text"] if match["text"].endswith("\n") else match["text"] + "\n"  # as the magic is given it
-        latest[path] = latest.get(path, "") + text if match["append"] else text
-        states.append((path, latest[path]))
+        latest[path] = with_part(latest.get(path, []), text) if match["append"] else [text]
+        states.append((path, "".join(latest[path])))
     return tuple(states)
+
+
+def with_part(parts: list[str], text: str) -> list[str]:
+    """The parts of a file after one more was appended; it replaces a part that begins by defining the same name."""
+    begins = _beginning(text)
+    same = [index for index, part in enumerate(parts) if index and _beginning(part) == begins]
+    return [*parts[: same[0]], text, *parts[same[0] + 1 :]] if same else [*parts, text]
+
+
+def _beginning(part: str) -> tuple[str, ...]:
+    """What a part of a file begins with: an indentation and a name that is defined, or else its first line."""
+    match = _DEFINITION.match(f"\n{part}")
+    return match.groups() if match else (part.strip().partition("\n")[0],)
 
 
 def _last_states(page: str) -> dict[str, str]:

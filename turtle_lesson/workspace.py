@@ -134,14 +134,17 @@ class Workspace:
 
         What this page or an earlier one wrote is replaced. A file with changes of the learner's own is left as it is the
         first time; the same cell, run again, replaces it and keeps a copy. A text that is to be appended and is there
-        already changes nothing.
+        already changes nothing; a changed one takes the place of the part that begins by defining the same name.
         """
         path = file.relative_to(self.package).as_posix()
         now, shown = _text(file), self._shown(file)
         if now is not None and append:
             if text in now:
                 return f"Appending to {shown}: this text is there already"
-            text = now + text
+            parts = story.with_part(self._parts(path, now), text)
+            text = "".join(parts)
+        else:
+            parts = [text]
         if now is not None and not self._may_replace(path, now, text):
             if self._asked(path, now, text):
                 return (
@@ -152,6 +155,7 @@ class Workspace:
             _write(kept / path, now)
         memory = self._memory()
         memory["files"][path] = [_hash(text), memory["page"]]
+        memory["parts"] = memory.get("parts", {}) | {path: parts}
         memory.pop("asked", None)
         _write(file, text)
         self._remember(memory)
@@ -165,6 +169,11 @@ class Workspace:
         written, page = memory["files"].get(path, ["", ""])
         earlier = page == "" or PAGES.index(page) <= PAGES.index(here)
         return written == _hash(now) and earlier
+
+    def _parts(self, path: str, now: str) -> list[str]:
+        """The parts in which cells wrote a file; one part if it was changed otherwise since then."""
+        parts = self._memory().get("parts", {}).get(path, [])
+        return parts if "".join(parts) == now else [now]
 
     def _asked(self, path: str, now: str, text: str) -> bool:
         """Ask, by remembering it: whether this is the first time that exactly this is to be replaced by exactly that."""
