@@ -6,7 +6,10 @@ import pytest
 from lab_fakes import SECOND, START, TICK, drive, recording, stand
 
 from turtle_lesson.lab import Obstacle, plot_path
-from turtle_lesson.lab.track import distance_driven, find_jumps
+from turtle_lesson.lab.drawing import turtle_points
+from turtle_lesson.lab.goals import Goal, goal_points
+from turtle_lesson.lab.track import WORLD, distance_driven, find_jumps
+from turtle_lesson.lab.trail import LABEL
 
 
 def test_a_straight_drive():
@@ -99,3 +102,24 @@ def test_poses_that_are_no_numbers_are_left_out():
     assert "Left out: 1 pose with nan, which is no number." in picture.text and picture.png()
     nowhere = plot_path(heard, since=1.0).text
     assert nowhere == "No path to draw: 1 pose heard in that time, all with nan, which is no number."
+
+
+@pytest.mark.parametrize(
+    ("at", "speed", "goal"),
+    [
+        ((5.5, 5.5, 0.0), 0.0, (5.5, 5.5)),
+        ((5.5, 5.5, 0.0), 0.1, (5.5, 5.0)),
+        ((0.1, 0.1, 0.0), 0.0, (1.0, 0.1)),
+        ((11.0, 11.0, 1.57), 0.0, (11.0, 10.0)),
+        ((2.0, 9.0, 0.0), 1.0, (1.2, 9.0)),
+    ],
+)
+def test_the_word_start_covers_neither_turtle_nor_flag_and_stays_within_the_walls(at, speed, goal):
+    heard = drive(recording(), at=at, speed=speed)
+    (axes,) = plot_path(heard, goal=goal).figure.axes
+    (label,) = [text for text in axes.texts if text.get_text() == "start"]
+    place = label.get_position()
+    last = heard.poses.array()[-1]
+    for points in (turtle_points(last["x"], last["y"]), goal_points(Goal(*goal))):
+        assert not (abs(points - place) < LABEL).all(axis=1).any()
+    assert all(half < each < WORLD - half for each, half in zip(place, LABEL, strict=True))

@@ -7,7 +7,7 @@ import sys
 import pytest
 from lab_fakes import drive, recording, report, scan, see
 
-from turtle_lesson.lab import Picture, plot_path, plot_scan, plot_status
+from turtle_lesson.lab import Picture, plot_path, plot_scan, plot_status, style
 
 PLOTS = {
     "path": lambda: plot_path(drive(recording()), goal=(8, 8, 1)),
@@ -33,6 +33,23 @@ def test_the_bundle_has_png_and_text_and_the_size_to_show(make):
 
 def test_a_text_is_one_paragraph(make):
     assert "\n" not in make().text and "  " not in make().text
+
+
+def test_the_ground_is_that_of_the_page_light_or_dark(make):
+    pixels = make().pixels()
+    assert (pixels[..., 3] < 128).mean() > 0.5, "most of it is transparent"
+
+
+@pytest.mark.parametrize("page", ["#ffffff", "#111111"])
+def test_text_can_be_read_on_a_light_and_a_dark_page(page):
+    from matplotlib.colors import to_rgb
+
+    def luminance(colour):
+        parts = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in to_rgb(colour)]
+        return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2]
+
+    dark, light = sorted([luminance(style.INK), luminance(page)])
+    assert (light + 0.05) / (dark + 0.05) > 4.2
 
 
 def test_the_same_plot_twice_gives_the_same_bytes(make):

@@ -91,3 +91,12 @@ def test_rings_are_at_round_distances():
 
 def test_nothing_heard_yet():
     assert plot_scan(recording()).text.startswith("No scan yet. No message has come on /obstacles yet.")
+
+
+@pytest.mark.parametrize("nearest", [0.3, 0.5, 2.0])
+def test_the_turtle_hides_no_hit(nearest):
+    (axes,) = plot_scan(see(recording(), scan([nearest] * 181))).figure.axes
+    _, *turtle = axes.patches  # the first is the space that the beams found free
+    metres = axes.transData.inverted()
+    corners = [metres.transform_path(each.get_transform().transform_path(each.get_path())).vertices for each in turtle]
+    assert 0.1 < max(math.hypot(*corner) for part in corners for corner in part) < nearest

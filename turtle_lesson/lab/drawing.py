@@ -6,6 +6,8 @@ import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from . import style
 from .recording import Obstacle
 
@@ -46,6 +48,13 @@ def draw_turtle(axes: Axes, x: float, y: float, theta: float, length: float = 0.
     _draw_scutes(axes, place, zorder + 0.06)
 
 
+def turtle_points(x: float, y: float, length: float = 0.95) -> np.ndarray:
+    """Return points (n by 2) that a turtle covers, however it is turned."""
+    turns = np.linspace(0, math.tau, 24, endpoint=False)
+    rings = [part * length / 2 * np.column_stack([np.cos(turns), np.sin(turns)]) for part in (0.4, 0.7, 1.0)]
+    return np.array([x, y]) + np.concatenate(rings)
+
+
 def _ellipse(kind: Any, shape: tuple[float, ...], side: int = 1) -> Any:
     x, y, width, height, turn = shape
     return kind((x, side * y), width, height, angle=side * turn)
@@ -70,7 +79,7 @@ def draw_obstacles(axes: Axes, obstacles: Iterable[Obstacle]) -> None:
     """Draw the obstacles where they stand."""
     from matplotlib.patches import Ellipse, Rectangle
 
-    look: dict[str, Any] = {"facecolor": "#f6d9a2", "edgecolor": "#a86f00", "linewidth": 1.0, "zorder": 2}
+    look: dict[str, Any] = {"facecolor": style.ORANGE + "66", "edgecolor": "#b57b00", "linewidth": 1.0, "zorder": 2}
     for each in obstacles:
         if each.shape == "box":
             corner = (each.x - each.width / 2, each.y - each.height / 2)

@@ -13,7 +13,7 @@ from .beams import Beams
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-FREE, BEAM = "#dceefa", "#bfe0f5"
+FREE, BEAM = style.SKY + "38", style.SKY + "60"
 
 
 def reach_of(beams: Beams) -> float:
@@ -31,13 +31,14 @@ def draw_rings(axes: Axes, reach: float, whole: bool) -> None:
     step = nice_step(reach)
     for ring in [*np.arange(step, reach - 0.3 * step, step), reach]:
         rim = ring == reach
-        colour = style.GREY if rim else style.CARD_EDGE
-        axes.plot(*_polar(arc, np.full(len(arc), ring)), color=colour, linewidth=0.8, zorder=2)
+        colour = style.INK if rim else style.EDGE
+        beside = np.where(np.abs(arc) * ring < 0.045 * reach, np.nan, arc)  # room for the metres
+        axes.plot(*_polar(beside, np.full(len(arc), ring)), color=colour, linewidth=0.8, zorder=2)
         _label_range(axes, ring)
     for degrees in range(-180, 180, 30) if whole else range(-90, 91, 30):
         turn = math.radians(degrees)
-        axes.plot(*_polar(turn, np.array([0.0, reach])), color=style.LINE, linewidth=0.8, zorder=1)
         if degrees:
+            axes.plot(*_polar(turn, np.array([0.0, reach])), color=style.LINE, linewidth=0.8, zorder=1)
             _label_angle(axes, turn, reach)
 
 
@@ -76,14 +77,13 @@ def _polar(angles: Any, ranges: Any) -> tuple[Any, Any]:
 
 
 def _label_range(axes: Axes, ring: float) -> None:
-    box = {"boxstyle": "round,pad=0.12", "facecolor": style.CARD, "edgecolor": "none", "alpha": 0.85}
-    look: dict[str, Any] = {"fontsize": 7.5, "color": style.GREY, "ha": "center", "va": "center"}
-    axes.text(*_polar(0.0, ring), f"{ring:g} m", bbox=box, zorder=4, **look)
+    look: dict[str, Any] = {"fontsize": 7.5, "color": style.INK, "ha": "center", "va": "center"}
+    axes.text(*_polar(0.0, ring), f"{ring:g} m", zorder=4, **look)
 
 
 def _label_angle(axes: Axes, turn: float, reach: float) -> None:
     x, y = _polar(turn, reach * 1.03)
     side = "right" if x < -0.1 * reach else "left" if x > 0.1 * reach else "center"
     text = f"{math.degrees(turn):+.0f}°\n{turn:+.2f} rad".replace("-", "−")
-    look: dict[str, Any] = {"fontsize": 7.5, "color": style.GREY, "ha": side, "va": "center"}
+    look: dict[str, Any] = {"fontsize": 7.5, "color": style.INK, "ha": side, "va": "center"}
     axes.text(x, y, text, linespacing=1.25, **look)

@@ -6,6 +6,8 @@ import math
 from numbers import Real
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+
 from . import style
 
 if TYPE_CHECKING:
@@ -48,6 +50,12 @@ def _read_goal(item: Any) -> Goal:
     return Goal(*numbers)
 
 
+def goal_points(goal: Goal) -> np.ndarray:
+    """Return points (n by 2, m) that a goal's flag and ring cover."""
+    flag = [(right, up) for right in (0.0, 0.15, 0.3) for up in np.arange(-0.4, 0.95, 0.1)]
+    return np.array([goal.x, goal.y]) + np.array([*flag, (-0.2, 0.0), (0.4, 0.0)])
+
+
 def draw_goal(axes: Axes, goal: Goal) -> None:
     """Draw a flag, the ring within which the goal counts as reached, and on it a pointer for the heading."""
     from matplotlib.patches import Circle, Polygon
@@ -60,6 +68,4 @@ def draw_goal(axes: Axes, goal: Goal) -> None:
     if goal.theta is not None:
         corners = ((TOLERANCE + 0.24, 0.0), (TOLERANCE + 0.04, 0.75), (TOLERANCE + 0.04, -0.75))
         pointer = [(x + r * math.cos(goal.theta + turn), y + r * math.sin(goal.theta + turn)) for r, turn in corners]
-        axes.add_artist(
-            Polygon(pointer, closed=True, facecolor=colour, edgecolor=style.CARD, linewidth=0.6, zorder=4.1)
-        )
+        axes.add_artist(Polygon(pointer, closed=True, facecolor=colour, edgecolor="none", zorder=4.1))

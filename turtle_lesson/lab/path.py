@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import style
-from .drawing import draw_obstacles, draw_turtle
-from .goals import Goal, draw_goal, read_goals
+from .drawing import draw_obstacles, draw_turtle, turtle_points
+from .goals import Goal, draw_goal, goal_points, read_goals
 from .picture import Picture
 from .recording import Obstacle, Recording
 from .track import WORLD, distance_driven, find_jumps
@@ -115,10 +115,11 @@ def _draw(recording: Recording, poses: np.ndarray, jumps: np.ndarray, driven: fl
     axes = style.axes_at(figure, 0.55, 0.5, 4.5, 4.5)
     _draw_world(axes)
     draw_obstacles(axes, recording.obstacles.values())
-    draw_trail(axes, poses, jumps)
+    last = poses[-1]
+    signs = [turtle_points(last["x"], last["y"]), *map(goal_points, goals)]
+    draw_trail(axes, poses, jumps, np.concatenate(signs))
     for goal in goals:
         draw_goal(axes, goal)
-    last = poses[-1]
     draw_turtle(axes, last["x"], last["y"], last["theta"])
     return figure
 

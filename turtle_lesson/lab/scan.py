@@ -84,8 +84,15 @@ def _draw(beams: Beams, second: float) -> Figure:
     axes.axis("off")
     draw_rings(axes, reach, beams.whole)
     draw_beams(axes, beams, reach)
-    draw_turtle(axes, 0.0, 0.0, math.pi / 2, length=0.075 * reach)
+    draw_turtle(axes, 0.0, 0.0, math.pi / 2, length=_turtle_length(beams, reach))
     return figure
+
+
+def _turtle_length(beams: Beams, reach: float) -> float:
+    """The turtle's length, m: as large as looks good, but it hides no hit."""
+    nearest = beams.nearest()
+    room = 1.3 * float(beams.ranges[nearest]) if nearest is not None else math.inf
+    return max(0.02 * reach, min(0.075 * reach, room))
 
 
 def _subtitle(beams: Beams, second: float) -> str:

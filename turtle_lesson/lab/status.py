@@ -113,14 +113,14 @@ def _draw_velocity(panel: Axes, seconds: np.ndarray, rows: np.ndarray) -> None:
     lines = {
         "x": (rows["vel_x"], style.BLUE),
         "y": (rows["vel_y"], style.VERMILLION),
-        "speed": (speed, style.GREY),
+        "speed": (speed, style.INK),
     }
     _lines(panel, seconds, lines, least=0.2, drawn=("x", "y"))
 
 
 def _draw_battery(panel: Axes, seconds: np.ndarray, battery: np.ndarray) -> None:
     panel.set_ylabel("battery\nin %")
-    panel.fill_between(seconds, 0, battery, color="#d4efe5", linewidth=0)
+    panel.fill_between(seconds, 0, battery, color=style.GREEN + "30", linewidth=0)
     panel.plot(seconds, battery, color=style.GREEN, linewidth=1.8)
     panel.set_ylim(0, 108)
     panel.set_yticks([0, 50, 100])

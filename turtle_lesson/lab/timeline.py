@@ -24,7 +24,7 @@ LANE, TOP, BOTTOM = 0.40, 0.70, 0.78
 MOST = 24
 """More lanes than that are no picture any more."""
 
-DARK_ORANGE = "#a86f00"
+DARK_ORANGE, PALE_ORANGE = "#b57b00", style.ORANGE + "40"
 
 
 def plot_timeline(trace: Any, node: Any, *rows: str, since: float | None = None, until: float | None = None) -> Picture:
@@ -93,7 +93,7 @@ def _draw_bars(axes: Axes, place: int, lane: Lane) -> None:
     spans = [(begin, end - begin) for begin, end in lane.bars / NANOSECONDS]
     look: dict[str, Any] = {"facecolors": style.GREEN, "edgecolors": "#00785a"}
     if lane.awaits:
-        look = {"facecolors": "#fbe6bd", "edgecolors": DARK_ORANGE, "hatch": "////"}
+        look = {"facecolors": PALE_ORANGE, "edgecolors": DARK_ORANGE, "hatch": "////"}
     axes.broken_barh(spans, (place - 0.27, 0.54), linewidth=0.8, zorder=2.5, **look)
 
 
@@ -110,7 +110,7 @@ def _label(figure: Figure, place: int, lane: Lane, height: float) -> None:
     middle = 1 - (TOP + LANE * (place + 0.5)) / height
     left, line = 0.2 / WIDTH, 0.075 / height
     figure.text(left, middle + line, _cut(lane.name, 26), fontsize=8.8, va="center")
-    figure.text(left, middle - line, _cut(lane.about, 30), fontsize=7.4, color=style.GREY, va="center")
+    figure.text(left, middle - line, _cut(lane.about, 30), fontsize=7.4, color=style.INK, va="center")
 
 
 def _cut(text: str, most: int) -> str:
@@ -134,7 +134,7 @@ def _legend(figure: Figure, lanes: list[Lane]) -> None:
     if any(len(lane.bars) for lane in calls if not lane.awaits):
         signs.append(Patch(facecolor=style.GREEN, edgecolor="#00785a", label="holds its thread"))
     if any(len(lane.bars) for lane in calls if lane.awaits):
-        signs.append(Patch(facecolor="#fbe6bd", edgecolor=DARK_ORANGE, hatch="////", label="awaits, thread free"))
+        signs.append(Patch(facecolor=PALE_ORANGE, edgecolor=DARK_ORANGE, hatch="////", label="awaits, thread free"))
     if any(len(lane.waits) for lane in lanes):
         signs.append(Line2D([], [], color=style.VERMILLION, label="ready, had to wait", **wait))
     if signs:

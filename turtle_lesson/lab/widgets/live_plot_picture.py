@@ -15,7 +15,7 @@ from ..words import number
 Window = tuple[str, np.ndarray, np.ndarray]
 """A curve's name, its times (s) and its numbers."""
 
-COLOURS = (style.BLUE, style.VERMILLION, style.GREEN, style.PURPLE, style.ORANGE, style.SKY, style.INK, style.GREY)
+COLOURS = (style.BLUE, style.VERMILLION, style.GREEN, style.PURPLE, style.ORANGE, style.SKY, "#8a6fd0", style.INK)
 DASHES: Sequence[Any] = ("-", (0, (6, 2)), (0, (2, 1.5)), (0, (8, 2, 2, 2)), "-", (0, (6, 2)), (0, (2, 1.5)), "-")
 """Beside the colours, so that curves are told apart without them; the same as in the browser (live_plot.js)."""
 

@@ -49,8 +49,8 @@ def draw_scene(recording: Recording, goal: Goal | None) -> Picture:
 
 def _draw_floor(axes: Axes, recording: Recording) -> None:
     """What lies on the floor: nothing of it hides anything."""
-    _draw(axes, world.floor(), layer=1)
-    _draw(axes, world.grid(), layer=2)
+    _draw(axes, world.floor(), layer=1, alpha=0.08)
+    _draw(axes, world.grid(), layer=2, alpha=0.5)
     trail = Trail(recording.poses)
     trail.follow()
     _draw(axes, world.ribbon([*trail.old, trail.tip]), layer=3, lit=False)
