@@ -67,9 +67,11 @@ def pages(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     for page, its in cells.items():
         nbformat.write(nbformat.v4.new_notebook(cells=its), folder / f"{page}.ipynb")
     monkeypatch.setattr(story, "PUBLISHED", folder)
-    story.versions.cache_clear()
+    for each in (story.versions, story._states):
+        each.cache_clear()
     yield folder
-    story.versions.cache_clear()
+    for each in (story.versions, story._states):
+        each.cache_clear()
 
 
 @pytest.fixture
@@ -225,6 +227,21 @@ def test_a_changed_part_takes_the_place_of_the_one_that_defines_the_same(mine: W
     for _ in range(2):
         mine.write(mine.package / NODE, "def one(): ...\n", append=True)
     assert node(mine) == "by_hand = 1\ndef one(): ...\n"
+
+
+def test_a_later_page_replaces_one_part_of_what_an_earlier_one_wrote(pages: Path, mine: Workspace) -> None:
+    cells = [writes(NODE, "import a"), writes(NODE, "def b(): 1", append=True), writes(NODE, "c()", append=True)]
+    nbformat.write(nbformat.v4.new_notebook(cells=[code(each) for each in cells]), pages / "03_navigator.ipynb")
+    changed = "async def b(): 2"
+    page = nbformat.v4.new_notebook(cells=[code(writes(NODE, changed, append=True))])
+    nbformat.write(page, pages / "04_status_monitor.ipynb")
+    mine.prepare("04_status_monitor")
+    mine.write(mine.package / NODE, f"{changed}\n", append=True)
+    assert node(mine) == "import a\nasync def b(): 2\nc()\n" == story.files_before("05_obstacle_detector")[NODE]
+    (mine.package / NODE).write_text("import a, mine\nasync def b(): 3\nc()\nmore()\n")
+    for _ in range(2):
+        mine.write(mine.package / NODE, f"{changed}\n", append=True)
+    assert node(mine) == "import a, mine\nasync def b(): 2\nc()\nmore()\n"
 
 
 def test_the_story_replaces_parts_as_the_cells_do(pages: Path) -> None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cache
 
 from .lab.checks.registry import PAGES
@@ -37,11 +37,13 @@ def files_before(page: str) -> dict[str, str]:
 
     Raises FileNotFoundError where the published pages are missing.
     """
-    files: dict[str, str] = {}
-    for earlier in PAGES[: PAGES.index(page)]:
-        for path, text in versions(earlier):
-            files[path] = text
-    return dict(sorted(files.items()))
+    return {path: "".join(parts) for path, parts in sorted(parts_before(page).items())}
+
+
+def parts_before(page: str) -> dict[str, tuple[str, ...]]:
+    """The same files, each in the parts in which cells wrote it."""
+    earlier = PAGES[: PAGES.index(page)]
+    return {path: parts for each in earlier for path, parts in _states(each)}
 
 
 def is_published(path: str, text: str, before: str) -> bool:
@@ -52,8 +54,14 @@ def is_published(path: str, text: str, before: str) -> bool:
 @cache
 def versions(page: str) -> tuple[tuple[str, str], ...]:
     """Each state of each file of the package that a page writes, in the page's order: (path in the package, text)."""
-    states: list[tuple[str, str]] = []
-    latest = {path: [text] for path, text in _last_states(page).items()}
+    return tuple((path, "".join(parts)) for path, parts in _states(page))
+
+
+@cache
+def _states(page: str) -> tuple[tuple[str, tuple[str, ...]], ...]:
+    """The same, with each text in its parts."""
+    states: list[tuple[str, tuple[str, ...]]] = []
+    latest = {path: list(parts) for path, parts in parts_before(page).items()}
     for source in _cells(page):
         match = _WRITE.match(source)
         if match is None or not match["file"].startswith(PACKAGE):
@@ -61,8 +69,20 @@ def versions(page: str) -> tuple[tuple[str, str], ...]:
         path = match["file"].removeprefix(PACKAGE)
         text = match["text"] if match["text"].endswith("\n") else match["text"] + "\n"  # as the magic is given it
         latest[path] = with_part(latest.get(path, []), text) if match["append"] else [text]
-        states.append((path, "".join(latest[path])))
+        states.append((path, tuple(latest[path])))
     return tuple(states)
+
+
+def divided(text: str, parts: Sequence[str]) -> list[str]:
+    """A text that was changed by hand, divided where each of these parts began; undivided where one is not found."""
+    lines = text.splitlines(keepends=True)
+    beginnings = [_beginning(line) for line in lines]
+    cuts = [0]
+    for part in parts[1:]:
+        if _beginning(part) not in beginnings[cuts[-1] + 1 :]:
+            return [text]
+        cuts.append(beginnings.index(_beginning(part), cuts[-1] + 1))
+    return ["".join(lines[begin:end]) for begin, end in zip(cuts, [*cuts[1:], None], strict=True)]
 
 
 def with_part(parts: list[str], text: str) -> list[str]:
@@ -76,12 +96,6 @@ def _beginning(part: str) -> tuple[str, ...]:
     """What a part of a file begins with: an indentation and a name that is defined, or else its first line."""
     match = _DEFINITION.match(f"\n{part}")
     return match.groups() if match else (part.strip().partition("\n")[0],)
-
-
-def _last_states(page: str) -> dict[str, str]:
-    """What the pages before leave; a page may append to it."""
-    place = PAGES.index(page)
-    return {} if place == 0 else files_before(page)
 
 
 def _cells(page: str) -> Iterator[str]:

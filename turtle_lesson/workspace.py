@@ -171,9 +171,11 @@ class Workspace:
         return written == _hash(now) and earlier
 
     def _parts(self, path: str, now: str) -> list[str]:
-        """The parts in which cells wrote a file; one part if it was changed otherwise since then."""
-        parts = self._memory().get("parts", {}).get(path, [])
-        return parts if "".join(parts) == now else [now]
+        """The parts in which cells wrote a file, on this page or an earlier one, with what was changed by hand since then."""
+        memory = self._memory()
+        known = (memory.get("parts", {}).get(path, []), story.parts_before(memory["page"]).get(path, ()))
+        same = [list(parts) for parts in known if "".join(parts) == now]
+        return same[0] if same else max((story.divided(now, parts) for parts in known), key=len)
 
     def _asked(self, path: str, now: str, text: str) -> bool:
         """Ask, by remembering it: whether this is the first time that exactly this is to be replaced by exactly that."""
