@@ -18,15 +18,20 @@ if TYPE_CHECKING:
     from .lab.checks.exam import Place
     from .lab.predictions import Asked, Outcome
     from .lab.progress import Progress, ProgressFile
+    from .lab.recorder import Recorder
 
 MOST_LINES = 20
 """Lines of what programs print while a check looks that are shown; a log alone can be hundreds."""
 
 
 class Desk:
-    """A subclass says where to look: `_make_exam_place()`."""
+    """A subclass says where to look: `_make_exam_place()` and `_recording`."""
 
     def _make_exam_place(self) -> Place:
+        raise NotImplementedError
+
+    @property
+    def _recording(self) -> Recorder:
         raise NotImplementedError
 
     def check(self, name: str) -> CheckResult:
@@ -63,6 +68,7 @@ class Desk:
         choices: Sequence[str] = (),
         unit: str | None = None,
         on_map: bool = False,
+        goal: Any = None,
         guess: Any = None,
     ) -> Asked:
         """Ask for a guess, before something is run; `outcome(name, value)` then shows both side by side.
@@ -73,14 +79,17 @@ class Desk:
             choices: one of these texts is to be chosen,
             unit: or a number of this unit given ("m", "messages"; "" for none),
             on_map: or a point (x, y) on the turtle's map, m. Just one of the three.
-            guess: the guess, for who does not use the mouse; otherwise it is given on the widget that is shown.
+            goal: a goal that the map is to show, (x, y) in metres or (x, y, theta).
+            guess: the guess, unless it is given on the widget that is shown.
 
         Nothing has to be guessed: a page that is run without goes on. Asked again after the outcome, it begins anew.
         """
         from .lab import predictions
+        from .lab.goals import read_goals
 
         kind = predictions.kind_of(choices, unit, on_map)
-        return predictions.ask(name, question, kind, guess)
+        turtle = self._recording.place() if on_map else None
+        return predictions.ask(name, question, kind, guess, turtle=turtle, goal=next(iter(read_goals(goal)), None))
 
     def outcome(self, name: str, value: Any, because: str = "") -> Outcome:
         """What came of it: the reader's guess and the true value, side by side, and `because`, which explains the value.

@@ -7,12 +7,14 @@ from __future__ import annotations
 
 import html
 import math
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from numbers import Real
 from typing import TYPE_CHECKING, Any, Protocol
 
-from .track import WORLD
+from .goals import Goal
+from .prediction_map import draw_map
 from .words import listed, number
 
 if TYPE_CHECKING:
@@ -72,12 +74,29 @@ class Number:
     name: str = "number"
 
     def read(self, value: Any) -> float:
-        """A finite number; what was typed may have a decimal comma and a true minus sign."""
+        """A finite number; what was typed may have a unit, a decimal comma and a true minus sign."""
         if isinstance(value, str):
-            value = _typed(value)
+            return self._typed(value)
         if isinstance(value, bool) or not isinstance(value, Real) or not math.isfinite(value):
-            raise ValueError(f"A number{f' in {self.unit}' if self.unit else ''} is asked for, got {value!r}.")
+            raise ValueError(f"{self._asked()}, got {value!r}.")
         return float(value)
+
+    def _typed(self, text: str) -> float:
+        found = re.fullmatch(
+            r"\s*([+-]?(?:\d+[.,]?\d*|[.,]\d+)(?:e[+-]?\d+)?)\s*(.*?)\s*", text.replace("−", "-"), re.I
+        )
+        if found is None or not math.isfinite(value := float(found[1].replace(",", "."))):
+            raise ValueError(f"{self._asked()}, got {text!r}. Write it like 2.5{self._example()}.")
+        factor = _factor(found[2], self.unit)
+        if factor is None:
+            raise ValueError(f"{self._asked()}, got {text!r}: {found[2]!r} is not understood. Write the number alone.")
+        return value * factor
+
+    def _asked(self) -> str:
+        return f"A number{f' in {self.unit}' if self.unit else ''} is asked for"
+
+    def _example(self) -> str:
+        return f" or 2.5 {self.unit}" if self.unit else ""
 
     def shown(self, value: Any) -> str:
         """The number, with at most three decimals, and its unit."""
@@ -121,11 +140,24 @@ class Point:
         return f"{number(math.dist(guess, value))} m off."
 
 
-def _typed(text: str) -> Any:
-    try:
-        return float(text.strip().replace("−", "-").replace(",", "."))
-    except ValueError:
-        return text
+UNITS: dict[str, dict[str, float]] = {
+    "s": {"sec": 1, "second": 1, "ms": 0.001, "millisecond": 0.001, "min": 60, "minute": 60},
+    "m": {"metre": 1, "meter": 1, "cm": 0.01, "centimetre": 0.01, "centimeter": 0.01, "mm": 0.001},
+    "hz": {"hertz": 1, "/s": 1, "1/s": 1, "per second": 1, "times a second": 1, "khz": 1000},
+    "%": {"percent": 1, "per cent": 1},
+    "m/s": {"metres per second": 1, "meters per second": 1, "cm/s": 0.01},
+    "°": {"degree": 1, "deg": 1},
+    "rad": {"radian": 1},
+}
+"""What may be written for a unit, or in place of it, and by how much the number is then multiplied."""
+
+
+def _factor(written: str, unit: str) -> float | None:
+    """By what a number with a written unit is multiplied to be in the asked one; None for a unit that is another."""
+    known = {"": 1.0, unit.casefold(): 1.0} | UNITS.get(unit.casefold(), {})
+    name = written.casefold().rstrip(".")
+    singular = {each.removesuffix("s"): factor for each, factor in known.items() if len(each) > 2}
+    return known.get(name, singular.get(name.removesuffix("s")) if len(name) > 2 else None)
 
 
 def kind_of(choices: Sequence[str], unit: str | None, on_map: bool) -> Kind:
@@ -147,6 +179,10 @@ class Question:
     name: str
     question: str
     kind: Kind
+    turtle: tuple[float, float, float] | None = None
+    """Where the turtle stands while the question is open: x, y (m), theta (rad)."""
+    goal: Goal | None = None
+    """Where it is to go."""
     guess: Any = None
     outcome: Any = None
 
@@ -171,11 +207,23 @@ class Question:
 _questions: dict[str, Question] = {}
 
 
-def ask(name: str, question: str, kind: Kind, guess: Any = None) -> Asked:
-    """Put a question, or show it again. One whose outcome is known, or whose words have changed, begins anew."""
+def ask(
+    name: str,
+    question: str,
+    kind: Kind,
+    guess: Any = None,
+    *,
+    turtle: tuple[float, float, float] | None = None,
+    goal: Goal | None = None,
+) -> Asked:
+    """Put a question, or show it again. One whose outcome is known, or whose words have changed, begins anew.
+
+    A map shows the turtle where it stands, and its goal, if there is one.
+    """
     found = _questions.get(name)
     if found is None or not found.open or (found.question, found.kind) != (question, kind):
         found = _questions[name] = Question(name, question, kind)
+    found.turtle, found.goal = turtle, goal
     if guess is not None:
         found.answer(guess)
     return Asked(found)
@@ -226,7 +274,9 @@ class Outcome:
         self.guess = kind.shown(question.guess) if question.guess is not None else NO_GUESS
         self.outcome = kind.shown(question.outcome)
         self.verdict = kind.compared(question.guess, question.outcome) if question.guess is not None else ""
-        self._points = (question.guess, question.outcome) if isinstance(kind, Point) else None
+        self._map = ""
+        if isinstance(kind, Point):
+            self._map = draw_map(question.turtle, question.goal, question.guess, question.outcome)
 
     def __repr__(self) -> str:
         return "\n".join(
@@ -245,35 +295,8 @@ class Outcome:
     def _repr_html_(self) -> str:
         cell = 'style="text-align: left; vertical-align: top; white-space: normal"'
         cells = "".join(f"<td {cell}><strong>{html.escape(each)}</strong></td>" for each in (self.guess, self.outcome))
-        picture = _map(*self._points) if self._points else ""
         return (
             f"<p>{html.escape(self.title)}</p><table><thead><tr><th {cell}>your guess</th><th {cell}>outcome</th></tr></thead>"
-            f"<tbody><tr>{cells}</tr></tbody></table>{picture}<p>{html.escape(self.verdict)}</p>"
+            f"<tbody><tr>{cells}</tr></tbody></table>{self._map}<p>{html.escape(self.verdict)}</p>"
             + (f"<p>{html.escape(self.because)}</p>" if self.because else "")
         )
-
-
-SIDE = 220
-"""Pixels of the little map."""
-
-
-def _map(guess: tuple[float, float] | None, outcome: tuple[float, float]) -> str:
-    """The world with a ring where the guess was and a disc where it ended, in the page's own colours."""
-
-    def place(point: tuple[float, float]) -> tuple[str, str]:
-        x, y = (max(0.0, min(WORLD, each)) * SIDE / WORLD for each in point)
-        return number(x, 1), number(SIDE - y, 1)
-
-    x, y = place(outcome)
-    marks = f'<circle cx="{x}" cy="{y}" r="6" fill="currentColor"/>'
-    if guess is not None:
-        gx, gy = place(guess)
-        marks += (
-            f'<circle cx="{gx}" cy="{gy}" r="8" fill="none" stroke="#d55e00" stroke-width="3"/>'
-            f'<line x1="{gx}" y1="{gy}" x2="{x}" y2="{y}" stroke="currentColor" stroke-dasharray="4 4" opacity="0.6"/>'
-        )
-    label = "Map: a ring for your guess, a disc for the outcome" if guess is not None else "Map: a disc for the outcome"
-    return (
-        f'<svg role="img" aria-label="{label}" width="{SIDE}" height="{SIDE}" viewBox="-2 -2 {SIDE + 4} {SIDE + 4}">'
-        f'<rect width="{SIDE}" height="{SIDE}" fill="none" stroke="currentColor" opacity="0.6"/>{marks}</svg>'
-    )

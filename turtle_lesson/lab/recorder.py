@@ -15,6 +15,7 @@ from .channel import Channel
 from .markers import apply
 from .recording import OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, STATUS_TYPE, Recording
 from .table import LIMIT, Listener
+from .track import WORLD
 
 GLANCE_PERIOD = 1.0
 """Seconds between two glances at the graph, for publishers that come late in a node's life."""
@@ -84,6 +85,14 @@ class Recorder(Recording):
             channel.close()
         self.node.destroy_subscription(self._events)
         self.node.destroy_timer(self._timer)
+
+    def place(self) -> tuple[float, float, float] | None:
+        """Where the turtle is, x, y (m) and theta (rad): turtlesim's middle until a pose was heard, None without it."""
+        newest = self.poses.newest(1)
+        if len(newest):
+            x, y, theta = (float(newest[0][name]) for name in ("x", "y", "theta"))
+            return x, y, theta
+        return (WORLD / 2, WORLD / 2, 0.0) if self.node.count_publishers(self.pose_topic) else None
 
     def why_silent(self, topic: str) -> str:
         """A sentence on why nothing was heard on a topic, and what to try."""

@@ -25,13 +25,17 @@ class PredictionWidget(LiveWidget):
     unit = traitlets.Unicode().tag(sync=True)
     world = traitlets.Float(WORLD).tag(sync=True)
     """Side of the map, m."""
+    turtle: Any = traitlets.List(None, allow_none=True).tag(sync=True)
+    """Where the turtle stands, x, y (m) and theta (rad), or None."""
+    goal: Any = traitlets.Dict(None, allow_none=True).tag(sync=True)
+    """Where it is to go: x, y (m) and theta (rad or None), or None."""
     guess: Any = traitlets.Any(None, allow_none=True).tag(sync=True)
     """The guess as it was recorded: a text, a number, [x, y], or None."""
     is_open = traitlets.Bool(True).tag(sync=True)
     """Whether a guess can still be given."""
 
     def __init__(self, question: Question) -> None:
-        self._esm = script("dom", "small", "prediction")
+        self._esm = script("dom", "small", "map", "prediction")
         self._css = styles("base", "small", "prediction")
         self._asked = question
         station: Any = SimpleNamespace(loop=Loop(), ended=False)
@@ -48,6 +52,8 @@ class PredictionWidget(LiveWidget):
     def tick(self) -> None:
         """Show what was recorded, also by another view or by code."""
         guess = self._asked.guess
+        self.turtle = list(self._asked.turtle) if self._asked.turtle else None
+        self.goal = self._asked.goal._asdict() if self._asked.goal else None
         self.guess = list(guess) if isinstance(guess, tuple) else guess
         self.is_open = self._asked.open
 

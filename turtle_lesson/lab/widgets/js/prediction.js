@@ -13,7 +13,7 @@ function predictionPanel(model, order) {
     closed.hidden = model.get("is_open");
   };
   const panel = element("div", { class: "tl-prediction" }, body, closed);
-  return { panel, watch: { guess: show, is_open: show }, close: way.close };
+  return { panel, watch: { guess: show, is_open: show, turtle: show, goal: show }, close: way.close };
 }
 
 function choiceGuess(model, send) {
@@ -47,13 +47,18 @@ function pointGuess(model, send, id) {
   const label = element("span", { "aria-live": "polite" });
   const move = (x, y) => {
     at = [within(x), within(y)];
-    label.textContent = `(${figure(at[0])}, ${figure(at[1])}) m`;
+    label.textContent = `your guess: (${figure(at[0])}, ${figure(at[1])}) m`;
     repaint();
+  };
+  const known = () => {
+    const [turtleAt, goal] = [model.get("turtle"), model.get("goal")];
+    const place = ([x, y]) => `(${figure(x)}, ${figure(y)}) m`;
+    return [turtleAt && `the turtle: ${place(turtleAt)}`, goal && `its goal, the flag: ${place([goal.x, goal.y])}`].filter(Boolean);
   };
   const help = "Arrow keys move the mark, with Shift in small steps; Enter records it";
   const { canvas, repaint, close } = sharpCanvas(
-    { class: "tl-guess-map", tabindex: 0, role: "application", "aria-labelledby": id, "aria-description": help },
-    (context, width, height, colour) => drawGuess(context, (width - GUESS_MARGIN) / world, world, at, colour),
+    { class: "tl-guess-map", tabindex: 0, role: "application", "aria-labelledby": id, "aria-describedby": `${id}-key`, "aria-description": help },
+    (context, width, height, colour) => drawGuess(context, (width - GUESS_MARGIN) / world, model, at, colour),
   );
   canvas.addEventListener("click", (event) => {
     if (!model.get("is_open")) return;
@@ -73,30 +78,29 @@ function pointGuess(model, send, id) {
     event.preventDefault();
     event.stopPropagation();
   });
-  const show = (guess) => guess && move(...guess);
-  return { control: element("div", { class: "tl-choices" }, canvas, label), show, close };
+  const show = (guess) => {
+    keyLines.replaceChildren(...known().map((line) => element("span", {}, line)));
+    guess ? move(...guess) : repaint();
+  };
+  const keyLines = element("div", { id: `${id}-key`, class: "tl-guess-key" });
+  label.textContent = "your guess: click, or use the arrow keys and Enter";
+  return { control: element("div", { class: "tl-choices" }, canvas, element("div", { class: "tl-guess-key" }, keyLines, label)), show, close };
 }
 
-function drawGuess(context, scale, world, at, colour) {
-  const side = world * scale;
+function drawGuess(context, scale, model, at, colour) {
+  const side = model.get("world") * scale;
+  const pixel = 1 / scale;
   context.translate(GUESS_MARGIN, 0);
-  context.fillStyle = colour.floor;
-  context.fillRect(0, 0, side, side);
-  context.strokeStyle = colour.line;
-  context.beginPath();
-  for (let metre = 1; metre < world; metre++) {
-    context.moveTo(metre * scale, 0), context.lineTo(metre * scale, side);
-    context.moveTo(0, side - metre * scale), context.lineTo(side, side - metre * scale);
-  }
-  context.stroke();
-  context.strokeStyle = colour.wall;
-  context.lineWidth = 2;
-  context.strokeRect(1, 1, side - 2, side - 2);
   drawGuessFigures(context, scale, side, colour);
+  context.translate(0, side);
+  context.scale(scale, -scale);
+  drawFloor(context, colour, pixel);
+  if (model.get("turtle")) turtle(context, ...model.get("turtle"), colour);
+  if (model.get("goal")) drawFlag(context, model.get("goal"), colour, pixel);
   if (!at) return;
-  context.strokeStyle = colour.goal;
-  context.lineWidth = 3;
-  context.beginPath(), context.arc(at[0] * scale, side - at[1] * scale, 8, 0, 2 * Math.PI), context.stroke();
+  context.strokeStyle = colour.accent;
+  context.lineWidth = 3 * pixel;
+  context.beginPath(), context.arc(...at, 8 * pixel, 0, 2 * Math.PI), context.stroke();
 }
 
 function drawGuessFigures(context, scale, side, colour) {
