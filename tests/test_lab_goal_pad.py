@@ -23,7 +23,7 @@ MIDDLE = 5.544445
 
 @pytest.fixture
 def lesson(capsys: pytest.CaptureFixture[str]) -> Iterator[Lesson]:
-    """A turtle and its three nodes, a second after their start; the detector measures."""
+    """A turtle and its three nodes, a second after their launch; the detector measures."""
     lesson = start()
     lesson.launch("robot_controller", "start_system.launch.py", source="world")
     lesson.run(1)
@@ -209,9 +209,9 @@ def test_it_is_a_client_only_while_it_is_needed(lesson: Lesson) -> None:
 
 def test_showing_it_lets_no_time_pass_and_says_where_the_turtle_is(lesson: Lesson) -> None:
     pad = shown(lesson)
-    assert lesson.now == 1.0
+    assert lesson.now == 1.9
     assert repr(pad) == (
-        "Goal pad at 1.00 s of robot time: the turtle is at (5.54, 5.54) m facing 0.00 rad (0.0°). "
+        "Goal pad at 1.90 s of robot time: the turtle is at (5.54, 5.54) m facing 0.00 rad (0.0°). "
         "No goal sent yet. No obstacle in the world."
     )
     assert lesson.goal_pad() is pad
@@ -304,7 +304,7 @@ def test_a_step_is_short(lesson: Lesson) -> None:
     pad = shown(lesson)
     tell(pad, "step", seconds=3600)
     assert pad.words == "A step takes from 0 to 1.0 s of robot time, not 3600."
-    assert lesson.now == 1.0
+    assert lesson.now == 1.9
 
 
 def test_the_stopwatch_tells_the_speed_of_the_last_second() -> None:

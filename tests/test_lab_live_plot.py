@@ -70,10 +70,10 @@ def test_its_text_is_exact(lesson: Lesson) -> None:
     widget = lesson.live_plot("/turtle1/pose/x")
     lesson.run(2)
     assert repr(widget) == (
-        "Live plot of the last 30 s at 3.00 s of robot time. "
+        "Live plot of the last 30 s at 3.90 s of robot time. "
         "/turtle1/pose/x: 125 messages, last 5.54, from 5.54 to 5.54."
     )
-    assert "30 s at 3.00 s" in widget.text() and widget.picture().figure is not None
+    assert "30 s at 3.90 s" in widget.text() and widget.picture().figure is not None
     lesson.live_plot("/turtle1/pose/x", seconds=0.5)
     assert "image/png" in widget._repr_mimebundle_()[0]
 

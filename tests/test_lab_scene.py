@@ -337,7 +337,7 @@ def test_a_snapshot_fetches_nothing(lesson: Lesson, tmp_path: Path) -> None:
 def test_an_animation_replays_the_run(lesson: Lesson) -> None:
     drive_to(lesson, 8.0, 8.0)
     page = lesson.scene().animation(since=1.0)
-    assert str(page).startswith("Replay of turtle1 from 1.01 s to 5.98 s of robot time: ")
+    assert str(page).startswith("Replay of turtle1 from 1.01 s to 6.90 s of robot time: ")
     state = read_state(page.html)
     command = umsgpack.unpackb(b64decode(state["animation"]["base64"]))
     assert command["type"] == "set_animation" and command["options"] == {"play": False, "repetitions": 1}

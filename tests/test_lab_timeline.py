@@ -78,7 +78,7 @@ def test_an_async_callback_awaits_and_others_run(lesson: Lesson) -> None:
     lesson.run(0.5)
     text = lesson.plot_timeline("/navigator").text
     assert "on_navigate_to (/navigate_to): 1 call; it awaited 0.50 s; 1 goes on." in text
-    assert "/navigator.on_steering_timer (every 0.1 s): 4 calls" in text
+    assert "/navigator.on_steering_timer (every 0.1 s): 10 calls" in text
 
 
 def test_topics_are_shown_without_being_disturbed(lesson: Lesson) -> None:
@@ -102,7 +102,7 @@ def test_a_topic_of_two_publishers_and_one_that_fell_silent(lesson: Lesson) -> N
     lesson.launch("robot_controller", "start_system.launch.py", publish_rate=10, scan_rate=4)
     lesson.run(1)
     text = lesson.plot_timeline("/obstacles").text
-    assert "7 messages" in text
+    assert "12 messages" in text
     first.stop()
     lesson.run(4)
     assert "then nothing" not in lesson.plot_timeline("/obstacles").text
@@ -170,10 +170,10 @@ def test_a_call_is_told_from_the_question_to_the_answer(simple: Lesson) -> None:
     picture = simple.plot_sequence("/navigate_to")
     assert picture.text == (
         "2 calls of /navigate_to. "
-        "At 0.000 s /asker asked /navigate_to (x 0.2, y 0, theta 0); /navigator received it 0.12 ms later; "
+        "At 0.900 s /asker asked /navigate_to (x 0.2, y 0, theta 0); /navigator received it 0.12 ms later; "
         "answered after 1.00 s (success True, time_taken 1.00001); "
         "meanwhile had to wait: on_goal (/navigate_to) 1 time, at most 1.00 s. "
-        "At 0.000 s /asker asked /navigate_to (x 0.4, y 0, theta 0); /navigator received it 0.12 ms later; "
+        "At 0.900 s /asker asked /navigate_to (x 0.4, y 0, theta 0); /navigator received it 0.12 ms later; "
         "on_goal began after a wait of 1.00 s; answered after 2.00 s (success True, time_taken 1.00001)."
     )
     arrows = [line.split(":")[0] for line in picture.mermaid.splitlines() if ">>" in line]
@@ -194,7 +194,7 @@ def test_a_call_that_is_not_answered_yet(simple: Lesson) -> None:
     first, second = simple.plot_sequence().text.split(". At")[1:]
     assert "has not answered yet; meanwhile had to wait: on_goal (/navigate_to) 1 time, at most 4.00 s" in first
     assert "no callback has begun yet" in second
-    assert "1 goes on; 1 waits now, the first since 0.00 s" in simple.plot_timeline("/navigator").text
+    assert "1 goes on; 1 waits now, the first since 0.90 s" in simple.plot_timeline("/navigator").text
     assert "waits: no callback has begun yet" in simple.plot_sequence().mermaid
 
 

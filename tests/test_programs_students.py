@@ -67,8 +67,8 @@ def test_a_project_is_launched_with_its_parameters(terminal: Terminal) -> None:
     printed = terminal.say("ros2 launch student_turtles all.launch.py", seconds=3)
     assert having(printed, "patrol-2]") == [
         "[INFO] [patrol-2]: process started with pid [1003]",
-        "[patrol-2] 0.0 patrol: a: 2.0 2.0",
-        "[patrol-2] 0.5 patrol: b: 8.0 2.0",
+        "[patrol-2] 0.3 patrol: a: 2.0 2.0",
+        "[patrol-2] 0.8 patrol: b: 8.0 2.0",
         "[patrol-2] tolerance 0.3",
         "[INFO] [patrol-2]: process has finished cleanly [pid 1003]",
     ]
