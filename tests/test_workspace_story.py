@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import io
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +11,7 @@ import nbformat
 import pytest
 
 from turtle_lesson import story
+from turtle_lesson.ros.workspace import create
 from turtle_lesson.workspace import Workspace, workspace
 
 NODE = "robot_controller/navigator_node.py"
@@ -200,6 +203,21 @@ def test_reset_of_a_page_that_does_not_exist_changes_nothing(mine: Workspace) ->
 
 
 # -- cells that write --------------------------------------------------------------------------------------------------
+
+
+def test_what_pkg_create_made_is_replaced_without_a_question(mine: Workspace) -> None:
+    def create_anew() -> None:
+        words = [mine.package.name, "--build-type", "ament_cmake"]
+        create.create_package(create.parse(words), cwd=mine.package.parent, stdout=io.StringIO())
+
+    mine.package.parent.mkdir(parents=True)
+    create_anew()
+    assert mine.write(mine.package / "CMakeLists.txt", CMAKE, append=False).startswith("Overwriting ")
+    shutil.rmtree(mine.package)
+    create_anew()
+    mine.prepare("03_navigator")
+    assert (mine.package / "CMakeLists.txt").read_text() == CMAKE
+    assert (mine.package / "package.xml").read_text() == MANIFEST
 
 
 def test_a_cell_may_be_edited_and_run_again(mine: Workspace) -> None:

@@ -19,6 +19,7 @@ from .ros.workspace.source import make_importable
 from .ros.world import World, open_world, wall_time
 from .shelf import Shelf
 from .sourced import HERE, real_ros
+from .story import page_named
 from .underlay import SIMULATOR, underlay_packages
 from .workspace import Workspace, workspace
 
@@ -52,16 +53,17 @@ def start(
             it is built), or the folder of another package's source.
         simulator: whether the turtle simulator runs from the beginning.
         page: a page of the lesson, such as "04_status_monitor": what the pages before it would have left in the learner's
-            package is brought where it is missing, and the package that results is "mine", and listed.
+            package is brought where it is missing, and listed; the package that results is "mine" unless another is asked for.
 
     Raises RuntimeError where a real ROS 2 is sourced, ValueError for anything else as `package` or `page`.
     """
     _check_no_real_ros()
     _check_seed(seed)
-    mine = None
-    if page is not None or package == "mine":
-        mine, package = _learners_package(seed, page), None
-    source = _package_folder(package)
+    if page is not None:
+        print(workspace().prepare(page_named(page)).state())
+        package = "mine" if package == "finished" else package
+    mine = _built(seed, workspace()) if package == "mine" else None
+    source = _package_folder(None if mine else package)
     world = open_world(seed)
     open_terminal()
     if "robot_controller" in registry.packages():
@@ -75,14 +77,8 @@ def start(
     return Lesson(world, simulator=simulator)
 
 
-def _learners_package(seed: int, page: str | None) -> Workspace:
-    """The learner's workspace: prepared for a page if one is named, and built; says which files it has."""
-    from .story import page_named
-
-    mine = workspace()
-    if page is not None:
-        mine.prepare(page_named(page))
-        print(mine.state())
+def _built(seed: int, mine: Workspace) -> Workspace:
+    """The learner's workspace, built if its sources have changed. Prints what the build says where it fails."""
     if (mine.package / "package.xml").exists() and not mine.is_built:
         world = open_world(seed)  # one of its own: building takes robot time, and the lesson's world begins at 0 s
         for each in underlay_packages():

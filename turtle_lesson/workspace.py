@@ -18,6 +18,8 @@ from typing import TYPE_CHECKING, Any
 from . import story
 from .lab.checks.registry import PAGES
 from .ros.command.shell import home
+from .ros.workspace import templates
+from .ros.workspace.create import TO_DO_DESCRIPTION
 
 if TYPE_CHECKING:
     from .ros.world import World
@@ -48,23 +50,24 @@ class Workspace:
 
     # -- what a page needs -------------------------------------------------------------------------------------------
 
-    def prepare(self, page: str) -> None:
+    def prepare(self, page: str) -> Workspace:
         """Bring what the pages before this one would have left, where it is missing. The learner's own files are kept.
 
-        A file that is still as an earlier page published it becomes what this page begins with. In a CMakeLists.txt of the
-        learner's own, the `install(…)` commands that are missing are added.
+        A file that is still as an earlier page published it, or as `ros2 pkg create` made it, becomes what this page begins
+        with. In a CMakeLists.txt of the learner's own, the `install(…)` commands that are missing are added.
         """
         memory = self._memory()
         memory["page"] = page
         for path, text in story.files_before(page).items():
             file = self.package / path
             now = _text(file)
-            if now is None or (now != text and story.is_published(path, now, before=page)):
+            if now is None or (now != text and (story.is_published(path, now, before=page) or _is_template(path, now))):
                 _write(file, text)
                 memory["files"][path] = [_hash(text), ""]
             elif path == "CMakeLists.txt" and (merged := _with_installs(now, text)) != now:
                 _write(file, merged)
         self._remember(memory)
+        return self
 
     def reset(self, page: str) -> str:
         """Put the package back as a page finds it: "05_obstacle_detector" or "05". Returns a sentence.
@@ -164,7 +167,8 @@ class Workspace:
     def _may_replace(self, path: str, now: str, text: str) -> bool:
         memory = self._memory()
         here = memory["page"]
-        if now == text or story.is_published(path, now, before=here) or (path, now) in story.versions(here):
+        published = story.is_published(path, now, before=here) or (path, now) in story.versions(here)
+        if now == text or published or _is_template(path, now):
             return True
         written, page = memory["files"].get(path, ["", ""])
         earlier = page == "" or PAGES.index(page) <= PAGES.index(here)
@@ -212,6 +216,13 @@ class Workspace:
 
 def _sources(package: Path) -> list[Path]:
     return [path for path in package.rglob("*") if path.is_file() and "__pycache__" not in path.parts]
+
+
+def _is_template(path: str, text: str) -> bool:
+    """Whether a file is still as `ros2 pkg create` made it."""
+    if path == "CMakeLists.txt":
+        return text == templates.cmake_lists(PACKAGE, build_type="ament_cmake", dependencies=())
+    return path == "package.xml" and TO_DO_DESCRIPTION in text
 
 
 def _text(file: Path) -> str | None:
