@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import shutil
+import subprocess
 from pathlib import Path
 from typing import Any
 
 import nbformat
+import pytest
+
+from turtle_lesson.teaching import pages
 
 PAGE = "01_publish_and_subscribe"
 SET_UP = "%load_ext turtle_lesson\nfrom turtle_lesson import start\nlesson = start(seed=0)\nimport rclpy\nrclpy.init()"
@@ -47,6 +52,33 @@ def write(folder: Path, name: str, notebook: Any) -> Path:
     path = folder / f"{name}.ipynb"
     nbformat.write(notebook, path)
     return path
+
+
+def publish(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A checkout without version control in this folder, with one published page; returns the page."""
+    published = folder / "checkout" / "notebooks"
+    published.mkdir(parents=True)
+    monkeypatch.setattr(pages, "CHECKOUT", published.parent)
+    monkeypatch.setattr(pages, "PUBLISHED", published)
+    return write(published, PAGE, was_run(copy(STUB, STUB)))
+
+
+def commit() -> None:
+    """Put the checkout's pages under version control, as they are now."""
+    if shutil.which("git") is None:
+        pytest.skip("there is no git here")
+    git = ["git", "-C", str(pages.CHECKOUT), "-c", "user.name=a", "-c", "user.email=a@b.example"]
+    for words in (["init", "-q"], ["add", "-f", "."], ["commit", "-q", "-m", "pages"]):
+        subprocess.run([*git, *words], check=True)
+
+
+def was_run(notebook: Any) -> Any:
+    """The same notebook, with an output below each code cell."""
+    for number, cell in enumerate(notebook.cells, start=1):
+        if cell.cell_type == "code":
+            cell.outputs = [nbformat.v4.new_output("stream", name="stdout", text="the answer\n")]
+            cell.execution_count = number
+    return notebook
 
 
 def a_class(folder: Path) -> dict[str, tuple[int, str]]:

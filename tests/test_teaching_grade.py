@@ -78,7 +78,8 @@ def test_a_folder_without_notebooks_is_said(tmp_path: Path, capsys: pytest.Captu
 
 
 @pytest.mark.parametrize(
-    "wrong", [["grade"], ["grade", "x", "--timeout", "0"], ["grade", "x", "--jobs", "no"], ["mark"], []]
+    "wrong",
+    [["grade"], ["grade", "x", "--timeout", "0"], ["grade", "x", "--jobs", "no"], ["mark"], ["reset", "x", "--all"]],
 )
 def test_a_wrong_use_is_explained(wrong: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as stop:

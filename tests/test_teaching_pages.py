@@ -14,13 +14,7 @@ from turtle_lesson.teaching.main import main
 
 @pytest.fixture
 def checkout(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A checkout without version control, with one published page."""
-    published = tmp_path / "checkout" / "notebooks"
-    published.mkdir(parents=True)
-    copies.write(published, copies.PAGE, copies.copy(copies.STUB, copies.STUB))
-    monkeypatch.setattr(pages, "CHECKOUT", published.parent)
-    monkeypatch.setattr(pages, "PUBLISHED", published)
-    return published / f"{copies.PAGE}.ipynb"
+    return copies.publish(tmp_path, monkeypatch)
 
 
 @pytest.fixture
@@ -53,18 +47,9 @@ def test_the_published_page_itself_needs_version_control(checkout: Path, capsys:
     assert "--from FOLDER" in capsys.readouterr().err
 
 
-def test_with_version_control_the_published_page_is_what_was_committed(
-    checkout: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    import shutil
-    import subprocess
-
-    if shutil.which("git") is None:
-        pytest.skip("there is no git here")
+def test_with_version_control_the_published_page_is_what_was_committed(checkout: Path) -> None:
     published = checkout.read_bytes()
-    git = ["git", "-C", str(pages.CHECKOUT), "-c", "user.name=a", "-c", "user.email=a@b.example"]
-    for words in (["init", "-q"], ["add", "-f", "."], ["commit", "-q", "-m", "pages"]):
-        subprocess.run([*git, *words], check=True)
+    copies.commit()
     checkout.write_text("edited in place")
     assert main(["reset", str(checkout)]) == 0
     assert checkout.read_bytes() == published
@@ -80,13 +65,17 @@ def test_missing_pages_are_said(checkout: Path, tmp_path: Path, capsys: pytest.C
     assert main(["reset", str(tmp_path / "notes.txt")]) == 1
 
 
-def test_student_leaves_the_solutions_out(mine: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_student_leaves_the_solutions_and_outputs_out(
+    mine: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    copies.write(mine.parent, copies.PAGE, copies.was_run(nbformat.read(mine, as_version=4)))
     assert main(["student", str(mine)]) == 0
     assert "1 cell with a solution left out" in capsys.readouterr().out
     written = mine.with_name(f"{copies.PAGE}.student.ipynb")
     notebook = nbformat.read(written, as_version=4)
     assert len(notebook.cells) == 5
     assert not any("%%solution" in cell.source for cell in notebook.cells)
+    assert not any(cell.outputs or cell.execution_count for cell in notebook.cells)
     assert main(["student", str(mine)]) == 1
     assert "nothing is ever overwritten" in capsys.readouterr().err
     assert main(["student", str(mine), "--to", str(tmp_path)]) == 0

@@ -45,11 +45,16 @@ def free_port() -> int:
         return probe.getsockname()[1]
 
 
+def isolated(folder: Path) -> dict[str, str]:
+    """The environment of a Jupyter with nobody's settings: it keeps its own in `folder`/home."""
+    home = folder / "home"
+    home.mkdir()
+    return {**os.environ, **{name: str(home) for name in ("HOME", "JUPYTER_CONFIG_DIR", "JUPYTER_DATA_DIR")}}
+
+
 @contextmanager
 def jupyterlab(folder: Path) -> Iterator[str]:
     """The address of a JupyterLab that serves `folder` on this machine only, with nobody's settings."""
-    home = folder / "home"
-    home.mkdir()
     port = free_port()
     options = {
         "ServerApp.ip": "127.0.0.1",
@@ -62,10 +67,9 @@ def jupyterlab(folder: Path) -> Iterator[str]:
         "LabApp.check_for_updates_class": "jupyterlab.NeverCheckForUpdate",
     }
     words = [f"--{name}={value}" for name, value in options.items()]
-    places = {name: str(home) for name in ("HOME", "JUPYTER_CONFIG_DIR", "JUPYTER_DATA_DIR")}
     with (folder / "server.log").open("w") as log:
         command = [sys.executable, "-m", "jupyterlab", "--no-browser", *words]
-        server = subprocess.Popen(command, env={**os.environ, **places}, stdout=log, stderr=log)
+        server = subprocess.Popen(command, env=isolated(folder), stdout=log, stderr=log)
     address = f"http://127.0.0.1:{port}"
     try:
         wait_until_it_answers(f"{address}/api/status", server, folder / "server.log")

@@ -158,7 +158,9 @@ def _open(options: argparse.Namespace) -> int:
     here = Path(".") if learner.is_learners(Path(".")) else Path(learner.FOLDER)
     folder = learner.LearnersFolder(options.folder or here)
     said = folder.update(options.source) + (folder.take_along() if options.take_along else [])
-    print("\n".join([*said, f"Your pages are in {folder.path.resolve()}. Ctrl-C, pressed twice here, ends JupyterLab."]))
+    print(
+        "\n".join([*said, f"Your pages are in {folder.path.resolve()}. Ctrl-C, pressed twice here, ends JupyterLab."])
+    )
     return serve(folder.path, options.port, not options.no_browser, options.more)
 
 

@@ -11,8 +11,8 @@ from pathlib import Path
 
 from .pages import PageError
 
-KERNELS = Path(__file__).resolve().parent / "jupyter"
-"""Holds the description of the kernel that says which cell to run after a restart."""
+JUPYTER = Path(__file__).resolve().parent / "jupyter"
+"""Holds the kernel that says which cell to run after a restart, and settings: no news, and no look for updates."""
 
 FIRST = "00_welcome.ipynb"
 
@@ -26,17 +26,17 @@ def serve(folder: Path, port: int | None, browser: bool, more: Sequence[str]) ->
         browser: whether to open one.
         more: further options of JupyterLab's.
     """
-    words = [sys.executable, "-m", "jupyterlab", "--Application.log_level=WARN", *more]
+    words = [sys.executable, "-m", "jupyterlab", "--Application.log_level=ERROR", *more]
     words.append(f"--LabApp.default_url=/lab/tree/{FIRST}")
     words += [f"--ServerApp.root_dir={folder.resolve()}", "--ServerApp.ip=127.0.0.1"]
-    words += ["--LabApp.check_for_updates_class=jupyterlab.NeverCheckForUpdate", "--LabApp.news_url=None"]
     if port is not None:
         _check_free(port)
         words += [f"--ServerApp.port={port}", "--ServerApp.port_retries=0"]
     if not browser:
         words.append("--no-browser")
-    paths = [str(KERNELS), *filter(None, [os.environ.get("JUPYTER_PATH")])]
-    environment = {**os.environ, "JUPYTER_PATH": os.pathsep.join(paths)}
+    environment = dict(os.environ)
+    for name in ("JUPYTER_PATH", "JUPYTER_CONFIG_PATH"):
+        environment[name] = os.pathsep.join([str(JUPYTER), *filter(None, [os.environ.get(name)])])
     sys.stdout.flush()
     if os.name == "posix":
         os.execve(sys.executable, words, environment)

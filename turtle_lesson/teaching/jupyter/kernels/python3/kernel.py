@@ -1,6 +1,6 @@
 """The kernel of `turtle-lesson open`: Jupyter's own, which also says which cell to run first after a restart.
 
-It imports nothing of the lesson before there is a command to understand, and `%load_ext turtle_lesson` replaces what it does.
+It imports nothing of the lesson before the set-up cell does, and `%load_ext turtle_lesson` replaces what it does.
 """
 
 from __future__ import annotations
@@ -14,14 +14,14 @@ from ipykernel.kernelapp import IPKernelApp
 from IPython.core.error import UsageError
 
 HINT = (
-    "Run the set-up cell first: it is the first code cell of the page, and begins with %load_ext turtle_lesson. "
-    "A kernel that was just started knows nothing of what cells did before."
+    "Run the set-up cell first: it is the page's first code cell, with %load_ext turtle_lesson.\n"
+    "A kernel that has just started knows nothing of the cells that ran before."
 )
 SET_UP = re.compile(r"(?m)^[ \t]*%load_ext[ \t]+turtle_lesson\b")
-COMMAND = re.compile(r"(?m)^[ \t]*%?(?:ros2|colcon|source)\b")
-"""Begins a line that is surely meant for the lesson's terminal."""
+COMMAND = re.compile(r"[ \t]*(?:ros2|colcon|source|cd|mkdir|ls|cat|touch)[ \t]+[\w~./$\"'-]")
+"""A line that is no Python, and surely meant for the lesson's terminal."""
 
-NAMES = ("lesson", "start", "rclpy")
+NAMES = ("lesson", "start", "rclpy", "ros2", "colcon")
 """What a set-up cell makes known."""
 
 
@@ -38,8 +38,7 @@ def watch(shell: Any) -> None:
     """Have a shell answer commands and names of the lesson with a hint, until the extension is loaded."""
 
     def transform(lines: list[str]) -> list[str]:
-        cell = "".join(lines)
-        if "turtle_lesson" in shell.extension_manager.loaded or not (SET_UP.search(cell) or COMMAND.search(cell)):
+        if "turtle_lesson" in shell.extension_manager.loaded or not SET_UP.search("".join(lines)):
             return lines
         from turtle_lesson.ros.command.cells import translate
 
@@ -47,24 +46,29 @@ def watch(shell: Any) -> None:
 
     transform.is_turtle_lesson = True  # type: ignore[attr-defined]  # the extension puts its own in place of this one
     shell.input_transformer_manager.line_transforms.append(transform)
-    shell.register_magic_function(terminal, "line_cell")
-    shell.set_custom_exc((NameError, ModuleNotFoundError), explain)
+    for word in ("ros2", "colcon", "source"):
+        shell.register_magic_function(not_yet, magic_name=word)
+    shell.set_custom_exc((NameError, ModuleNotFoundError, SyntaxError), explain)
 
 
-def terminal(line: str, cell: str = "") -> None:
-    """Stand for the lesson's terminal, which is not there yet."""
+def not_yet(line: str) -> None:
+    """Stand for a command of the lesson's terminal, which is not there yet."""
     raise UsageError(HINT)
 
 
 def explain(
     shell: Any,
     kind: type[BaseException],
-    error: NameError | ModuleNotFoundError,
+    error: NameError | ModuleNotFoundError | SyntaxError,
     trace: TracebackType,
     tb_offset: int | None = None,
 ) -> None:
-    """Show an error as ever, with the hint below it if it is about something of the lesson."""
-    if error.name in NAMES:
+    """Show an error as ever, with the hint if it is about something of the lesson."""
+    if isinstance(error, SyntaxError):
+        if COMMAND.match(error.text or ""):
+            shell._showtraceback(kind, error, [HINT])
+            return
+    elif error.name in NAMES:
         error.add_note(HINT)
     shell.showtraceback((kind, error, trace), tb_offset=tb_offset)
 
