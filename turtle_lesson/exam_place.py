@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+import io
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager, redirect_stdout
 from typing import TYPE_CHECKING, Any
 
 from .ros.core import NANOSECONDS
@@ -59,6 +61,46 @@ class ExamPlace:
     def put(self, obstacles: Iterable[Any]) -> None:
         """Replace them."""
         self._board.put(obstacles)
+
+    def runs(self, program: str) -> bool:
+        """Whether a program of this name is running."""
+        return any(each.name == program and each.alive for each in self._world.processes)
+
+    @contextmanager
+    def launched(
+        self, package: str, file_name: str, namespace: str, renamed: Mapping[str, str], arguments: Mapping[str, object]
+    ) -> Iterator[None]:
+        """Within this block a launch file runs once more, its nodes in a namespace, with some names replaced.
+
+        Raises LaunchError if it cannot be carried out.
+        """
+        from launch import LaunchDescription
+        from launch.actions import GroupAction, IncludeLaunchDescription
+        from launch.launch_description_sources import AnyLaunchDescriptionSource
+        from launch_ros.actions import PushRosNamespace, SetRemap
+
+        from .ros import launching
+
+        source = AnyLaunchDescriptionSource(str(launching.find_launch_file(self._world, package, file_name)))
+        given = [(name, str(value)) for name, value in arguments.items()]
+        apart = [PushRosNamespace(namespace), *(SetRemap(old, new) for old, new in renamed.items())]
+        group = GroupAction([*apart, IncludeLaunchDescription(source, launch_arguments=given)])
+        handle = launching.launch_description(self._world, LaunchDescription([group]))
+        try:
+            handle.wait_until_up()
+            yield
+        finally:
+            with redirect_stdout(io.StringIO()):  # what programs say when they are interrupted
+                handle.stop()
+                self.step(0.1)
+
+    def published(self, topic: str, by: str) -> int:
+        """How many messages a node's newest publisher of a topic has sent so far; 0 if there is none."""
+        trace = self._world.trace
+        if trace is None or (topic, by) not in trace.published:
+            return 0
+        since = trace.made[topic, by]
+        return sum(time >= since for time in trace.published[topic, by])
 
     def call(self, function: Callable[..., Any], *arguments: Any) -> Any:
         """Call a function of the learner's as a cell would: it may sleep, and is stopped if it computes without end."""

@@ -1,12 +1,12 @@
 '''Exercises are checked by looking at the running system, as any node could: at the graph, messages, answers, parameters.
 
 A page asks for a check by its name, `lesson.check("status_monitor")`, and shows the table that comes back. A check is a
-list of *expectations*. Each has a text and a function that looks, and becomes a row: ✓, or ✗ with the most useful next
-step, or – where it cannot be looked at, with the reason. Every ✓ together earns the check's points.
+list of *expectations*. Each has a text and a function that looks, and becomes a row: ✓, or ✗ with what was seen and some
+advice, or – where it cannot be looked at, with the reason. Every ✓ together earns the check's points.
 
 **To write one**, add it to the module of its page (`page_04.py`; a new module is named in `registry.MODULES`):
 
-    @check("talker", page="01_publish_and_subscribe", points=3, limit=15)
+    @check("talker", page="01_publish_and_subscribe", points=3, limit=15, learnt="A timer makes a steady stream.")
     def talker() -> list[Expectation]:
         """A node that says hello twice a second."""
         return [
@@ -14,6 +14,7 @@ step, or – where it cannot be looked at, with the reason. Every ✓ together e
             publishes("/chatter", "std_msgs/msg/String", by="/talker"),
             rate("/chatter", "std_msgs/msg/String", hz=2),
             Expectation("it is polite", is_polite),
+            no_errors(),
         ]
 
     def is_polite(exam: Exam) -> Seen:
@@ -21,11 +22,17 @@ step, or – where it cannot be looked at, with the reason. Every ✓ together e
         if not heard:
             raise CannotLook("no message came on /chatter")
         text = field(heard[-1].message, "data")
-        return Seen("please" in text, f'it said "{text}"', 'Set message.data to a text with "please" in it.')
+        return Seen("please" in text, f'it said "{text}"', "Which word makes a request polite?")
 
-The docstring's first line is the title. `limit` is the most robot time (s) that it may take; 25 s of real time are the
-end in any case. What an expectation raises becomes a row of its own: CannotLook a –, anything else a ✗. So a check never
-fails itself, and never hangs.
+The docstring's first line is the title. `limit` is the most robot time (s) that it may take. What an expectation raises
+becomes a row of its own: CannotLook a –, anything else a ✗. What the learner's code raises meanwhile becomes the first row,
+with its line. Code that computes without end is stopped after a measure of CPU time, and a ■ says where; no verdict depends
+on the wall clock. So a check never fails itself, and never hangs.
+
+**Advice** (`rows.Advice`) comes in three steps: at the first failure of a check the symptom, at the second the direction (what
+a plain text is), from the third on a pointer to the hint, too. It says where to look, not what to write.
+
+**Answers**, wrong ones that must fail and right ones that must pass, are in `tests/answers`.
 
 **Ready-made expectations**
 
@@ -33,15 +40,17 @@ fails itself, and never hangs.
 |---|---|
 | `parts` | `node`, `publishes`, `subscribes`, `offers`, `parameter`, `no_errors` |
 | `streams` | `rate`, `steps`, `in_range`, `relays`, and `messages` for whatever a function judges |
-| `questions` | `answers`, `rate_follows`, `gives_up` |
+| `questions` | `answers`, `rate_follows`, `gives_up`; `no_answer` for an expectation of one's own |
+| `functions` | `returns` |
 | `drives` | a drive of the navigator: `answered`, `arrived`, `facing`, `honest_time`, `stopped`, `steady_commands`, `refuses` |
 
 **What a function that looks may do** is in `exam.Exam`: `wait`, `wait_for`, `listen`, `hear`, `publish`, `ask`, `ask_soon`,
-`nodes`, `publishers`, `subscriptions`, `servers`, `obstacles`, and `once`, which remembers what several rows are about.
+`nodes`, `publishers`, `subscriptions`, `servers`, `obstacles`, `errors`, `unreturned`, `call`, and `once`, which remembers
+what several rows are about. A function of the learner's is called by `exam.call` and in no other way.
 All that it subscribes to and offers is taken away when the check is over, and parameters and obstacles are put back.
 
 Texts are for learners and are compared by nbval: figures with fixed decimals (`lab.words`), nothing of the machine. A row's
-`expected` is short (50 characters at most fit its column), `seen` says what was measured, the next step says what to do.
+`expected` is short (50 characters at most fit its column), `seen` says what was measured, beside what was expected.
 Nodes that live in a notebook cell, and that no executor spins, are spun while a check lets time pass.
 '''
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Callable, Hashable, Iterable, Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
+from contextlib import AbstractContextManager, contextmanager, suppress
 from dataclasses import dataclass
 from types import TracebackType
 from typing import Any, Protocol, TypeVar
@@ -18,7 +18,7 @@ from ...ros.core.errors import NeverReturns
 from ..channel import with_time
 from ..recording import NANOSECONDS
 from ..words import listed, number
-from .failures import never_returned, unreturned
+from .failures import in_words, never_returned, unreturned
 from .fields import filled, interface
 from .graph_view import GraphView
 from .rows import CannotLook, OutOfTime, Stopped
@@ -64,8 +64,22 @@ class Place(Protocol):
         """The lines of execution that wait somewhere."""
         ...
 
+    def runs(self, program: str) -> bool:
+        """Whether a program of this name is running."""
+        ...
+
+    def published(self, topic: str, by: str) -> int:
+        """How many messages a node's newest publisher of a topic has sent so far."""
+        ...
+
     def call(self, function: Callable[..., Any], *arguments: Any) -> Any:
         """Call a function of the learner's as a cell would; raises what it raises."""
+        ...
+
+    def launched(
+        self, package: str, file_name: str, namespace: str, renamed: Mapping[str, str], arguments: Mapping[str, object]
+    ) -> AbstractContextManager[None]:
+        """Within this block a launch file runs once more, its nodes in a namespace, with some names replaced."""
         ...
 
     def step(self, seconds: float) -> None:
@@ -252,6 +266,11 @@ class Exam(GraphView):
     def errors(self) -> list[Exception]:
         """What the learner's code has raised since the exam began: in a callback of a cell's node, or in a program."""
         return [error for _, error in self.place.errors if all(error is not old for old in self._errors_before)]
+
+    def fallen(self) -> list[str]:
+        """The programs that an error had ended before the exam began, each with its error in words: the newest of a name."""
+        ended = {name: error for name, error in self.place.errors if name and error in self._errors_before}
+        return [f"{name} ended with {in_words(error)}" for name, error in ended.items() if not self.place.runs(name)]
 
     @property
     def stopped(self) -> str:

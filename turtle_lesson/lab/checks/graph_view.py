@@ -42,6 +42,17 @@ class GraphView:
             found += [(name, kind) for offered, kinds in offers if offered == service for kind in kinds] * amount
         return found
 
+    def subscribed(self, owner: str) -> list[str]:
+        """The names of the topics that a node listens to."""
+        from rclpy.node import NodeNameNonExistentError
+
+        namespace, _, base = owner.rpartition("/")
+        try:
+            found = self.node.get_subscriber_names_and_types_by_node(base, namespace or "/")
+        except NodeNameNonExistentError:
+            return []
+        return [name for name, _ in found if not is_hidden(name)]
+
     def topics(self) -> list[str]:
         """The names of all topics that are published, hidden ones left out."""
         names = [name for name, _ in self.node.get_topic_names_and_types() if not is_hidden(name)]

@@ -2,53 +2,115 @@
 
 from __future__ import annotations
 
-from ..words import number
+from collections import Counter
+
+from ..words import count, number
 from .drives import COMMAND_TYPE, COMMANDS, POSE, POSE_TYPE
 from .exam import Exam, Heard
 from .fields import field
 from .parts import no_errors, node, publishes, subscribes
 from .registry import Expectation, check
-from .rows import CannotLook, Seen
-from .streams import rate, relays, steps
+from .rows import Advice, CannotLook, Seen
+from .streams import rate, relays, some
 
 PAGE = "01_publish_and_subscribe"
 NUMBER = "std_msgs/msg/Int32"
+COUNT, DOUBLED = "/count", "/doubled"
 REPORT, REPORT_TYPE = "/report", "std_msgs/msg/Float32"
+
+ENOUGH = 6
+"""Numbers that show how a node counts."""
 
 NEWS = 0.1
 """How far a report may be behind the turtle, m: at 1 m/s that is 0.1 s."""
 
+ROUND = 6.3
+"""Robot time, s, in which the turtle drives once round a circle, so that x rises and falls."""
 
-@check("counter", page=PAGE, points=3, limit=15)
+
+@check("counter", page=PAGE, points=3, limit=15, learnt="A publisher and a timer make a steady stream of messages.")
 def counter() -> list[Expectation]:
     """A node that counts aloud, twice a second."""
     return [
         node("/counter"),
-        publishes("/count", NUMBER, by="/counter"),
-        rate("/count", NUMBER, hz=2, seconds=4.0),
-        steps("/count", NUMBER, "data", 1),
+        publishes(COUNT, NUMBER, by="/counter"),
+        rate(COUNT, NUMBER, hz=2, seconds=4.0),
+        Expectation("it counts 1, 2, 3, 4 and so on", _counts),
         no_errors(),
     ]
 
 
-@check("doubler", page=PAGE, points=3, limit=15)
+def _counts(exam: Exam) -> Seen:
+    """Each number that came since the check began, compared with how many the node has sent by then."""
+    heard = exam.listen(COUNT, NUMBER)
+    if len(heard) < ENOUGH:
+        some(exam, COUNT, NUMBER, 3.0)
+    sent = exam.place.published(COUNT, "/counter")
+    if not sent:
+        raise CannotLook(f"/counter sent nothing on {COUNT}")
+    first = sent - len(heard) + 1
+    said = [field(each.message, "data") for each in heard]
+    wrong = next(((place, each) for place, each in enumerate(said, first) if each != place), None)
+    if wrong is None:
+        return Seen(True, f"from {said[0]} to {said[-1]} while the check listened")
+    place, each = wrong
+    advice = Advice(
+        direction="Follow the number by hand: what is it before the first message, and what happens to it for each one?",
+        hint="Hint 2 under the exercise says where the number is kept.",
+    )
+    if place == 1 or said == list(range(said[0], said[0] + len(said))):
+        return Seen(False, f"it began with {each - place + 1}, not with 1", advice)
+    return Seen(False, f"message number {place} was {each}", advice)
+
+
+@check(
+    "doubler", page=PAGE, points=3, limit=15, learnt="A node can listen and speak: its callback publishes the answer."
+)
 def doubler() -> list[Expectation]:
     """A node that hears a number and says twice as much."""
     pairs = [
         ({"data": given}, lambda message, given=given: message.data == 2 * given, f"{given} → {2 * given}")
         for given in (21, -500, 0, 123456)
     ]
-    step = "In the callback make a new message, set its data to 2 * message.data, and publish it."
+    advice = Advice(
+        direction="Who calls the callback, with which message, and what does the message hold that it publishes?",
+        hint="Hint 2 under the exercise shows what the callback does.",
+    )
     return [
         node("/doubler"),
-        subscribes("/count", NUMBER, by="/doubler"),
-        publishes("/doubled", NUMBER, by="/doubler"),
-        relays("/count", NUMBER, "/doubled", NUMBER, pairs, step),
+        subscribes(COUNT, NUMBER, by="/doubler"),
+        publishes(DOUBLED, NUMBER, by="/doubler"),
+        relays(COUNT, NUMBER, DOUBLED, NUMBER, pairs, advice),
+        Expectation("one answer to each number, even to three at once", _answers_each),
         no_errors(),
     ]
 
 
-@check("reporter", page=PAGE, points=4, limit=20)
+def _answers_each(exam: Exam) -> Seen:
+    if not exam.subscriptions(COUNT):
+        raise CannotLook(f"nobody listens to {COUNT}")
+    answers = exam.listen(DOUBLED, NUMBER)
+    before, given = len(answers), (1001, 1002, 1003)
+    for each in given:
+        exam.publish(COUNT, NUMBER, data=each)
+    exam.wait(1.5)
+    said = Counter(each.message.data for each in answers[before:])
+    direction = "The callback is called once for each message: publish there, once."
+    for each in given:
+        if said[2 * each] != 1:
+            return Seen(
+                False, f"{each} was answered {count(said[2 * each], 'time') if said[2 * each] else 'never'}", direction
+            )
+    return Seen(True, "1001, 1002 and 1003 were, once each")
+
+
+@check(
+    "reporter",
+    page=PAGE,
+    points=4,
+    limit=25,
+    learnt="One callback keeps the newest message, and a timer uses it: two rates, one node.",
+)
 def reporter() -> list[Expectation]:
     """A node that hears every pose of the turtle, and once a second reports the newest x."""
     return [
@@ -62,13 +124,14 @@ def reporter() -> list[Expectation]:
 
 
 def _is_news(exam: Exam) -> Seen:
-    """Drive the turtle for three seconds, to where there is room, and compare each report with the pose before it."""
+    """Drive the turtle once round a circle, and compare each report with the pose before it."""
     poses, reports = exam.listen(POSE, POSE_TYPE), exam.listen(REPORT, REPORT_TYPE)
     exam.wait(0.1)
     if not poses:
         raise CannotLook(f"no pose comes on {POSE}")
     first_pose, first_report = len(poses) - 1, len(reports)
-    for _ in range(30):
+    end = exam.now + ROUND
+    while exam.now < end:
         exam.publish(COMMANDS, COMMAND_TYPE, linear__x=1.0, angular__z=1.0)
         exam.wait(0.1)
     exam.publish(COMMANDS, COMMAND_TYPE)
@@ -79,11 +142,14 @@ def _is_news(exam: Exam) -> Seen:
     pairs = [(float(field(each.message, "data")), _last_before(each, poses)) for each in reports[first_report:]]
     if not pairs:
         raise CannotLook(f"no message came on {REPORT} while the turtle drove")
-    wrong = [(said, true) for said, true in pairs if abs(said - true) > NEWS]
+    wrong = [(said, true) for said, true in pairs if not abs(said - true) <= NEWS]
     said, true = wrong[0] if wrong else pairs[-1]
     seen = f"it said {number(said)} when x was {number(true)}"
-    step = "Keep the newest: self.x = pose.x where the poses come in; publish self.x in the timer's callback."
-    return Seen(not wrong, seen, step)
+    advice = Advice(
+        direction="Which callback hears the pose, and where does it keep x until the timer's callback needs it?",
+        hint="Hint 1 under the exercise names the two callbacks.",
+    )
+    return Seen(not wrong, seen, advice)
 
 
 def _last_before(report: Heard, poses: list[Heard]) -> float:

@@ -26,6 +26,8 @@ def node(name: str, start: str = "") -> Expectation:
             return Seen(False, f"{amount} nodes of this name: messages come {amount}-fold", TOO_MANY)
         others = [each for each in found if each != "/turtlesim"]
         seen = f"it is not there; there is {listed(others)}" if others else "it is not there"
+        if fallen := exam.fallen():
+            seen += f"; {' and '.join(fallen)}"
         begin = f"Start it: {start}." if start else "Start it."
         return Seen(False, seen, f"{begin} If it ended by itself, its error stands in the output above.")
 
@@ -35,7 +37,7 @@ def node(name: str, start: str = "") -> Expectation:
 def publishes(topic: str, type_name: str, by: str = "") -> Expectation:
     """A topic that is published as this type: by this node, where one is named, and by nobody else."""
     who = f"{by} publishes" if by else "somebody publishes"
-    step = f"create_publisher({type_name.split('/')[-1]}, {topic!r}, 10) in the node's __init__; compare every letter."
+    step = f"Which line makes the publisher, when is it run, and is the name {topic} the same in every letter?"
     return Expectation(
         f"{who} {topic}",
         lambda exam: _ends(exam, topic, type_name, by, exam.publishers(topic), exam.topics(), step),
@@ -45,11 +47,11 @@ def publishes(topic: str, type_name: str, by: str = "") -> Expectation:
 def subscribes(topic: str, type_name: str, by: str = "") -> Expectation:
     """A topic that is subscribed to as this type, by this node where one is named."""
     who = f"{by} listens to" if by else "somebody listens to"
-    step = f"create_subscription({type_name.split('/')[-1]}, {topic!r}, self.on_message, 10) in the node's __init__."
+    step = f"Which line makes the subscription, when is it run, and is the name {topic} the same in every letter?"
 
     def look(exam: Exam) -> Seen:
         ends = [end for end in exam.subscriptions(topic) if not by or end[0] == by]
-        return _ends(exam, topic, type_name, by, ends, [], step)
+        return _ends(exam, topic, type_name, by, ends, exam.subscribed(by) if by else [], step)
 
     return Expectation(f"{who} {topic}", look)
 
@@ -57,7 +59,7 @@ def subscribes(topic: str, type_name: str, by: str = "") -> Expectation:
 def offers(service: str, type_name: str, by: str = "") -> Expectation:
     """A service of this type: offered once, by this node where one is named."""
     who = f"{by} offers" if by else "somebody offers"
-    step = f"create_service({type_name.split('/')[-1]}, {service!r}, self.on_request) in the node's __init__."
+    step = f"Which line makes the service, when is it run, and is the name {service} the same in every letter?"
     return Expectation(
         f"{who} {service}",
         lambda exam: _ends(exam, service, type_name, by, exam.servers(service), exam.services(), step),

@@ -137,7 +137,8 @@ class CheckResult:
                 yield from _wrapped(row.expected, f"  {row.mark} ", "    ")
                 first = " " * (wide + 6)
             yield from _wrapped(row.seen, first, " " * (wide + 6))
-            yield from (f"        {line}" for line in row.trace.splitlines())
+            for line in row.trace.splitlines():
+                yield from _wrapped(line, "        ", "          ")
             if said := row.advice.after(self.failures):
                 yield from _wrapped(said, "      → ", "        ")
 

@@ -35,23 +35,39 @@ def judge_rate(heard: Sequence[Heard], hz: float, within: float, publishers: int
     """Whether these messages come at a rate, and what to do if not."""
     gaps = [after.at - before.at for before, after in itertools.pairwise(heard)]
     if not gaps:
-        step = f"Is the timer there, and does its callback publish? create_timer({1 / hz:g}, self.on_timer)."
+        step = "Is there a timer, with which period (in seconds), and does its callback publish?"
         return Seen(False, f"{count(len(heard), 'message')} in that time", step)
     low, high = min(gaps), max(gaps)
     mean = math.fsum(gaps) / len(gaps)
-    seen = f"every {number(1000 * mean, 1)} ms ({number(1 / mean, 1) if mean else 'infinite'} Hz)"
+    decimals = 1 if mean >= 0.001 else 4
+    seen = f"every {number(1000 * mean, decimals)} ms ({number(1 / mean, 1) if mean else 'infinite'} Hz)"
     if round(high - low, 4):
         seen += f", from {number(1000 * low, 1)} to {number(1000 * high, 1)} ms"
+    if wrong := _wrong_unit(mean, hz):
+        seen += f": {wrong}"
     good = abs(low - 1 / hz) <= within + 1e-9 and abs(high - 1 / hz) <= within + 1e-9
     if publishers > 1:
         return Seen(False, f"{seen}, from {publishers} publishers", "Only one should publish here: stop the other.")
-    return Seen(good, seen, _how_to_pace(mean, hz, high - low > within))
+    return Seen(good, seen, _how_to_pace(low, high, mean, hz, high - low > within))
 
 
-def _how_to_pace(mean: float, hz: float, uneven: bool) -> str:
+def _wrong_unit(mean: float, hz: float) -> str:
+    """What a rate (messages come every `mean` s) that is wrong by thousands may come from; "" for any other rate."""
+    ratio = 1 / (mean * hz) if mean else math.inf
+    for factor in (1_000, 1_000_000, 1_000_000_000):
+        if 0.9 < ratio / factor < 1.1:
+            return f"{factor} times too often. Which unit does the period have, seconds or nanoseconds?"
+    return ""
+
+
+def _how_to_pace(low: float, high: float, mean: float, hz: float, uneven: bool) -> str:
+    if uneven and low < 0.01 / hz:
+        return f"Several messages come at once, then none for {number(1000 * high, 0)} ms. Send one each time."
+    if abs(mean - hz) < 0.01 * hz and hz != 1:
+        return "create_timer wants to know the seconds from one call to the next, not how many calls a second."
     if uneven:
         return "Something holds the timer's callback up. Make that short, or give it a callback group and a thread of its own."
-    return f"create_timer({1 / hz:g}, …) is {hz:g} Hz; where a parameter sets the rate, ros2 param set changes it."
+    return "What is the timer's period, in seconds? Where a parameter sets the rate: what is its value?"
 
 
 def messages(topic: str, type_name: str, expected: str, judge: Judge, seconds: float = 2.0) -> Expectation:

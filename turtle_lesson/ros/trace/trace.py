@@ -33,6 +33,8 @@ class Trace:
         self.simulation = simulation
         self.published: dict[tuple[str, str], deque[int]] = {}
         """By topic and node (full names), when each message was published (ns)."""
+        self.made: dict[tuple[str, str], int] = {}
+        """By the same, when the newest publisher was made (ns)."""
         self.not_noted: set[str] = set()
         """Topics beyond the first ones of their publishers' nodes."""
         self._topics: Counter[str] = Counter()
@@ -57,6 +59,7 @@ class Trace:
                 self.not_noted.add(topic)
                 return None
             times = self.published[topic, node.full_name] = deque(maxlen=MESSAGES)
+        self.made[topic, node.full_name] = self.now
         return times.append
 
     def asked(self, client: Any, message: Any) -> Call:
