@@ -117,7 +117,7 @@ def heading(goal: dict[str, Any]) -> float:
 
 
 def test_showing_it_moved_nothing(window: Page) -> None:
-    assert Pad(window).ask("lesson.now") == 1.0
+    assert Pad(window).ask("lesson.now") == 1.9
 
 
 def test_a_click_sends_the_turtle_there(pad: Pad) -> None:

@@ -166,7 +166,7 @@ def board(window: Page) -> Board:
 
 
 def test_showing_all_of_it_moved_nothing(window: Page) -> None:
-    assert value(window, "lesson.now") == 1.0
+    assert value(window, "lesson.now") == 1.9
 
 
 def test_a_click_on_the_dashboard_brings_the_turtle_there(board: Board) -> None:
