@@ -209,6 +209,17 @@ def test_without_a_command_and_again_inside_the_same_folder_is_opened(
     assert (mine.parent / "deeper" / NAME).is_file()
 
 
+def test_a_new_folder_reminds_of_what_was_begun_elsewhere(
+    served: list[Path], checkout: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    copies.commit()
+    work(checkout)
+    assert main(["open"]) == 0
+    assert f"You began {NAME} in {checkout.parent}. Add --take-along" in capsys.readouterr().out
+    assert main(["open"]) == 0
+    assert "--take-along" not in capsys.readouterr().out
+
+
 def test_a_folder_that_cannot_be_the_learners_is_explained(
     served: list[Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -156,8 +156,13 @@ def _tell(done: int, amount: int, name: str) -> None:
 
 def _open(options: argparse.Namespace) -> int:
     here = Path(".") if learner.is_learners(Path(".")) else Path(learner.FOLDER)
+    new = not learner.is_learners(options.folder or here)
     folder = learner.LearnersFolder(options.folder or here)
-    said = folder.update(options.source) + (folder.take_along() if options.take_along else [])
+    said = folder.update(options.source)
+    if options.take_along:
+        said += folder.take_along()
+    elif new and (begun := learner.begun()):
+        said.append(f"You began {', '.join(begun)} in {pages.PUBLISHED}. Add --take-along to bring your work here.")
     print(
         "\n".join([*said, f"Your pages are in {folder.path.resolve()}. Ctrl-C, pressed twice here, ends JupyterLab."])
     )

@@ -26,7 +26,7 @@ def serve(folder: Path, port: int | None, browser: bool, more: Sequence[str]) ->
         browser: whether to open one.
         more: further options of JupyterLab's.
     """
-    words = [sys.executable, "-m", "jupyterlab", "--Application.log_level=ERROR", *more]
+    words = [sys.executable, "-P", "-m", "jupyterlab", "--Application.log_level=ERROR", *more]
     words.append(f"--LabApp.default_url=/lab/tree/{FIRST}")
     words += [f"--ServerApp.root_dir={folder.resolve()}", "--ServerApp.ip=127.0.0.1"]
     if port is not None:
@@ -49,8 +49,8 @@ def _check_free(port: int) -> None:
             probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
             probe.bind(("127.0.0.1", port))
-        except OSError as error:
-            reason = (error.strerror or str(error)).lower()
+        except (OSError, OverflowError) as error:
+            reason = (getattr(error, "strerror", None) or str(error)).lower()
             raise PageError(
                 f"port {port} cannot be used: {reason}. Leave --port out, and a free one is found."
             ) from None

@@ -5,6 +5,7 @@ It imports nothing of the lesson before the set-up cell does, and `%load_ext tur
 
 from __future__ import annotations
 
+import os
 import re
 import sys
 from types import TracebackType
@@ -74,5 +75,6 @@ def explain(
 
 
 if __name__ == "__main__":
-    del sys.path[0]  # this file's folder
+    if sys.path[0] == os.path.dirname(os.path.realpath(__file__)):
+        del sys.path[0]  # Jupyter puts the notebook's own folder there
     LessonKernelApp.launch_instance()
