@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import difflib
+import inspect
 import re
 import sys
+from types import FrameType
 from typing import Any
 
 from ..core.tracebacks import learners_frames
@@ -75,9 +77,21 @@ def _of_none(error: BaseException, name: str) -> str:
             "A future's result() is None until it is done: spin until then, with "
             "rclpy.spin_until_future_complete(node, future), or take the result in future.add_done_callback(…)."
         )
-    found = re.search(r"(\w[\w.]*(?:\[[^\]]*\]|\(\))*)\." + name, line)
-    what = found[1] if found else f"what stands before .{name}"
+    found = re.findall(r"(\w[\w.]*(?:\[[^\]]*\]|\(\))*)\." + name, line)
+    frame = learners_frames(error.__traceback__)[-1].tb_frame
+    what = next((each for each in found if _may_be_none(each, frame)), f"what stands before .{name}")
     return f"Here {what} is None: has it been given a value yet, or has the callback that sets it not been called?"
+
+
+def _may_be_none(words: str, frame: FrameType) -> bool:
+    """Whether names and attributes such as "self.pose" are None in a frame; of what has to be called nobody knows."""
+    first, *rest = words.split(".")
+    if not all(each.isidentifier() for each in (first, *rest)):
+        return True
+    value: Any = frame.f_locals.get(first, frame.f_globals.get(first))
+    for each in rest:
+        value = inspect.getattr_static(value, each, None)
+    return value is None or inspect.isdatadescriptor(value)
 
 
 def _is_within_ours(error: BaseException) -> bool:
