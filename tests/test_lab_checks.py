@@ -383,6 +383,22 @@ def test_a_callback_that_computes_for_ever_is_stopped_and_named(monkeypatch: pyt
     kept.destroy_node()
 
 
+def test_a_callback_in_a_cell_that_sleeps_again_and_again_is_stopped_too() -> None:
+    lesson = start()
+    rclpy.init()
+    node = rclpy.create_node("counter")
+
+    def on_timer() -> None:
+        while True:
+            time.sleep(0.5)
+
+    node.create_timer(0.5, on_timer)
+    result = lesson.check("counter")
+    assert "on_timer has not returned: stopped in line" in result.rows[0].seen
+    assert "(`time.sleep(0.5)`)" in result.rows[0].seen
+    assert marks(result).count("■") == 1
+
+
 def test_a_callback_that_waits_for_ever_is_named_with_its_line() -> None:
     def adder() -> Any:
         from example_interfaces.srv import AddTwoInts

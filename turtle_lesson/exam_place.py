@@ -8,13 +8,17 @@ from contextlib import contextmanager, redirect_stdout
 from typing import TYPE_CHECKING, Any
 
 from .ros.core import NANOSECONDS
-from .ros.core.driving import drive
-from .ros.core.errors import NeverReturns, SimulationError, WorldClosed
+from .ros.core.driving import drive_within
+from .ros.core.errors import DriveTimeout, NeverReturns, SimulationError, WorldClosed
 
 if TYPE_CHECKING:
     from .lab.obstacle_board import ObstacleBoard
     from .ros.core.strand import Strand
     from .ros.world import World
+
+
+LONGEST = 150 * NANOSECONDS
+"""Robot time, in ns, for which a callback or function of a cell may hold a check up."""
 
 
 class ExamPlace:
@@ -104,7 +108,7 @@ class ExamPlace:
 
     def call(self, function: Callable[..., Any], *arguments: Any) -> Any:
         """Call a function of the learner's as a cell would: it may sleep, and is stopped if it computes without end."""
-        return drive(self._world.sim, self._world.notebook, function, *arguments)
+        return drive_within(LONGEST, self._world.sim, self._world.notebook, lambda: function(*arguments))
 
     def step(self, seconds: float) -> None:
         """Let robot time pass. Raises KeyboardInterrupt, and SimulationError where the world itself cannot go on."""
@@ -117,7 +121,7 @@ class ExamPlace:
                 if type(error) in (SimulationError, WorldClosed):
                     raise  # the world itself cannot go on; the other kinds are of a callback
                 self._errors.append(("", error))
-                if isinstance(error, NeverReturns):
+                if isinstance(error, (NeverReturns, DriveTimeout)):
                     return
 
     def _spin_cells(self, end: int) -> bool:
@@ -134,7 +138,13 @@ class ExamPlace:
         added = [node for node in nodes if node._ros_executor is None and executor.add_node(node)]
         try:
             before = self._world.now
-            executor.spin_until_future_complete(Future(), (end - before) / NANOSECONDS)
+            seconds = (end - before) / NANOSECONDS
+            drive_within(
+                LONGEST,
+                self._world.sim,
+                self._world.notebook,
+                lambda: executor.spin_until_future_complete(Future(), seconds),
+            )
             return self._world.now > before  # an executor that was shut down lets no time pass
         finally:
             for node in added:

@@ -14,11 +14,10 @@ from dataclasses import dataclass
 from types import TracebackType
 from typing import Any, Protocol, TypeVar
 
-from ...ros.core.errors import NeverReturns
 from ..channel import with_time
 from ..recording import NANOSECONDS
 from ..words import listed, number
-from .failures import in_words, never_returned, unreturned
+from .failures import ENDLESS, in_words, never_returned, unreturned
 from .fields import filled, interface
 from .graph_view import GraphView
 from .rows import CannotLook, OutOfTime, Stopped
@@ -200,7 +199,7 @@ class Exam(GraphView):
     def _raise_if_stopped(self) -> None:
         """Raise Stopped where the learner's code was stopped because it let no time pass; nothing is tried again."""
         if not self._stopped:
-            endless = [error for error in self.errors() if isinstance(error, NeverReturns)]
+            endless = [error for error in self.errors() if isinstance(error, ENDLESS)]
             self._stopped = never_returned(endless[0]) if endless else ""
         if self._stopped:
             raise Stopped(self._stopped)
@@ -210,7 +209,7 @@ class Exam(GraphView):
         self._raise_if_stopped()
         try:
             return self.place.call(function, *arguments)
-        except NeverReturns as error:
+        except ENDLESS as error:
             self._stopped = never_returned(error)
             raise Stopped(self._stopped) from None
 

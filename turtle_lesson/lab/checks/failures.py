@@ -7,7 +7,7 @@ from types import FrameType, TracebackType
 from typing import Any
 
 from ...ros.core import tracebacks
-from ...ros.core.errors import NeverReturns
+from ...ros.core.errors import DriveTimeout, NeverReturns
 from .rows import BAD, STOPPED, Advice, Row
 
 MOST_FRAMES = 4
@@ -17,6 +17,10 @@ LONGEST = 200
 """Characters of an error's own words that are shown."""
 
 CELL = "a cell of this notebook"
+
+
+ENDLESS = (NeverReturns, DriveTimeout)
+"""The errors by which code is stopped that never returns: it computes on and on, or waits again and again."""
 
 
 def in_words(error: BaseException) -> str:
@@ -50,7 +54,7 @@ def _place(frame: FrameType, number: int) -> str:
 
 def _line(frame: FrameType, number: int) -> str:
     [summary] = traceback.StackSummary.extract([(frame, number)])
-    return (summary.line or "").strip()
+    return (summary.line or "").strip().partition("\n")[0]
 
 
 def is_learners(frame: FrameType) -> bool:
@@ -58,8 +62,8 @@ def is_learners(frame: FrameType) -> bool:
     return not tracebacks.is_library(frame.f_code.co_filename)
 
 
-def never_returned(error: NeverReturns) -> str:
-    """Which callback computed without end, and in which line it was stopped."""
+def never_returned(error: BaseException) -> str:
+    """Which callback went on without end, and in which line it was stopped."""
     calls = [(each.tb_frame, each.tb_lineno) for each in tracebacks.traceback_entries(error.__traceback__)]
     inside = _in_a_callback(calls) or [call for call in calls if is_learners(call[0])]
     if not inside:
@@ -80,7 +84,7 @@ def _in_a_callback(calls: list[tuple[FrameType, int]]) -> list[tuple[FrameType, 
 
 
 STOP_ADVICE = Advice(
-    "It was stopped because it computed on and on and let no time pass.",
+    "It was stopped because it would have gone on for ever, and nothing else could happen in its node.",
     "A callback does a little and returns; a timer calls it again. To wait, let a timer or another callback go on.",
 )
 READ = Advice(direction="Read the error first, then the line above it: what has each name in it at that moment?")
@@ -88,7 +92,7 @@ READ = Advice(direction="Read the error first, then the line above it: what has 
 
 def row_of(error: BaseException, expected: str) -> Row:
     """The row about an error of the learner's code."""
-    if isinstance(error, NeverReturns):
+    if isinstance(error, ENDLESS):
         return Row(STOPPED, expected, never_returned(error), STOP_ADVICE)
     return Row(BAD, expected, in_words(error), READ, trace_of(error))
 

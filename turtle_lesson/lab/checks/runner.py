@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from ...ros.core.errors import NeverReturns
 from ...ros.core.tracebacks import learners_frames
 from .exam import Exam, Place
 from .failures import STOP_ADVICE, in_words, row_of
@@ -64,8 +63,8 @@ _ODD = Advice(
 def _with_errors(rows: list[Row], exam: Exam) -> list[Row]:
     """The rows with the learner's own error first, since it explains the others; nothing is added to a good result."""
     if exam.stopped:
-        return [Row(STOPPED, ENDS, exam.stopped, STOP_ADVICE), *rows]
-    error = next((each for each in exam.errors() if not isinstance(each, NeverReturns)), None)
+        return [Row(STOPPED, ENDS, exam.stopped, STOP_ADVICE), *(row for row in rows if row.mark != STOPPED)]
+    error = next(iter(exam.errors()), None)
     if error is None or all(row.good for row in rows):
         return sorted(rows, key=lambda row: not row.trace)
     first = row_of(error, NO_ERROR)

@@ -58,13 +58,18 @@ def drive(simulation: Simulation, process: Process, function: Callable[..., T], 
 
     Raises what the function raises, and KeyboardInterrupt if the user interrupts: the call then gets it, too.
     """
+    return drive_within(DRIVE_LIMIT, simulation, process, lambda: function(*arguments, **keywords))
+
+
+def drive_within(limit: int, simulation: Simulation, process: Process, function: Callable[[], T]) -> T:
+    """The same, with another limit of robot time (ns). Raises DriveTimeout in the call when it is over."""
     with Guard(simulation) as guard:  # from here on an interrupt is noted, and raised as the very last act
         simulation.check_it_can_run()
-        call = Call(simulation, process, lambda: function(*arguments, **keywords))
-        simulation.run_guarded(simulation.now + DRIVE_LIMIT)
+        call = Call(simulation, process, function)
+        simulation.run_guarded(simulation.now + limit)
         simulation.driven = None
         if not call.done:
-            call.give_up(KeyboardInterrupt() if guard.interrupted else why_not_done(simulation, call.strand))
+            call.give_up(KeyboardInterrupt() if guard.interrupted else why_not_done(simulation, call.strand, limit))
     if guard.interrupted and not isinstance(call.error, KeyboardInterrupt):
         raise KeyboardInterrupt
     if call.error is not None:
@@ -80,7 +85,7 @@ def waiting_for(strand: Strand) -> str:
     return "this call" if what == LOCK and strand.waits_for is None else what
 
 
-def why_not_done(simulation: Simulation, strand: Strand) -> SimulationError:
+def why_not_done(simulation: Simulation, strand: Strand, limit: int) -> SimulationError:
     """What to tell somebody whose call did not end: that nothing is left that could end it, or that it took too long."""
     what = strand.activity or waiting_for(strand)
     if not simulation.busy:
@@ -89,7 +94,7 @@ def why_not_done(simulation: Simulation, strand: Strand) -> SimulationError:
             "Start what should answer (ros2 run, lesson.launch), or give a timeout."
         )
     return DriveTimeout(
-        f"{what} was still not done after {DRIVE_LIMIT // 1_000_000_000} s of robot time, so it was given up. "
+        f"{what} was still not done after {limit // 1_000_000_000} s of robot time, so it was given up. "
         "Does anybody publish what it waits for, or offer the service, under the very name (`ros2 topic list`, "
         "`ros2 service list`)? A timeout_sec lets you decide how long to wait."
     )
