@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
-from ..words import number, turned
+from ..words import angle, count, number, turned
 from .drives import COMMAND_TYPE, COMMANDS, POSE, POSE_TYPE
 from .exam import Exam, Heard
 from .fields import field
 from .parts import no_errors, node, publishes, subscribes
 from .registry import Expectation, check
-from .rows import CannotLook, Seen
-from .streams import messages, rate, relays, some
+from .rows import Advice, CannotLook, Seen
+from .streams import rate, some
 
 PAGE = "04_status_monitor"
 STATUS, STATUS_TYPE = "/robot/status", "robot_controller/msg/TurtleStatus"
@@ -22,29 +24,46 @@ RUN = "ros2 run robot_controller status_monitor"
 DROP = 0.1
 """Percent that one message costs."""
 
-LATE = 0.1
-"""How far a status may be behind the pose, m and rad: at 1 m/s that is 0.1 s."""
+SPEED, TURN = 0.5, 1.6
+"""The turtle is driven so fast, m/s and rad/s: a whole circle, 0.6 m wide, in the time below."""
+CIRCLE = 4.0
+"""How long that takes, s."""
 
+LATE = 0.1
+"""How far a status may be off the newest pose: m, and m/s. At this speed it may be 0.1 s old and more."""
 
 LOW, LOW_TYPE = "/robot/battery_low", "std_msgs/msg/Bool"
 LOW_BELOW = 20.0
 """Percent: below this a battery is low."""
 
 
-@check("battery", page=PAGE, points=3, limit=120)
+@check(
+    "battery",
+    page=PAGE,
+    points=3,
+    limit=125,
+    learnt="A timer's callback publishes the state, then brings it up to date.",
+)
 def battery() -> list[Expectation]:
     """A status ten times a second, with a battery that runs down."""
     return [
-        node("/status_monitor", RUN),
+        node("/status_monitor"),
         publishes(STATUS, STATUS_TYPE, by="/status_monitor"),
         rate(STATUS, STATUS_TYPE, hz=10),
-        messages(STATUS, STATUS_TYPE, f"battery falls by {DROP:g} a message", _falls, 3.0),
-        battery_ends_at_zero(),
+        battery_starts_full(),
+        battery_falls(until_it_is_empty, "Hint 1"),
+        battery_ends_at_zero("Hint 2"),
         no_errors(),
     ]
 
 
-@check("status_monitor", page=PAGE, points=5, limit=140)
+@check(
+    "status_monitor",
+    page=PAGE,
+    points=5,
+    limit=25,
+    learnt="Your monitor reports what the sensor says, along the axes that others expect.",
+)
 def status_monitor() -> list[Expectation]:
     """The status monitor tells ten times a second what the turtle really does."""
     return [
@@ -52,30 +71,31 @@ def status_monitor() -> list[Expectation]:
         publishes(STATUS, STATUS_TYPE, by="/status_monitor"),
         rate(STATUS, STATUS_TYPE, hz=10),
         pose_follows(),
-        velocity_follows(),
-        messages(STATUS, STATUS_TYPE, f"battery falls by {DROP:g} a message", _falls, 3.0),
-        battery_ends_at_zero(),
+        velocity_follows("x", math.cos),
+        velocity_follows("y", math.sin),
+        no_velocity_at_rest(),
+        battery_falls(a_while),
         no_errors(),
     ]
 
 
-@check("battery_watch", page=PAGE, points=3, limit=20)
+@check(
+    "battery_watch",
+    page=PAGE,
+    points=3,
+    limit=20,
+    learnt="A node can turn one stream into another that is easier to use.",
+)
 def battery_watch() -> list[Expectation]:
     """A node that hears the status, and says whether the battery is low."""
-    pairs = [
-        (
-            {"battery": charge},
-            lambda message, low=charge < LOW_BELOW: message.data == low,
-            f"{charge:g} → {charge < LOW_BELOW}",
-        )
-        for charge in (100.0, 19.5, 20.0, 0.0)
-    ]
-    step = f"In on_status publish Bool(data=status.battery < {LOW_BELOW:g}), once for each status."
     return [
         node("/battery_watch"),
         subscribes(STATUS, STATUS_TYPE, by="/battery_watch"),
         publishes(LOW, LOW_TYPE, by="/battery_watch"),
-        relays(STATUS, STATUS_TYPE, LOW, LOW_TYPE, pairs, step),
+        says_low("False from 20 % on", (100.0, 50.0, 20.5, 20.0)),
+        says_low("True below 20 %", (19.5, 10.0, 0.0)),
+        says_low("False again when the battery is full again", (15.0, 100.0)),
+        silent_without_status(),
         no_errors(),
     ]
 
@@ -85,7 +105,7 @@ def battery_watch() -> list[Expectation]:
 
 @dataclass
 class Ride:
-    """What was heard while the turtle drove a piece of a circle (1 m/s, 1.5 rad/s), and in the second after it."""
+    """What was heard while the turtle drove a circle, and in the second after it."""
 
     began: float
     ended: float
@@ -102,7 +122,7 @@ class Ride:
 
 
 def ride(exam: Exam) -> Ride:
-    """Drive the turtle for a second. Raises CannotLook where nothing is heard, or the turtle does not move."""
+    """Drive the turtle in a circle. Raises CannotLook where nothing is heard, or the turtle does not move."""
     return exam.once("ride", lambda: _ride(exam))
 
 
@@ -110,8 +130,8 @@ def _ride(exam: Exam) -> Ride:
     poses, statuses = exam.listen(POSE, POSE_TYPE), exam.listen(STATUS, STATUS_TYPE)
     exam.wait(0.3)
     began, first_pose, first_status = exam.now, len(poses), len(statuses)
-    for _ in range(10):
-        exam.publish(COMMANDS, COMMAND_TYPE, linear__x=1.0, angular__z=1.5)
+    for _ in range(round(10 * CIRCLE)):
+        exam.publish(COMMANDS, COMMAND_TYPE, linear__x=SPEED, angular__z=TURN)
         exam.wait(0.1)
     exam.publish(COMMANDS, COMMAND_TYPE)
     ended = exam.now
@@ -120,6 +140,8 @@ def _ride(exam: Exam) -> Ride:
     xs = [each.message.x for each in found.poses] or [0.0]
     if max(xs) - min(xs) < 0.1:
         raise CannotLook(f"the turtle does not move when {COMMANDS} says so: is the simulator running?")
+    if not found.pairs():
+        raise CannotLook(f"no message came on {STATUS} while the turtle drove")
     return found
 
 
@@ -128,66 +150,201 @@ def pose_follows() -> Expectation:
 
     def look(exam: Exam) -> Seen:
         pairs = [(status.message, pose.message) for status, pose in ride(exam).pairs()]
-        if not pairs:
-            raise CannotLook(f"no message came on {STATUS} while the turtle drove")
-        away = max(math.hypot(field(a, "x") - b.x, field(a, "y") - b.y) for a, b in pairs)
+        away = {name: max(abs(field(a, name) - field(b, name)) for a, b in pairs) for name in ("x", "y")}
         off = max(abs(turned(field(a, "theta") - b.theta)) for a, b in pairs)
-        seen = f"at most {number(away)} m and {number(off)} rad behind"
-        step = f"Subscribe to {POSE}, keep the newest message, and report its x, y and theta."
-        return Seen(away <= LATE and off <= 2 * LATE, seen, step)
+        seen = f"at most {number(away['x'])} m off in x, {number(away['y'])} m in y, {angle(off)} in theta"
+        advice = Advice(direction=f"Keep what the newest message on {POSE} says, all three fields of it.")
+        return Seen(max(away.values()) <= LATE and off <= 2 * LATE, seen, advice)
 
     return Expectation("x, y, theta follow the turtle", look)
 
 
-def velocity_follows() -> Expectation:
-    """vel_x and vel_y make the speed that the turtle has, and are zero when it stands."""
+def velocity_follows(axis: str, part: Callable[[float], float]) -> Expectation:
+    """vel_x or vel_y is the speed along that axis of the map, all around a circle; `part` is the cosine or the sine."""
 
     def look(exam: Exam) -> Seen:
         it = ride(exam)
-        speeds = [
-            (each.at, math.hypot(field(each.message, "vel_x"), field(each.message, "vel_y"))) for each in it.statuses
+        driving = [
+            (float(field(status.message, f"vel_{axis}")), pose.message)
+            for status, pose in it.pairs()
+            if it.began + 0.3 < status.at < it.ended
         ]
-        driving = [speed for at, speed in speeds if it.began + 0.3 < at < it.ended]
-        standing = [speed for at, speed in speeds if at > it.ended + 0.3]
-        if not driving or not standing:
-            raise CannotLook(f"too few messages came on {STATUS} while the turtle drove")
-        seen = f"{number(driving[-1])} m/s while it drove 1 m/s, {number(standing[-1])} m/s when it stood"
-        good = all(abs(speed - 1.0) < 0.1 for speed in driving) and all(speed < 0.05 for speed in standing)
-        return Seen(good, seen, "pose.linear_velocity times the cosine and the sine of pose.theta.")
+        if not driving:
+            raise CannotLook(f"no message came on {STATUS} while the turtle drove")
+        wanted = [pose.linear_velocity * part(pose.theta) for _, pose in driving]
+        worst = max(range(len(driving)), key=lambda i: _off(driving[i][0], wanted[i]))
+        said, pose = driving[worst]
+        good = _off(said, wanted[worst]) <= LATE
+        seen = (
+            f"{number(said)} m/s where {number(wanted[worst])} m/s is right: {number(SPEED)} m/s at {angle(pose.theta)}"
+        )
+        if good:
+            seen = f"right in all {count(len(driving), 'message')} of a circle"
+        other = "y" if axis == "x" else "x"
+        advice = Advice(
+            direction=f"How much of the speed goes along {axis}, and how much along {other}? Try 0, π/2 and π in your head.",
+            hint="Open Hint 2 under the exercise.",
+        )
+        return Seen(good, seen, advice)
 
-    return Expectation("vel_x, vel_y follow the turtle", look)
+    return Expectation(f"vel_{axis} follows the turtle", look)
+
+
+def _off(said: float, wanted: float) -> float:
+    """How far a value is off; one that is no number is infinitely far off."""
+    return abs(said - wanted) if math.isfinite(said) else math.inf
+
+
+def no_velocity_at_rest() -> Expectation:
+    """Both components are 0 again when the turtle stands."""
+
+    def look(exam: Exam) -> Seen:
+        it = ride(exam)
+        at_rest = [each.message for each in it.statuses if each.at > it.ended + 0.3]
+        if not at_rest:
+            raise CannotLook(f"no message came on {STATUS} when the turtle stood")
+        velocity = [float(field(at_rest[-1], name)) for name in ("vel_x", "vel_y")]
+        seen = f"vel_x {number(velocity[0])} m/s, vel_y {number(velocity[1])} m/s"
+        advice = Advice(direction="Use the speed that the pose tells, not a number of your own.")
+        return Seen(all(abs(each) < 0.05 for each in velocity), seen, advice)
+
+    return Expectation("both are 0 when the turtle stands", look)
 
 
 # -- the battery -----------------------------------------------------------------------------------------------------------
 
 
-def _falls(heard: list[Heard]) -> Seen:
-    charges = [float(field(each.message, "battery")) for each in heard]
-    if len(charges) < 2:
-        raise CannotLook("one message shows no change")
-    wrong = [
-        after - before for before, after in itertools.pairwise(charges) if abs(max(0.0, before - DROP) - after) > 1e-3
-    ]
-    if wrong:
-        return Seen(
-            False,
-            f"a change of {number(wrong[0], 3)}",
-            "Take 0.1 from the battery with each message: max(0.0, battery - 0.1).",
-        )
-    return Seen(True, f"from {number(charges[0], 1)} to {number(charges[-1], 1)}")
-
-
-def battery_ends_at_zero() -> Expectation:
-    """However long it is waited for, the battery stays from 0 to 100."""
+def battery_starts_full() -> Expectation:
+    """The first message that is heard has as much charge as it can have by then."""
 
     def look(exam: Exam) -> Seen:
         some(exam, STATUS, STATUS_TYPE, 0.5)
-        heard = exam.listen(STATUS, STATUS_TYPE)
-        exam.wait_for(lambda: float(field(heard[-1].message, "battery")) < DROP / 2, 102.0)
-        exam.wait(1.0)
-        charges = [float(field(each.message, "battery")) for each in heard]
-        seen = f"from {number(max(charges), 1)} to {number(min(charges), 1)}"
-        good = min(charges) >= 0.0 and max(charges) <= 100.0
-        return Seen(good and min(charges) < DROP / 2, seen, "max(0.0, …) keeps it from falling below zero.")
+        first = exam.listen(STATUS, STATUS_TYPE)[0]
+        charge = float(field(first.message, "battery"))
+        by_then = max(0.0, 100.0 - 10 * DROP * (first.at + 0.2))
+        seen = f"{number(charge, 1)} % after {number(first.at, 1)} s"
+        advice = Advice(direction="The first status says 100: publish first, take away afterwards.")
+        return Seen(by_then - 1e-3 <= charge <= 100.0 + 1e-3, seen, advice)
+
+    return Expectation("battery starts at 100 %", look)
+
+
+def battery_falls(heard: Callable[[Exam], list[Heard]], hint: str = "") -> Expectation:
+    """Each message has 0.1 less than the one before, or 0."""
+
+    def look(exam: Exam) -> Seen:
+        charges = [float(field(each.message, "battery")) for each in heard(exam)]
+        if len(charges) < 2:
+            raise CannotLook("one message shows no change")
+        wrong = [
+            (before, after)
+            for before, after in itertools.pairwise(charges)
+            if not abs(max(0.0, before - DROP) - after) <= 1e-3
+        ]
+        if not wrong:
+            return Seen(True, f"from {number(charges[0], 1)} to {number(charges[-1], 1)}")
+        before, after = wrong[0]
+        advice = Advice(
+            direction="Once for each message that is published, the battery becomes 0.1 less than it was, but not less than 0.",
+            hint=f"Open {hint} under the exercise." if hint else "",
+        )
+        return Seen(False, f"{number(before)} %, and in the next message {number(after)} %", advice)
+
+    return Expectation(f"battery falls by {DROP:g} a message", look)
+
+
+def a_while(exam: Exam) -> list[Heard]:
+    """What was heard of the status until now, 3 s of it at least."""
+    some(exam, STATUS, STATUS_TYPE, 3.0)
+    return exam.listen(STATUS, STATUS_TYPE)
+
+
+def until_it_is_empty(exam: Exam) -> list[Heard]:
+    """What is heard of the status until the battery has been empty for a second."""
+    return exam.once("discharge", lambda: _discharge(exam))
+
+
+def _discharge(exam: Exam) -> list[Heard]:
+    some(exam, STATUS, STATUS_TYPE, 0.5)
+    heard = exam.listen(STATUS, STATUS_TYPE)
+    exam.wait_for(lambda: float(field(heard[-1].message, "battery")) < DROP / 2, 102.0)
+    exam.wait(1.0)
+    return heard
+
+
+def battery_ends_at_zero(hint: str = "") -> Expectation:
+    """However much time passes, the battery stays from 0 to 100, and at the end it is 0."""
+
+    def look(exam: Exam) -> Seen:
+        charges = [float(field(each.message, "battery")) for each in until_it_is_empty(exam)]
+        seen = f"from {number(max(charges), 1)} to {number(min(charges), 1)}, at the end {number(charges[-1], 1)}"
+        good = min(charges) >= 0.0 and max(charges) <= 100.0 and charges[-1] < DROP / 2
+        advice = Advice(
+            direction="What should 0.0 minus 0.1 become?"
+            if min(charges) < 0
+            else "It should run down to 0.0, and stay there.",
+            hint=f"Open {hint} under the exercise." if hint else "",
+        )
+        return Seen(good, seen, advice)
 
     return Expectation("battery ends at 0, never below", look)
+
+
+# -- the watch -------------------------------------------------------------------------------------------------------------
+
+
+def says_low(expected: str, charges: tuple[float, ...]) -> Expectation:
+    """Each status with one of these charges is answered by one Bool, and by the right one."""
+
+    def look(exam: Exam) -> Seen:
+        answers = _answers(exam)
+        for charge in charges:
+            before = len(answers)
+            exam.publish(STATUS, STATUS_TYPE, battery=charge)
+            exam.wait_for(partial(_more_than, before, answers), 1.0)
+            exam.wait(0.05)
+            said = [each.message.data for each in answers[before:]]
+            if not said:
+                if raised := exam.errors():
+                    raise raised[-1]
+                step = Advice(direction="on_status must publish, whatever the charge is.", hint="Open Hint 2.")
+                return Seen(False, f"{charge:g} %: nothing came within 1 s", step)
+            if len(said) > 1:
+                step = Advice(direction="One status in, one Bool out: is there a second publish?")
+                return Seen(False, f"{charge:g} %: {count(len(said), 'message')} came instead of one", step)
+            if said[0] is not (charge < LOW_BELOW):
+                step = Advice(
+                    direction=f"Try the three examples in your head: 100, {LOW_BELOW:g} and 19.5.", hint="Open Hint 2."
+                )
+                return Seen(False, f"{charge:g} %: it said {said[0]}", step)
+        return Seen(True, ", ".join(f"{charge:g} → {charge < LOW_BELOW}" for charge in charges))
+
+    return Expectation(expected, look)
+
+
+def silent_without_status() -> Expectation:
+    """Nothing is published while no status comes."""
+
+    def look(exam: Exam) -> Seen:
+        answers = _answers(exam)
+        before = len(answers)
+        exam.wait(1.0)
+        heard = answers[before:]
+        advice = Advice(direction="Publish in on_status and nowhere else; no timer is needed.")
+        return Seen(not heard, f"{count(len(heard), 'message')} in 1 s", advice)
+
+    return Expectation("without a status it says nothing", look)
+
+
+def _answers(exam: Exam) -> list[Heard]:
+    """What the watch says from now on. Raises CannotLook where it cannot be asked."""
+    others = exam.publishers(STATUS)
+    if others:
+        raise CannotLook(f"{others[0][0]} publishes {STATUS}: stop it first")
+    if not exam.subscriptions(STATUS):
+        raise CannotLook(f"nobody listens to {STATUS}")
+    return exam.listen(LOW, LOW_TYPE)
+
+
+def _more_than(amount: int, answers: list[Heard]) -> bool:
+    return len(answers) > amount
