@@ -1,13 +1,17 @@
 """The ROS graph in words and in Mermaid's language."""
 
 import re
+from xml.etree import ElementTree
 
+import nbformat
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from lab_fakes import NAVIGATE, POSE, SCAN, STATUS, TWIST, GraphNode
+from nbconvert import HTMLExporter
 
 from turtle_lesson.lab import plot_graph
 
+SVG = "{http://www.w3.org/2000/svg}"
 PARAMETERS = "rcl_interfaces/srv/GetParameters"
 
 
@@ -68,9 +72,50 @@ def test_the_graph_in_mermaid():
 def test_front_ends_get_what_they_can_draw():
     picture = plot_graph(lesson())
     bundle = picture._repr_mimebundle_()
-    assert list(bundle) == ["text/vnd.mermaid", "text/markdown", "text/plain"]
-    assert bundle["text/markdown"] == f"```mermaid\n{bundle['text/vnd.mermaid']}```"
-    assert bundle["text/plain"] == picture.text
+    assert list(bundle) == ["text/html", "text/vnd.mermaid", "text/plain"]
+    assert bundle["text/html"].startswith(f'<img alt="{picture.text}" src="data:image/svg+xml;base64,')
+    assert (bundle["text/vnd.mermaid"], bundle["text/plain"]) == (picture.mermaid, picture.text)
+
+
+def boxes(drawing: str) -> list[tuple[float, float, float, float]]:
+    """Left, top, right and bottom of each box."""
+    rects = ElementTree.fromstring(drawing).findall(f"{SVG}rect")
+    found = [[float(rect.attrib[name]) for name in ("x", "y", "width", "height")] for rect in rects]
+    return [(x, y, x + width, y + height) for x, y, width, height in found]
+
+
+def test_the_drawing_names_everything_and_speaks():
+    picture = plot_graph(lesson())
+    root = ElementTree.fromstring(picture.svg)
+    assert root.findtext(f"{SVG}desc") == picture.text
+    assert root.findtext(f"{SVG}title") == "ROS graph: 3 nodes, 2 topics and 3 services"
+    words = {each.text for each in root.iter(f"{SVG}text")}
+    assert {"services", "nodes", "topics", "/turtlesim", "/turtle1/pose", POSE, "/navigate_to", "/clear"} <= words
+    assert len(boxes(picture.svg)) == 3 + 2 + 2
+
+
+def test_a_page_shows_it_without_a_kernel_and_without_a_network():
+    picture = plot_graph(lesson())
+    bundle = picture._repr_mimebundle_()
+    page = nbformat.v4.new_notebook()
+    page.cells = [nbformat.v4.new_code_cell("graph", outputs=[nbformat.v4.new_output("display_data", bundle)])]
+    shown, _ = HTMLExporter().from_notebook_node(page)
+    assert f'<img alt="{picture.text}" src="data:image/svg+xml;base64,' in shown
+    assert "flowchart TD" not in shown
+
+
+@settings(max_examples=50)
+@given(st.deferred(lambda: nodes_of))
+def test_no_box_lies_upon_another_or_beyond_the_edge(nodes):
+    drawing = plot_graph(GraphNode(nodes)).svg
+    if not drawing:
+        return
+    _, _, width, height = map(float, ElementTree.fromstring(drawing).attrib["viewBox"].split())
+    placed = boxes(drawing)
+    for at, (left, top, right, bottom) in enumerate(placed):
+        assert 0 <= left < right <= width and 0 <= top < bottom <= height
+        for other in placed[:at]:
+            assert right < other[0] or left > other[2] or bottom < other[1] or top > other[3]
 
 
 def test_hidden_names_are_left_out():

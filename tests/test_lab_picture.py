@@ -1,11 +1,19 @@
 """What a notebook gets of a picture: PNG and text, always the same, in our style and nobody else's."""
 
+import base64
+import html
 import struct
 import subprocess
 import sys
 
+import nbformat
 import pytest
+from IPython.core.interactiveshell import InteractiveShell
+from IPython.display import display
+from IPython.utils.capture import capture_output
 from lab_fakes import drive, recording, report, scan, see
+from nbconvert import HTMLExporter
+from traitlets.config import Config
 
 from turtle_lesson.lab import Picture, plot_path, plot_scan, plot_status, style
 
@@ -29,6 +37,39 @@ def test_the_bundle_has_png_and_text_and_the_size_to_show(make):
     size = struct.unpack(">II", data["image/png"][16:24])
     assert size == (2 * metadata["image/png"]["width"], 2 * metadata["image/png"]["height"])
     assert metadata["image/png"]["width"] <= 640
+
+
+@pytest.fixture
+def shell():
+    yield InteractiveShell.instance(config=Config(HistoryManager={"enabled": False}))
+    InteractiveShell.clear_instance()
+
+
+def test_a_notebook_shows_the_picture_and_below_it_the_text(make, shell):
+    picture = make()
+    with capture_output() as shown:
+        display(picture)
+    first, second = shown.outputs
+    assert first.data["image/png"] and first.metadata["image/png"]["alt"] == picture.text
+    assert html.unescape(second.data["text/html"]) == (
+        f"<details><summary>In words</summary><p>{picture.text}</p></details>"
+    )
+
+
+def test_a_picture_without_a_figure_is_shown_as_its_text(shell):
+    with capture_output() as shown:
+        display(Picture("No path yet."))
+    assert [each.data for each in shown.outputs] == [{"text/plain": "No path yet."}]
+
+
+def test_a_static_page_has_the_alternative_text(make):
+    picture = make()
+    data, metadata = picture._repr_mimebundle_()
+    data["image/png"] = base64.b64encode(data["image/png"]).decode()
+    page = nbformat.v4.new_notebook()
+    output = nbformat.v4.new_output("display_data", data, metadata=metadata)
+    page.cells = [nbformat.v4.new_code_cell("picture", outputs=[output])]
+    assert f'alt="{picture.text}"' in html.unescape(HTMLExporter(template_name="classic").from_notebook_node(page)[0])
 
 
 def test_a_text_is_one_paragraph(make):

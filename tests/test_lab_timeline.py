@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 import rclpy
@@ -179,7 +180,12 @@ def test_a_call_is_told_from_the_question_to_the_answer(simple: Lesson) -> None:
     arrows = [line.split(":")[0] for line in picture.mermaid.splitlines() if ">>" in line]
     assert arrows == ["p0->>p1", "p0->>p1", "p1-->>p0", "p1-->>p0"]
     assert picture.mermaid.count("\nactivate p1") == picture.mermaid.count("\ndeactivate p1") == 2
-    assert set(picture._repr_mimebundle_()) == {"text/vnd.mermaid", "text/markdown", "text/plain"}
+    assert set(picture._repr_mimebundle_()) == {"text/html", "text/vnd.mermaid", "text/plain"}
+    drawing = ElementTree.fromstring(picture.svg)
+    words = [each.text for each in drawing.iter("{http://www.w3.org/2000/svg}text")]
+    assert words[-2:] == ["/asker", "/navigator"]
+    assert sum("answer after" in word for word in words) == 2
+    assert "after a wait of 1.00 s" in " ".join(words)
 
 
 def test_a_call_that_is_not_answered_yet(simple: Lesson) -> None:
@@ -196,6 +202,7 @@ def test_a_call_that_is_not_answered_yet(simple: Lesson) -> None:
     assert "no callback has begun yet" in second
     assert "1 goes on; 1 waits now, the first since 0.90 s" in simple.plot_timeline("/navigator").text
     assert "waits: no callback has begun yet" in simple.plot_sequence().mermaid
+    assert "waits: no callback has begun" in simple.plot_sequence().svg
 
 
 def test_a_command_is_named_by_its_words(lesson: Lesson, capsys: pytest.CaptureFixture[str]) -> None:

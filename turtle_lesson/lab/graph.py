@@ -4,33 +4,34 @@ from __future__ import annotations
 
 from typing import Any
 
+from .graph_drawing import draw_graph
 from .mermaid import flowchart
+from .svg import image
 from .system import Ends, NodeView, read_system, services_of, topics_of
 from .words import count, listed
 
 
 class GraphPicture:
-    """A diagram of the ROS graph, drawn by the notebook itself, and the same in words.
+    """A diagram, and the same in words.
 
-    `text` is one paragraph, `mermaid` the diagram in Mermaid's language ("" when there is no node to show).
+    `text` is one paragraph, `svg` the drawing, `mermaid` the diagram in Mermaid's language, for a README or a page of
+    your own ("" when there is nothing to show).
     """
 
-    def __init__(self, text: str, mermaid: str = "") -> None:
+    def __init__(self, text: str, mermaid: str = "", svg: str = "") -> None:
         self.text = text
         self.mermaid = mermaid
+        self.svg = svg
 
     def __repr__(self) -> str:
         return self.text
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
-        """What Jupyter shows: JupyterLab draws the first, other front ends the second, all have the text."""
-        if not self.mermaid:
+        """What Jupyter shows: the drawing with its alternative text, with or without a kernel."""
+        if not self.svg:
             return {"text/plain": self.text}
-        return {
-            "text/vnd.mermaid": self.mermaid,
-            "text/markdown": f"```mermaid\n{self.mermaid}```",
-            "text/plain": self.text,
-        }
+        shown = image(self.svg, self.text)
+        return {"text/html": shown, "text/vnd.mermaid": self.mermaid, "text/plain": self.text}
 
 
 def plot_graph(node: Any) -> GraphPicture:
@@ -42,7 +43,8 @@ def plot_graph(node: Any) -> GraphPicture:
     if not nodes:
         return GraphPicture("No node is running. Start some: ros2 run turtlesim turtlesim_node, or lesson.launch(…).")
     text = describe(nodes)
-    return GraphPicture(text, flowchart(nodes, f"ROS graph: {_summary(nodes)}", text))
+    title = f"ROS graph: {_summary(nodes)}"
+    return GraphPicture(text, flowchart(nodes, title, text), draw_graph(nodes, title, text))
 
 
 def describe(nodes: list[NodeView]) -> str:

@@ -11,7 +11,10 @@ import re
 
 from .system import Ends, NodeView, services_of, topics_of
 
-SETTINGS = '%%{init: {"flowchart": {"nodeSpacing": 22, "rankSpacing": 32, "padding": 9}}}%%'
+THEME = '"theme": "base", "themeVariables": {"lineColor": "#767b82", "signalColor": "#767b82", "signalTextColor": "#767b82"}'
+"""Lines and their texts that are seen on a light and on a dark page, also when the theme is changed later on."""
+
+SETTINGS = f'%%{{init: {{{THEME}, "flowchart": {{"nodeSpacing": 22, "rankSpacing": 32, "padding": 9}}}}}}%%'
 """Closer together than Mermaid's own 50 and 50, so that four nodes are legible in a narrow window."""
 
 COLOURS = (

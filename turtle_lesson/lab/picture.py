@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import io
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -32,6 +33,17 @@ class Picture:
 
     def __repr__(self) -> str:
         return self.text
+
+    def _ipython_display_(self) -> None:
+        """Show the figure, and below it the text, folded: JupyterLab and its static pages give a PNG no alternative text."""
+        from IPython.display import display
+
+        bundle = self._repr_mimebundle_()
+        data, metadata = bundle if isinstance(bundle, tuple) else (bundle, {})
+        display(data, metadata=metadata, raw=True)
+        if self.figure is not None:
+            words = f"<details><summary>In words</summary><p>{html.escape(self.text)}</p></details>"
+            display({"text/html": words}, raw=True)
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> Any:
         """What Jupyter shows: PNG and text, and as metadata the size to show and the alternative text."""

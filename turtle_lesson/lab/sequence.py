@@ -10,6 +10,7 @@ from .call_steps import Step, after, clock, fields, step_of, waits_of
 from .graph import GraphPicture
 from .lanes import SHORT, Window, window_of
 from .recording import NANOSECONDS
+from .sequence_drawing import draw_sequence
 from .sequence_text import sequence_diagram
 from .system import PARAMETER_SERVICES
 from .words import count, listed, number
@@ -33,7 +34,8 @@ def plot_sequence(trace: Any, *services: str, since: float | None = None, until:
         return GraphPicture(_nothing(trace, names, called, window))
     steps = [step_of(trace, call) for call in calls[-MOST:]]
     text = _describe(steps, len(calls))
-    return GraphPicture(text, sequence_diagram(steps, f"Calls of {listed(_services(steps))}", text))
+    title = f"Calls of {listed(_services(steps))}"
+    return GraphPicture(text, sequence_diagram(steps, title, text), draw_sequence(steps, title, text))
 
 
 def _full_name(name: Any) -> str:

@@ -4,49 +4,67 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from typing import NamedTuple
 
 from .call_steps import Step, after, clock, fields, waits_of
 from .lanes import SHORT
+from .mermaid import THEME
 
 SETTINGS = (
-    '%%{init: {"sequence": {"actorMargin": 60, "width": 150, "height": 44, "boxMargin": 6, "noteMargin": 8, '
+    f'%%{{init: {{{THEME}, "sequence": {{"actorMargin": 60, "width": 150, "height": 44, "boxMargin": 6, "noteMargin": 8, '
     '"messageMargin": 34, "mirrorActors": false, "wrap": true}}}%%'
 )
 """Closer together than Mermaid's own, so that two or three programs fit beside one another on a narrow page."""
 
 
+ARROWS = {"call": "{0}->>{1}: {2}", "answer": "{0}-->>{1}: {2}", "lost": "{0}-x{0}: {2}", "note": "Note over {0}: {2}"}
+"""How each kind of event is written, besides "activate" and "deactivate"."""
+
+
+class Event(NamedTuple):
+    """One line of the diagram, "call", "answer", "lost", "note", "activate" or "deactivate"; lines of `text` end in <br/>."""
+
+    kind: str
+    of: str
+    to: str = ""
+    text: str = ""
+
+
 def sequence_diagram(steps: Sequence[Step], title: str, description: str) -> str:
     """Return the Mermaid text: a lifeline a program, an arrow a message; `title` and `description` for who cannot see."""
-    names = list(dict.fromkeys(name for step in steps for name in (step.call.caller, step.call.server) if name))
-    letters = {name: f"p{number}" for number, name in enumerate(names)}
+    letters = {name: f"p{number}" for number, name in enumerate(programs_of(steps))}
     lines = [SETTINGS, "sequenceDiagram", f"accTitle: {_plain(title)}", f"accDescr: {_plain(description)}"]
-    lines += [f"participant {letters[name]} as {_escaped(name)}" for name in names]
-    lines += [line for _, _, line in sorted(_events(steps, letters))]
+    lines += [f"participant {letters[name]} as {_escaped(name)}" for name in letters]
+    for kind, of, to, text in events_of(steps):
+        form = ARROWS.get(kind, f"{kind} {{0}}")
+        lines.append(form.format(letters[of], letters.get(to), _label(text)))
     return "\n".join([*lines, ""])
 
 
-Event = tuple[int, int, str]
+def programs_of(steps: Sequence[Step]) -> list[str]:
+    """The names of all that takes part, in the order in which it does."""
+    return list(dict.fromkeys(name for step in steps for name in (step.call.caller, step.call.server) if name))
 
 
-def _events(steps: Sequence[Step], letters: dict[str, str]) -> list[Event]:
-    """All lines with their times (ns) and an order for those of one time; nothing of a later call comes in between."""
-    events: list[tuple[int, str]] = []
-    for step in steps:
-        call = step.call
-        caller, server = letters[call.caller], letters.get(call.server)
-        asked = f"{clock(call.asked)}: {call.service}<br/>{fields(call.request)}"
-        if server is None:
-            events.append((call.asked, f"{caller}-x{caller}: {_label(asked)}"))
-            events.append((call.asked, f"Note over {caller}: {_label('nobody received it')}"))
-            continue
-        events.append((call.asked, f"{caller}->>{server}: {_label(asked)}"))
-        if step.began is None:
-            events.append((call.asked, f"Note over {server}: {_label('waits: no callback has begun yet')}"))
-            continue
-        events.append((step.began, f"activate {server}"))
-        events.append((step.began, f"Note over {server}: {_label(_begin(step))}"))
-        events += _end(step, caller, server)
-    return [(time, order, line) for order, (time, line) in enumerate(events)]
+def events_of(steps: Sequence[Step]) -> list[Event]:
+    """All events in the order of their times; of one time, nothing of a later call comes in between."""
+    timed = [each for step in steps for each in _events(step)]
+    return [event for _, event in sorted(timed, key=lambda each: each[0])]
+
+
+def _events(step: Step) -> list[tuple[int, Event]]:
+    """The events of one call with their times (ns)."""
+    call = step.call
+    asked = f"{clock(call.asked)}: {call.service}<br/>{fields(call.request)}"
+    if not call.server:
+        lost = Event("lost", call.caller, text=asked)
+        return [(call.asked, lost), (call.asked, Event("note", call.caller, text="nobody received it"))]
+    events = [(call.asked, Event("call", call.caller, call.server, asked))]
+    if step.began is None:
+        return [*events, (call.asked, Event("note", call.server, text="waits: no callback has begun yet"))]
+    events.append((step.began, Event("activate", call.server)))
+    events.append((step.began, Event("note", call.server, text=_begin(step))))
+    return events + _end(step)
 
 
 def _begin(step: Step) -> str:
@@ -54,17 +72,19 @@ def _begin(step: Step) -> str:
     return f"{step.callback} begins" + (f", after a wait of {after(0, waited)}" if waited >= SHORT else "")
 
 
-def _end(step: Step, caller: str, server: str) -> list[tuple[int, str]]:
+def _end(step: Step) -> list[tuple[int, Event]]:
     call = step.call
     end = call.answered if call.answered is not None else 2**62
     events = [
-        (end, f"Note over {server}: {_label(f'{name} waits {times}, at most {after(0, longest)}')}")
+        Event("note", call.server, text=f"{name} waits {times}, at most {after(0, longest)}")
         for name, (times, longest) in waits_of(step)
     ]
     if call.answered is None:
-        return [*events, (end, f"Note over {server}: {_label('no answer yet')}"), (end, f"deactivate {server}")]
-    answer = f"{clock(call.answered)}: answer after {after(call.asked, call.answered)}<br/>{fields(call.response)}"
-    return [*events, (end, f"{server}-->>{caller}: {_label(answer)}"), (end, f"deactivate {server}")]
+        events.append(Event("note", call.server, text="no answer yet"))
+    else:
+        answer = f"{clock(call.answered)}: answer after {after(call.asked, call.answered)}<br/>{fields(call.response)}"
+        events.append(Event("answer", call.server, call.caller, answer))
+    return [(end, event) for event in [*events, Event("deactivate", call.server)]]
 
 
 def _label(text: str) -> str:
