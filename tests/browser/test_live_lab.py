@@ -290,7 +290,7 @@ def test_a_restart_and_run_all_brings_all_of_it_back(board: Board, problems: lis
     late = "Comm not found for comm id"  # what JupyterLab says of a frame that arrives after its kernel's end
     problems[:] = [problem for problem in problems if not problem.startswith(late)]
     board = Board(page)
-    expect(board.dials.first).to_have_text("1.0 s")
+    expect(board.dials.first).to_have_text("1.9 s")
     expect(board.states).to_have_count(0)
     board.choose_speed("10")
     board.click(3.0, 8.0)
