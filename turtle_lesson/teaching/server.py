@@ -50,7 +50,7 @@ def _check_free(port: int) -> None:
         try:
             probe.bind(("127.0.0.1", port))
         except (OSError, OverflowError) as error:
-            reason = (getattr(error, "strerror", None) or str(error)).lower()
+            reason = (getattr(error, "strerror", None) or str(error)).lower().rstrip(".")
             raise PageError(
                 f"port {port} cannot be used: {reason}. Leave --port out, and a free one is found."
             ) from None
