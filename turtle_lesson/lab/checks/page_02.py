@@ -10,7 +10,7 @@ from .fields import interface
 from .parts import no_errors, node, offers
 from .questions import answers
 from .registry import Expectation, check
-from .rows import CannotLook, Seen
+from .rows import Advice, CannotLook, Seen
 
 PAGE = "02_services_and_interfaces"
 ADD = "example_interfaces/srv/AddTwoInts"
@@ -20,28 +20,45 @@ GOAL = dict.fromkeys(("x", "y", "theta"), "float")
 RESULT = {"success": "boolean", "time_taken": "float"}
 """Fields and types of the lesson's interfaces, as ROS names them: float32 is "float", bool "boolean"."""
 
+LAST_HINT = "Open Hint 2 under the exercise."
 
-@check("adder", page=PAGE, points=3, limit=15)
+
+@check(
+    "adder",
+    page=PAGE,
+    points=3,
+    limit=15,
+    learnt="A service answers each request by a callback that returns a response.",
+)
 def adder() -> list[Expectation]:
     """A service that adds."""
+    sums = ((2, 3), (-40, 7), (7, -40), (3_000_000_000, 1))
     return [
         node("/adder"),
         offers("/add_two_ints", ADD, by="/adder"),
-        _adds(2, 3),
-        _adds(-40, 7),
+        *(_adds(a, b) for a, b in sums),
+        no_errors(),
     ]
 
 
 def _adds(a: int, b: int) -> Expectation:
-    words = f"{a} + {b} is {a + b}".replace("-", "−")
-    step = "response.sum = request.a + request.b, then return response."
-    return answers("/add_two_ints", ADD, {"a": a, "b": b}, lambda response: response.sum == a + b, words, step)
+    advice = Advice(direction="Which fields does the request have, and which one the response?", hint=LAST_HINT)
+    return answers(
+        "/add_two_ints",
+        ADD,
+        {"a": a, "b": b},
+        lambda response: response.sum == a + b,
+        f"{a} + {b if b >= 0 else f'({b})'} is {a + b}".replace("-", "−"),
+        advice,
+    )
 
 
 NAVIGATE_TYPE = "robot_controller/srv/NavigateTo"
 
 
-@check("interfaces", page=PAGE, points=4, limit=5)
+@check(
+    "interfaces", page=PAGE, points=4, limit=5, learnt="Named, built and sourced: then a type of your own can be used."
+)
 def interfaces() -> list[Expectation]:
     """The package robot_controller is built and sourced, with its message and its service."""
     return [
@@ -58,20 +75,31 @@ def has_fields(
     what = f"{type_name}{f' ({part})' if part else ''}"
 
     def look(exam: Exam) -> Seen:
-        package = type_name.split("/")[0]
         try:
             found = dict(choose(interface(type_name)).get_fields_and_field_types())
         except CannotLook as reason:
-            step = (
-                f"colcon build --packages-select {package}, then source install/setup.bash; CMakeLists.txt has to name "
-                "the file in rosidl_generate_interfaces."
-            )
-            return Seen(False, str(reason), step)
-        step = f"The fields are {_in_words(fields)}, in this order: change the file and build again."
+            return Seen(False, str(reason), Advice(direction=_cause(type_name), hint=LAST_HINT))
         good = list(found.items()) == list(fields.items())
-        return Seen(good, "it has" if good else f"it has {_in_words(found)}", step)
+        direction = f"The fields are {_in_words(fields)}, in this order. Does the file say so, and was it built since?"
+        return Seen(good, "it has" if good else f"it has {_in_words(found)}", direction)
 
     return Expectation(f"{what.split('/')[-1]}: {' '.join(fields)}", look)
+
+
+def _cause(type_name: str) -> str:
+    """Which of the three causes keeps a type of the learner's package from being found."""
+    from ...workspace import workspace
+
+    package, kind, name = type_name.split("/")
+    mine, file = workspace(), f"{kind}/{name}.{kind}"
+    cmake = mine.package / "CMakeLists.txt"
+    if not (mine.package / file).is_file():
+        return f"There is no file {file} in the package. What is it called, and where is it?"
+    if not cmake.is_file() or file not in cmake.read_text(encoding="utf-8", errors="replace"):
+        return f"CMakeLists.txt does not name {file}."
+    if not (mine.folder / "install" / package / "share" / package / file).is_file():
+        return f"CMakeLists.txt names {file}, but it was not built. What does colcon build say?"
+    return f"{file} was built. Was the workspace sourced since then?"
 
 
 _AS_TYPED = {"float": "float32", "double": "float64", "boolean": "bool"}
@@ -89,40 +117,55 @@ MIDDLE = 5.544445
 SPEED = 0.2
 """m/s, as the lesson's navigator drives."""
 
+NEAR_ENOUGH = 0.05
+"""How far an estimate may be off, s."""
 
-@check("estimator", page=PAGE, points=4, limit=20)
+
+@check(
+    "estimator",
+    page=PAGE,
+    points=4,
+    limit=20,
+    learnt="A service refuses what makes no sense, at once and in a field of its answer.",
+)
 def estimator() -> list[Expectation]:
     """A service that says how long the way to a goal takes."""
+    outside = ((-0.5, 5.0), (11.5, 5.0), (5.0, -0.5), (5.0, 11.5))
     return [
         node("/estimator"),
         offers("/estimate", NAVIGATE_TYPE, by="/estimator"),
         _estimates("3 m ahead take 15 s", MIDDLE + 3.0, MIDDLE, 15.0),
         _estimates("5 m aslant take 25 s", MIDDLE - 3.0, MIDDLE - 4.0, 25.0),
         _estimates("where it stands: 0 s", MIDDLE, MIDDLE, 0.0),
-        *(_declines(x, y) for x, y in ((20.0, 5.0), (5.0, -1.0))),
+        _estimates("(0, 5.54), on the left edge, takes 27.7 s", 0.0, MIDDLE, MIDDLE / SPEED),
+        _estimates("(5.54, 0), on the lower edge, takes 27.7 s", MIDDLE, 0.0, MIDDLE / SPEED),
+        _estimates("(11.05, 11.05), in the corner, takes 38.9 s", 11.05, 11.05, 2**0.5 * (11.05 - MIDDLE) / SPEED),
+        *(_declines(x, y) for x, y in outside),
         no_errors(),
     ]
 
 
 def _estimates(words: str, x: float, y: float, seconds: float) -> Expectation:
-    step = f"response.success = True, response.time_taken = math.hypot(dx, dy) / {SPEED:g}; dx, dy from the middle."
+    advice = Advice(
+        direction="How long is the straight way from the middle, and which goals are in the world?",
+        hint="Open the hints under the exercise.",
+    )
     return answers(
         "/estimate",
         NAVIGATE_TYPE,
         {"x": x, "y": y},
-        lambda response: response.success and abs(response.time_taken - seconds) < 0.05,
+        lambda response: response.success and abs(response.time_taken - seconds) < NEAR_ENOUGH,
         words,
-        step,
+        advice,
     )
 
 
 def _declines(x: float, y: float) -> Expectation:
-    step = "Look whether 0 ≤ x ≤ 11.09 and 0 ≤ y ≤ 11.09; if not, success is False and time_taken 0.0."
     return answers(
         "/estimate",
         NAVIGATE_TYPE,
         {"x": x, "y": y},
         lambda response: not response.success and response.time_taken == 0.0,
-        f"({x:g}, {y:g}) is outside: success is False".replace("-", "−"),
-        step,
+        f"({x:g}, {y:g}) is outside: success is False, time_taken 0".replace("-", "−"),
+        Advice(direction="A goal is inside if both x and y are from 0 to 11.09.", hint=LAST_HINT),
     )
