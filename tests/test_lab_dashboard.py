@@ -110,6 +110,16 @@ def test_its_picture_shows_path_and_status_side_by_side(dashboard: Dashboard) ->
     assert metadata["image/png"]["width"] > 1000
 
 
+def test_its_picture_shows_the_flag_of_a_goal_that_was_reached(dashboard: Dashboard) -> None:
+    before = dashboard.picture()
+    goal = dashboard.desk.send(8.0, 5.544, 0.0)
+    goal.state = "reached"
+    after = dashboard.picture()
+    assert before is not None and after is not None
+    red = [((each.pixels()[..., :3] == [213, 94, 0]).all(axis=2)).sum() for each in (before, after)]
+    assert red[1] > red[0] + 100
+
+
 def test_showing_it_leaves_robot_time_alone(lesson: Lesson, dashboard: Dashboard) -> None:
     before = lesson.now
     order(dashboard, "open")

@@ -15,13 +15,16 @@ from ..status import plot_status
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from .goals import Goal
+
 GAP = 12
 """Pixels shown between two cards."""
 
 
-def dashboard_picture(recording: Recording, text: str) -> Picture:
-    """Path and status side by side, as far as there is anything to draw."""
-    cards = [plot(recording) for plot in (plot_path, plot_status)]
+def dashboard_picture(recording: Recording, text: str, goal: Goal | None = None) -> Picture:
+    """Path, with the newest goal, and status side by side, as far as there is anything to draw."""
+    place = None if goal is None else (goal.x, goal.y, goal.theta)
+    cards = [plot_path(recording, goal=place), plot_status(recording)]
     drawn = [card.pixels() for card in cards if card.figure is not None]
     return Picture(text, _sheet(drawn) if drawn else None)
 

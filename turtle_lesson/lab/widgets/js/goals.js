@@ -74,6 +74,7 @@ function goalTool(model, send, form) {
     release: finish,
     cancel: () => (draft = null),
     key,
+    says: () => (draft ? `Goal at ${goalPlace(whole(draft))}, ${figure(degrees(whole(draft).theta), 0)} degrees` : ""),
     draw: (context, colour, pixel) => {
       if (!draft) return;
       const goal = whole(draft);

@@ -8,7 +8,8 @@ const TRAIL_BANDS = 10; // the older, the paler
  * What the panels of one view share beside the model: the tools for the map, by the name of their panel.
  *
  * A tool has {name, hint, press(x, y), move(x, y), release(x, y), cancel(), key(event), draw(context, colour, pixel)}, of
- * places in metres; `pixel` is the size of a pixel in metres, and `key` says whether it has used the key.
+ * places in metres; `pixel` is the size of a pixel in metres, `key` says whether it has used the key, and `says()`, where
+ * there is one, what is then read out.
  */
 function makeToolbox() {
   const watchers = [];
@@ -35,6 +36,7 @@ function mapPanel(model, order, box) {
     { class: "tl-map", tabindex: 0, role: "application", "aria-label": "Map of the turtle's world", "aria-describedby": hint.id },
     draw,
   );
+  const spoken = element("span", { class: "tl-unseen", role: "status", "aria-live": "polite" });
   const switches = element("div", { class: "tl-switch", role: "group", "aria-label": "What the map is for" });
   const showTool = () => {
     const tools = Object.entries(box.tools);
@@ -53,6 +55,7 @@ function mapPanel(model, order, box) {
     if (event.ctrlKey || event.metaKey || event.altKey || !box.tool?.key(event)) return;
     event.preventDefault(); // or the page would scroll
     event.stopPropagation(); // or Jupyter would take the key for a shortcut
+    spoken.textContent = box.tool.says?.() ?? "";
     repaint();
   });
   for (const name of ["focus", "blur"]) canvas.addEventListener(name, repaint);
@@ -67,7 +70,7 @@ function mapPanel(model, order, box) {
   }
 
   const watch = Object.fromEntries(["pose", "trail", "tail", "scanned_from", "obstacles", "goals"].map((name) => [name, repaint]));
-  const panel = element("div", { class: "tl-map-panel" }, canvas, hint);
+  const panel = element("div", { class: "tl-map-panel" }, canvas, spoken, hint);
   return { title: "Map", tools: switches, panel, close, watch };
 }
 
@@ -133,9 +136,9 @@ function drawWorld(context, model, box, colour, pixel) {
   for (const each of box.obstacles?.() ?? model.get("obstacles")) drawObstacle(context, each, colour, pixel);
   const pose = floats(model.get("pose"));
   drawTrail(context, [floats(model.get("trail")), floats(model.get("tail")), pose.slice(0, 2)], colour, pixel);
-  drawGoals(context, model.get("goals"), pose, colour, pixel);
   drawHits(context, floats(model.get("scanned_from")), floats(model.get("scan")), colour, pixel);
   if (Number.isFinite(pose[0])) turtle(context, ...pose.slice(0, 3), colour, Math.max(0.95, 38 * pixel));
+  drawGoals(context, model.get("goals"), pose, colour, pixel); // above the turtle, which stands on a goal that it has reached
 }
 
 /** The floor with a line at each metre, and the walls. */
@@ -199,7 +202,7 @@ function drawTrail(context, parts, colour, pixel) {
   context.globalAlpha = 1;
 }
 
-/** The goal that the turtle is on its way to, with a line that leads there; or else, paler, where it last went. */
+/** The goal that the turtle is on its way to, with a line that leads there; or else the one where it last went. */
 function drawGoals(context, goals, [x, y], colour, pixel) {
   const current = goals.find(({ state }) => state === "on its way");
   const goal = current ?? goals.findLast(({ state }) => state === "reached" || state === "not reached");
@@ -212,7 +215,7 @@ function drawGoals(context, goals, [x, y], colour, pixel) {
     context.beginPath(), context.moveTo(x, y), context.lineTo(goal.x, goal.y), context.stroke();
     context.setLineDash([]);
   }
-  context.globalAlpha = current ? 1 : 0.5;
+  context.globalAlpha = current ? 1 : 0.8;
   drawFlag(context, goal, colour, pixel);
   context.globalAlpha = 1;
 }

@@ -23,14 +23,10 @@ function choiceGuess(model, send) {
 }
 
 function numberGuess(model, send, id) {
-  const input = element("input", { type: "text", inputmode: "decimal", size: 8, "aria-labelledby": id });
-  const form = element(
-    "form",
-    { class: "tl-choices", onsubmit: (event) => (event.preventDefault(), send(input.value)) },
-    input,
-    model.get("unit"),
-    element("button", { type: "submit", class: "tl-button" }, "Record"),
-  );
+  const record = () => send(input.value);
+  const enter = (event) => event.key === "Enter" && record(); // in Jupyter, Enter submits no form
+  const input = element("input", { type: "text", size: 12, "aria-labelledby": id, onkeydown: enter });
+  const form = element("div", { class: "tl-choices" }, input, model.get("unit"), button("Record", record));
   const show = (guess) => {
     if (guess != null) input.value = figure(guess, 3).replace(/\.?0+$/, "");
   };
