@@ -147,8 +147,15 @@ def test_escape_takes_a_drag_back(pad: Pad) -> None:
 
 def test_keys_on_the_map_do_the_same(pad: Pad) -> None:
     pad.map.focus()
-    for key in ["ArrowUp", "ArrowUp", *4 * ["ArrowRight"], "Shift+ArrowRight", "Shift+ArrowDown", "Enter"]:
+    for key in ("Tab", "Shift+Tab"):
+        pad.page.keyboard.press(key)
+    assert pad.map.evaluate("node => getComputedStyle(node).outlineStyle") == "solid", "it shows that it has the focus"
+    for key in ["ArrowUp", "ArrowUp", *4 * ["ArrowRight"], "Shift+ArrowRight", "Shift+ArrowDown"]:
         pad.map.press(key)
+    expect(pad.page.locator(".tl-map-panel [role=status]")).to_have_text(
+        re.compile(r"Goal at \(7.50, 6.50\) m, \d+ degrees")
+    )
+    pad.map.press("Enter")
     expect(pad.states).to_have_text(["reached"])
     goal = pad.ask("pad.goals[0]")
     assert (goal["x"], goal["y"]) == (7.5, 6.5)
