@@ -70,6 +70,11 @@ class ExamPlace:
         """Whether a program of this name is running."""
         return any(each.name == program and each.alive for each in self._world.processes)
 
+    @property
+    def commands(self) -> list[list[str]]:
+        """The command lines of the programs that run, each as its words: what `ps` shows."""
+        return [list(each.argv) for each in self._world.processes if each.alive and each.argv]
+
     @contextmanager
     def launched(
         self, package: str, file_name: str, namespace: str, renamed: Mapping[str, str], arguments: Mapping[str, object]

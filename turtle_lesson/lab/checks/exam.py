@@ -67,6 +67,11 @@ class Place(Protocol):
         """Whether a program of this name is running."""
         ...
 
+    @property
+    def commands(self) -> list[list[str]]:
+        """The command lines of the programs that run, each as its words: what `ps` shows."""
+        ...
+
     def published(self, topic: str, by: str) -> int:
         """How many messages a node's newest publisher of a topic has sent so far."""
         ...
