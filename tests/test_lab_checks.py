@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from turtle_lesson import Lesson, start
-from turtle_lesson.lab.checks import CheckResult, all_checks, exam
+from turtle_lesson.lab.checks import Advice, Check, CheckResult, Expectation, Row, Seen, all_checks, exam, registry
 from turtle_lesson.lab.checks.registry import PAGES, check
 from turtle_lesson.lab.checks.result import POINTER
 from turtle_lesson.lesson import FINISHED
@@ -257,7 +257,7 @@ def test_a_service_that_never_answers() -> None:
     result = lesson.check("navigator")
     assert "no answer in 90 s" in row(result, "near goal: success").seen
     assert row(result, "time_taken").seen == "not looked at, because the turtle never moved"
-    assert "does not answer" in row(lesson.check("parameters"), "goal_timeout").seen
+    assert "does not answer" in row(lesson.check("launch"), "parameter goal_timeout").seen
     nothing_else(lesson)
 
 
@@ -399,6 +399,40 @@ def test_a_callback_in_a_cell_that_sleeps_again_and_again_is_stopped_too() -> No
     assert marks(result).count("■") == 1
 
 
+@pytest.mark.parametrize("in_a_cell", [True, False])
+def test_a_loop_that_only_looks_at_the_clock_is_stopped_and_named(
+    monkeypatch: pytest.MonkeyPatch, in_a_cell: bool
+) -> None:
+    """Time passes in it, a microsecond a look."""
+    monkeypatch.setattr(exam, "WORK", 0.3)
+
+    def counter() -> Any:
+        from std_msgs.msg import Int32
+
+        node = rclpy.create_node("counter")
+        node.create_publisher(Int32, "/count", 10)
+
+        def on_timer() -> None:
+            end = time.time() + 3600
+            while time.time() < end:
+                pass
+
+        node.create_timer(0.5, on_timer)
+        return node
+
+    lesson = start()
+    if in_a_cell:
+        rclpy.init()
+        kept = counter()
+        result = lesson.check("counter")
+        kept.destroy_node()
+    else:
+        program(lesson, counter)
+        result = lesson.check("counter")
+    assert "on_timer has not returned: stopped in line" in result.rows[0].seen
+    lesson.run(1)  # and nothing is limited any more
+
+
 def test_a_callback_that_waits_for_ever_is_named_with_its_line() -> None:
     def adder() -> Any:
         from example_interfaces.srv import AddTwoInts
@@ -419,15 +453,43 @@ def test_a_callback_that_waits_for_ever_is_named_with_its_line() -> None:
     assert "(`time.sleep(0.5)`)" in row(result, "2 + 3").seen
 
 
-def test_advice_comes_in_three_steps_and_begins_anew_when_the_check_is_passed(system: Lesson) -> None:
-    broken = start(package=None)
-    said = [repr(broken.check("interfaces")) for _ in range(3)]
-    assert "colcon build" not in said[0]
-    assert "colcon build" in said[1]
-    assert POINTER not in said[1]
-    assert POINTER in said[2]
-    assert start().check("interfaces").passed
-    assert "colcon build" not in repr(start(package=None).check("interfaces"))
+def test_advice_comes_in_three_steps_and_begins_anew_when_the_check_is_passed(monkeypatch: pytest.MonkeyPatch) -> None:
+    advice: list[str | Advice] = [Advice("the symptom", "the direction", "the hint")]
+    good: list[bool] = []
+
+    def make() -> list[Expectation]:
+        return [Expectation("it is well", lambda exam: Seen(bool(good), "what was seen", advice[0]))]
+
+    mine = Check("mine", "A check of this test's own.", PAGES[0], 1, 5.0, make, "What was learnt.")
+    monkeypatch.setitem(registry._checks, "mine", mine)
+    lesson = start()
+
+    def said() -> list[bool]:
+        text = repr(lesson.check("mine"))
+        return [each in text for each in ("the symptom", "the direction", "the hint", POINTER, "What was learnt.")]
+
+    assert said() == [True, False, False, False, False]
+    assert said() == [False, True, False, False, False]
+    assert said() == [False, True, True, False, False]
+    advice[0] = "the direction"
+    assert said() == [False, True, False, True, False]
+    good.append(True)
+    assert said() == [False, False, False, False, True]
+    good.clear()
+    assert said() == [False, False, False, False, False], "the count begins anew; a plain text is no symptom"
+
+
+def test_rows_that_were_not_looked_at_for_one_reason_are_folded() -> None:
+    def row_of(name: str, reason: str) -> Row:
+        return Row("–", name, f"not looked at, because {reason}")
+
+    rows = (Row("✓", "a", "b"), row_of("c", "x"), row_of("d", "y"), row_of("e", "x"), row_of("f", "x"))
+    result = CheckResult("mine", "Title.", PAGES[0], 1, rows, 0.0)
+    assert "– 3 more expectations were not looked at, because x" in repr(result)
+    assert "– d  not looked at, because y" in repr(result)
+    assert result._repr_html_().count("<details>") == 1
+    assert all(f"<li>{name}</li>" in result._repr_html_() for name in "cef")
+    assert len(result.figures()["rows"]) == 5, "whoever collects points gets them all"
 
 
 def test_a_world_that_has_ended() -> None:

@@ -113,36 +113,6 @@ def test_awake(lesson: Lesson, awake: bool) -> None:
         assert row(result, "parameter call").seen == "only when the work was done"
 
 
-SIDE_BY_SIDE = """
-from launch import LaunchDescription
-from launch_ros.actions import Node
-
-def monitor(namespace, rate):
-    return Node(package="robot_controller", executable="status_monitor", name="status_monitor", namespace=namespace,
-                parameters=[{"publish_rate": rate}], remappings=REMAPPINGS(namespace))
-
-def generate_launch_description():
-    return LaunchDescription([monitor("slow", 2), monitor("fast", 20)])
-"""
-
-
-@pytest.mark.parametrize("own_topics", [True, False])
-def test_side_by_side(lesson: Lesson, tmp_path: Path, own_topics: bool) -> None:
-    from turtle_lesson.ros import launching
-
-    mapped = '[("/robot/status", f"/{namespace}/robot/status")]' if own_topics else "[]"
-    path = tmp_path / "two.launch.py"
-    path.write_text(SIDE_BY_SIDE.replace("REMAPPINGS(namespace)", mapped))
-    launching.launch_file(lesson._world, path, {})
-    lesson.run(1)
-    result = lesson.check("side_by_side")
-    assert result.passed == own_topics
-    assert row(result, "its namespace").good
-    if not own_topics:
-        assert row(result, "topic of its own").mark == "✗"
-        assert "remappings" in row(result, "topic of its own").advice.direction
-
-
 def test_replay(lesson: Lesson, tmp_path: Path) -> None:
     from turtle_lesson.ros.command.shell import run_line
 

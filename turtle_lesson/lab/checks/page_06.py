@@ -1,131 +1,215 @@
-"""Page 06: parameters that are really read, a launch file, and two configurations side by side."""
+"""Page 06: parameters that are really read, a launch file with arguments, and two configurations side by side."""
 
 from __future__ import annotations
 
-from ..words import listed, number
-from . import page_03, page_04, page_05
-from .drives import NAVIGATE, NAVIGATE_TYPE, far_away, where
+from collections.abc import Callable
+from typing import Any
+
+from ..words import listed
+from . import page_04, page_05
+from .drives import COMMAND_TYPE, COMMANDS, NAVIGATE, NAVIGATE_TYPE, far_away, where
 from .exam import Answer, Exam
-from .parts import get_parameter, no_errors, node, parameter, publishes
+from .parts import get_parameter, no_errors, node, offers, parameter, publishes
 from .questions import gives_up, rate_follows
 from .registry import Expectation, check
-from .rows import CannotLook, Seen
+from .rows import Advice, CannotLook, Seen
 from .streams import judge_rate, rate
 
 PAGE = "06_parameters_and_launch"
 STATUS, STATUS_TYPE = page_04.STATUS, page_04.STATUS_TYPE
 SCAN, SCAN_TYPE = page_05.SCAN, page_05.SCAN_TYPE
+PACKAGE, FILE = "robot_controller", "start_system.launch.py"
+LAUNCH = f"ros2 launch {PACKAGE} {FILE}"
 
 
-@check("parameters", page=PAGE, points=5, limit=60)
+@check(
+    "parameters",
+    page=PAGE,
+    points=5,
+    limit=60,
+    learnt="A parameter that is read where it is used can be set while the node runs.",
+)
 def parameters() -> list[Expectation]:
-    """Parameters that change what the nodes do, while they run."""
+    """A status monitor whose rate follows its parameter."""
     return [
-        parameter("/status_monitor", "publish_rate"),
-        rate_follows("/status_monitor", "publish_rate", 20, STATUS, STATUS_TYPE),
-        parameter("/obstacle_detector", "scan_rate"),
-        rate_follows("/obstacle_detector", "scan_rate", 10, SCAN, SCAN_TYPE),
-        parameter("/navigator", "goal_timeout"),
-        gives_up("/navigator", "goal_timeout", 0.5, _far_goal),
+        node("/status_monitor", page_04.RUN),
+        publishes(STATUS, STATUS_TYPE, by="/status_monitor"),
+        parameter("/status_monitor", "publish_rate", 10),
+        rate(STATUS, STATUS_TYPE, hz=10),
+        *(rate_follows("/status_monitor", "publish_rate", value, STATUS, STATUS_TYPE) for value in (20, 4, 40)),
+        no_errors(),
     ]
 
 
-def _far_goal(exam: Exam) -> Answer:
-    x, y, theta = far_away(where(exam))
-    return exam.ask(NAVIGATE, NAVIGATE_TYPE, 30.0, x=x, y=y, theta=theta)
+# -- the system ----------------------------------------------------------------------------------------------------------
 
 
-@check("launch", page=PAGE, points=4, limit=20)
-def launch() -> list[Expectation]:
-    """One command has started all three nodes, with their parameters."""
-    return [*system_is_there(), *system_is_configured(), no_errors()]
+def navigator_is_there(run: str) -> list[Expectation]:
+    """The navigator, its service and its commands; `run` is the command that starts it."""
+    return [
+        node("/navigator", run),
+        offers(NAVIGATE, NAVIGATE_TYPE, by="/navigator"),
+        publishes(COMMANDS, COMMAND_TYPE, by="/navigator"),
+    ]
 
 
 def system_is_there() -> list[Expectation]:
     """The three nodes, and what each of them is for."""
     return [
-        *page_03.navigator_is_there(),
-        node("/status_monitor", page_04.RUN),
+        *navigator_is_there(LAUNCH),
+        node("/status_monitor", LAUNCH),
         publishes(STATUS, STATUS_TYPE, by="/status_monitor"),
-        node("/obstacle_detector", page_05.RUN),
+        node("/obstacle_detector", LAUNCH),
         publishes(SCAN, SCAN_TYPE, by="/obstacle_detector"),
     ]
 
 
-def system_is_configured() -> list[Expectation]:
-    """The values of the lesson's launch file, and the rates that follow from them."""
+@check(
+    "launch",
+    page=PAGE,
+    points=5,
+    limit=60,
+    learnt="One command starts a whole system, and its arguments set it up.",
+)
+def launch() -> list[Expectation]:
+    """One command has started all three nodes, and its arguments become their parameters."""
     return [
+        *system_is_there(),
+        only({"/navigator", "/status_monitor", "/obstacle_detector", "/turtlesim"}),
         parameter("/navigator", "goal_timeout", 5.0),
         parameter("/status_monitor", "publish_rate", 10),
         parameter("/obstacle_detector", "scan_rate", 5),
         rate(STATUS, STATUS_TYPE, hz=10),
         rate(SCAN, SCAN_TYPE, hz=5),
+        *(
+            Expectation(f"{name}:={value} reaches /{owner}", _argument_reaches(owner, name, value))
+            for owner, name, value in ARGUMENTS
+        ),
+        gives_up("/navigator", "goal_timeout", 0.5, _far_goal),
+        rate_follows("/obstacle_detector", "scan_rate", 10, SCAN, SCAN_TYPE),
+        no_errors(),
     ]
+
+
+ARGUMENTS: tuple[tuple[str, str, int | float], ...] = (
+    ("navigator", "goal_timeout", 3.5),
+    ("status_monitor", "publish_rate", 25),
+    ("obstacle_detector", "scan_rate", 8),
+)
+"""What a second launch is given: owner, name and value, none of which is a default."""
+
+
+def _far_goal(exam: Exam) -> Answer:
+    x, y, theta = far_away(where(exam))
+    return exam.ask(NAVIGATE, NAVIGATE_TYPE, 25.0, x=x, y=y, theta=theta)
+
+
+def only(wanted: set[str]) -> Expectation:
+    """These nodes and no others, each once."""
+
+    def look(exam: Exam) -> Seen:
+        found = exam.nodes()
+        more = [f"{amount} × {name}" if amount > 1 else name for name, amount in found.items()]
+        extra = [text for text, name in zip(more, found, strict=True) if name not in wanted or found[name] > 1]
+        advice = Advice(direction="Nothing else was asked for: what does the launch file start, and what ran before?")
+        return Seen(not extra, f"there is {listed(extra)}, too" if extra else "none", advice)
+
+    return Expectation("no other node", look)
+
+
+def _argument_reaches(owner: str, name: str, value: int | float) -> Callable[[Exam], Seen]:
+    """Whether the parameter has the value of the argument, when the launch file is started with it."""
+
+    def look(exam: Exam) -> Seen:
+        found = exam.once("second launch", lambda: _launch_again(exam))
+        if isinstance(found, str):
+            return Seen(False, found, "Read the error from its last line up.")
+        if found[owner] is None:
+            raise CannotLook(f"there is no node /{owner}")
+        advice = Advice(
+            direction=f"Where does the launch file declare {name}, and where does it hand the value on?",
+            hint="Open Hints 1 and 2 under the exercise.",
+        )
+        good = type(found[owner]) is type(value) and found[owner] == value
+        return Seen(good, f"{name} is {found[owner]!r} then", advice)
+
+    return look
+
+
+def _launch_again(exam: Exam) -> dict[str, Any] | str:
+    """The nodes' parameters in a second launch with other arguments, beside the first; or why it was refused."""
+    from ...ros.launching import LaunchError
+
+    apart = "exam"
+    renamed = {name: f"/{apart}{name}" for name in (STATUS, SCAN, NAVIGATE, COMMANDS)}
+    arguments = {name: value for _, name, value in ARGUMENTS}
+    try:
+        with exam.place.launched(PACKAGE, FILE, apart, renamed, arguments):
+            there = exam.nodes()
+            return {
+                owner: get_parameter(exam, f"/{apart}/{owner}", name) if f"/{apart}/{owner}" in there else None
+                for owner, name, _ in ARGUMENTS
+            }
+    except LaunchError as error:
+        return f"the launch file was refused: {' '.join(str(error).split())[:160]}"
 
 
 # -- side by side ------------------------------------------------------------------------------------------------------
 
+SIDES = {"slow": 5, "fast": 20}
+"""The namespaces of the two monitors, and the rate (Hz) of each."""
 
-@check("side_by_side", page=PAGE, points=4, limit=20)
+
+@check(
+    "side_by_side",
+    page=PAGE,
+    points=4,
+    limit=20,
+    learnt="Namespaces and remapped names let one program run many times.",
+)
 def side_by_side() -> list[Expectation]:
     """Two status monitors, each with its own namespace, topic and rate."""
     return [
-        Expectation("two status monitors, each in its namespace", _two_monitors),
-        Expectation("each publishes a topic of its own", _own_topics),
-        Expectation("each has its own publish_rate", _own_rates),
-        Expectation("each keeps its own rate", _kept_rates),
+        *(Expectation(f"one node /{side}/status_monitor", _is_there(side)) for side in SIDES),
+        only({"/slow/status_monitor", "/fast/status_monitor", "/turtlesim"}),
+        *(publishes(f"/{side}{STATUS}", STATUS_TYPE, by=f"/{side}/status_monitor") for side in SIDES),
+        Expectation(f"nobody publishes {STATUS}", _nobody),
+        *(parameter(f"/{side}/status_monitor", "publish_rate", hz) for side, hz in SIDES.items()),
+        *(Expectation(f"/{side}{STATUS} comes at {hz} Hz", _keeps(side, hz)) for side, hz in SIDES.items()),
+        no_errors(),
     ]
 
 
-def _monitors(exam: Exam) -> list[str]:
-    found = [name for name in exam.nodes() if name.endswith("/status_monitor") and name != "/status_monitor"]
-    if len(found) < 2:
-        raise CannotLook("there are no two status monitors with namespaces")
-    return found
+def _is_there(side: str) -> Callable[[Exam], Seen]:
+    def look(exam: Exam) -> Seen:
+        found = exam.nodes()
+        monitors = listed([f"{found[name]} × {name}" for name in found if name.endswith("status_monitor")])
+        advice = Advice(
+            direction="What does each Node say about its namespace? A launch that failed says why in its output above.",
+            hint="Open Hint 1 under the exercise.",
+        )
+        there = found[f"/{side}/status_monitor"] == 1
+        return Seen(there, "it is there" if there else f"there is {monitors or 'no monitor'}", advice)
+
+    return look
 
 
-def _two_monitors(exam: Exam) -> Seen:
-    found = exam.nodes()
-    monitors = [name for name in found if name.endswith("/status_monitor")]
-    good = len([name for name in monitors if name != "/status_monitor"]) >= 2 and max(found.values()) == 1
-    seen = listed([f"{found[name]} × {name}" if found[name] > 1 else name for name in monitors]) or "none"
-    return Seen(good, seen, 'Node(…, namespace="slow") and Node(…, namespace="fast") in the launch file.')
+def _nobody(exam: Exam) -> Seen:
+    owners = [owner for owner, _ in exam.publishers(STATUS)]
+    advice = Advice(
+        direction=f"{STATUS} is an absolute name, which a namespace does not change. What replaces a name at the start?",
+        hint="Open Hint 2 under the exercise.",
+    )
+    return Seen(
+        not owners, f"{listed(owners)} {'do' if len(owners) > 1 else 'does'}" if owners else "nobody does", advice
+    )
 
 
-def _topics(exam: Exam) -> dict[str, list[str]]:
-    """The status topics of each monitor."""
-    topics: dict[str, list[str]] = {name: [] for name in _monitors(exam)}
-    for topic in exam.topics():
-        for owner, kind in exam.publishers(topic):
-            if owner in topics and kind == STATUS_TYPE:
-                topics[owner].append(topic)
-    return topics
+def _keeps(side: str, hz: int) -> Callable[[Exam], Seen]:
+    topic = f"/{side}{STATUS}"
 
+    def look(exam: Exam) -> Seen:
+        heard = exam.hear(topic, STATUS_TYPE, 2.0)
+        return judge_rate(heard, hz, 0.1 / hz, len(exam.publishers(topic)))
 
-def _own_topics(exam: Exam) -> Seen:
-    topics = _topics(exam)
-    everything = [topic for each in topics.values() for topic in each]
-    good = all(topics.values()) and len(set(everything)) == len(everything)
-    seen = "; ".join(f"{owner}: {listed(each) or 'none'}" for owner, each in topics.items())
-    step = f"An absolute name such as {STATUS} ignores the namespace: leave out the first /, or add remappings."
-    return Seen(good, seen, step)
-
-
-def _own_rates(exam: Exam) -> Seen:
-    rates = {owner: get_parameter(exam, owner, "publish_rate") for owner in _monitors(exam)}
-    seen = listed([f"{owner} {value!r}" for owner, value in rates.items()])
-    good = None not in rates.values() and len(set(rates.values())) == len(rates)
-    return Seen(good, seen, 'parameters=[{"publish_rate": 20}] in one of the two Nodes.')
-
-
-def _kept_rates(exam: Exam) -> Seen:
-    words, good = [], True
-    for owner, topics in _topics(exam).items():
-        wanted = get_parameter(exam, owner, "publish_rate")
-        if not topics or not isinstance(wanted, (int, float)) or not wanted > 0:
-            raise CannotLook(f"{owner} has no topic and rate of its own")
-        heard = exam.hear(topics[0], STATUS_TYPE, max(2.0, 4.0 / wanted))
-        right, seen, _ = judge_rate(heard, wanted, 0.1 / wanted, len(exam.publishers(topics[0])))
-        words.append(f"{topics[0]} {seen} for {number(float(wanted), 0)} Hz")
-        good = good and right
-    return Seen(good, "; ".join(words), "Does the node read its parameter, and does each have a topic of its own?")
+    return look

@@ -9,7 +9,7 @@ from ..words import number
 from .exam import Exam
 from .parts import set_parameter
 from .registry import Expectation
-from .rows import Advice, CannotLook, Seen
+from .rows import Advice, Seen
 from .streams import brief, judge_rate
 
 
@@ -50,17 +50,33 @@ def rate_follows(owner: str, parameter: str, value: int | float, topic: str, typ
         reason = set_parameter(exam, owner, parameter, value)
         if reason:
             return Seen(False, f"it refused: {reason}", f"{value!r} should be allowed for {parameter}.")
-        exam.wait(1.0)  # one interval may still be of the old rate
+        if raised := exam.errors():
+            raise raised[-1]
+        if len(exam.hear(topic, type_name, 0.1)) > FLOOD:
+            return Seen(False, f"then more than {FLOOD / 0.1:g} Hz", NANOSECONDS)
+        exam.wait(0.9)  # one interval may still be of the old rate
         heard = exam.hear(topic, type_name, max(1.0, 10.0 / value))
-        good, seen, _ = judge_rate(heard, value, 0.1 / value)
-        step = f"Read it when it is used: self.get_parameter({parameter!r}).value, and set the timer's period anew."
-        return Seen(good, f"then {seen}", step)
+        good, seen, _ = judge_rate(heard, value, 0.1 / value, len(exam.publishers(topic)))
+        return Seen(good, f"then {seen}", FOLLOW)
 
     return Expectation(f"{parameter} set to {value!r}: {topic} at {value:g} Hz", look)
 
 
+FLOOD = 100
+"""Messages in a tenth of a second that no rate of a lesson asks for."""
+
+NANOSECONDS = Advice(
+    "The timer's period is next to nothing.",
+    "timer_period_ns counts nanoseconds: one second is 1 000 000 000 of them.",
+)
+FOLLOW = Advice(
+    direction="When does the node read the parameter, and what becomes of the timer's period then?",
+    hint="Open Hints 2 and 3 under the exercise.",
+)
+
+
 def gives_up(owner: str, parameter: str, seconds: float, ask: Callable[[Exam], Any]) -> Expectation:
-    """A timeout (s) that is really read: a request that needs longer is answered with success False by then."""
+    """A timeout (s) that is really read: a request that needs longer is answered with success False at that time."""
 
     def look(exam: Exam) -> Seen:
         reason = set_parameter(exam, owner, parameter, seconds)
@@ -68,10 +84,14 @@ def gives_up(owner: str, parameter: str, seconds: float, ask: Callable[[Exam], A
             return Seen(False, f"it refused: {reason}", f"{seconds!r} should be allowed for {parameter}.")
         answer = ask(exam)
         if answer.response is None:
-            raise CannotLook("no answer came")
-        good = not answer.response.success and answer.seconds <= seconds + 0.5
+            return no_answer(exam, "the goal was never answered")
+        good = not answer.response.success and abs(answer.seconds - seconds) <= LATEST
         seen = f"success is {answer.response.success} after {number(answer.seconds)} s"
-        step = f"Compare the time since the start with self.get_parameter({parameter!r}).value at each step."
-        return Seen(good, seen, step)
+        step = f"At each step: how long has this goal been under way, and how long may it, according to {parameter}?"
+        return Seen(good, seen, Advice(direction=step, hint="Open Hint 2 under the exercise."))
 
     return Expectation(f"{parameter} set to {seconds!r}: gives up on a far goal", look)
+
+
+LATEST = 0.25
+"""How far from its time (s) a goal may be given up: two steps of a navigator at 10 Hz, and a little."""
