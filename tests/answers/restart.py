@@ -1,0 +1,89 @@
+"""Runs each section of a page as after a restart of its kernel: the set-up cell, and then the section alone.
+
+    python -m answers.restart PAGE    (in tests/; prints what went wrong, as JSON: {title of the section: text})
+
+The sections follow one another in one folder, on the files that earlier ones left. Each has a process of its own, forked from
+one that has only imported the lesson.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+from turtle_lesson.ros.core import interrupts
+
+from . import NOTEBOOKS
+from .server import Page
+
+IMPORTS = (
+    "import launch_ros.actions, matplotlib.figure, rclpy, turtle_lesson.lab.widgets.dashboard, turtle_lesson.lesson"
+)
+"""What most sections import: once here, instead of once a section."""
+
+
+def sections(page: str) -> list[tuple[str, list[tuple[str, bool]]]]:
+    """Each section (`## …`) that has code: its title, and its code cells, with whether an error is wanted there."""
+    found: list[tuple[str, list[tuple[str, bool]]]] = []
+    for cell in json.loads((NOTEBOOKS / f"{page}.ipynb").read_text(encoding="utf-8"))["cells"]:
+        source = "".join(cell["source"])
+        if not found or (cell["cell_type"] == "markdown" and source.startswith("## ")):
+            found.append((source.partition("\n")[0], []))
+        if cell["cell_type"] == "code":
+            found[-1][1].append((source, "raises-exception" in cell["metadata"].get("tags", [])))
+    return [section for section in found if section[1]]
+
+
+def problem(page: Page, cells: list[tuple[str, bool]]) -> str:
+    """Run cells; the first error that is not wanted and what was printed as one, or ""."""
+    printed, errors = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(errors):
+        for source, wanted in cells:
+            done = page.run(source)
+            error = done.error_before_exec or done.error_in_exec
+            if error is not None and not wanted:
+                return f"{type(error).__name__}: {error}\nin:\n{source}\n{printed.getvalue()[-2000:]}"
+    return errors.getvalue() if "Traceback" in errors.getvalue() else ""
+
+
+def in_a_child(page: Page, cells: list[tuple[str, bool]]) -> str:
+    """The problem of these cells, run in a fork of this process."""
+    reading, writing = os.pipe()
+    child = os.fork()
+    if child == 0:
+        interrupts._watchdog = interrupts._Watchdog()  # the thread of the old one is not in this process
+        try:
+            said = problem(page, cells)
+        except BaseException as error:
+            said = repr(error)
+        with os.fdopen(writing, "w", encoding="utf-8") as stream:
+            stream.write(said)
+        os._exit(0)
+    os.close(writing)
+    with os.fdopen(reading, encoding="utf-8") as stream:
+        said = stream.read()
+    _, status = os.waitpid(child, 0)
+    return said or (f"the process ended with status {status}" if status else "")
+
+
+def main() -> None:
+    """Run the page that the command line names, in a fresh folder."""
+    with tempfile.TemporaryDirectory() as folder:
+        os.environ["TURTLE_LESSON_FOLDER"] = folder
+        os.chdir(folder)
+        page = Page(sys.argv[1], Path(folder))
+        page.run(IMPORTS)
+        (title, opening), *later = sections(sys.argv[1])
+        found = {title: in_a_child(page, opening)}
+        found |= {name: in_a_child(page, [opening[0], *cells]) for name, cells in later}
+        print(json.dumps({name: text for name, text in found.items() if text}))
+        os.chdir("/")
+
+
+if __name__ == "__main__":
+    main()
