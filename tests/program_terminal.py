@@ -53,7 +53,7 @@ class Terminal:
         """What was printed since the last look, to either stream."""
         found = self._capsys.readouterr()
         lines = [*found.out.splitlines(), *found.err.splitlines()]
-        return [_short(line) for line in lines if "goes on. Its Ctrl-C is" not in line]
+        return [_short(line) for line in lines if "is still running. To stop it" not in line]
 
     def exit_codes(self) -> list[int | None]:
         """How each program ended, None for those that still run."""

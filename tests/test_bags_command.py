@@ -166,8 +166,8 @@ def test_endless_words_are_answered_in_a_short_line(terminal: Terminal) -> None:
 def test_verbs_that_are_not_here(terminal: Terminal, line: str) -> None:
     code, out, err = terminal(f"ros2 bag {line}")
     assert (code, out) == (2, "")
-    assert err.startswith(f"ros2 bag {line.split()[0]}: not in this classroom: ")
-    assert err.endswith(" On a robot it exists.\n")
+    assert err.startswith(f"ros2 bag {line.split()[0]}: not available in this simulation: ")
+    assert err.endswith(" A real ROS 2 has it.\n")
     assert err.count("\n") == 1
 
 
@@ -208,7 +208,7 @@ def test_nothing_is_overwritten(terminal: Terminal) -> None:
             "record /count -x c",
             "[ERROR] [ros2bag]: --exclude argument cannot be used when specifying a list of topics explicitly",
         ),
-        ("record -e (", "[ERROR] [ros2bag]: '(' is no regular expression: missing ), unterminated subpattern"),
+        ("record -e (", "[ERROR] [ros2bag]: '(' is not a regular expression: missing ), unterminated subpattern"),
         ("record /a//b", "Invalid topic name: topic name must not contain repeated '/':"),
         ("info .", "[ERROR] [ros2bag]: '.' is no bag: there is no .mcap or .db3 file in it"),
         ("play bag --topics /cout", "[ERROR] [ros2bag]: the bag has no topic '/cout'. Did you mean '/count'?"),
@@ -235,14 +235,29 @@ def test_mistakes(terminal: Terminal, line: str, error: str) -> None:
             "record -a -s zip",
             "ros2 bag record: error: argument -s/--storage: invalid choice: 'zip' (choose from 'mcap', 'sqlite3')",
         ),
-        ("play bag -r 1e-30", "argument -r/--rate: 1e-30 is slower than any robot can wait for"),
+        ("play bag -r 1e-30", "argument -r/--rate: 1e-30 is too slow to wait for"),
         ("play bag --delay 1e300", "argument -d/--delay: 1e300 is too much: at most 1e+09"),
-        ("play bag --clock 0", "argument --clock: '0' is no number above 0"),
-        ("play bag -p", "argument -p/--start-paused: not in this classroom: there is no key to press to go on. On a"),
-        ("play bag --storage-config-file x", "argument --storage-config-file: not in this classroom: a bag is always"),
-        ("record -a -b 1000", "argument -b/--max-bag-size: not in this classroom: a bag is one file here. On a robot"),
-        ("record -a --compression-mode=file", "argument --compression-mode: not in this classroom: a bag is not com"),
-        ("info bag -v", "argument -v/--verbose: not in this classroom: there is no more to say of a bag."),
+        ("play bag --clock 0", "argument --clock: '0' is not a number above 0"),
+        (
+            "play bag -p",
+            "argument -p/--start-paused: not available in this simulation: there is no key to press to continue. A real",
+        ),
+        (
+            "play bag --storage-config-file x",
+            "argument --storage-config-file: not available in this simulation: a bag is always",
+        ),
+        (
+            "record -a -b 1000",
+            "argument -b/--max-bag-size: not available in this simulation: a bag is one file here. A real ROS 2",
+        ),
+        (
+            "record -a --compression-mode=file",
+            "argument --compression-mode: not available in this simulation: a bag is not com",
+        ),
+        (
+            "info bag -v",
+            "argument -v/--verbose: not available in this simulation: there are no further details of a bag.",
+        ),
         ("play", "ros2 bag play: error: the following arguments are required: bag_path"),
         ("reord", "Did you mean 'record'?"),
     ],

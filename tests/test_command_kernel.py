@@ -52,7 +52,8 @@ def test_the_stop_button_ends_a_long_command_and_the_cell(ask: Ask) -> None:
     out, error = ask("ros2 topic hz /turtle1/pose --for 80000 > hz.txt; echo on\nprint('on')", stop_after=0.5)
     assert out == ""
     assert (
-        error == "KeyboardInterrupt: ros2 topic hz /turtle1/pose --for 80000 was stopped, and nothing after it was done"
+        error
+        == "KeyboardInterrupt: ros2 topic hz /turtle1/pose --for 80000 was stopped, and no command after it was run"
     )
     assert ask("print(_exit_code)\nros2 node list") == ("2\n/turtlesim\n", "")
 

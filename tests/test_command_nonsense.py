@@ -116,7 +116,7 @@ def test_what_would_take_longer_than_a_day_is_refused(world: World) -> None:
     assert answer.code == 2 and "'1e-5' times a second is too seldom" in answer.stderr
     answer = type_in(world, "ros2 topic pub -w 0 /x std_msgs/String --times 90000")
     assert (answer.stdout, answer.code) == ("", 1)
-    assert answer.stderr == "90000 messages at 1 a second take longer than a day: make it fewer\n"
+    assert answer.stderr == "90000 messages at 1 a second take longer than a day: publish fewer\n"
 
 
 def test_a_command_goes_on_for_as_long_as_it_was_told(world: World) -> None:

@@ -39,7 +39,7 @@ def test_a_program_is_started_and_left_running(world: World, capsys: pytest.Capt
     assert run_line(world, "ros2 run robot_controller navigator") == 0
     first, last = capsys.readouterr().out.splitlines()
     assert first == "[INFO] [1800000000.000000000] [navigator]: Navigator node started"
-    assert last == "[1] ros2 run robot_controller navigator goes on. Its Ctrl-C is: kill -INT %1"
+    assert last == "[1] ros2 run robot_controller navigator is still running. To stop it, as Ctrl-C would: kill -INT %1"
     assert world.now == 0
     assert nodes(world) == ["/navigator"]
 
@@ -47,9 +47,12 @@ def test_a_program_is_started_and_left_running(world: World, capsys: pytest.Capt
 def test_starting_the_same_twice_is_pointed_out(world: World, capsys: pytest.CaptureFixture[str]) -> None:
     run_line(world, "ros2 run robot_controller navigator; ros2 run robot_controller navigator")
     last = capsys.readouterr().out.splitlines()[-1]
-    assert last == "The same goes on as [1]: everything in it is there twice now. To end that: kill -INT %1"
+    assert (
+        last
+        == "The same command is running as [1], so everything in it exists twice now. To stop that one: kill -INT %1"
+    )
     run_line(world, "kill -INT %1; ros2 run robot_controller navigator")
-    assert "The same goes on as [2]" in capsys.readouterr().out.splitlines()[-1]
+    assert "The same command is running as [2]" in capsys.readouterr().out.splitlines()[-1]
 
 
 def test_what_the_last_line_advises_ends_it_as_ctrl_c_does(world: World, capsys: pytest.CaptureFixture[str]) -> None:
@@ -112,7 +115,10 @@ def test_a_launch_is_started_and_left_running(world: World, capsys: pytest.Captu
     assert run_line(world, "ros2 launch robot_controller start_system.launch.py") == 0
     lines = capsys.readouterr().out.splitlines()
     assert lines[0] == "[INFO] [launch]: Default logging verbosity is set to INFO"
-    assert lines[-1] == "[1] ros2 launch robot_controller start_system.launch.py goes on. Its Ctrl-C is: kill -INT %1"
+    assert (
+        lines[-1]
+        == "[1] ros2 launch robot_controller start_system.launch.py is still running. To stop it, as Ctrl-C would: kill -INT %1"
+    )
     assert nodes(world) == ["/navigator", "/status_monitor"]
     assert run_line(world, "kill -INT %1") == 0
     out = capsys.readouterr().out

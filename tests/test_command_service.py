@@ -34,7 +34,7 @@ def test_values_without_quotes_are_explained(lesson: World) -> None:
     answer = type_in(lesson, "ros2 service call /navigate_to robot_controller/srv/NavigateTo x: 9.0")
     *_, error, hint = answer.stderr.splitlines()
     assert (error, answer.code) == ("ros2: error: unrecognized arguments: 9.0", 2)
-    assert hint == 'Values go into quotes, so that they are one word: "{x: 5.0, y: 5.0}"'
+    assert hint == 'Put the values in quotes, so that they form one word: "{x: 5.0, y: 5.0}"'
 
 
 def test_a_call_again_and_again_ends_after_a_stretch(lesson: World) -> None:
@@ -56,7 +56,7 @@ def test_names_and_types_that_are_nearly_right_are_found(lesson: World) -> None:
     answer = type_in(lesson, "ros2 service type navigate_to")
     assert answer.stderr == "Unknown service 'navigate_to'\nDid you mean '/navigate_to'?\n"
     answer = type_in(lesson, "ros2 service call /navigate robot_controller/srv/NavigateTo")
-    assert answer.stderr.endswith("nobody offers /navigate\nDid you mean '/navigate_to'?\n")
+    assert answer.stderr.endswith("no node offers /navigate\nDid you mean '/navigate_to'?\n")
     answer = type_in(lesson, "ros2 service call /navigate_to std_msgs/msg/String")
     assert answer.stderr.startswith("The passed type is not a service\n")
     answer = type_in(lesson, "ros2 service call /navigate_to NavigateTo")

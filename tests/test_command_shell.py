@@ -142,12 +142,12 @@ def test_what_is_handed_on_holds_no_remark(type_line, folder: Path, rest: str) -
 @pytest.mark.parametrize(
     ("line", "text"),
     [
-        ("rqt_graph", "rqt_graph: no windows here; lesson.plot_graph(), "),
-        ("rviz2 -d x.rviz", "rviz2: no windows here; "),
-        ("rosdep install --from-paths src -y", "rosdep: nothing is to be installed here: "),
-        ("sudo apt install ros-humble-desktop", "sudo: nothing is to be installed here: "),
+        ("rqt_graph", "rqt_graph: there are no windows here; lesson.plot_graph(), "),
+        ("rviz2 -d x.rviz", "rviz2: there are no windows here; "),
+        ("rosdep install --from-paths src -y", "rosdep: nothing needs to be installed here: "),
+        ("sudo apt install ros-humble-desktop", "sudo: nothing needs to be installed here: "),
         ("sudo ros2 topic list", "sudo: ros2 needs no sudo, neither here nor on a robot."),
-        ("python3 file.py", "python3: python3 file.py runs a file that is there, "),
+        ("python3 file.py", "python3: python3 file.py runs a file, "),
         (
             "nano x.py",
             "nano: no editor here: open the file in JupyterLab's list at the left, or begin a cell with %%writefile x.py.",
@@ -156,9 +156,9 @@ def test_what_is_handed_on_holds_no_remark(type_line, folder: Path, rest: str) -
         ("roscore", "roscore: ROS 2 needs none: "),
         ("rostopic echo /x", "rostopic: that is ROS 1; in ROS 2 it is ros2 topic echo /x."),
         ("catkin_make", "catkin_make: that is ROS 1; in ROS 2 it is colcon build."),
-        ("git status", "git: not in this classroom's terminal; !git status asks your computer."),
+        ("git status", "git: not available in this simulated terminal; !git status runs it on your computer."),
         ("clear", "clear: JupyterLab's menu Edit clears the outputs of cells."),
-        ("'!ros2' topic list", "ros2: the ! asks your computer, which has no ros2; without the ! "),
+        ("'!ros2' topic list", "ros2: the ! runs the command on your computer, which has no ros2; without the ! "),
     ],
 )
 def test_words_of_other_terminals_are_answered_with_what_to_do_here(type_line, line: str, text: str) -> None:  # type: ignore[no-untyped-def]
@@ -179,12 +179,12 @@ def test_long_words_of_other_terminals_are_cut(type_line) -> None:  # type: igno
         ("&& ros2", "syntax error: there is no command before '&&'"),
         ("ros2 pkg list |", "syntax error: there is no command after '|'"),
         ("ros2 pkg list &&", "syntax error: there is no command after '&&'"),
-        ("ros2 pkg list >", "syntax error: '>' wants the name of a file"),
-        ("cat < x", "syntax error: '<' is not in this classroom's terminal"),
+        ("ros2 pkg list >", "syntax error: '>' needs the name of a file"),
+        ("cat < x", "syntax error: this simulated terminal has no '<'"),
         ("ros topic list", "ros: command not found. Did you mean 'ros2'?"),
         (
             "frobnicate -x /",
-            "frobnicate: command not found. In this classroom's terminal there are ros2, colcon, source",
+            "frobnicate: command not found. This simulated terminal has ros2, colcon, source",
         ),
         ("print(5)", "print(5): command not found. If it is Python, write it on a line of its own"),
         ("rm -rf /", "rm: '/' stays where it is: the current folder or the notebook's is in it"),
@@ -267,7 +267,7 @@ def test_every_verb_has_help_of_its_own(world: World) -> None:
         verbs = {"": group.alone} if group.alone else group.verbs
         for name, verb in verbs.items():
             assert verb is not None
-            if verb.help.startswith("Not in this classroom"):
+            if verb.help.startswith("Not available in this simulation"):
                 continue
             answer = type_in(world, f"ros2 {group.name} {name} -h".replace("  ", " "))
             assert (answer.stderr, answer.code) == ("", 0)
@@ -283,7 +283,7 @@ def test_a_verb_that_is_missing_here_is_told_from_one_that_is_wrong(world: World
     for name in NOT_HERE:
         answer = type_in(world, f"ros2 {name} list")
         assert answer.code == 2
-        assert "On a robot it exists." in answer.stderr
+        assert "A real ROS 2 has it." in answer.stderr
         assert answer.stderr.count("\n") == 1
 
 
@@ -312,7 +312,7 @@ def test_a_flag_of_the_command_reaches_its_verbs(world: World) -> None:
 def test_doctor_says_what_this_is_and_what_is_up(world: World) -> None:
     answer = type_in(world, "ros2 doctor --report")
     assert answer.code == 0
-    assert answer.stdout.startswith("This is the classroom of Turtle Lesson")
+    assert answer.stdout.startswith("This is Turtle Lesson's simulation")
     assert "   NODES\nnone\n" in answer.stdout
     assert answer.stdout.endswith("All 2 checks passed\n")
 

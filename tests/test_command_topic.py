@@ -253,9 +253,9 @@ def test_what_is_published_arrives(world: World) -> None:
     answer = type_in(world, "ros2 topic pub -1 /cmd_vel std_msgs/msg/String '{data: hi}'")
     assert answer.stderr.endswith("of /cmd_vel is of type geometry_msgs/msg/Twist, not std_msgs/msg/String\n")
     answer = type_in(world, "ros2 topic pub -1 /cmd_vel geometry_msgs/Twist --qos-reliability best_effort")
-    assert "wants another quality of service" in answer.stderr.splitlines()[-2]
+    assert "requests another quality of service" in answer.stderr.splitlines()[-2]
     answer = type_in(world, "ros2 topic pub -1 /cmdvel geometry_msgs/Twist")
-    assert answer.stderr.endswith("nobody subscribes to /cmdvel\nDid you mean '/cmd_vel'?\n")
+    assert answer.stderr.endswith("no node subscribes to /cmdvel\nDid you mean '/cmd_vel'?\n")
 
 
 # ---------------------------------------------------------------- nonsense
@@ -345,4 +345,4 @@ def test_the_classrooms_own_ears_are_not_counted(world: World) -> None:
         in type_in(world, "ros2 topic list -v").stdout
     )
     answer = type_in(world, "ros2 topic pub -1 /chatter std_msgs/String")
-    assert "nobody subscribes to /chatter" in answer.stderr
+    assert "no node subscribes to /chatter" in answer.stderr

@@ -65,7 +65,7 @@ def test_words_with_variables(type_line: Type) -> None:
 def test_names_that_are_none(type_line: Type, line: str) -> None:
     code, out, error = type_line(line)
     assert (code, out, error.count("\n")) == (1, "", 1)
-    assert "is no name of a variable" in error
+    assert "is not the name of a variable" in error
 
 
 @pytest.mark.parametrize(

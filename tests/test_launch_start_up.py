@@ -183,7 +183,10 @@ def test_ros2_launch_returns_when_all_are_up(
     run_line(lesson._world, f"ros2 launch {path}")
     assert lesson.now == 0.6
     assert {"one", "two"} <= set(lesson._recording.node.get_node_names())
-    assert capsys.readouterr().out.splitlines()[-1] == f"[1] ros2 launch {path} goes on. Its Ctrl-C is: kill -INT %1"
+    assert (
+        capsys.readouterr().out.splitlines()[-1]
+        == f"[1] ros2 launch {path} is still running. To stop it, as Ctrl-C would: kill -INT %1"
+    )
 
 
 def test_ros2_launch_for_some_seconds_lets_these_pass_and_no_more(lesson: Lesson, tmp_path: Path) -> None:

@@ -278,7 +278,7 @@ def test_the_clock_of_nodes_begins_at_the_epoch(lesson: Lesson) -> None:
 def test_a_second_simulator_is_pointed_out(lesson: Lesson, capsys: pytest.CaptureFixture[str]) -> None:
     world = lesson._world
     run_line(world, "ros2 run turtlesim turtlesim_node")
-    said = "There are two simulators now, and both do what they are asked: start(simulator=False) begins none."
+    said = "Two simulators are running now, and both follow every command: start(simulator=False) starts none."
     assert capsys.readouterr().out.splitlines()[-1] == said
     run_line(world, "ros2 run turtlesim draw_square")
     assert said not in capsys.readouterr().out

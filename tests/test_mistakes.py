@@ -131,7 +131,7 @@ def test_forgot_to_build_and_to_source(workspace: Workspace) -> None:
 def test_forgot_to_build_again(workspace: Workspace) -> None:
     workspace.build()
     workspace.change("demo/talker.py", "one", "two")
-    hint = "src/demo/demo/talker.py was changed after the build: colcon build has it run as it is now.\n"
+    hint = "src/demo/demo/talker.py was changed after the build: run colcon build to use the new version.\n"
     printed = workspace.type("ros2 run demo talker")
     assert printed.startswith(hint) and "[talker]: one" in printed
     workspace.build()

@@ -39,7 +39,7 @@ def say(
             run_line(world, line)
         world.sim.run_until(world.now + round(seconds * SECOND))
         printed = capsys.readouterr().out.splitlines()
-        return [_short(line) for line in printed if "goes on. Its Ctrl-C is" not in line]
+        return [_short(line) for line in printed if "is still running. To stop it" not in line]
 
     yield say
     for name in ("workshop_interfaces", "countdown"):

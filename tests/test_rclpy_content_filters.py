@@ -303,7 +303,7 @@ REFUSED = [
     (String, "data = 5", (), "'data' is a text and 5 is an integer"),
     (String, 'data = "hello"', (), "texts stand in single quotes: 'hello'"),
     (String, "data = 'hello", (), "the text has no end"),
-    (String, "data MATCH '('", (), "is no regular expression"),
+    (String, "data MATCH '('", (), "is not a regular expression"),
 ]
 
 

@@ -40,7 +40,7 @@ class Workshop:
             run_line(self.world, line)
         self.run(seconds)
         printed = self._capsys.readouterr().out.splitlines()
-        return [_short(line) for line in printed if "goes on. Its Ctrl-C is" not in line]
+        return [_short(line) for line in printed if "is still running. To stop it" not in line]
 
     def run(self, seconds: float) -> None:
         """Let robot time pass."""

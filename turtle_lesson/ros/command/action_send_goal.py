@@ -36,14 +36,14 @@ def add_arguments(parser: ArgumentParser) -> None:
     """Declare what may be typed after `send_goal`."""
     parser.add_argument("action_name", help="Name of the action, such as /turtle1/rotate_absolute")
     parser.add_argument("action_type", help="Its type, such as turtlesim/action/RotateAbsolute")
-    parser.add_argument("values", metavar="goal", help="What the goal's fields are set to, in YAML")
+    parser.add_argument("values", metavar="goal", help="Values for the goal's fields, in YAML")
     parser.add_argument("-f", "--feedback", action="store_true", help="Print the feedback messages, too")
     parser.add_argument(
         "--for",
         dest="seconds",
         type=stretch,
         metavar="SECONDS",
-        help=f"Cancel the goal after this stretch of robot time (default: {LONGEST_GOAL:g}; only in this classroom)",
+        help=f"Cancel the goal after this many seconds of robot time (default: {LONGEST_GOAL:g}; only here)",
     )
 
 
@@ -108,7 +108,7 @@ def _wait_for_server(node: Node, client: ActionClient, kind: Any) -> None:
         raise CommandError(f"{waited}: {name} is of type {', '.join(others)}, not {own}")
     hint = suggest(name, known)
     raise CommandError(
-        f"{waited}: nobody offers {name}",
+        f"{waited}: no node offers {name}",
         hint or "Is its node running (`ros2 node list`)? `ros2 action list` shows the actions.",
     )
 
@@ -122,7 +122,7 @@ def _outcome(node: Node, client: ActionClient, future: Future, until: float, han
         while not spin_for(node, min(LOOK_AGAIN, until - now()), future):
             if not client.server_is_ready():
                 raise CommandError(
-                    f"{client._name} went away before it answered: did its node end, or an error end it?"
+                    f"{client._name} went away before it answered: did its node end, or did an error stop it?"
                 )
             if now() >= until - 1e-9:
                 raise _too_long(node, handle)
@@ -139,12 +139,16 @@ def _outcome(node: Node, client: ActionClient, future: Future, until: float, han
 
 def _too_long(node: Node, handle: ClientGoalHandle | None) -> Exception:
     if handle is None:
-        return CommandError("No answer whether the goal is accepted: is the server's node busy with something else?")
+        return CommandError(
+            "The server has not said whether it accepts the goal: is its node busy with something else?"
+        )
     print("Canceling goal...")
     future = handle.cancel_goal_async()
     if not spin_for(node, PATIENCE, future):
-        return CommandError("No answer to the cancelling: is the server's node busy with something else?")
+        return CommandError("No answer to the cancel request: is the server's node busy with something else?")
     if not future.result().goals_canceling:
-        return CommandError("Failed to cancel goal", "The server goes on: its cancel_callback did not accept that.")
+        return CommandError(
+            "Failed to cancel goal", "The server continues: its cancel_callback did not accept the cancel request."
+        )
     print("Goal canceled.")
     return Interrupted("(the goal took too long; --for SECONDS gives it more robot time, or less)")

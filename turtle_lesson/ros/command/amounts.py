@@ -21,7 +21,7 @@ def positive_float(text: str) -> float:
     except ValueError:
         value = 0.0
     if not 0 < value < float("inf"):
-        raise ArgumentTypeError(f"'{text}' is no number above 0")
+        raise ArgumentTypeError(f"'{text}' is not a number above 0")
     return value
 
 
@@ -31,7 +31,7 @@ def frequency(text: str) -> float:
     if value > FASTEST:
         raise ArgumentTypeError(f"'{text}' times a second is too often; at most {FASTEST:g}")
     if value < 1 / LONGEST:
-        raise ArgumentTypeError(f"'{text}' times a second is too seldom; at least once a day")
+        raise ArgumentTypeError(f"'{text}' times a second is too rarely; at least once a day")
     return value
 
 
@@ -42,7 +42,7 @@ def seconds(text: str) -> float:
     except ValueError:
         value = -1.0
     if not 0 <= value < float("inf"):
-        raise ArgumentTypeError(f"'{text}' is no number of seconds")
+        raise ArgumentTypeError(f"'{text}' is not a number of seconds")
     if value > LONGEST:
         raise ArgumentTypeError(f"'{text}' is too long; at most {LONGEST:.0f} s, a day")
     return value

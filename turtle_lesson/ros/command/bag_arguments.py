@@ -49,7 +49,7 @@ def positive_rate(text: str) -> float:
     if not value > 0:
         raise ArgumentTypeError(f"{text} is not in the valid range (> 0.0)")
     if value < 1 / LONGEST:
-        raise ArgumentTypeError(f"{text} is slower than any robot can wait for")
+        raise ArgumentTypeError(f"{text} is too slow to wait for")
     return value
 
 
@@ -77,7 +77,7 @@ class _Refused(Action):
     """An option of the real tool that is not here; `const` says why."""
 
     def __call__(self, parser: ArgumentParser, *_: object) -> None:
-        raise ArgumentError(self, f"not in this classroom: {self.const}. On a robot it exists.")
+        raise ArgumentError(self, f"not available in this simulation: {self.const}. A real ROS 2 has it.")
 
 
 def _refuse(parser: ArgumentParser, reason: str, *options: str) -> None:
@@ -95,7 +95,7 @@ def reader_arguments(parser: ArgumentParser) -> None:
     """Arguments of every verb that reads a bag."""
     parser.add_argument("bag_path", type=existing_path, help="The bag: its folder, or one of its files")
     parser.add_argument(
-        "-s", "--storage", choices=["mcap", "sqlite3"], help="Accepted; how a bag is stored is seen from its files"
+        "-s", "--storage", choices=["mcap", "sqlite3"], help="Accepted; the storage is recognised from the bag's files"
     )
 
 
@@ -112,12 +112,12 @@ def record_arguments(parser: ArgumentParser) -> None:
         help="The same, as newer releases spell it",
     )
     add("-a", "--all", "--all-topics", action="store_true", help="Record all topics but the hidden ones")
-    add("-e", "--regex", default="", help="Record the topics that this pattern is found in")
-    add("-x", "--exclude", "--exclude-regex", default="", help="Leave out the topics that this pattern is found in")
-    add("--include-hidden-topics", action="store_true", help="Record topics with a hidden name, too")
-    add("--include-unpublished-topics", action="store_true", help="Note topics without publishers, too")
-    add("-o", "--output", help="The folder to make (default: named after day and time)")
-    add("-s", "--storage", default="mcap", choices=["mcap", "sqlite3"], help="How to store it")
+    add("-e", "--regex", default="", help="Record the topics that match this pattern")
+    add("-x", "--exclude", "--exclude-regex", default="", help="Leave out the topics that match this pattern")
+    add("--include-hidden-topics", action="store_true", help="Also record topics with a hidden name")
+    add("--include-unpublished-topics", action="store_true", help="Also note topics without publishers")
+    add("-o", "--output", help="Folder to create (default: named after the date and time)")
+    add("-s", "--storage", default="mcap", choices=["mcap", "sqlite3"], help="Storage format of the bag")
     add_duration(parser)
     _accept(parser, "--max-cache-size", "--polling-interval", "--compression-queue-size", "--compression-threads")
     add("--disable-keyboard-controls", action="store_true", help=SUPPRESS)
@@ -125,9 +125,11 @@ def record_arguments(parser: ArgumentParser) -> None:
     _refuse(parser, "a bag is one file here", "-b --max-bag-size", "-d --max-bag-duration", "--max-splits")
     _refuse(parser, "a bag is not compressed here", "--compression-mode", "--compression-format")
     _refuse(parser, "a bag is always written in the same way", "--storage-preset-profile", "--storage-config-file")
-    _refuse(parser, "the recorder asks for what the publishers offer", "--qos-profile-overrides-path")
+    _refuse(
+        parser, "the recorder requests the quality of service that the publishers offer", "--qos-profile-overrides-path"
+    )
     _refuse(parser, "a topic is recorded whenever it appears", "--no-discovery", "--ignore-leaf-topics")
-    _refuse(parser, "there is no key to press to go on", "--start-paused", "--snapshot-mode")
+    _refuse(parser, "there is no key to press to continue", "--start-paused", "--snapshot-mode")
     _refuse(
         parser, "a bag holds what is published on topics", "--services", "--all-services", "--actions", "--all-actions"
     )
@@ -138,24 +140,24 @@ def play_arguments(parser: ArgumentParser) -> None:
     add = parser.add_argument
     reader_arguments(parser)
     add("-r", "--rate", type=positive_rate, default=1.0, help="How many times as fast as recorded")
-    add("--topics", nargs="+", default=[], help="Play these topics only")
+    add("--topics", nargs="+", default=[], help="Play only these topics")
     add("-m", "--remap", nargs="+", default=[], help="Other names for topics: /old:=/new ...")
-    add("-l", "--loop", action="store_true", help="Begin again at the end")
+    add("-l", "--loop", action="store_true", help="Start over at the end")
     add("-d", "--delay", type=not_negative, default=0.0, help="Seconds to wait before the first message (each time)")
-    add("--start-offset", type=not_negative, default=0.0, help="Begin so many seconds into the bag")
-    add("--playback-duration", type=_number, default=-1.0, help="Play so many seconds of the bag only")
+    add("--start-offset", type=not_negative, default=0.0, help="Start this many seconds into the bag")
+    add("--playback-duration", type=_number, default=-1.0, help="Play only this many seconds of the bag")
     add(
         "--clock",
         type=frequency,
         nargs="?",
         const=40.0,
         default=0.0,
-        help="Say on /clock so many times a second what time it is in the bag (default: never; without a number 40)",
+        help="Publish the bag's time on /clock this many times a second (default: never; without a number: 40)",
     )
     add("--disable-keyboard-controls", action="store_true", help="Accepted; there are none here")
     add_duration(parser)
     _accept(parser, "--read-ahead-queue-size")
-    _refuse(parser, "there is no key to press to go on", "-p --start-paused")
+    _refuse(parser, "there is no key to press to continue", "-p --start-paused")
     _refuse(parser, "the player offers what was recorded", "--qos-profile-overrides-path")
     _refuse(parser, "a bag is always read in the same way", "--storage-config-file")
     _refuse(parser, "say how far to play with --playback-duration", "--playback-until-sec", "--playback-until-nsec")
@@ -164,5 +166,5 @@ def play_arguments(parser: ArgumentParser) -> None:
 def info_arguments(parser: ArgumentParser) -> None:
     """Arguments of `ros2 bag info`."""
     reader_arguments(parser)
-    parser.add_argument("-t", "--topic-name", action="store_true", help="Only say which topics there are")
-    _refuse(parser, "there is no more to say of a bag", "-v --verbose", "--sort")
+    parser.add_argument("-t", "--topic-name", action="store_true", help="Print only the names of the topics")
+    _refuse(parser, "there are no further details of a bag", "-v --verbose", "--sort")

@@ -117,7 +117,7 @@ def add_node_arguments(parser: ArgumentParser, *, daemon: bool = True) -> None:
     parser.add_argument(
         "--spin-time",
         type=seconds,
-        help=f"Seconds of robot time to look around for others first (default: {DISCOVERY})",
+        help=f"Seconds of robot time to spend on discovery first (default: {DISCOVERY})",
     )
     parser.add_argument("-s", "--use-sim-time", action="store_true", help="Accepted; all time here is simulated")
     if daemon:
@@ -131,7 +131,7 @@ def add_duration(parser: ArgumentParser) -> None:
         dest="seconds",
         type=stretch,
         metavar="SECONDS",
-        help=f"End after this stretch of robot time (default: {STRETCH:g}; only in this classroom)",
+        help=f"End after this many seconds of robot time (default: {STRETCH:g}; only here)",
     )
 
 
@@ -220,7 +220,7 @@ def node_names(node: Node, include_hidden: bool = False) -> list[str]:
 
 
 def topics(node: Node, include_hidden: bool = False, *, ears: bool = False) -> dict[str, list[str]]:
-    """The topics, sorted, with their types; with `ears` also those that only the classroom itself listens to."""
+    """The topics, sorted, with their types; with `ears` also those that only the simulation itself subscribes to."""
     return {
         name: types
         for name, types in node.get_topic_names_and_types()
@@ -229,19 +229,19 @@ def topics(node: Node, include_hidden: bool = False, *, ears: bool = False) -> d
 
 
 def publishers(node: Node, topic: str) -> list[TopicEndpointInfo]:
-    """The publishers of a topic, without those that every node has, of the classroom's own nodes."""
+    """The publishers of a topic, without those that every node has, of the simulation's own nodes."""
     found = node.get_publishers_info_by_topic(topic)
     every_node_has = topic in ("/rosout", "/parameter_events")
     return [each for each in found if not (every_node_has and of_the_classroom(each.node_name))]
 
 
 def subscriptions(node: Node, topic: str) -> list[TopicEndpointInfo]:
-    """The subscriptions of a topic, without the ears of the classroom's own nodes, which draw what they hear."""
+    """The subscriptions of a topic, without the ears of the simulation's own nodes, which draw what they hear."""
     return [each for each in node.get_subscriptions_info_by_topic(topic) if not of_the_classroom(each.node_name)]
 
 
 def of_the_classroom(node_name: str) -> bool:
-    """Whether a node of this name belongs to the classroom: a hidden one that no command line on a robot has."""
+    """Whether a node of this name belongs to the simulation: a hidden one that no command line on a robot has."""
     return node_name.startswith("_") and not node_name.startswith(HIDDEN_PREFIX)
 
 

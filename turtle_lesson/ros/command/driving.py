@@ -50,7 +50,7 @@ class Waiter:
         self._live = False
 
     def ended(self, process: Process) -> None:
-        """The process is dead: whoever waits for it goes on."""
+        """The process is dead: the callers that wait for it continue."""
         if self._strand is not None:
             self._world.sim.wake(self._strand)
         elif self._live:

@@ -20,12 +20,12 @@ _ROS_1 = {
     "rostopic": "ros2 topic",
 }
 
-_PICTURES = "no windows here; lesson.plot_graph(), plot_path(), plot_status() and plot_scan() draw into the page"
-_NO_INSTALLING = "nothing is to be installed here: ROS 2 is simulated, and all that the lesson needs is there"
-_EDITOR = "no editor here: open the file in JupyterLab's list at the left, or begin a cell with %%writefile FILE"
-_SCRIPT = (
-    "python3 FILE runs a file that is there, ros2 run the program of a package; all else is your computer's: !python3"
+_PICTURES = (
+    "there are no windows here; lesson.plot_graph(), plot_path(), plot_status() and plot_scan() draw into the page"
 )
+_NO_INSTALLING = "nothing needs to be installed here: ROS 2 is simulated, and everything that the lesson needs is there"
+_EDITOR = "no editor here: open the file in JupyterLab's list at the left, or begin a cell with %%writefile FILE"
+_SCRIPT = "python3 FILE runs a file, and ros2 run the program of a package; !python3 is the Python of your computer"
 
 _HERE = {
     "apt": _NO_INSTALLING,
@@ -71,11 +71,11 @@ def advice(words: Sequence[str]) -> str:
     """A sentence on what to do instead of a command; nothing for a word that is none of these."""
     name = words[0]
     if name.startswith("!"):
-        return f"the ! asks your computer, which has no {name[1:]}; without the ! this classroom answers"
+        return f"the ! runs the command on your computer, which has no {name[1:]}; without the ! it runs here"
     if name == "sudo" and words[1:2] in (["ros2"], ["colcon"]):
         return f"{words[1]} needs no sudo, neither here nor on a robot"
     if name in _ROS_1:
         return f"that is ROS 1; in ROS 2 it is {' '.join([_ROS_1[name], *words[1:]])}"
     if name in _ON_THE_COMPUTER:
-        return f"not in this classroom's terminal; !{' '.join(words)} asks your computer"
+        return f"not available in this simulated terminal; !{' '.join(words)} runs it on your computer"
     return _HERE.get(name, "").replace("FILE", words[-1] if len(words) == 2 else "FILE")

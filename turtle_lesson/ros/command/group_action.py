@@ -1,4 +1,4 @@
-"""`ros2 action`: which actions there are, and who offers and uses them."""
+"""`ros2 action`: which actions there are, and which nodes offer and use them."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def actions(node: Node) -> dict[str, list[str]]:
 
 def _list_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("-t", "--show-types", action="store_true", help="Show each action's type beside it")
-    parser.add_argument("-c", "--count-actions", action="store_true", help="Say only how many there are")
+    parser.add_argument("-c", "--count-actions", action="store_true", help="Print only how many there are")
 
 
 def list_actions(args: Namespace) -> None:
@@ -38,8 +38,8 @@ def list_actions(args: Namespace) -> None:
 
 def _info_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("action_name", help="Name of the action, such as /turtle1/rotate_absolute")
-    parser.add_argument("-t", "--show-types", action="store_true", help="Show each node's type of the action, too")
-    parser.add_argument("-c", "--count", action="store_true", help="Say only how many clients and servers there are")
+    parser.add_argument("-t", "--show-types", action="store_true", help="Also show each node's type of the action")
+    parser.add_argument("-c", "--count", action="store_true", help="Print only how many clients and servers there are")
 
 
 def info(args: Namespace) -> None:
@@ -81,7 +81,7 @@ def type_of(args: Namespace) -> None:
 
 def _find_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("action_type", help="Name of the type, such as turtlesim/action/RotateAbsolute")
-    parser.add_argument("-c", "--count-actions", action="store_true", help="Say only how many there are")
+    parser.add_argument("-c", "--count-actions", action="store_true", help="Print only how many there are")
 
 
 def find(args: Namespace) -> None:
@@ -94,7 +94,7 @@ def find(args: Namespace) -> None:
 VERBS: dict[str, Verb] = {
     "find": Command("The actions of a type", _find_arguments, find),
     "info": Command("Which nodes offer and use an action", _info_arguments, info),
-    "list": Command("The names of the actions that are there", _list_arguments, list_actions),
-    "send_goal": Command("Send a goal, and print what becomes of it", _send_goal_arguments, send_goal),
+    "list": Command("The names of the actions that nodes offer or use", _list_arguments, list_actions),
+    "send_goal": Command("Send a goal and print its outcome", _send_goal_arguments, send_goal),
     "type": Command("An action's type", _type_arguments, type_of),
 }

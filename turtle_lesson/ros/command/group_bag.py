@@ -1,7 +1,7 @@
 """`ros2 bag record`, `info`, `play` and `reindex`.
 
 There is no recording of the real ones in golden/: arguments, texts and formats are those of ros2bag, rosbag2_transport
-and rosbag2_py of Humble and Jazzy, as far as this classroom has them. What goes to stderr there goes to stderr here, and
+and rosbag2_py of Humble and Jazzy, as far as this simulation has them. What goes to stderr there goes to stderr here, and
 the exit code after a Ctrl-C is 0, as there: both verbs handle it themselves. There are no keyboard controls.
 """
 
@@ -145,10 +145,10 @@ def _not_here(verb: str, reason: str) -> Command:
     """A verb of the real tool that is not here."""
 
     def work(args: Namespace) -> int:
-        print(f"ros2 bag {verb}: not in this classroom: {reason}. On a robot it exists.", file=sys.stderr)
+        print(f"ros2 bag {verb}: not available in this simulation: {reason}. A real ROS 2 has it.", file=sys.stderr)
         return 2
 
-    return Command(f"Not in this classroom: {reason}", _everything, work)
+    return Command(f"Not available in this simulation: {reason}", _everything, work)
 
 
 def _logger(name: str) -> Any:
@@ -176,9 +176,9 @@ def _error(text: str) -> int:
 VERBS: dict[str, Any] = {
     "burst": _not_here("burst", "'ros2 bag play -r' plays as fast as you like"),
     "convert": _not_here("convert", "record again with '-s', while the bag is played"),
-    "info": Command("Say what is in a bag", info_arguments, _info),
+    "info": Command("Describe what a bag contains", info_arguments, _info),
     "list": _not_here("list", "there are no plugins; bags are stored as mcap or sqlite3"),
-    "play": Command("Publish again what was recorded", play_arguments, _play),
-    "record": Command("Write what is published into a bag", record_arguments, _record),
-    "reindex": Command("Write a bag's lost metadata.yaml anew", reader_arguments, _reindex),
+    "play": Command("Publish recorded messages again", play_arguments, _play),
+    "record": Command("Record published messages in a bag", record_arguments, _record),
+    "reindex": Command("Rebuild a bag's lost metadata.yaml", reader_arguments, _reindex),
 }

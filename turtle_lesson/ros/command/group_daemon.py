@@ -34,6 +34,6 @@ def _stop(args: Namespace) -> None:
 
 VERBS = {
     "start": CellCommand("Start the daemon", _nothing, _start),
-    "status": CellCommand("Say whether the daemon runs", _nothing, _status),
+    "status": CellCommand("Show whether the daemon is running", _nothing, _status),
     "stop": CellCommand("Stop the daemon", _nothing, _stop),
 }

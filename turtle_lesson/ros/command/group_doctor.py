@@ -1,4 +1,4 @@
-"""`ros2 doctor`: says that this is the classroom, what is up in it, and what looks wrong."""
+"""`ros2 doctor`: describes the simulation, what is running in it, and what looks wrong."""
 
 from __future__ import annotations
 
@@ -20,7 +20,9 @@ CHECKS = 2
 
 def _arguments(parser: ArgumentParser) -> None:
     parser.add_argument("-r", "--report", action="store_true", help="also list nodes, topics, services and jobs")
-    parser.add_argument("-rf", "--report-failed", action="store_true", help="accepted: only what failed is said anyway")
+    parser.add_argument(
+        "-rf", "--report-failed", action="store_true", help="accepted: only failed checks are printed anyway"
+    )
     parser.add_argument("-iw", "--include-warnings", action="store_true", help="count warnings as failures")
 
 
@@ -42,7 +44,7 @@ def _doctor(args: Namespace) -> int:
 
 def _introduce(node: Node) -> None:
     world = current_world()
-    print("This is the classroom of Turtle Lesson: a simulated robot's computer, with no ROS 2 installed.")
+    print("This is Turtle Lesson's simulation of a robot's computer, with no ROS 2 installed.")
     print(f"It behaves as ROS 2 Humble does. Robot time {(world.now / 1e9):.1f} s, seed {world.seed}.")
     packages = world.packages.names()
     up = [_counted(node_names(node), "node"), _counted(topics(node), "topic"), _counted(services(node), "service")]
@@ -84,4 +86,4 @@ def _lonely_topics(node: Node) -> list[str]:
     return found
 
 
-COMMANDS = {"doctor": Command("Say what this classroom is, what is up, and what looks wrong", _arguments, _doctor)}
+COMMANDS = {"doctor": Command("Describe this simulation, what is running, and what looks wrong", _arguments, _doctor)}

@@ -102,8 +102,8 @@ def _where_is(base: str) -> str:
 
 def _show_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("type", help="full name of the interface, such as geometry_msgs/msg/Twist")
-    parser.add_argument("--all-comments", action="store_true", help="also the comments of the types inside")
-    parser.add_argument("--no-comments", action="store_true", help="neither comments nor empty lines")
+    parser.add_argument("--all-comments", action="store_true", help="also show the comments of nested types")
+    parser.add_argument("--no-comments", action="store_true", help="show neither comments nor empty lines")
 
 
 def _show(args: Namespace) -> None:

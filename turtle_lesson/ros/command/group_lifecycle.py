@@ -40,7 +40,7 @@ def _ask(node: Node, node_name: str, kind: str, service: str, **request: Any) ->
     client = node.create_client(made, f"{node_name}/{service}")
     if not client.wait_for_service(timeout_sec=PATIENCE):
         raise CommandError(
-            f"{node_name} offers no {service}: it is no managed node (`ros2 lifecycle nodes` lists those)"
+            f"{node_name} offers no {service}: it is not a managed node (`ros2 lifecycle nodes` lists those)"
         )
     response = answer_of(node, client.call_async(made.Request(**request)), PATIENCE)
     if response is None:
@@ -54,7 +54,7 @@ def _find(node: Node, args: Namespace, known: list[str]) -> str:
     name = absolute(args.node_name)
     if name not in known:
         every_node = node_names(node, args.include_hidden_nodes)
-        hint = f"{name} is no managed node." if name in every_node else suggest(name, known)
+        hint = f"{name} is not a managed node." if name in every_node else suggest(name, known)
         raise CommandError("Node not found", hint)
     return name
 
@@ -64,8 +64,8 @@ def _find(node: Node, args: Namespace, known: list[str]) -> str:
 
 def _nodes_arguments(parser: ArgumentParser) -> None:
     add_node_arguments(parser)
-    parser.add_argument("-a", "--all", action="store_true", help="List nodes with a hidden name, too")
-    parser.add_argument("-c", "--count-nodes", action="store_true", help="Say only how many there are")
+    parser.add_argument("-a", "--all", action="store_true", help="Also list nodes with a hidden name")
+    parser.add_argument("-c", "--count-nodes", action="store_true", help="Print only how many there are")
 
 
 def nodes(args: Namespace) -> None:
@@ -82,7 +82,7 @@ def nodes(args: Namespace) -> None:
 
 
 def _include_hidden(parser: ArgumentParser) -> None:
-    parser.add_argument("--include-hidden-nodes", action="store_true", help="Nodes with a hidden name, too")
+    parser.add_argument("--include-hidden-nodes", action="store_true", help="Also use nodes with a hidden name")
 
 
 def _get_arguments(parser: ArgumentParser) -> None:
@@ -164,5 +164,5 @@ VERBS: dict[str, Verb] = {
     "get": Command("The state that a managed node is in", _get_arguments, get),
     "list": Command("The transitions that are possible now", _list_arguments, list_transitions),
     "nodes": Command("The names of the managed nodes", _nodes_arguments, nodes),
-    "set": Command("Have a managed node make a transition", _set_arguments, set_state),
+    "set": Command("Trigger a transition of a managed node", _set_arguments, set_state),
 }

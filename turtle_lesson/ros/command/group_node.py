@@ -18,8 +18,8 @@ TWINS = "WARNING: Be aware that are nodes in the graph that share an exact name,
 
 def _list_arguments(parser: ArgumentParser) -> None:
     add_node_arguments(parser)
-    parser.add_argument("-a", "--all", action="store_true", help="List nodes with a hidden name, too")
-    parser.add_argument("-c", "--count-nodes", action="store_true", help="Say only how many there are")
+    parser.add_argument("-a", "--all", action="store_true", help="Also list nodes with a hidden name")
+    parser.add_argument("-c", "--count-nodes", action="store_true", help="Print only how many there are")
 
 
 def list_nodes(args: Namespace) -> None:
@@ -38,7 +38,7 @@ def _info_arguments(parser: ArgumentParser) -> None:
     add_node_arguments(parser)
     parser.add_argument("node_name", help="Full name of the node, such as /turtlesim")
     parser.add_argument(
-        "--include-hidden", action="store_true", help="Show topics and services with a hidden name, too"
+        "--include-hidden", action="store_true", help="Also show topics and services with a hidden name"
     )
 
 

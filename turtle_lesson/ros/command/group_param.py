@@ -55,7 +55,7 @@ def _name_filter(pattern: str | None) -> Any:
     try:
         return re.compile(pattern or "").search
     except (re.error, OverflowError, RecursionError) as error:
-        raise CommandError(f"'{pattern}' is no regular expression: {error}") from None
+        raise CommandError(f"'{pattern}' is not a regular expression: {error}") from None
 
 
 def _ask_all(node: Node, names: list[str], prefixes: list[str]) -> list[tuple[str, Any]]:
@@ -85,7 +85,7 @@ def _print_names(node: Node, node_name: str, names: list[str], with_types: bool)
 def _get_arguments(parser: ArgumentParser) -> None:
     arguments_of_all(parser)
     parser.add_argument("parameter_name", help="Name of the parameter")
-    parser.add_argument("--hide-type", action="store_true", help="Print the value alone")
+    parser.add_argument("--hide-type", action="store_true", help="Print only the value")
 
 
 def get(args: Namespace) -> None:
@@ -183,10 +183,10 @@ def _print_descriptor(descriptor: Any) -> None:
 
 
 VERBS: dict[str, Verb] = {
-    "delete": Command("Take a parameter away", _delete_arguments, delete),
+    "delete": Command("Delete a parameter", _delete_arguments, delete),
     "describe": Command("What a parameter is for, its type and limits", _describe_arguments, describe),
     "dump": Command(
-        "All parameters of a node, as a file for `load` would have them", param_files.dump_arguments, param_files.dump
+        "All parameters of a node, in the format that `load` reads", param_files.dump_arguments, param_files.dump
     ),
     "get": Command("A parameter's value", _get_arguments, get),
     "list": Command("The names of the parameters", _list_arguments, list_parameters),

@@ -93,7 +93,7 @@ def _xml(args: Namespace) -> None:
         raise not_found(args.package_name)
     path = packages.get(args.package_name).share / "package.xml"
     if not path.is_file():
-        raise CommandError(f"the package '{args.package_name}' has no package.xml here: it belongs to the classroom")
+        raise CommandError(f"the package '{args.package_name}' has no package.xml here: it is a part of the simulation")
     text = path.read_text(encoding="utf-8")
     root = ElementTree.fromstring(text)
     if args.tag is None:
@@ -144,6 +144,6 @@ VERBS = {
     "create": CellCommand("Create a new package", add_create_arguments, _create),
     "executables": CellCommand("List the programs of a package", _executables_arguments, _executables),
     "list": CellCommand("List the packages that can be found", _nothing, _list),
-    "prefix": CellCommand("Say in which folder a package is installed", _prefix_arguments, _prefix),
+    "prefix": CellCommand("Print the folder in which a package is installed", _prefix_arguments, _prefix),
     "xml": CellCommand("Print the package.xml of a package", _xml_arguments, _xml),
 }

@@ -47,12 +47,12 @@ def _add_for(parser: ArgumentParser, what: str) -> None:
 
 
 def _run_arguments(parser: ArgumentParser) -> None:
-    parser.add_argument("--prefix", help="a program to put before it: accepted, and without effect here")
+    parser.add_argument("--prefix", help="a program to run it with: accepted, but without effect here")
     _add_for(parser, "ros2 run")
     parser.add_argument("package_name", help="package that the program belongs to")
     parser.add_argument("executable_name", help="name of the program")
     words = parser.add_argument(
-        "argv", nargs=REMAINDER, help="what the program itself is told, such as --ros-args -p a:=1"
+        "argv", nargs=REMAINDER, help="arguments of the program itself, such as --ros-args -p a:=1"
     )
     words.required = True  # as in Python 3.11, whatever the Python
 
@@ -68,10 +68,10 @@ def _run(args: Namespace) -> int:
     except ExecutableNotFoundError as error:
         raise CommandError("No executable found", error.hint if len(name) < 100 else "") from None
     if isinstance(target, Path) and not target.is_file():
-        raise CommandError("No executable found", f"{target} is not there any more: build again.")
+        raise CommandError("No executable found", f"{target} no longer exists: build again.")
     if changed := changed_since_built(package):
         print(
-            f"{shown_path(str(changed))} was changed after the build: colcon build has it run as it is now.",
+            f"{shown_path(str(changed))} was changed after the build: run colcon build to use the new version.",
             file=sys.stderr,
         )
     output = CellOutput(world.sim)
@@ -104,12 +104,17 @@ def _status(process: Process) -> int:
 
 
 def _launch_arguments(parser: ArgumentParser) -> None:
-    nothing = "accepted, and without effect here"
+    nothing = "accepted, but without effect here"
     parser.add_argument("-n", "--noninteractive", action="store_true", help=nothing)
     parser.add_argument("-d", "--debug", action="store_true", help=nothing)
     shown = parser.add_mutually_exclusive_group()
     shown.add_argument(
-        "-p", "--print", "--print-description", dest="print", action="store_true", help="say what is in the launch file"
+        "-p",
+        "--print",
+        "--print-description",
+        dest="print",
+        action="store_true",
+        help="describe what is in the launch file",
     )
     shown.add_argument(
         "-s", "--show-args", "--show-arguments", dest="show", action="store_true", help="list the arguments it takes"
@@ -185,12 +190,14 @@ def leave(what: Process | LaunchHandle, words: str, seconds: float | None) -> in
         run_for(world, seconds or 0.0)
     sys.stdout.flush()
     if job.running:
-        print(f"[{job.number}] {cut(job.words, 200)} goes on. Its Ctrl-C is: kill -INT %{job.number}")
+        print(
+            f"[{job.number}] {cut(job.words, 200)} is still running. To stop it, as Ctrl-C would: kill -INT %{job.number}"
+        )
         for twin in jobs(world).like(job):
-            twice = f"The same goes on as [{twin.number}]: everything in it is there twice now."
-            print(f"{twice} To end that: kill -INT %{twin.number}")
+            twice = f"The same command is running as [{twin.number}], so everything in it exists twice now."
+            print(f"{twice} To stop that one: kill -INT %{twin.number}")
         if len(world.graph.servers("/spawn")) > simulators and _has_one_of_its_own(world):
-            print("There are two simulators now, and both do what they are asked: start(simulator=False) begins none.")
+            print("Two simulators are running now, and both follow every command: start(simulator=False) starts none.")
         return 0
     return _code_of(what)
 
@@ -209,6 +216,6 @@ def _code_of(what: Process | LaunchHandle) -> int:
 
 
 COMMANDS = {
-    "launch": CellCommand("Start what a launch file says", _launch_arguments, _launch),
+    "launch": CellCommand("Start everything that a launch file describes", _launch_arguments, _launch),
     "run": CellCommand("Start a program of a package", _run_arguments, _run),
 }

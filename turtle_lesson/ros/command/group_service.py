@@ -43,8 +43,8 @@ LOOK_AGAIN = 1.0
 def _list_arguments(parser: ArgumentParser) -> None:
     add_node_arguments(parser)
     parser.add_argument("-t", "--show-types", action="store_true", help="Show each service's type beside it")
-    parser.add_argument("-c", "--count-services", action="store_true", help="Say only how many there are")
-    parser.add_argument("--include-hidden-services", action="store_true", help="List services with a hidden name, too")
+    parser.add_argument("-c", "--count-services", action="store_true", help="Print only how many there are")
+    parser.add_argument("--include-hidden-services", action="store_true", help="Also list services with a hidden name")
 
 
 def list_services(args: Namespace) -> None:
@@ -73,8 +73,8 @@ def type_of(args: Namespace) -> None:
 def _find_arguments(parser: ArgumentParser) -> None:
     add_node_arguments(parser)
     parser.add_argument("service_type", help="Name of the type, such as std_srvs/srv/Empty")
-    parser.add_argument("-c", "--count-services", action="store_true", help="Say only how many there are")
-    parser.add_argument("--include-hidden-services", action="store_true", help="Find services with a hidden name, too")
+    parser.add_argument("-c", "--count-services", action="store_true", help="Print only how many there are")
+    parser.add_argument("--include-hidden-services", action="store_true", help="Also find services with a hidden name")
 
 
 def find(args: Namespace) -> None:
@@ -105,8 +105,8 @@ def _clients_of_the_classroom(node: Node, service: str) -> int:
 def _call_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("service_name", help="Name of the service, such as /spawn")
     parser.add_argument("service_type", help="Its type, such as turtlesim/srv/Spawn")
-    parser.add_argument("values", nargs="?", default="{}", help="What the request's fields are set to, in YAML")
-    parser.add_argument("-r", "--rate", metavar="N", type=frequency, help="Call again and again, so often a second")
+    parser.add_argument("values", nargs="?", default="{}", help="Values for the request's fields, in YAML")
+    parser.add_argument("-r", "--rate", metavar="N", type=frequency, help="Call repeatedly, this many times a second")
     add_duration(parser)
 
 
@@ -148,7 +148,7 @@ def _wait_for_service(node: Node, client: Client) -> None:
         raise CommandError(f"{waited}: {name} is of type {', '.join(known[name])}, not {kind}")
     hint = suggest(name, known)
     raise CommandError(
-        f"{waited}: nobody offers {name}",
+        f"{waited}: no node offers {name}",
         hint or "Is its node running (`ros2 node list`)? `ros2 service list` shows the services.",
     )
 
@@ -162,7 +162,7 @@ def _ask(node: Node, client: Client, request: Any, seconds: float) -> None:
     while not spin_for(node, min(LOOK_AGAIN, begun + seconds - now()), future):
         if not client.service_is_ready():
             raise CommandError(
-                f"{client.service_name} went away before it answered: did its node end, or an error end it?"
+                f"{client.service_name} went away before it answered: did its node end, or did an error stop it?"
             )
         if now() >= begun + seconds - 1e-9:
             raise CommandError(
@@ -177,7 +177,7 @@ def _ask(node: Node, client: Client, request: Any, seconds: float) -> None:
 VERBS: dict[str, Verb] = {
     "call": Command("Call a service and print its answer", _call_arguments, call),
     "find": Command("The services of a type", _find_arguments, find),
-    "info": Command("A service's type, and how many offer and use it", _type_arguments, info),
+    "info": Command("A service's type, and how many servers and clients it has", _type_arguments, info),
     "list": Command("The names of the services that are offered", _list_arguments, list_services),
     "type": Command("A service's type", _type_arguments, type_of),
 }

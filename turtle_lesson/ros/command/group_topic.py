@@ -20,9 +20,11 @@ from .named import print_names, print_types, unknown
 def _list_arguments(parser: ArgumentParser) -> None:
     add_node_arguments(parser)
     parser.add_argument("-t", "--show-types", action="store_true", help="Show each topic's type beside it")
-    parser.add_argument("-c", "--count-topics", action="store_true", help="Say only how many there are")
-    parser.add_argument("--include-hidden-topics", action="store_true", help="List topics with a hidden name, too")
-    parser.add_argument("-v", "--verbose", action="store_true", help="Show types, and how many publish and subscribe")
+    parser.add_argument("-c", "--count-topics", action="store_true", help="Print only how many there are")
+    parser.add_argument("--include-hidden-topics", action="store_true", help="Also list topics with a hidden name")
+    parser.add_argument(
+        "-v", "--verbose", action="store_true", help="Show types, and count publishers and subscriptions"
+    )
 
 
 def list_topics(args: Namespace) -> None:
@@ -85,8 +87,8 @@ def type_of(args: Namespace) -> None:
 def _find_arguments(parser: ArgumentParser) -> None:
     add_node_arguments(parser)
     parser.add_argument("topic_type", help="Name of the type, such as geometry_msgs/msg/Twist")
-    parser.add_argument("-c", "--count-topics", action="store_true", help="Say only how many there are")
-    parser.add_argument("--include-hidden-topics", action="store_true", help="Find topics with a hidden name, too")
+    parser.add_argument("-c", "--count-topics", action="store_true", help="Print only how many there are")
+    parser.add_argument("--include-hidden-topics", action="store_true", help="Also find topics with a hidden name")
 
 
 def find(args: Namespace) -> None:
@@ -97,16 +99,16 @@ def find(args: Namespace) -> None:
 
 
 VERBS: dict[str, Verb] = {
-    "bw": Command("How many bytes a second come along a topic", topic_rates.bw_arguments, topic_rates.bw),
+    "bw": Command("How many bytes a second arrive on a topic", topic_rates.bw_arguments, topic_rates.bw),
     "delay": Command(
-        "How old the messages of a topic are when they arrive, by the time in their header",
+        "How old the messages of a topic are when they arrive, judged by the stamp in their header",
         topic_rates.delay_arguments,
         topic_rates.delay,
     ),
     "echo": Command("Print the messages of a topic", topic_echo.arguments, topic_echo.echo),
     "find": Command("The topics of a type", _find_arguments, find),
-    "hz": Command("How many messages a second come along a topic", topic_rates.hz_arguments, topic_rates.hz),
-    "info": Command("A topic's type, and who publishes and subscribes", _info_arguments, info),
+    "hz": Command("How many messages a second arrive on a topic", topic_rates.hz_arguments, topic_rates.hz),
+    "info": Command("A topic's type, its publishers and its subscriptions", _info_arguments, info),
     "list": Command("The names of the topics that are in use", _list_arguments, list_topics),
     "pub": Command("Publish a message on a topic", topic_pub.arguments, topic_pub.pub),
     "type": Command("A topic's type", _type_arguments, type_of),

@@ -63,10 +63,10 @@ GROUPS = {
         Group("action", "Find actions, and send them goals"),
         Group("bag", "Record messages, look at recordings, play them back"),
         Group("daemon", "The helper that remembers the graph between commands"),
-        Group("doctor", "Say what this classroom is, what is up, and what looks wrong"),
+        Group("doctor", "Describe this simulation, what is running, and what looks wrong"),
         Group("interface", "What messages, services and actions look like"),
-        Group("launch", "Start what a launch file says"),
-        Group("lifecycle", "Managed nodes, the states they are in, and moving them on"),
+        Group("launch", "Start everything that a launch file describes"),
+        Group("lifecycle", "Show managed nodes and their states, and trigger transitions"),
         Group("node", "Which nodes there are, and what each one does"),
         Group("param", "Read and change the parameters of nodes"),
         Group("pkg", "Find packages, and create new ones"),
@@ -74,12 +74,12 @@ GROUPS = {
         Group(
             "service",
             "Find services and call them",
-            ("--include-hidden-services", "count services with a hidden name, too"),
+            ("--include-hidden-services", "also count services with a hidden name"),
         ),
         Group(
             "topic",
             "Listen to topics, publish on them, measure them",
-            ("--include-hidden-topics", "count topics with a hidden name, too"),
+            ("--include-hidden-topics", "also count topics with a hidden name"),
         ),
     )
 }
@@ -94,4 +94,4 @@ NOT_HERE = {
     "security": "there is no network between the nodes here",
     "test": "write tests with pytest instead",
 }
-"""Commands of a real ros2 that this classroom lacks, and why."""
+"""Commands of a real ros2 that this simulation lacks, and why."""

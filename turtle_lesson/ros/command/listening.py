@@ -65,15 +65,15 @@ def why_silent(node: Node, topic: str, kind: Any, seconds: float | None) -> tupl
     """Why no message has come for so long (s), and a hint. `kind` is the class that was listened for."""
     name = expanded(node, topic)
     known = {each: types for each, types in topics(node, include_hidden=True).items() if publishers(node, each)}
-    waited = f"Nothing came along {name} in {seconds:g} s of robot time"
+    waited = f"No message came on {name} in {seconds:g} s of robot time"
     if name not in known:
-        return f"{waited}: nobody publishes it", suggest(name, known) or "`ros2 topic list` shows the topics."
+        return f"{waited}: no node publishes it", suggest(name, known) or "`ros2 topic list` shows the topics."
     types = {info.topic_type for info in node.get_publishers_info_by_topic(name)}
     if kind is not None and kind._TYPE_NAME not in types:
         return f"{waited}: it is of type {', '.join(sorted(types))}, not {kind._TYPE_NAME}", ""
     if any(_heard(node, name)):
-        return f"{waited}, although somebody publishes it", "--for SECONDS waits longer."
-    return f"{waited}: its publishers offer another quality of service than was asked for", (
+        return f"{waited}, although a node publishes it", "--for SECONDS waits longer."
+    return f"{waited}: its publishers do not offer the quality of service that was requested", (
         f"`ros2 topic info -v {name}` shows what they offer."
     )
 

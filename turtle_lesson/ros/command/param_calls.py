@@ -15,7 +15,7 @@ def arguments_of_all(parser: ArgumentParser, *, optional_node: bool = False) -> 
     """The arguments of every verb of `ros2 param`."""
     add_node_arguments(parser)
     parser.add_argument("node_name", nargs="?" if optional_node else None, help="Name of the node, such as /turtlesim")
-    parser.add_argument("--include-hidden-nodes", action="store_true", help="Nodes with a hidden name, too")
+    parser.add_argument("--include-hidden-nodes", action="store_true", help="Also use nodes with a hidden name")
 
 
 def find_node(node: Node, args: Namespace) -> str:

@@ -16,7 +16,7 @@ from .values import MAX_LENGTH, read_yaml
 def dump_arguments(parser: ArgumentParser) -> None:
     """The arguments of dump."""
     arguments_of_all(parser)
-    parser.add_argument("--output-dir", help="Deprecated: write a file of the node's name into this folder")
+    parser.add_argument("--output-dir", help="Deprecated: write a file named after the node into this folder")
     parser.add_argument("--print", action="store_true", help="Deprecated, and without effect")
 
 
@@ -71,7 +71,9 @@ def _read_file(path: str, node_name: str, *, wildcard: bool) -> list[tuple[str, 
     """The parameters that a file has for a node. Raises CommandError if it has none."""
     content = read_yaml(_text_of(path), path)
     if not isinstance(content, dict):
-        raise CommandError(f"{path} is no parameter file: expected a line '{node_name}:' and ros__parameters below it")
+        raise CommandError(
+            f"{path} is not a parameter file: expected a line '{node_name}:' and ros__parameters below it"
+        )
     keys = [key for key in (["/**"] if wildcard else []) + [node_name] if key in content]
     if not keys:
         raise CommandError(

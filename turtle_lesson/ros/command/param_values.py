@@ -48,7 +48,7 @@ def from_python(value: Any, text: str) -> Any:
     try:
         setattr(message, TYPES[kind][1], value)
     except (AssertionError, OverflowError) as error:
-        raise CommandError(f"{text[:200]!r} is no value of a parameter: {error}") from None
+        raise CommandError(f"{text[:200]!r} is not a valid parameter value: {error}") from None
     return message
 
 

@@ -1,7 +1,7 @@
 """Reading `ros2 <command> <verb> …`: from words to a verb and its arguments, or to a usage text as the real tool prints it.
 
 The shape of usage and error texts follows recordings of ros2cli of Humble; help texts are our own words. Options that only
-this classroom has (`--for`) stand in the help of a verb, but not in its usage line.
+this simulation has (`--for`) stand in the help of a verb, but not in its usage line.
 """
 
 from __future__ import annotations
@@ -127,7 +127,7 @@ def _group(name: str) -> Group:
     if name == "wtf":
         return GROUPS["doctor"]
     if name in NOT_HERE:
-        raise Stop(f"ros2 {name}: not in this classroom: {NOT_HERE[name]}. On a robot it exists.", 2)
+        raise Stop(f"ros2 {name}: not available in this simulation: {NOT_HERE[name]}. A real ROS 2 has it.", 2)
     raise _invalid_choice("ros2", top_usage(), "command", name, GROUPS)
 
 
@@ -192,5 +192,5 @@ def _unrecognized(words: Sequence[str], options: Sequence[str], takes_values: bo
         name = words[0].partition("=")[0][:100]
         lines.append(did_you_mean(name, [option for option in options if len(option) > 2]))
     elif takes_values:
-        lines.append('Values go into quotes, so that they are one word: "{x: 5.0, y: 5.0}"')
+        lines.append('Put the values in quotes, so that they form one word: "{x: 5.0, y: 5.0}"')
     return Stop("\n".join(filter(None, lines)), 2)

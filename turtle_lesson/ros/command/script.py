@@ -60,7 +60,7 @@ _WANTED = "\0wanted"
 
 def _expect_file(command: Command, sign: str) -> None:
     if sign == "<":
-        raise ShellSyntaxError("'<' is not in this classroom's terminal: name the file as an argument instead")
+        raise ShellSyntaxError("this simulated terminal has no '<': name the file as an argument instead")
     if sign == "2>":
         command.stderr = _WANTED
     else:
@@ -84,7 +84,7 @@ def _check(command: Command, sign: str) -> None:
             f"there is no command before {sign!r}" if sign != "\n" else "there is no command after '|'"
         )
     if _WANTED in (command.stderr, (command.stdout or ("", ""))[1]):
-        raise ShellSyntaxError("'>' wants the name of a file")
+        raise ShellSyntaxError("'>' needs the name of a file")
 
 
 # -- what a word stands for --------------------------------------------------------------------------------------------

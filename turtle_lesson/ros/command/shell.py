@@ -43,7 +43,7 @@ class CommandInterrupted(KeyboardInterrupt):
     """The user has stopped a command: what comes after it is not carried out. `code` is its exit code."""
 
     def __init__(self, words: Sequence[str]) -> None:
-        super().__init__(f"{cut(' '.join(words), 100)} was stopped, and nothing after it was done")
+        super().__init__(f"{cut(' '.join(words), 100)} was stopped, and no command after it was run")
         self.code = INTERRUPTED if words[0] == "ros2" else STOPPED
 
 
@@ -151,10 +151,8 @@ def _not_found(words: Sequence[str]) -> str:
         return f"{name.lstrip('!')}: {cut(other, 300)}."
     hint = did_you_mean(name[:100], [*PROGRAMS, *BUILTINS])
     if re.match(r"\w+[(=\[.]", name):
-        hint = "If it is Python, write it on a line of its own: behind a command all is the terminal's."
-    computer = (
-        "In this classroom's terminal there are ros2, colcon, source and a few more; !command asks your computer."
-    )
+        hint = "If it is Python, write it on a line of its own: everything after a command belongs to the terminal."
+    computer = "This simulated terminal has ros2, colcon, source and a few more; !command runs on your computer."
     return f"{cut(name, 60)}: command not found. {hint or computer}"
 
 

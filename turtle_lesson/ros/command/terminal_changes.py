@@ -27,7 +27,7 @@ def _delete(terminal: Terminal, name: str, letters: set[str]) -> int:
     elif letters & {"r", "R"}:
         shutil.rmtree(path)
     else:
-        return terminal.fail(f"rm: cannot remove '{name}': Is a directory. rm -r deletes a folder and all in it")
+        return terminal.fail(f"rm: cannot remove '{name}': Is a directory. rm -r deletes a folder and everything in it")
     return 0
 
 
@@ -39,7 +39,7 @@ def _why_not(path: Path) -> str:
     if any(each.is_relative_to(place) for each in (Path.cwd(), home())):
         return "the current folder or the notebook's is in it"
     if not any(place.is_relative_to(each) for each in (Path.cwd(), home())):
-        return "it is outside of the notebook's folder; with a ! before it, the command asks your computer"
+        return "it is outside the notebook's folder; with a ! before it, the command runs on your computer"
     return ""
 
 

@@ -22,7 +22,7 @@ def cd(terminal: Terminal, words: list[str]) -> int:
     from .shell import home
 
     if len(words) > 1:
-        return terminal.fail("cd: too many arguments: a folder's name with a blank in it needs quotes")
+        return terminal.fail("cd: too many arguments: a folder's name with a space in it needs quotes")
     target = Path(words[0]) if words else home()
     if words == ["-"]:
         target = Path(os.environ.get("OLDPWD", "."))
@@ -54,7 +54,9 @@ def mkdir(terminal: Terminal, words: list[str]) -> int:
     """`mkdir [-p] folder…`: make folders."""
     letters, names = options(words)
     if letters - {"p", "v"} or any(name.startswith("--") and name != "--parents" for name in names):
-        return terminal.fail("mkdir: it knows -p, which also makes the folders above and says nothing of what is there")
+        return terminal.fail(
+            "mkdir: the only option here is -p, which also makes the folders above and accepts folders that exist"
+        )
     parents = "p" in letters or "--parents" in names
     names = [name for name in names if name != "--parents"]
     if not names:
@@ -67,7 +69,7 @@ def mkdir(terminal: Terminal, words: list[str]) -> int:
             code = terminal.fail(f"mkdir: cannot create directory '{name}': File exists")
         except FileNotFoundError:
             code = terminal.fail(
-                f"mkdir: cannot create directory '{name}': No such file or directory. mkdir -p makes the folders above, too"
+                f"mkdir: cannot create directory '{name}': No such file or directory. mkdir -p also makes the folders above"
             )
     return code
 

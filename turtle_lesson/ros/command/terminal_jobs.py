@@ -31,7 +31,7 @@ def kill(terminal: Terminal, words: list[str]) -> int:
     if name not in SIGNALS:
         return terminal.fail(f"kill: {name}: invalid signal specification; there are {', '.join(SIGNALS)}")
     if not rest:
-        return terminal.fail("kill: which one? `jobs` lists what goes on; kill -INT %1 is Ctrl-C for the first")
+        return terminal.fail("kill: which one? `jobs` lists what is running; kill -INT %1 is Ctrl-C for the first")
     return max(_kill_one(terminal, word, name) for word in rest)
 
 
@@ -45,7 +45,7 @@ def _kill_one(terminal: Terminal, word: str, name: str) -> int:
         return terminal.fail(f"kill: {word[:60]}: arguments must be process or job IDs, such as 1004 or %1")
     if target is None:
         what = "no such job" if word.startswith("%") else "No such process"
-        return terminal.fail(f"kill: {word}: {what}. `jobs` lists what goes on")
+        return terminal.fail(f"kill: {word}: {what}. `jobs` lists what is running")
     if isinstance(target, Job):
         target.signal(name)
     else:

@@ -26,7 +26,9 @@ def export(terminal: Terminal, words: list[str]) -> int:
         if found is not None:
             os.environ[found[1]] = found[2]
         elif not _NAME.fullmatch(word):
-            return terminal.fail(f"export: {word!r} is no name of a variable: write export NAME=value, without blanks")
+            return terminal.fail(
+                f"export: {word!r} is not the name of a variable: write export NAME=value, without spaces"
+            )
     return 0
 
 
@@ -34,7 +36,7 @@ def unset(terminal: Terminal, words: list[str]) -> int:
     """`unset NAME…`: have variables no more."""
     for word in words:
         if not _NAME.fullmatch(word):
-            return terminal.fail(f"unset: {word!r} is no name of a variable")
+            return terminal.fail(f"unset: {word!r} is not the name of a variable")
         os.environ.pop(word, None)
     return 0
 

@@ -37,7 +37,7 @@ def arguments(parser: ArgumentParser) -> None:
     parser.add_argument("--no-str", action="store_true", help="Print the length of texts instead of them")
     parser.add_argument("--flow-style", action="store_true", help="Print an array in one line, in brackets")
     parser.add_argument("--lost-messages", action="store_true", help="Deprecated, and without effect")
-    parser.add_argument("--no-lost-messages", action="store_true", help="Do not say when messages were lost")
+    parser.add_argument("--no-lost-messages", action="store_true", help="Do not report lost messages")
     parser.add_argument("--raw", action="store_true", help="Print the bytes as they are sent")
     parser.add_argument(
         "--filter",

@@ -39,22 +39,24 @@ def arguments(parser: ArgumentParser) -> None:
     """The arguments, in the real tool's order."""
     parser.add_argument("topic_name", help="Name of the topic, such as /turtle1/cmd_vel")
     parser.add_argument("message_type", help="Type of the message, such as geometry_msgs/msg/Twist")
-    parser.add_argument(
-        "values", nargs="?", default="{}", help="What its fields are set to, in YAML, as '{data: hello}'"
-    )
+    parser.add_argument("values", nargs="?", default="{}", help="Values for its fields, in YAML, as in '{data: hello}'")
     parser.add_argument("-r", "--rate", metavar="N", type=frequency, default=1.0, help="How often a second (1)")
     parser.add_argument("-p", "--print", metavar="N", type=int, default=1, help="Print only every N-th message (1)")
     group = parser.add_mutually_exclusive_group()
     group.add_argument("-1", "--once", action="store_true", help="Publish one message")
-    group.add_argument("-t", "--times", type=unsigned_int, default=0, help="Publish so many messages")
+    group.add_argument("-t", "--times", type=unsigned_int, default=0, help="Publish this many messages")
     parser.add_argument(
         "-w",
         "--wait-matching-subscriptions",
         type=unsigned_int,
-        help="Begin when there are so many subscriptions (1 with --once or --times, else 0)",
+        help="Wait for this many subscriptions first (1 with --once or --times, else 0)",
     )
     parser.add_argument(
-        "--keep-alive", metavar="N", type=seconds, default=0.1, help="Stay so many seconds after the last message (0.1)"
+        "--keep-alive",
+        metavar="N",
+        type=seconds,
+        default=0.1,
+        help="Stay for this many seconds after the last message (0.1)",
     )
     parser.add_argument("-n", "--node-name", help="Name of the node that publishes")
     add_qos_arguments(parser, "publish", PRESET, automatic=False)
@@ -68,7 +70,7 @@ def pub(args: Namespace) -> None:
     times = 1 if args.once else args.times
     needed = args.wait_matching_subscriptions
     if times / args.rate > LONGEST:
-        raise CommandError(f"{times} messages at {args.rate:g} a second take longer than a day: make it fewer")
+        raise CommandError(f"{times} messages at {args.rate:g} a second take longer than a day: publish fewer")
     with direct_node(args, args.node_name) as node:
         message, setters = _message(args.message_type, args.values)
         publisher = node.create_publisher(type(message), expanded(node, args.topic_name), profile)
@@ -98,7 +100,7 @@ def _wait_for_subscriptions(node: Node, publisher: Publisher, needed: int) -> No
 
 
 def _matched(node: Node, publisher: Publisher) -> int:
-    """How many subscriptions get what is published, without the classroom's own, which always do."""
+    """How many subscriptions get what is published, without the simulation's own, which always do."""
     ears = [
         each
         for each in node.get_subscriptions_info_by_topic(publisher.topic_name)
@@ -114,13 +116,15 @@ def _why_nobody(node: Node, publisher: Publisher, needed: int) -> tuple[str, str
     waited = f"Gave up after {PATIENCE:g} s of robot time"
     if not there:
         others = [each for each in topics(node, include_hidden=True) if subscriptions(node, each)]
-        return f"{waited}: nobody subscribes to {name}", suggest(name, others) or "With -w 0 nobody is waited for."
+        return f"{waited}: no node subscribes to {name}", suggest(
+            name, others
+        ) or "With -w 0 the command does not wait."
     types = sorted({each.topic_type for each in there})
     if kind not in types:
         return f"{waited}: the subscription of {name} is of type {', '.join(types)}, not {kind}", ""
     if not _matched(node, publisher):
         hint = f"`ros2 topic info -v {name}` shows it."
-        return f"{waited}: the subscription of {name} wants another quality of service", hint
+        return f"{waited}: the subscription of {name} requests another quality of service", hint
     return f"{waited}: {name} has {_matched(node, publisher)} subscription(s), not {needed}", ""
 
 

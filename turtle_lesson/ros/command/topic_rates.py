@@ -46,12 +46,14 @@ def hz_arguments(parser: ArgumentParser) -> None:
         metavar="WINDOW",
         type=positive_int,
         default=HZ_WINDOW,
-        help="How many messages the average is of (default: %(default)s)",
+        help="How many messages to average over (default: %(default)s)",
     )
     parser.add_argument(
         "--filter", dest="filter_expr", metavar="EXPR", help="Count a message m only where this expression is true"
     )
-    parser.add_argument("--wall-time", dest="use_wtime", action="store_true", help="Accepted; the clocks are one here")
+    parser.add_argument(
+        "--wall-time", dest="use_wtime", action="store_true", help="Accepted; there is only one clock here"
+    )
     add_duration(parser)
 
 
@@ -109,7 +111,7 @@ def bw_arguments(parser: ArgumentParser) -> None:
         metavar="WINDOW",
         type=positive_int,
         default=BW_WINDOW,
-        help="How many messages the average is of (default: %(default)s)",
+        help="How many messages to average over (default: %(default)s)",
     )
     add_duration(parser)
 
@@ -164,7 +166,7 @@ def delay_arguments(parser: ArgumentParser) -> None:
         "-w",
         type=positive_int,
         default=DELAY_WINDOW,
-        help="How many messages the average is of (default: %(default)s)",
+        help="How many messages to average over (default: %(default)s)",
     )
     add_duration(parser)
 

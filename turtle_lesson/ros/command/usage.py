@@ -33,7 +33,7 @@ def group_usage(group: Group) -> str:
 def top_help() -> str:
     """What `ros2` alone prints."""
     about = "ros2 is the command line of ROS 2: each command looks at, or changes, the system that is running."
-    buffering = ("--use-python-default-buffering", "accepted, and without effect here")
+    buffering = ("--use-python-default-buffering", "accepted, but without effect here")
     return _help(top_usage(), about, [buffering], {group.name: group.help for group in GROUPS.values()}, "ros2")
 
 

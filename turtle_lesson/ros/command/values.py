@@ -36,11 +36,11 @@ def read_yaml(text: str, what: str = "The passed value") -> Any:
         return yaml.load(text, _loader())
     except yaml.MarkedYAMLError as error:
         kind = Unparsable if isinstance(error, yaml.parser.ParserError) else NoYaml
-        raise kind(f"{what} is no YAML: {_in_one_line(error)}") from None
+        raise kind(f"{what} is not valid YAML: {_in_one_line(error)}") from None
     except (yaml.YAMLError, ValueError, OverflowError) as error:
-        raise NoYaml(f"{what} is no YAML: {' '.join(str(error).split())}") from None
+        raise NoYaml(f"{what} is not valid YAML: {' '.join(str(error).split())}") from None
     except RecursionError:
-        raise NoYaml(f"{what} is no YAML that can be read: its brackets are nested too deeply") from None
+        raise NoYaml(f"{what} cannot be read as YAML: its brackets are nested too deeply") from None
 
 
 def _in_one_line(error: Any) -> str:

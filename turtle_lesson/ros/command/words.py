@@ -1,6 +1,6 @@
 """A shell's line taken apart: words with their quotes, and the signs between commands.
 
-The rules are those of POSIX's shells, without what this classroom leaves out: substitutions, braces and what is between
+The rules are those of POSIX's shells, without what this simulation leaves out: substitutions, braces and what is between
 double quotes stay as they are typed, so that `"{x: 5.0}"` needs no care.
 """
 
@@ -154,7 +154,7 @@ class _Scanner:
             self.at = continued.end()
             return ""
         if not self.text[self.at + 1 :].strip(" \t"):
-            raise UnfinishedError("a backslash at the end of a line goes on in the next line, and there is none")
+            raise UnfinishedError("a backslash at the end of a line continues on the next line, and there is none")
         char = self.text[self.at + 1]
         self.at += 2
         return char
