@@ -13,6 +13,7 @@ from .ros.core.errors import DriveTimeout, NeverReturns, SimulationError, WorldC
 
 if TYPE_CHECKING:
     from .lab.obstacle_board import ObstacleBoard
+    from .lab.recorder import Recorder
     from .ros.core.strand import Strand
     from .ros.world import World
 
@@ -28,9 +29,10 @@ class ExamPlace:
     their callbacks raise is kept in `errors`, and they go on.
     """
 
-    def __init__(self, world: World, node: Any, board: ObstacleBoard) -> None:
+    def __init__(self, world: World, recording: Recorder, board: ObstacleBoard) -> None:
         self._world = world
-        self.node = node
+        self.recording = recording
+        self.node = recording.node
         self._board = board
         self._errors: list[tuple[str, Exception]] = []
         self._executor: Any = None  # one for all steps: it keeps the coroutines that wait from one step to the next

@@ -330,7 +330,7 @@ class Lesson(Shelf, Insight):
     def _make_exam_place(self) -> ExamPlace:
         from .exam_place import ExamPlace
 
-        return ExamPlace(self._world, self._recording.node, self._board)
+        return ExamPlace(self._world, self._recording, self._board)
 
     def _make_station(self) -> Station:
         from .classroom import Classroom

@@ -15,7 +15,7 @@ from types import TracebackType
 from typing import Any, Protocol, TypeVar
 
 from ..channel import with_time
-from ..recording import NANOSECONDS
+from ..recording import NANOSECONDS, Recording
 from ..words import listed, number
 from .failures import ENDLESS, in_words, never_returned, unreturned
 from .fields import filled, interface
@@ -42,6 +42,9 @@ class Place(Protocol):
 
     node: Any
     """A node with a hidden name, spun while time passes."""
+
+    recording: Recording
+    """What was heard of the turtle so far."""
 
     @property
     def now(self) -> float:
