@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from .ros.core import NANOSECONDS
 from .ros.core.driving import drive_within
 from .ros.core.errors import DriveTimeout, NeverReturns, SimulationError, WorldClosed
+from .ros.core.interrupts import work_done
 
 if TYPE_CHECKING:
     from .lab.obstacle_board import ObstacleBoard
@@ -67,6 +68,11 @@ class ExamPlace:
     def put(self, obstacles: Iterable[Any]) -> None:
         """Replace them."""
         self._board.put(obstacles)
+
+    def limit_work(self, seconds: float | None) -> None:
+        """Have learner's code stopped after so much more CPU time (s); None: no more."""
+        self._world.sim.suspect = None
+        self._world.sim.work_until = None if seconds is None else work_done() + seconds
 
     def runs(self, program: str) -> bool:
         """Whether a program of this name is running."""

@@ -27,6 +27,7 @@ os.environ["TURTLE_LESSON_PROGRESS"] = "off"
 from IPython.core.history import HistoryManager
 from IPython.core.interactiveshell import InteractiveShell
 
+from turtle_lesson.lab.checks import exam
 from turtle_lesson.ros.core import interrupts
 
 from . import code_cells
@@ -36,6 +37,10 @@ MOST_WORK = 300
 
 PATIENCE = 2.0
 """CPU time, s, after which a callback that lets no time pass is stopped: less than a learner is given, for the tests' sake."""
+
+
+WORK = 20.0
+"""CPU time, s, that a check may take here."""
 
 
 class PageError(Exception):
@@ -211,6 +216,7 @@ def serve(name: str, folder: Path) -> None:
 def main() -> None:
     """Serve the page that the command line names, in a fresh folder."""
     interrupts.patience = PATIENCE
+    exam.WORK = WORK
     with tempfile.TemporaryDirectory() as folder:
         os.environ["TURTLE_LESSON_FOLDER"] = folder
         os.chdir(folder)

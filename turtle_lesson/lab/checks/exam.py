@@ -6,7 +6,6 @@ remembers (`once`), so that several expectations can be about the same drive.
 
 from __future__ import annotations
 
-import time
 from collections import Counter
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager, suppress
@@ -14,6 +13,7 @@ from dataclasses import dataclass
 from types import TracebackType
 from typing import Any, Protocol, TypeVar
 
+from ...ros.core.interrupts import work_done
 from ..channel import with_time
 from ..recording import NANOSECONDS, Recording
 from ..words import listed, number
@@ -30,8 +30,11 @@ PIECE = 0.1
 MOMENT = 0.02
 """Robot time, s, between two looks at whether something has come; after the first few looks it is a PIECE."""
 
-WORK = 90.0
+WORK = 60.0
 """CPU time, s, after which a check stops a system that computes too much; a good one needs a few seconds."""
+
+SLACK = 2.0
+"""CPU time, s, in which the line of a callback that computes too much is found; after it the check ends without."""
 
 MOST_HEARD = 500_000
 """Messages that one ear keeps at most."""
@@ -64,6 +67,10 @@ class Place(Protocol):
     @property
     def strands(self) -> list[Any]:
         """The lines of execution that wait somewhere."""
+        ...
+
+    def limit_work(self, seconds: float | None) -> None:
+        """Have learner's code stopped after so much more CPU time (s); None: no more."""
         ...
 
     def runs(self, program: str) -> bool:
@@ -134,7 +141,7 @@ class Exam(GraphView):
         self.began = place.now
         self._until = place.now + limit
         self._limit = limit
-        self._work_begin = time.thread_time()
+        self._work_begin = work_done()
         self._stopped = ""
         self._origin = place.node.get_clock().now().nanoseconds - round(place.now * NANOSECONDS)
         self._memory: dict[Hashable, Any] = {}
@@ -145,6 +152,7 @@ class Exam(GraphView):
         """Level, name of the logger and text of each line that was logged since the exam began."""
 
     def __enter__(self) -> Exam:
+        self.place.limit_work(WORK)
         self._hear_the_log()
         self.nodes_before = self.nodes()
         return self
@@ -152,6 +160,7 @@ class Exam(GraphView):
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
+        self.place.limit_work(None)
         for each in reversed(self._clean_up):
             with suppress(Exception):  # what is gone already needs no cleaning
                 each()
@@ -195,7 +204,7 @@ class Exam(GraphView):
     def _step(self, seconds: float) -> None:
         if self.now + seconds > self._until + 1e-9:
             raise OutOfTime(f"the {self._limit:g} s of robot time that this check may take are over")
-        if not self._stopped and time.thread_time() - self._work_begin > WORK:
+        if not self._stopped and work_done() - self._work_begin > WORK + SLACK:
             self._stopped = (
                 f"{number(self.now - self.began, 1)} s of robot time took {WORK:g} s of computing: is a timer's period "
                 "tiny, or does a callback compute for long?"

@@ -59,7 +59,7 @@ def _line(frame: FrameType, number: int) -> str:
 
 def is_learners(frame: FrameType) -> bool:
     """Whether a frame runs a learner's own code."""
-    return not tracebacks.is_library(frame.f_code.co_filename)
+    return tracebacks.is_learners(frame.f_code.co_filename)
 
 
 def never_returned(error: BaseException) -> str:

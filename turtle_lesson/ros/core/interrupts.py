@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 from .careful import loop_aside
 from .errors import NeverReturns
 from .strand import Strand, running_strand
-from .tracebacks import is_library, is_ours
+from .tracebacks import is_learners, is_library, is_ours
 
 if TYPE_CHECKING:
     from .simulation import Simulation
@@ -49,6 +49,7 @@ class Guard:
         self.simulation = simulation
         self.interrupted = False
         self.tripped_at: int | None = None
+        self.spent = False
         self._previous: Any = None
         self._active = threading.current_thread() is threading.main_thread()
 
@@ -73,7 +74,12 @@ class Guard:
 
     def _on_signal(self, number: int, frame: FrameType | None) -> None:
         tripped, self.tripped_at = self.tripped_at, None
-        if tripped is None:
+        spent, self.spent = self.spent, False
+        if spent:
+            call, self.simulation.suspect = self.simulation.suspect, _learners_call(frame)
+            if call is not None and call is self.simulation.suspect:  # the same call is still not done
+                self._give_up_on(running_strand(), "has computed very much for the little time that passed")
+        elif tripped is None:
             self.interrupted = True
             self.simulation.halt()
         elif tripped == self.simulation.now and not _jupyter_is_at_work(frame):  # else time has passed since it looked
@@ -81,7 +87,7 @@ class Guard:
             if self.interrupted:
                 self._freeze(strand)
             else:
-                self._give_up_on(strand)
+                self._give_up_on(strand, f"has computed or blocked for {patience:g} s without letting any time pass")
 
     def _freeze(self, strand: Strand | None) -> None:
         """Leave the strand in the middle of what it computes; the next run goes on there."""
@@ -91,7 +97,7 @@ class Guard:
         with loop_aside():
             self.simulation.hub.switch()
 
-    def _give_up_on(self, strand: Strand | None) -> None:
+    def _give_up_on(self, strand: Strand | None, reason: str) -> None:
         name = "what the cell does" if strand is None else strand.process.name
         if strand is not None and strand.warned:
             strand.process.abandon("it computes without end and ignores being told to stop")
@@ -99,9 +105,9 @@ class Guard:
         if strand is not None:
             strand.warned = True
         raise NeverReturns(
-            f"{name} has computed or blocked for {patience:g} s without letting any time pass, so nothing else in "
-            "this world could happen. A callback should do a little and return; let a timer call it again. "
-            "To wait inside a loop, call time.sleep(seconds); to wait for another callback, await a future."
+            f"{name} {reason}, so nothing else in this world could happen. A callback should do a little and return; "
+            "let a timer call it again. To wait inside a loop, call time.sleep(seconds); to wait for another callback, "
+            "await a future."
         )
 
 
@@ -116,6 +122,19 @@ def _jupyter_is_at_work(frame: FrameType | None) -> bool:
             return False
         frame = frame.f_back
     return False
+
+
+def _learners_call(frame: FrameType | None) -> FrameType | None:
+    """The call of a learner's function that goes on here, the outermost since an executor or Jupyter called; or None."""
+    call = None
+    while frame is not None:
+        name = frame.f_globals.get("__name__", "")
+        if name.startswith("rclpy._executor") or name.partition(".")[0] in JUPYTER:
+            break
+        if is_learners(frame.f_code.co_filename):
+            call = frame
+        frame = frame.f_back
+    return call
 
 
 class _Watchdog:
@@ -138,18 +157,22 @@ class _Watchdog:
 
     def _loop(self) -> None:
         seen: tuple[object, int] | None = None
-        since, computed = _monotonic(), _main_threads_work()
+        since, computed = _monotonic(), work_done()
         while True:
             self._wanted.wait()
             guard = self._guard
             if guard is not None:
                 state = (guard, guard.simulation.now)
-                waited, work = _monotonic() - since, _main_threads_work() - computed
+                waited, work = _monotonic() - since, work_done() - computed
                 if state != seen:
-                    seen, since, computed = state, _monotonic(), _main_threads_work()
+                    seen, since, computed = state, _monotonic(), work_done()
                 elif _is_too_much(waited, work, guard.interrupted) and not _being_debugged():
-                    since, computed = _monotonic(), _main_threads_work()
+                    since, computed = _monotonic(), work_done()
                     guard.tripped_at = guard.simulation.now
+                    _interrupt_main_thread()
+                until = guard.simulation.work_until
+                if until is not None and work_done() > until:
+                    guard.spent = True
                     _interrupt_main_thread()
             _sleep(min(0.25, patience / 4, interrupt_patience / 4))
 
@@ -161,7 +184,7 @@ def _is_too_much(waited: float, work: float, interrupted: bool) -> bool:
     return work > patience or (waited > patience and work < BLOCKED * waited)
 
 
-def _main_threads_work() -> float:
+def work_done() -> float:
     """The CPU time, in s, of the main thread; of the whole process where the system does not tell threads apart."""
     if not hasattr(time, "pthread_getcpuclockid"):
         return time.process_time()

@@ -13,6 +13,7 @@ from collections import deque
 from collections.abc import Callable
 from contextvars import copy_context
 from heapq import heappop, heappush
+from types import FrameType
 from typing import TYPE_CHECKING, Any
 
 from .careful import loop_aside
@@ -56,6 +57,10 @@ class Simulation(Face):
         self._halted = False
         self._raising = False
         self.thread = get_ident()
+        self.work_until: float | None = None
+        """The CPU time of the main thread (s) after which a learner's call that goes on is stopped; None: it may go on."""
+        self.suspect: FrameType | None = None
+        """The call that went on when that was last looked at."""
         self.driven: Strand | None = None
         self._cell = Cell(copy_context())
         self._for_the_hub: deque[tuple[Callable[..., object], tuple[Any, ...]]] = deque()

@@ -49,6 +49,11 @@ def is_library(filename: str) -> bool:
     return is_ours(filename) or filename.startswith(INSTALLED_FOLDERS)
 
 
+def is_learners(filename: str) -> bool:
+    """Whether a file, or a cell, is a learner's own code; what Python makes of a text, as for a dataclass, is not."""
+    return not is_library(filename) and (not filename.startswith("<") or bool(_CELL.search(filename)))
+
+
 def traceback_entries(trace: TracebackType | None) -> list[TracebackType]:
     """All entries of a traceback, outermost first."""
     entries = []
