@@ -312,7 +312,7 @@ def test_a_package_that_is_not_built() -> None:
     result = lesson.check("interfaces")
     assert marks(result) == "✗✗✗"
     assert "No module named 'robot_controller'" in result.rows[0].seen
-    assert "colcon build" in result.rows[0].advice.direction
+    assert "no file msg/TurtleStatus.msg in the package" in result.rows[0].advice.direction
 
 
 def test_messages_that_are_no_numbers() -> None:
