@@ -10,8 +10,9 @@ from typing import Any
 from ..track import WORLD
 from ..words import angle, number, point, turned
 from .exam import Answer, Exam, Heard
+from .questions import no_answer
 from .registry import Expectation
-from .rows import CannotLook, Seen
+from .rows import Advice, CannotLook, Seen
 
 NAVIGATE, NAVIGATE_TYPE = "/navigate_to", "robot_controller/srv/NavigateTo"
 POSE, POSE_TYPE = "/turtle1/pose", "turtlesim/msg/Pose"
@@ -29,7 +30,31 @@ STILL = 1e-3
 LONGEST = 90.0
 """Robot time, s, that one drive may take."""
 
+AT_REST = 0.5
+"""A turtle that has not moved for so long, s, has come to rest."""
+
+TELEPORT, TELEPORT_TYPE = "/turtle1/teleport_absolute", "turtlesim/srv/TeleportAbsolute"
+
 Goal = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Way:
+    """A drive as a row of a check tells of it: where the turtle is put, and the goal that it is sent to.
+
+    Attributes:
+        name: what rows call the goal, such as "a goal in the west".
+        begin: x and y (m) and the heading (rad) that the turtle is given first.
+        goal: the same of the goal.
+    """
+
+    name: str
+    begin: Goal
+    goal: Goal
+
+    def __call__(self, pose: Any) -> Goal:
+        """The goal, wherever the turtle is."""
+        return self.goal
 
 
 @dataclass
@@ -49,8 +74,10 @@ class Drive:
             raise CannotLook(f"the goal {point(*self.goal[:2])} was not answered")
         return self.answer.response
 
-    def end(self) -> Any:
-        """The last pose by the time of the answer."""
+    def end(self, at_rest: bool = False) -> Any:
+        """The last pose by the time of the answer; or the one in which the turtle came to rest."""
+        if at_rest and self.poses:
+            return self.poses[-1].message
         by_then = [each.message for each in self.poses if each.at <= self.answer.answered + TICK]
         return by_then[-1] if by_then else self.begin
 
@@ -61,9 +88,9 @@ class Drive:
             raise CannotLook("the turtle never moved")
         return times[0] - TICK, times[-1]
 
-    def distance(self) -> float:
-        """How far from the goal the turtle was when the answer came, m."""
-        end = self.end()
+    def distance(self, at_rest: bool = False) -> float:
+        """How far from the goal the turtle was when the answer came, or when it came to rest, m."""
+        end = self.end(at_rest)
         return math.hypot(self.goal[0] - end.x, self.goal[1] - end.y)
 
 
@@ -81,13 +108,32 @@ def where(exam: Exam) -> Any:
     return heard[-1].message
 
 
+def put(exam: Exam, place: Goal) -> None:
+    """Put the turtle somewhere. Raises CannotLook where the simulator does not answer."""
+    x, y, theta = place
+    if exam.ask(TELEPORT, TELEPORT_TYPE, 1.0, x=x, y=y, theta=theta).response is None:
+        raise CannotLook(f"{TELEPORT} does not answer")
+    exam.wait(3 * TICK)
+
+
 def drive(exam: Exam, name: str, choose: Any) -> Drive:
-    """Drive to the goal that `choose(pose)` gives; the first time it is done, from then on remembered by its name."""
-    return exam.once(("drive", name), lambda: _drive(exam, choose(where(exam))))
+    """Drive to the goal that `choose(pose)` gives; the first time it is done, from then on remembered by its name.
+
+    On a Way the turtle is put at its beginning, and time passes until it has come to rest.
+    """
+    return exam.once(("drive", name), lambda: _drive(exam, choose))
 
 
-def _drive(exam: Exam, goal: Goal) -> Drive:
+def go(exam: Exam, way: Way) -> Drive:
+    """The drive on a way; the first time it is done, from then on it is remembered."""
+    return drive(exam, way.name, way)
+
+
+def _drive(exam: Exam, choose: Any) -> Drive:
+    if isinstance(choose, Way):
+        put(exam, choose.begin)
     begin = where(exam)
+    goal = choose(begin)
     poses = exam.listen(POSE, POSE_TYPE)
     try:
         commands = exam.listen(COMMANDS, COMMAND_TYPE)
@@ -97,24 +143,17 @@ def _drive(exam: Exam, goal: Goal) -> Drive:
     x, y, theta = goal
     answer = exam.ask(NAVIGATE, NAVIGATE_TYPE, LONGEST, x=x, y=y, theta=theta)
     exam.wait(1.0)
+    if isinstance(choose, Way) and answer.response is not None:
+        exam.wait_for(lambda: at_rest(poses), LONGEST)
     return Drive(goal, begin, answer, commands[first_command:], poses[first_pose:])
 
 
+def at_rest(poses: list[Heard]) -> bool:
+    """Whether the turtle has not moved for a while, by the newest poses."""
+    return not any(is_moving(each.message) for each in poses[-round(AT_REST / TICK) :])
+
+
 # -- goals -------------------------------------------------------------------------------------------------------------
-
-PLACES = tuple((float(x), float(y)) for x, y in itertools.product((2, 4, 6, 8, 9), repeat=2))
-
-
-def two_metres_away(pose: Any) -> Goal:
-    """The round place that is nearest to being 2 m away, facing up."""
-    x, y = min(PLACES, key=lambda place: abs(math.hypot(place[0] - pose.x, place[1] - pose.y) - 2.0))
-    return x, y, 1.57
-
-
-def due_west(pose: Any) -> Goal:
-    """A place to the left on the map, where an angle difference that is not wrapped goes wrong, facing left."""
-    x = pose.x - 1.5 if pose.x > 2.0 else pose.x + 1.5
-    return round(x, 1), round(min(max(pose.y, 0.5), WORLD - 0.5), 1), 3.14
 
 
 def far_away(pose: Any) -> Goal:
@@ -127,70 +166,92 @@ def far_away(pose: Any) -> Goal:
 # -- expectations ------------------------------------------------------------------------------------------------------
 
 
-def answered(name: str, choose: Any, success: bool = True) -> Expectation:
-    """A goal is answered in time; with success True, where that is expected."""
+def answered(way: Way) -> Expectation:
+    """A goal is answered in time, with success True."""
 
     def look(exam: Exam) -> Seen:
-        it = drive(exam, name, choose)
-        goal = f"goal {point(*it.goal[:2])}"
+        it = go(exam, way)
         if it.answer.response is None:
-            step = (
-                "Does the callback end with `return response`? Does it wait for a pose that it cannot hear meanwhile?"
-            )
-            return Seen(False, f"{goal}: no answer in {LONGEST:g} s", step)
-        seen = f"{goal}: success is {it.response.success} after {number(it.answer.seconds)} s"
-        step = "Judge it at the end, by where the turtle is then; and give it time enough (goal_timeout)."
-        return Seen(bool(it.response.success) or not success, seen, step)
+            return no_answer(exam, f"no answer to the goal {point(*it.goal[:2])} in {LONGEST:g} s")
+        seen = f"success is {it.response.success} after {number(it.answer.seconds)} s"
+        return Seen(bool(it.response.success), seen, "What is response.success when on_goal returns the response?")
 
-    return Expectation(f"{name}: " + ("success is True" if success else "it is answered"), look)
+    return Expectation(f"{way.name}: success is True", look)
 
 
-def arrived(name: str, choose: Any, near: float = NEAR) -> Expectation:
-    """The turtle is within some distance (m) of the goal when the answer comes."""
+def arrived(way: Way, at_rest: bool = False) -> Expectation:
+    """The turtle is near the goal when the answer comes, or when it has come to rest."""
 
     def look(exam: Exam) -> Seen:
-        it = drive(exam, name, choose)
+        it = go(exam, way)
         it.response  # noqa: B018  (raises where there is none)
-        end, distance = it.end(), it.distance()
+        end, distance = it.end(at_rest), it.distance(at_rest)
         seen = f"at {point(end.x, end.y)}, {number(distance)} m from {point(*it.goal[:2])}"
-        step = "Look at /turtle1/pose on the way, and steer by it: a plan made at the start misses."
-        return Seen(distance <= near, seen, step)
+        if at_rest and is_moving(end):
+            seen += f", and still moving after {LONGEST:g} s"
+        when = "in the end" if at_rest else "when the answer comes"
+        step = f"Where is the turtle {when}, and what does /turtle1/pose say on the way?"
+        return Seen(distance <= NEAR, seen, Advice(direction=step))
 
-    return Expectation(f"{name}: the turtle within {near:g} m of it", look)
+    return Expectation(f"{way.name}: the turtle within {NEAR:g} m of it", look)
 
 
-def facing(name: str, choose: Any, near: float = 0.2) -> Expectation:
-    """The turtle has the goal's heading, within an angle (rad), when the answer comes."""
+def facing(way: Way, at_rest: bool = False, near: float = 0.2) -> Expectation:
+    """The turtle has the goal's heading, within an angle (rad), when the answer comes or when it has come to rest."""
 
     def look(exam: Exam) -> Seen:
-        it = drive(exam, name, choose)
+        it = go(exam, way)
         it.response  # noqa: B018
-        error = turned(it.goal[2] - it.end().theta)
-        step = "At the goal, turn to its theta; wrap the difference: math.remainder(angle, math.tau)."
-        return Seen(abs(error) <= near, f"{angle(error)} off", step)
+        error = turned(it.goal[2] - it.end(at_rest).theta)
+        return Seen(abs(error) <= near, f"{angle(error)} off", "At the goal the turtle turns to the goal's theta.")
 
-    return Expectation(f"{name}: heading within {near:g} rad", look)
+    return Expectation(f"{way.name}: heading within {near:g} rad", look)
 
 
-def honest_time(name: str, choose: Any, within: float = 0.1) -> Expectation:
+def turns_little(way: Way, most: float) -> Expectation:
+    """The turtle comes to the goal, and all its turns, to and fro, are an angle (in degrees) at most."""
+
+    def look(exam: Exam) -> Seen:
+        it = go(exam, way)
+        it.response  # noqa: B018
+        degrees = math.degrees(turning([it.begin, *(each.message for each in it.poses)]))
+        seen = f"it came within {number(it.distance(at_rest=True))} m and turned by {number(degrees, 0)}° in all"
+        step = Advice(
+            direction="Between which two headings does the turtle choose the long way round?",
+            hint="Look at turn_to once more: the exercise “the short way” has hints.",
+        )
+        return Seen(it.distance(at_rest=True) <= NEAR and degrees <= most, seen, step)
+
+    return Expectation(f"{way.name}: reached, with turns of {most:g}° at most", look)
+
+
+def turning(poses: list[Any]) -> float:
+    """The sum of all turns from pose to pose, to and fro, in rad."""
+    headings = [each.theta for each in poses]
+    if not all(map(math.isfinite, headings)):
+        raise CannotLook("the turtle's heading is no number")
+    return math.fsum(abs(turned(b - a)) for a, b in itertools.pairwise(headings))
+
+
+def honest_time(way: Way, within: float = 0.1) -> Expectation:
     """time_taken is how long the turtle really moved, give or take (s)."""
 
     def look(exam: Exam) -> Seen:
-        it = drive(exam, name, choose)
+        it = go(exam, way)
         begin, end = it.moving()
         truth, said = end - begin, float(it.response.time_taken)
         seen = f"it said {number(said)} s; the turtle moved for {number(truth)} s"
-        step = "Read self.get_clock().now() at the first command and at the one that stops it."
-        return Seen(abs(said - truth) <= within, seen, step)
+        step = "Which two moments lie between the first command and the one that stops the turtle?"
+        return Seen(abs(said - truth) <= within, seen, Advice(direction=step))
 
     return Expectation(f"time_taken within {within:g} s of the moving time", look)
 
 
-def stopped(name: str, choose: Any) -> Expectation:
-    """The last command is all zero, and the turtle stands a second after the answer."""
+def stopped(way: Way) -> Expectation:
+    """The last command is all zero, and the turtle stands when it should have come to rest."""
 
     def look(exam: Exam) -> Seen:
-        it = drive(exam, name, choose)
+        it = go(exam, way)
         it.response  # noqa: B018
         if not it.commands:
             raise CannotLook(f"no command came on {COMMANDS}")
@@ -198,60 +259,81 @@ def stopped(name: str, choose: Any) -> Expectation:
         speeds = (last.linear.x, last.linear.y, last.angular.z)
         if any(speeds):
             seen = f"it was {number(last.linear.x)} m/s and {number(last.angular.z)} rad/s"
-            return Seen(False, seen, "Publish an empty Twist() at the end, however the drive ends.")
+            return Seen(False, seen, "What is the last command that is published, however the drive ends?")
         still = not is_moving(it.poses[-1].message)
         return Seen(still, "it was, and the turtle stands" if still else "it was, and the turtle moves on")
 
     return Expectation("the last command is zero", look)
 
 
-def steady_commands(name: str, choose: Any, most: float = 0.15) -> Expectation:
+def steady_commands(way: Way, most: float = 0.15) -> Expectation:
     """No two commands on the way are farther apart than this (s): ten a second."""
 
     def look(exam: Exam) -> Seen:
-        it = drive(exam, name, choose)
+        it = go(exam, way)
         begin, end = it.moving()
         times = [each.at for each in it.commands if begin - 0.2 <= each.at <= end + 0.2]
         gaps = [after - before for before, after in itertools.pairwise(times)]
         if not gaps:
             return Seen(False, "one command for the whole way", "The turtle forgets a command after 1 s: send on.")
         seen = f"the longest gap was {number(1000 * max(gaps), 0)} ms"
-        return Seen(max(gaps) <= most, seen, "Send one every 0.1 s, from a timer.")
+        return Seen(max(gaps) <= most, seen, "How much time passes between two commands, at the most?")
 
     return Expectation("ten commands a second on the way", look)
 
 
-def refuses(what: str, x: float, y: float, theta: float = 0.0, *, after: Goal | None = None) -> Expectation:
-    """A goal that makes no sense is refused at once: success False within a second, and the turtle stays.
-
-    It is only asked where the goal `after` was refused: what refuses nothing would fill the log.
-    """
+def refuses(what: str, *goals: Goal) -> Expectation:
+    """Goals that make no sense are refused at once: success False within a second, and the turtle stays."""
 
     def look(exam: Exam) -> Seen:
-        if after is not None and _not_refused(exam, after):
-            raise CannotLook(f"the goal {point(*after[:2])} was not refused")
-        fault = _not_refused(exam, (x, y, theta))
-        step = "Look at the request first: math.isfinite(…), and 0 ≤ x, y ≤ 11.09; else return response."
-        return Seen(not fault, fault or "refused at once", step)
+        for goal in goals:
+            if fault := _fault(exam, goal):
+                step = "Which of the three numbers has to be looked at, and with which limits, before the goal is accepted?"
+                return Seen(False, f"{_typed(goal)}: {fault}", Advice(direction=step, hint=HINTS))
+        return Seen(True, f"{len(goals)} goals, all of them refused at once")
 
     return Expectation(f"refuses {what}", look)
 
 
-def _not_refused(exam: Exam, goal: Goal) -> str:
-    """What happened instead when a goal that makes no sense was asked, or ""; once it is asked, it is remembered."""
-    return exam.once(("refused", goal), lambda: _ask_nonsense(exam, goal))
+HINTS = "Open Hint 2 under the exercise."
 
 
-def _ask_nonsense(exam: Exam, goal: Goal) -> str:
-    x, y, theta = goal
+def _typed(goal: Goal) -> str:
+    return "({}, {}, {})".format(*(f"{each:g}" for each in goal))
+
+
+def _fault(exam: Exam, goal: Goal) -> str:
+    """What happened when a goal that makes no sense was not refused, or ""; then the turtle is led back to the middle."""
     begin = where(exam)
-    answer = exam.ask(NAVIGATE, NAVIGATE_TYPE, 5.0, x=x, y=y, theta=theta)
+    answer = exam.ask(NAVIGATE, NAVIGATE_TYPE, 5.0, **dict(zip(("x", "y", "theta"), goal, strict=True)))
     exam.wait(0.3)
     end = where(exam)
     if answer.response is None:
-        return "no answer in 5 s"
-    if answer.response.success:
-        return "success is True"
-    if answer.seconds > 1.0:
-        return f"answered after {number(answer.seconds)} s only"
-    return "the turtle moved" if math.hypot(end.x - begin.x, end.y - begin.y) > 0.05 else ""
+        fault = "no answer in 5 s"
+    elif answer.response.success:
+        fault = "success is True"
+    elif answer.seconds > 1.0:
+        fault = f"answered after {number(answer.seconds)} s only"
+    else:
+        fault = "the turtle moved" if math.hypot(end.x - begin.x, end.y - begin.y) > 0.05 else ""
+    if fault:
+        exam.ask(NAVIGATE, NAVIGATE_TYPE, 5.0, x=MIDDLE[0], y=MIDDLE[1], theta=MIDDLE[2])
+        exam.wait_for(lambda: at_rest(exam.listen(POSE, POSE_TYPE)), 10.0)
+    return fault
+
+
+MIDDLE = (5.5, 5.5, 0.0)
+
+
+def accepts(what: str, *ways: Way) -> Expectation:
+    """Goals on the boundary of what makes sense are accepted."""
+
+    def look(exam: Exam) -> Seen:
+        for way in ways:
+            response = go(exam, way).response
+            if not response.success:
+                step = "Which numbers does your comparison still accept? The ends belong to the world."
+                return Seen(False, f"{_typed(way.goal)}: success is False", Advice(direction=step, hint=HINTS))
+        return Seen(True, f"{' and '.join(_typed(way.goal) for way in ways)}")
+
+    return Expectation(f"accepts {what}", look)

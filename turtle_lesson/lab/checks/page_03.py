@@ -2,38 +2,63 @@
 
 from __future__ import annotations
 
-import itertools
 import math
+import re
+from typing import Any
 
-from ..words import number, turned
+from ..words import number, point, turned
 from .drives import (
     COMMAND_TYPE,
     COMMANDS,
+    LONGEST,
+    MIDDLE,
     NAVIGATE,
     NAVIGATE_TYPE,
+    NEAR,
+    POSE,
+    POSE_TYPE,
+    Way,
+    accepts,
     answered,
     arrived,
-    drive,
-    due_west,
+    at_rest,
     facing,
-    honest_time,
+    go,
+    put,
     refuses,
     steady_commands,
     stopped,
-    two_metres_away,
+    turning,
+    turns_little,
+    where,
 )
 from .exam import Exam
+from .functions import learner_function, returns
 from .parts import no_errors, node, offers, publishes
+from .questions import no_answer
 from .registry import Expectation, check
-from .rows import CannotLook, Seen
+from .rows import Advice, CannotLook, Seen
 
 PAGE = "03_navigator"
 RUN = "ros2 run robot_controller navigator"
-NEAR_GOAL, WEST = "a near goal", "a goal due west"
-OUTSIDE = (20.0, 5.0, 0.0)
 
-MOST_TURNED = 400.0
-"""Degrees: at most half a turn towards the goal, half a turn to its heading, and a little for steering."""
+START = 5.544
+"""Where the blind navigator believes that each drive begins (m), in x and in y."""
+
+BLIND_SPEED = 0.5
+STRAIGHT = Way("(7.544, 5.544)", (START, START, 0.0), (START + 2, START, 0.0))
+BESIDE = Way("(5.544, 4.544)", (START, START, 0.0), (START, START - 1, 0.0))
+BEHIND = Way("(4.544, 6.544)", (START, START, 0.0), (START - 1, START + 1, 0.0))
+
+A_GOAL = Way("a goal", MIDDLE, (4.0, 3.0, 1.57))
+TO_THE_LEFT = Way("a goal in the west", (8.0, 5.0, 3.05), (5.0, 4.8, -3.05))
+TO_THE_RIGHT = Way("another in the west", (8.0, 5.0, -3.05), (5.0, 5.2, 3.05))
+CORNERS = (
+    Way("the lower left corner", (1.0, 1.0, -2.3), (0.0, 0.0, -2.3)),
+    Way("the upper right corner", (10.0, 10.0, 0.8), (11.09, 11.09, 0.8)),
+)
+ANYWHERE = (0.0, 7.0, -7.0)
+"""Headings that are numbers, and so make sense."""
 
 
 def navigator_is_there() -> list[Expectation]:
@@ -45,63 +70,216 @@ def navigator_is_there() -> list[Expectation]:
     ]
 
 
-@check("simple_navigator", page=PAGE, points=3, limit=120)
+# -- driving blind -----------------------------------------------------------------------------------------------------
+
+
+@check(
+    "simple_navigator",
+    page=PAGE,
+    points=3,
+    limit=420,
+    learnt="Open loop: distance divided by speed says how long to send a command, and nothing says where it led.",
+)
 def simple_navigator() -> list[Expectation]:
-    """A navigator that takes a goal, sends commands, stops and answers, wherever it ends."""
+    """A navigator that drives straight ahead for as long as the way takes, stops, and says how long it took."""
     return [
         *navigator_is_there(),
-        answered(NEAR_GOAL, two_metres_away, success=False),
-        honest_time(NEAR_GOAL, two_metres_away),
-        steady_commands(NEAR_GOAL, two_metres_away),
-        stopped(NEAR_GOAL, two_metres_away),
+        _takes(STRAIGHT),
+        _drives_ahead(STRAIGHT),
+        steady_commands(STRAIGHT),
+        stopped(STRAIGHT),
+        _takes(BESIDE),
+        _takes(BEHIND),
         no_errors(),
     ]
 
 
-@check("short_way", page=PAGE, points=3, limit=130)
-def short_way() -> list[Expectation]:
-    """A navigator that turns the short way, also across due west."""
-    return [
-        *navigator_is_there(),
-        answered(WEST, due_west),
-        arrived(WEST, due_west),
-        facing(WEST, due_west),
-        turns_little(),
-        no_errors(),
-    ]
+def _seconds(way: Way) -> float:
+    return math.dist(way.begin[:2], way.goal[:2]) / BLIND_SPEED
 
 
-def turns_little() -> Expectation:
-    """All turns on the way to a goal due west, to and fro, are hardly more than a whole one."""
+def _takes(way: Way) -> Expectation:
+    wanted = _seconds(way)
 
     def look(exam: Exam) -> Seen:
-        it = drive(exam, WEST, due_west)
-        headings = [it.begin.theta, *(each.message.theta for each in it.poses)]
-        if not all(map(math.isfinite, headings)):
-            raise CannotLook("the turtle's heading is no number")
-        degrees = math.degrees(math.fsum(abs(turned(b - a)) for a, b in itertools.pairwise(headings)))
-        if degrees < 1.0:
-            raise CannotLook("the turtle never turned")
-        step = "A difference of two angles is the short way only once it is wrapped: math.remainder(…, math.tau)."
-        return Seen(degrees <= MOST_TURNED, f"it turned by {number(degrees, 0)}° in all", step)
+        it = go(exam, way)
+        if it.answer.response is None:
+            return no_answer(exam, f"no answer in {LONGEST:g} s")
+        said, took = float(it.response.time_taken), it.answer.seconds
+        seen = f"time_taken is {number(said)} s, and the answer came after {number(took)} s"
+        step = Advice(
+            direction="Which distance did your node calculate, from where, and which time follows from it at 0.5 m/s?",
+            hint="Open Hint 1 under the exercise.",
+        )
+        return Seen(abs(said - wanted) <= 0.15 and abs(took - wanted) <= 0.2, seen, step)
 
-    return Expectation(f"{WEST}: turns of {MOST_TURNED:g}° in all at most", look)
+    return Expectation(f"the goal {way.name} takes {number(wanted)} s", look)
 
 
-@check("navigator", page=PAGE, points=6, limit=220)
-def navigator() -> list[Expectation]:
-    """A navigator that steers by the pose until it is there."""
+def _drives_ahead(way: Way) -> Expectation:
+    metres = _seconds(way) * BLIND_SPEED
+
+    def look(exam: Exam) -> Seen:
+        it = go(exam, way)
+        it.moving()
+        end = it.end(at_rest=True)
+        ahead, beside = end.x - it.begin.x, end.y - it.begin.y
+        seen = f"it drove {number(math.hypot(ahead, beside))} m"
+        step = Advice(
+            direction="How fast does the turtle drive, for how long, and what stops it?",
+            hint="Open Hint 2 under the exercise.",
+        )
+        return Seen(abs(ahead - metres) <= 0.1 and abs(beside) <= 0.05, f"{seen}, to {point(end.x, end.y)}", step)
+
+    return Expectation(f"it drives {metres:g} m straight ahead", look)
+
+
+# -- angles ------------------------------------------------------------------------------------------------------------
+
+DIFFERENCES = Advice(
+    direction="Which whole turns can be added to that difference, or taken away from it, so that it becomes smaller?",
+    hint="Open Hint 1, then Hint 2, under the exercise.",
+)
+
+
+@check(
+    "short_way",
+    page=PAGE,
+    points=3,
+    limit=60,
+    learnt="The difference of two angles is the short way only after it has been wrapped.",
+)
+def short_way() -> list[Expectation]:
+    """A difference of angles that is always the short way round."""
+
+    def turn(expected: str, *examples: tuple[float, float, float]) -> Expectation:
+        cases = [((wanted, heading), turned(right)) for wanted, heading, right in examples]
+        return returns("turn_to", cases, expected, DIFFERENCES, within=1e-6)
+
+    seam = math.tau - 6.26
     return [
-        *navigator_is_there(),
-        answered(NEAR_GOAL, two_metres_away),
-        arrived(NEAR_GOAL, two_metres_away),
-        facing(NEAR_GOAL, two_metres_away),
-        honest_time(NEAR_GOAL, two_metres_away),
-        steady_commands(NEAR_GOAL, two_metres_away),
-        stopped(NEAR_GOAL, two_metres_away),
-        answered(WEST, due_west),
-        arrived(WEST, due_west),
-        refuses("a goal outside the world", *OUTSIDE),
-        refuses("a goal that is no number", math.nan, 5.0, after=OUTSIDE),
+        turn(
+            "an ordinary difference stays as it is",
+            (1.0, 0.5, 0.5),
+            (0.5, 1.0, -0.5),
+            (-1.0, 1.0, -2.0),
+            (2.0, 2.0, 0.0),
+        ),
+        turn("across due west to the left", (-3.13, 3.13, seam), (-2.0, 2.0, -4.0)),
+        turn("across due west to the right", (3.13, -3.13, -seam), (2.0, -2.0, 4.0)),
+        turn("more than a whole turn", (9.0, -3.0, 12.0), (-9.0, 3.0, -12.0), (0.5, 13.0, -12.5), (20.0, 0.0, 20.0)),
+        _half_a_turn(),
+        _steers_across("to the left", TO_THE_LEFT),
+        _steers_across("to the right", TO_THE_RIGHT),
         no_errors(),
     ]
+
+
+def _half_a_turn() -> Expectation:
+    def look(exam: Exam) -> Seen:
+        came = exam.call(learner_function(exam, "turn_to"), math.pi, 0.0)
+        if not isinstance(came, float):
+            return Seen(False, f"turn_to(3.1416, 0.0) is {came!r}", "Does turn_to end with `return`, in every case?")
+        return Seen(abs(abs(came) - math.pi) < 1e-6, f"turn_to(3.1416, 0.0) is {number(came, 4)}", DIFFERENCES)
+
+    return Expectation("half a turn, either way round", look)
+
+
+def _steers_across(where_to: str, way: Way) -> Expectation:
+    """The notebook's `steer`, which calls turn_to, drives the turtle across due west without a pirouette."""
+
+    def look(exam: Exam) -> Seen:
+        steer = learner_function(exam, "steer")
+        heard = exam.listen(POSE, POSE_TYPE)
+        put(exam, way.begin)
+        poses, goal = [where(exam)], _pose(way.goal)
+        while math.hypot(poses[-1].x - goal.x, poses[-1].y - goal.y) > NEAR and len(poses) < 60:
+            speed, turn = exam.call(steer, poses[-1], goal)
+            exam.publish(COMMANDS, COMMAND_TYPE, linear__x=float(speed), angular__z=float(turn))
+            exam.wait(0.1)
+            poses.append(heard[-1].message)
+        exam.publish(COMMANDS, COMMAND_TYPE)
+        degrees = math.degrees(turning(poses))
+        there = math.hypot(poses[-1].x - goal.x, poses[-1].y - goal.y) <= NEAR
+        seen = (
+            f"it {'arrived' if there else 'did not arrive within 6 s'}, and turned by {number(degrees, 0)}° on the way"
+        )
+        return Seen(there and degrees <= 60.0, seen, DIFFERENCES)
+
+    return Expectation(f"a drive due west, with a turn {where_to}", look)
+
+
+def _pose(goal: tuple[float, float, float]) -> Any:
+    from turtlesim.msg import Pose
+
+    x, y, theta = goal
+    return Pose(x=x, y=y, theta=theta)
+
+
+# -- with open eyes ----------------------------------------------------------------------------------------------------
+
+
+@check(
+    "navigator",
+    page=PAGE,
+    points=6,
+    limit=600,
+    learnt="Closed loop: a node that looks ten times a second needs no plan, and a good service refuses what makes no sense.",
+)
+def navigator() -> list[Expectation]:
+    """A navigator that steers by the pose until it is there, and refuses goals that make no sense."""
+    return [
+        *navigator_is_there(),
+        answered(A_GOAL),
+        arrived(A_GOAL, at_rest=True),
+        facing(A_GOAL, at_rest=True),
+        steady_commands(A_GOAL),
+        stopped(A_GOAL),
+        _logged(A_GOAL),
+        turns_little(TO_THE_LEFT, 90.0),
+        turns_little(TO_THE_RIGHT, 90.0),
+        refuses("x outside the world", (20.0, 5.0, 0.0), (-1.0, 5.0, 0.0), (11.2, 5.0, 0.0), (-0.1, 5.0, 0.0)),
+        refuses("y outside the world", (5.0, 20.0, 0.0), (5.0, -1.0, 0.0), (5.0, 11.2, 0.0), (5.0, -0.1, 0.0)),
+        refuses("x and y that are no finite numbers", (math.nan, 5.0, 0.0), (5.0, math.nan, 0.0), (math.inf, 5.0, 0.0)),
+        refuses("theta that is no finite number", (5.0, 6.0, math.nan), (5.0, 6.0, math.inf), (5.0, 6.0, -math.inf)),
+        accepts("goals at the very edge", *CORNERS),
+        accepts("any heading", *(Way(f"heading {theta:g}", MIDDLE, (6.5, 5.5, theta)) for theta in ANYWHERE)),
+        _keeps_its_goal(),
+        no_errors(),
+    ]
+
+
+def _logged(way: Way) -> Expectation:
+    """A line of the navigator's log has both numbers of the goal."""
+
+    def look(exam: Exam) -> Seen:
+        go(exam, way).response  # noqa: B018
+        lines = [text for _, name, text in exam.log if name == "navigator"]
+        x, y = (rf"(?<![\d.]){each:g}(\.0+)?(?!\.?\d)" for each in way.goal[:2])
+        found = [text for text in lines if re.search(x, text) and re.search(y, text)]
+        step = "Which line of on_goal writes to the log, and is it reached for a goal that is accepted?"
+        seen = f"“{found[0]}”" if found else "no line of its log has 4 and 3 in it"
+        return Seen(bool(found), seen, step)
+
+    return Expectation("the goal (4, 3) is logged", look)
+
+
+def _keeps_its_goal() -> Expectation:
+    """A goal that is refused on the way changes nothing."""
+
+    def look(exam: Exam) -> Seen:
+        put(exam, (3.0, 3.0, 0.0))
+        first = exam.ask_soon(NAVIGATE, NAVIGATE_TYPE, x=9.0, y=3.0, theta=0.0)
+        exam.wait(0.5)
+        refused = exam.ask(NAVIGATE, NAVIGATE_TYPE, 1.0, x=20.0, y=5.0, theta=0.0).response
+        if refused is None or refused.success:
+            raise CannotLook("the goal (20, 5, 0) was not refused on the way")
+        exam.wait_for(lambda: first() and at_rest(exam.listen(POSE, POSE_TYPE)), 20.0)
+        end = where(exam)
+        step = Advice(
+            direction="Is self.goal changed before the goal has been judged?", hint="Open Hint 1 under the exercise."
+        )
+        seen = f"the turtle went to {point(end.x, end.y)}"
+        return Seen(math.hypot(end.x - 9.0, end.y - 3.0) <= NEAR, seen, step)
+
+    return Expectation("refused on its way to (9, 3), it still gets there", look)
