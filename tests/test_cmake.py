@@ -168,7 +168,7 @@ def test_folders_of_an_installation_have_names() -> None:
         ("#[[ never", "line 1: this #[[ comment never ends"),
         ("if(1)\nproject(p)", "line 1: this if() has no endif()"),
         ("endif()", "line 1: endif() without an if() before it"),
-        ("if(a b)\nendif()", "line 1: if(a b) is no condition that CMake knows"),
+        ("if(a b)\nendif()", "line 1: if(a b) is not a condition that CMake knows"),
         ("set(a ${b)", "line 1: '${b': a ${ is not closed by }"),
         ("foreach(a b)\nset(c d)", "line 1: this foreach() has no endforeach()"),
         (
@@ -185,7 +185,7 @@ def test_folders_of_an_installation_have_names() -> None:
         ),
         (
             "foreach(a 1 2 3 4 5 6 7 8)\n" * 6 + "endforeach()\n" * 6,
-            "line 6: foreach() goes around more than 10000 times",
+            "line 6: foreach() runs more than 10000 times",
         ),
         ("file(GLOB m LIST_DIRECTORIES true *)", "line 1: file(GLOB …) with these words is not understood"),
         ("file(GLOB m RELATIVE /etc *)", "line 1: file(GLOB …) with these words is not understood"),

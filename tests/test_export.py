@@ -27,7 +27,7 @@ def test_the_finished_package(lesson: Lesson, tmp_path: Path) -> None:
     result = lesson.export("robot_controller", to="robot")
     assert repr(result) == (
         "robot_controller is in robot/src/robot_controller/; how to build it is in README.md beside src/.\n"
-        "Take src/ and README.md to the robot, and no build/, install/ or log/: it builds its own.\n"
+        "Copy src/ and README.md to the robot, but not build/, install/ or log/: the robot builds its own.\n"
         "programs: navigator, obstacle_detector, status_monitor\n"
         "interfaces: msg/TurtleStatus.msg, srv/NavigateTo.srv"
     )
@@ -61,7 +61,7 @@ def test_what_a_build_here_has_left_is_named(lesson: Lesson, monkeypatch: pytest
     colcon(lesson._world)
     monkeypatch.chdir("..")
     again = lesson.export("robot_controller", to="robot", overwrite=True)
-    assert again.notes == ["robot holds build/, install/, log/ of a build on this computer: leave them behind"]
+    assert again.notes == ["robot holds build/, install/, log/ from a build on this computer: do not copy them"]
     assert again.notes[0] in Path("robot/README.md").read_text()
 
 
@@ -122,7 +122,7 @@ def test_what_to_look_at_is_said(lesson: Lesson, tmp_path: Path) -> None:
 
 def test_nothing_is_overwritten_unasked(lesson: Lesson) -> None:
     lesson.export("robot_controller", to="robot")
-    with pytest.raises(PackageError, match=r"robot/src/robot_controller is there already\. Choose another folder"):
+    with pytest.raises(PackageError, match=r"robot/src/robot_controller already exists\. Choose another folder"):
         lesson.export("robot_controller", to="robot")
     lesson.export("robot_controller", to="robot", overwrite=True)
 

@@ -105,7 +105,7 @@ def test_what_is_missing(demo: Path, tmp_path: Path) -> None:
             "<name>My Demo</name>",
             "demo/package.xml: the package name 'My Demo' is not allowed",
         ),
-        ("</export>", "", "demo/package.xml, line 10: this is no well-formed XML (mismatched tag"),
+        ("</export>", "", "demo/package.xml, line 10: this is not well-formed XML (mismatched tag"),
         ("<build_type>ament_cmake</build_type>", "", "demo/package.xml: it does not say how to build"),
         (
             "<build_type>ament_cmake",
@@ -115,7 +115,7 @@ def test_what_is_missing(demo: Path, tmp_path: Path) -> None:
         (
             "<build_type>ament_cmake",
             "<build_type>cmake",
-            "demo/package.xml: build_type cmake cannot be used in this classroom, ament_cmake and ament_python can",
+            "demo/package.xml: build_type cmake cannot be used here; use ament_cmake or ament_python",
         ),
         (
             GROUP,

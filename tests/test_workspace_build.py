@@ -161,14 +161,14 @@ def test_symlink_install(package: Path, world: World, tmp_path: Path) -> None:
             "DESTINATION share/${PROJECT_NAME}",
             "DESTINATION /etc",
             1,
-            "lies outside of the package's install folder",
+            "lies outside the package's install folder",
         ),
         (
             CMAKE,
             "DESTINATION share/${PROJECT_NAME}",
             "DESTINATION ../..",
             1,
-            "lies outside of the package's install folder",
+            "lies outside the package's install folder",
         ),
         (CMAKE, "# line 10", "find_package(launch REQUIRED)", 1, "launch is a Python package, which CMake cannot find"),
         (CMAKE, "# line 10", "find_package(sensor_mgs REQUIRED)", 1, "Did you mean 'sensor_msgs'?"),
@@ -388,7 +388,7 @@ def test_nothing_is_installed_from_or_to_elsewhere(package: Path, world: World, 
 
 def test_no_build_removes_the_source(package: Path, world: World) -> None:
     answer = colcon(world, "build --install-base src")
-    assert "src is where the source lies; choose another folder" in answer.err
+    assert "src is the folder of the sources; choose another folder" in answer.err
     assert (package / CMAKE).is_file()
 
 
@@ -480,7 +480,7 @@ def test_a_python_package(python_package: Path, world: World, tmp_path: Path) ->
             0,
             "doesn't explicitly install the 'package.xml' file",
         ),
-        ("setup.py", "'share/' + package_name", "'/etc'", 1, "lies outside of the package's install folder"),
+        ("setup.py", "'share/' + package_name", "'/etc'", 1, "lies outside the package's install folder"),
         ("setup.py", "find_packages(exclude=['test'])", "['nope']", 1, "package directory 'nope' does not exist"),
         ("setup.cfg", "install_scripts", "install_script", 0, "setup.cfg puts programs into bin/"),
         ("setup.py", "import find_packages, setup", "import find_package, setup", 1, "ImportError: cannot import name"),

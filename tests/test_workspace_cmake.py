@@ -48,9 +48,9 @@ def test_a_mistake(demo: Path, world: World, case: dict[str, object]) -> None:
         ("install(PROGRAMS", "install(PROGRAM", "Did you mean 'PROGRAMS'?"),
         ("cmake_minimum_required(VERSION 3.8)", "", "Write cmake_minimum_required(VERSION 3.8) as the first line"),
         ("ament_package()", "ament_package()\nament_package()", "Delete line 12."),
-        ("# line 5", "include(demo/node.py)", "Only CMakeLists.txt itself is read in this classroom"),
-        ("# line 5", f"if({'NOT ' * 5000}X)\nendif()", "is no condition that CMake knows"),
-        ("# line 5", 'if(X MATCHES "(")\nendif()', "is no condition that CMake knows"),
+        ("# line 5", "include(demo/node.py)", "Only CMakeLists.txt itself is read here"),
+        ("# line 5", f"if({'NOT ' * 5000}X)\nendif()", "is not a condition that CMake knows"),
+        ("# line 5", 'if(X MATCHES "(")\nendif()', "is not a condition that CMake knows"),
     ],
 )  # fmt: skip
 def test_advice_names_the_line(demo: Path, world: World, old: str, new: str, hint: str) -> None:
@@ -74,7 +74,7 @@ def test_a_definition_that_nobody_names_is_spoken_of(
     (package / "msg/Extra.msg").write_text("int32 a\n")
     answer = colcon(world)
     assert answer.code == 0
-    assert "nothing is made of msg/Extra.msg, which CMakeLists.txt does not name: write" in answer.err
+    assert "nothing is generated from msg/Extra.msg, which CMakeLists.txt does not name: write" in answer.err
     change(package / "msg/TurtleStatus.msg", "float32 x", "Extra x")
     answer = colcon(world)
     assert answer.code == 2

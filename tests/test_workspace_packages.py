@@ -191,7 +191,7 @@ def test_a_link_to_what_cannot_be_run(package: Path, world: World) -> None:
     assert "!chmod +x src/robot_controller/robot_controller/navigator_node.py" in answer.err
     source_in(world)
     with pytest.raises(
-        LookupError, match=r"not found on the libexec directory .* It lies there, but cannot be run: !chmod"
+        LookupError, match=r"not found on the libexec directory .* The file exists, but is not executable: !chmod"
     ):
         world.packages.executable("robot_controller", "navigator")
 
@@ -341,14 +341,14 @@ SETUP = "from setuptools import setup\nsetup(name='py_demo', {})\n"
         ("\0", "SyntaxError"),
         (SETUP.format("packages='py_demo'"), "'packages' must be a list of module names"),
         (SETUP.format("py_modules=['../x']"), "'py_modules' must be a list of module names"),
-        (SETUP.format("packages=['py_demo'], package_dir={'': '../..'}"), "lies outside of the package's folder"),
-        (SETUP.format("data_files=[(1, 2)]"), "which is no ('folder', ['file', …])"),
-        (SETUP.format("data_files={'a': 1}"), "which is no ('folder', ['file', …])"),
-        (SETUP.format("data_files=[3, None]"), "which is no ('folder', ['file', …])"),
+        (SETUP.format("packages=['py_demo'], package_dir={'': '../..'}"), "lies outside the package's folder"),
+        (SETUP.format("data_files=[(1, 2)]"), "which is not of the form ('folder', ['file', …])"),
+        (SETUP.format("data_files={'a': 1}"), "which is not of the form ('folder', ['file', …])"),
+        (SETUP.format("data_files=[3, None]"), "which is not of the form ('folder', ['file', …])"),
         (SETUP.format("data_files=[('share/py_demo', 'setup.py')]"), "write ('share/py_demo', ['setup.py'])"),
         (
             SETUP.format("data_files=[('share/py_demo', [__import__('os').path.abspath('setup.cfg')])]"),
-            "seen from the folder that setup.py lies in: 'setup.cfg'",
+            "relative to the folder of setup.py: 'setup.cfg'",
         ),
         (SETUP.format("entry_points={'console_scripts': 5}"), "Invalid entry point"),
         (SETUP.format("entry_points=[5]"), "entry_points must be a dictionary"),

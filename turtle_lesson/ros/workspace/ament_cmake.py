@@ -199,7 +199,7 @@ class _Build:
             "Write the node in Python and install it: install(PROGRAMS … DESTINATION lib/${PROJECT_NAME}). The other "
             f"packages are built by: colcon build --packages-skip {self.found.name}"
         )
-        raise refused(f"{what} builds a C++ program; this classroom builds and runs Python only", where, hint)
+        raise refused(f"{what} builds a C++ program; only Python is built and run here", where, hint)
 
     _on_add_library = _on_add_executable
 
@@ -264,7 +264,7 @@ class _Build:
         )
         hints = [manifest_check.hint(fault) for fault in faults]
         if self.found.xml_error:
-            hints = ["Is every <tag> closed by a </tag>, and every < in a text written as &lt;?"]
+            hints = ["Is every <tag> closed by a </tag>, and is every < in a text written as &lt;?"]
         return BuildFailure(text, " ".join(filter(None, hints)))
 
     def _unfinished(self) -> None:
@@ -331,7 +331,7 @@ class _Build:
         if left := [file for file in there if file not in named]:
             names = " ".join(f'"{file}"' for file in left)
             self.hints.append(
-                f"nothing is made of {', '.join(left)}, which CMakeLists.txt does not name: write {names} in "
+                f"nothing is generated from {', '.join(left)}, which CMakeLists.txt does not name: write {names} in "
                 "rosidl_generate_interfaces(${PROJECT_NAME} …)."
             )
 

@@ -56,7 +56,7 @@ class _Build:
         name = str(self.setup.get("name", ""))
         if name.replace("-", "_") != self.found.name.replace("-", "_"):
             self.hints.append(
-                f"setup.py says name='{name}', and package.xml says '{self.found.name}': write the same in both."
+                f"setup.py says name='{name}', but package.xml says '{self.found.name}': write the same name in both."
             )
         items = [*self._modules(), *self._data(), *self._programs()]
         check_targets(items)
@@ -146,7 +146,7 @@ class _Build:
         place = places.get(top) or "/".join(filter(None, (places.get("", ""), top)))
         folder = self.found.path.joinpath(place, *inner)
         if not folder.resolve().is_relative_to(self.found.path.resolve()):
-            text = f"error: package_dir: '{place[:80]}' lies outside of the package's folder\n"
+            text = f"error: package_dir: '{place[:80]}' lies outside the package's folder\n"
             raise BuildFailure(text, "Put the modules into the package.", seconds=0.5)
         return folder
 
@@ -161,10 +161,10 @@ class _Build:
                 continue
             files = entry[1] if isinstance(entry, list) and len(entry) == 2 else None
             if isinstance(files, str) and isinstance(entry[0], str):
-                hint = f"data_files wants a list of files, also of one: write ('{entry[0]}', ['{files}'])."
+                hint = f"data_files needs a list of files, even for a single one: write ('{entry[0]}', ['{files}'])."
                 raise BuildFailure("AssertionError\n", hint, seconds=0.5)
             if not isinstance(files, list) or not all(isinstance(name, str) for name in [entry[0], *files]):
-                text = f"error: data_files has {str(entry)[:80]}, which is no ('folder', ['file', …])\n"
+                text = f"error: data_files has {str(entry)[:80]}, which is not of the form ('folder', ['file', …])\n"
                 raise BuildFailure(text, "Write ('share/' + package_name, ['package.xml']),.", seconds=0.5)
             items += [self._data_file(entry[0], name) for name in files]
         return self._with_markers(items)
@@ -173,12 +173,12 @@ class _Build:
         source = self.found.path / name
         parts = PurePosixPath(place.replace(os.sep, "/"))
         if parts.is_absolute() or ".." in parts.parts or ":" in place:
-            text = f"error: data_files: '{place}' lies outside of the package's install folder\n"
+            text = f"error: data_files: '{place}' lies outside the package's install folder\n"
             raise BuildFailure(text, f"Use a place such as 'share/{self.found.name}'.", seconds=0.5)
         if Path(name).is_absolute():
             text = f"AssertionError: 'data_files' must be relative, '{name}' is absolute\n"
             inside = source.relative_to(self.found.path) if source.is_relative_to(self.found.path) else source.name
-            hint = f"Name the file as seen from the folder that setup.py lies in: '{inside}'."
+            hint = f"Give the path relative to the folder of setup.py: '{inside}'."
             raise BuildFailure(text, hint, seconds=0.5)
         if not source.is_file():
             there = [

@@ -105,7 +105,7 @@ class CMakeFile:
             names, options = _until(command.args[1:], _INSTALL_WORDS)
             rename = options.get("RENAME")
             if rename and len(names) > 1:
-                reason = "RENAME gives one name, so install one program at a time: install(PROGRAMS a.py …)"
+                reason = "RENAME gives a single name, so install one program at a time: install(PROGRAMS a.py …)"
                 words = "install PROGRAMS given RENAME option with more than one file."
                 raise self._refused(command, reason, words)
             destination = self._destination(command, options)
@@ -215,7 +215,7 @@ class _Evaluator:
         for value in loop_values(words, self.variables):
             self._rounds += 1
             if self._rounds > MOST_ROUNDS:
-                raise CMakeError(f"foreach() goes around more than {MOST_ROUNDS} times", call.line, self.file)
+                raise CMakeError(f"foreach() runs more than {MOST_ROUNDS} times", call.line, self.file)
             self.variables[name] = value
             yield from self.run(body)
         self.variables.pop(name, None)
@@ -233,7 +233,7 @@ class _Evaluator:
         elif call.name in _LOOPS:
             self._loops.append(call.name)
         elif call.name in _MATTERS:
-            reason = f"{call.name}() inside of {self._loops[-1]}() is not understood in this classroom; write it out"
+            reason = f"{call.name}() inside {self._loops[-1]}() is not understood here; write it out"
             raise CMakeError(reason, call.line, self.file)
 
     def _conditional(self, call: Call) -> bool:
@@ -277,9 +277,7 @@ class _Evaluator:
         elif call.name == "file" and args[:1] in {("GLOB",), ("GLOB_RECURSE",)}:
             found = globbed(args, self.variables["CMAKE_CURRENT_SOURCE_DIR"])
             if found is None:
-                reason = (
-                    f"file({args[0]} …) with these words is not understood in this classroom; name the files one by one"
-                )
+                reason = f"file({args[0]} …) with these arguments is not understood here; name the files one by one"
                 raise CMakeError(reason, call.line, self.file)
             self.variables[args[1]] = ";".join(found)
         yield Command(call.name, args, call.line)

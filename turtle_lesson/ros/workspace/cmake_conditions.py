@@ -37,7 +37,9 @@ def is_true(words: Sequence[Word], variables: Mapping[str, str], line: int, file
         text = " ".join(word for word, _ in words)
         given = " ".join(f'"{word}"' for word, _ in words)
         said = f"if given arguments:\n\n  {given}\n\nUnknown arguments specified"
-        raise CMakeError(f"if({text}) is no condition that CMake knows", line, file, words=said, place=f"{line} (if)")
+        raise CMakeError(
+            f"if({text}) is not a condition that CMake knows", line, file, words=said, place=f"{line} (if)"
+        )
     return value
 
 

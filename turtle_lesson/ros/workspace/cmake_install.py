@@ -32,12 +32,12 @@ def install_item(found: Found, entry: Entry, hints: list[str]) -> Item:
     where = f"CMakeLists.txt:{entry.line} (install)"
     place = PurePosixPath(entry.destination)
     if place.is_absolute() or ".." in place.parts or ":" in entry.destination:
-        text = f"DESTINATION {entry.destination} lies outside of the package's install folder"
-        hint = f"Use lib/${{PROJECT_NAME}} for programs and share/${{PROJECT_NAME}} for all else: share/{found.name}."
+        text = f"DESTINATION {entry.destination} lies outside the package's install folder"
+        hint = f"Use lib/${{PROJECT_NAME}} for programs and share/${{PROJECT_NAME}} for everything else: share/{found.name}."
         raise refused(text, where, hint)
     source = found.path / entry.source
     if not source.resolve().is_relative_to(found.path.resolve()):
-        raise refused(f"{entry.source} lies outside of the package's folder", where, "Put the files into the package.")
+        raise refused(f"{entry.source} lies outside the package's folder", where, "Put the files into the package.")
     if not source.exists() or (isinstance(entry, Program) and not source.is_file()):
         text = f'file INSTALL cannot find "{shown_path(str(source))}": No such file or directory.'
         raise BuildFailure(cmake_message(text, "cmake_install.cmake:46 (file)"), _lacking(found, entry), seconds=1.2)

@@ -112,7 +112,7 @@ class InterfaceCheck:
             raise self._adapter_text(text, "An interface file ends in .msg, .srv or .action.")
         if path.parent.name != suffix:
             where = f"{suffix}/{path.name}"
-            text = f"{name} lies outside of a folder {suffix}/"
+            text = f"{name} does not lie in a folder {suffix}/"
             hint = f'Put it in {suffix}/ and write "{where}": Python\'s `import` expects it there.'
             raise self._adapter_text(text, hint)
         try:
@@ -213,7 +213,7 @@ def not_found(name: str, line: int, required: bool, known: set[str]) -> tuple[st
     kind = "Error" if required else "Warning"
     message = cmake_message(text.rstrip("\n"), f"CMakeLists.txt:{line} (find_package)", kind=kind)
     if name in PYTHON_PACKAGES:
-        return message, f"{name} is a Python package, which CMake cannot find: name it in package.xml alone."
+        return message, f"{name} is a Python package, which CMake cannot find: name it only in package.xml."
     hint = did_you_mean(name, known)
     return message, hint or (
         f"Is {name} the right name? If it is a package of this workspace, write <depend>{name}</depend> in package.xml, "

@@ -1,6 +1,6 @@
 """What CMake's own commands refuse, in the words of CMake 3.25: each function looks at one command of a CMakeLists.txt.
 
-Only what a package of Python files runs into is here. No program and no library can be built in this classroom, so that
+Only what a package of Python files runs into is here. No program and no library can be built here, so that
 every target that a command names is one that does not exist.
 """
 
@@ -24,7 +24,7 @@ _MODULES = {
     "ExternalProject",
     "CheckCXXCompilerFlag",
 }
-_ELSEWHERE = "Only CMakeLists.txt itself is read in this classroom: write its lines there"
+_ELSEWHERE = "Only CMakeLists.txt itself is read here: write the lines of that file into it"
 
 
 def refusal(command: Command, folder: Path) -> Refusal | None:

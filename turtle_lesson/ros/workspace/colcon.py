@@ -23,16 +23,16 @@ VERBS = (
 )  # fmt: skip
 _HERE = ("build", "graph", "list")
 _INSTEAD = {
-    "info": "colcon list shows what there is, and a package's package.xml says the rest.",
+    "info": "colcon list shows the packages, and each package.xml says more about its package.",
     "test": "run a package's tests with pytest: !python -m pytest src/<package>/test",
-    "test-result": "pytest says itself how its tests went.",
+    "test-result": "pytest itself says how the tests went.",
 }
 _USAGE = (
     "usage: colcon [-h] [--log-base LOG_BASE] [--log-level LOG_LEVEL]\n              {{{verbs}}}\n              ...\n"
 )
 _HELP = """\
 
-Build the packages of a workspace, each after those it needs.
+Build the packages of a workspace, each one after those that it depends on.
 
 verbs:
   build   build packages and install them into install/ (colcon build -h says more)
@@ -88,7 +88,7 @@ def run(world: World, words: list[str], *, stdout: TextIO, stderr: TextIO, cwd: 
     """Carry out `colcon WORDS…` in a folder; return the exit code."""
     usage = _USAGE.format(verbs=",".join(VERBS))
     while words and words[0].partition("=")[0] in {"--log-base", "--log-level"}:
-        words = words[1 if "=" in words[0] else 2 :]  # taken, and without effect here
+        words = words[1 if "=" in words[0] else 2 :]  # accepted, but without effect here
     if not words:
         stdout.write(usage + "\n")
         stderr.write("Error: No verb provided\n")
@@ -105,7 +105,7 @@ def run(world: World, words: list[str], *, stdout: TextIO, stderr: TextIO, cwd: 
         return 2
     if verb not in _HERE:
         instead = _INSTEAD.get(verb, "build, list and graph are.")
-        stderr.write(f"colcon {verb} is not there in this classroom; {instead}\n")
+        stderr.write(f"colcon {verb} is not available here; {instead}\n")
         return 1
     command = _Command(world, verb, stdout, stderr, (cwd or Path.cwd()).resolve())
     try:
@@ -161,10 +161,15 @@ class _Command:
             _add_build(parser)
         elif self.verb == "list":
             either = parser.add_mutually_exclusive_group()
-            either.add_argument("--names-only", "-n", action="store_true", help="show the names alone")
-            either.add_argument("--paths-only", "-p", action="store_true", help="show the places alone")
+            either.add_argument("--names-only", "-n", action="store_true", help="show only the names")
+            either.add_argument("--paths-only", "-p", action="store_true", help="show only the places")
             parser.add_argument("-g", "--topological-graph", action="store_true", help=argparse.SUPPRESS)
-            parser.add_argument("-t", "--topological-order", action="store_true", help="each after those it needs")
+            parser.add_argument(
+                "-t",
+                "--topological-order",
+                action="store_true",
+                help="order them so that each comes after those it depends on",
+            )
         return parser.parse_all(_without_cmake_arguments(words, parser))
 
     def _warn(self, text: str, module: str = "colcon.colcon_core.package_selection") -> None:
@@ -227,9 +232,11 @@ class _Command:
             if folder.exists() and not folder.is_dir():
                 raise ColconError(f"{folder.name} is a file; it must be a folder")
             if any(each.path.is_relative_to(folder.resolve() / each.name) for each in found):
-                raise ColconError(f"{folder.name} is where the source lies; choose another folder")
+                raise ColconError(f"{folder.name} is the folder of the sources; choose another folder")
         if self.cwd.name == "src" and found and not (self.cwd / "src").is_dir():
-            self.err.write("Hint: this is src/, so install/ is made in it. Usually one builds in the folder above.\n")
+            self.err.write(
+                "Hint: this is src/, so install/ is made in it. Packages are usually built in the folder above.\n"
+            )
         return build(self.world, plan, stdout=self.out, stderr=self.err)
 
     def _nothing(self) -> None:
@@ -263,7 +270,7 @@ def _mark(each: Found, other: Found, chosen: list[Found]) -> str:
 _DESCRIPTIONS = {
     "build": "Build the packages below this folder, and install them into install/.",
     "list": "Show the packages below this folder.",
-    "graph": "Show which package depends on which: a * where the one above needs that one.",
+    "graph": "Show which package depends on which: a * marks a direct dependency.",
 }
 
 
@@ -283,19 +290,30 @@ def _without_cmake_arguments(words: list[str], parser: argparse.ArgumentParser) 
 
 
 def _add_build(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--build-base", default="build", help="folder for what is made on the way (default: build)")
-    parser.add_argument("--install-base", default="install", help="folder for what is installed (default: install)")
-    parser.add_argument("--merge-install", action="store_true", help="one folder for all packages, not one for each")
+    parser.add_argument("--build-base", default="build", help="folder for intermediate files (default: build)")
+    parser.add_argument("--install-base", default="install", help="folder for installed files (default: install)")
     parser.add_argument(
-        "--symlink-install", action="store_true", help="link to the files in src/, so that an edit counts at once"
+        "--merge-install", action="store_true", help="one folder for all packages instead of one for each"
     )
-    parser.add_argument("--continue-on-error", action="store_true", help="go on with packages that need no failed one")
-    parser.add_argument("--executor", choices=["parallel", "sequential"], default="parallel", help="several at a time?")
-    parser.add_argument("--parallel-workers", type=int, default=4, metavar="NUMBER", help="how many at a time")
+    parser.add_argument(
+        "--symlink-install", action="store_true", help="link to the files in src/, so that an edit takes effect at once"
+    )
+    parser.add_argument(
+        "--continue-on-error", action="store_true", help="continue with the packages that do not depend on a failed one"
+    )
+    parser.add_argument(
+        "--executor",
+        choices=["parallel", "sequential"],
+        default="parallel",
+        help="whether to build several packages at a time",
+    )
+    parser.add_argument(
+        "--parallel-workers", type=int, default=4, metavar="NUMBER", help="how many packages to build at a time"
+    )
     parser.add_argument("--event-handlers", nargs="*", metavar="NAME+", help="e.g. console_direct+ shows all output")
     for option in sorted(_CMAKE_ARGUMENTS):
-        parser.add_argument(option, nargs="*", metavar="*", help="taken, and without effect here")
+        parser.add_argument(option, nargs="*", metavar="*", help="accepted, but without effect here")
     parser.add_argument("--allow-overriding", nargs="+", default=[], metavar="PKG_NAME", help="of an underlay")
-    parser.add_argument("--cmake-clean-first", action="store_true", help="taken, and without effect here")
-    parser.add_argument("--cmake-clean-cache", action="store_true", help="taken, and without effect here")
-    parser.add_argument("--cmake-force-configure", action="store_true", help="taken, and without effect here")
+    parser.add_argument("--cmake-clean-first", action="store_true", help="accepted, but without effect here")
+    parser.add_argument("--cmake-clean-cache", action="store_true", help="accepted, but without effect here")
+    parser.add_argument("--cmake-force-configure", action="store_true", help="accepted, but without effect here")

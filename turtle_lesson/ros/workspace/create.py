@@ -27,25 +27,25 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of `ros2 pkg create`."""
     parser.add_argument("package_name", help="name of the new package, in small letters with '_'")
     parser.add_argument("--package-format", "--package_format", default="3", choices=["2", "3"], help="of package.xml")
-    parser.add_argument("--description", default=TO_DO_DESCRIPTION, help="one sentence on what it is for")
+    parser.add_argument("--description", default=TO_DO_DESCRIPTION, help="one sentence that says what it is for")
     parser.add_argument("--license", default=TO_DO_LICENCE, help="such as Apache-2.0; '?' lists the known ones")
-    parser.add_argument("--destination-directory", default=os.curdir, help="folder in which it is made")
+    parser.add_argument("--destination-directory", default=os.curdir, help="folder in which to create it")
     parser.add_argument(
         "--build-type",
         default="ament_cmake",
         choices=["cmake", "ament_cmake", "ament_python"],
-        help="how it is built: ament_cmake can have interfaces, ament_python is simpler for Python alone",
+        help="how it is built: ament_cmake can have interfaces, ament_python is simpler for Python only",
     )
-    parser.add_argument("--dependencies", nargs="+", default=[], help="packages that it needs")
-    parser.add_argument("--maintainer-email", help="of the one who looks after it")
-    parser.add_argument("--maintainer-name", default=USER, help="of the one who looks after it")
-    parser.add_argument("--node-name", help="also make a first program of this name")
-    parser.add_argument("--library-name", help="also make a C++ library of this name")
+    parser.add_argument("--dependencies", nargs="+", default=[], help="packages that it depends on")
+    parser.add_argument("--maintainer-email", help="e-mail address of the maintainer")
+    parser.add_argument("--maintainer-name", default=USER, help="name of the maintainer")
+    parser.add_argument("--node-name", help="also create a first program with this name")
+    parser.add_argument("--library-name", help="also create a C++ library with this name")
 
 
 def parse(words: list[str]) -> argparse.Namespace:
     """The arguments for `create_package`, from the words after `ros2 pkg create`."""
-    parser = argparse.ArgumentParser("ros2 pkg create", description="Make a new ROS 2 package")
+    parser = argparse.ArgumentParser("ros2 pkg create", description="Create a new ROS 2 package")
     add_arguments(parser)
     return parser.parse_args(words)
 

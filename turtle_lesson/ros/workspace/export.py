@@ -50,8 +50,10 @@ class Exported:
     notes: list[str] = field(default_factory=list)
 
     def __repr__(self) -> str:
-        lines = [f"{self.name} is in {shown_path(str(self.package))}/; how to build it is in README.md beside src/."]
-        lines.append("Take src/ and README.md to the robot, and no build/, install/ or log/: it builds its own.")
+        lines = [f"{self.name} is in {shown_path(str(self.package))}/; README.md beside src/ says how to build it."]
+        lines.append(
+            "Copy src/ and README.md to the robot, but not build/, install/ or log/: the robot builds its own."
+        )
         lines.append(f"programs: {', '.join(self.programs) or 'none'}")
         lines.append(f"interfaces: {', '.join(self.interfaces) or 'none'}")
         return "\n".join(lines + [f"look at: {note}" for note in self.notes])
@@ -98,7 +100,7 @@ def _find(world: World, package: str | Path) -> Found:
     if source is None:
         names = {*here, *known, "robot_controller"}
         hint = did_you_mean(name, names) or f"There are: {', '.join(sorted(names))}."
-        raise PackageError(f"there is no package {name!r} whose source is known", hint=hint)
+        raise PackageError(f"the source of the package {name!r} is not known", hint=hint)
     return read_found(source, source.parent)
 
 
@@ -107,7 +109,7 @@ def _check_target(found: Found, target: Path, overwrite: bool) -> None:
         raise PackageError(f"{shown_path(str(target))} is the package's own source; export it to another folder")
     if target.exists() and not overwrite:
         hint = "Choose another folder, or write overwrite=True."
-        raise PackageError(f"{shown_path(str(target))} is there already", hint=hint)
+        raise PackageError(f"{shown_path(str(target))} already exists", hint=hint)
 
 
 def _checked(found: Found) -> Outcome:
@@ -134,7 +136,7 @@ def _sources(folder: Path) -> Iterator[tuple[Path, ast.Module]]:
             try:
                 yield file, ast.parse(file.read_bytes())
             except SyntaxError as error:
-                raise PackageError(f"this is no Python ({error.msg})", file, error.lineno) from None
+                raise PackageError(f"this is not valid Python ({error.msg})", file, error.lineno) from None
 
 
 def _imports(tree: ast.Module) -> Iterator[tuple[str, int]]:
@@ -149,7 +151,7 @@ def _check_not_ours(found: Found) -> None:
     for file, tree in _sources(found.path):
         for name, line in _imports(tree):
             if name == _OURS:
-                hint = "A robot does not have it: use rclpy and the topics alone."
+                hint = "A robot does not have it: use only rclpy and the topics."
                 raise PackageError(f"this imports {_OURS}", file, line, hint)
 
 
@@ -175,7 +177,7 @@ def _describe(found: Found, target: Path, outcome: Outcome) -> Exported:
     folder = target.parent.parent
     if built := [f"{name}/" for name in ("build", "install", "log") if (folder / name).is_dir()]:
         notes.append(
-            f"{shown_path(str(folder))} holds {', '.join(built)} of a build on this computer: leave them behind"
+            f"{shown_path(str(folder))} holds {', '.join(built)} from a build on this computer: do not copy them"
         )
     text = (target / "package.xml").read_text(encoding="utf-8")
     notes += [
@@ -227,15 +229,15 @@ A ROS 2 package from Turtle Lesson. It builds on ROS 2 Humble and every newer re
 ```sh
 source /opt/ros/humble/setup.bash            # or jazzy, kilted, rolling: the one that is installed
 sudo apt install python3-colcon-common-extensions python3-rosdep
-sudo rosdep init; rosdep update              # once for each computer; that init was done before is no harm
+sudo rosdep init; rosdep update              # once on each computer; it does no harm if init was done before
 rosdep install --from-paths src --ignore-src --rosdistro $ROS_DISTRO -y
 colcon build
 source install/setup.bash
 ```
 
-Type these in the folder in which this file lies. If colcon is not content, its message names the file and the line.
+Type these commands in the folder of this file. If colcon complains, its message names the file and the line.
 
-The sources in `src/` are all that a robot needs. If `build/`, `install/` or `log/` came along from another computer, delete
+The sources in `src/` are all that a robot needs. If `build/`, `install/` or `log/` were copied from another computer, delete
 them first: `rm -rf build install log`.
 
 ## Run

@@ -104,12 +104,14 @@ def _no_executable(package: Package, executable: str) -> ExecutableNotFoundError
     if executable in lying:
         file = shown_path(str((package.libexec / executable).resolve()))
         text = f"executable '{executable}' not found on the libexec directory '{libexec}'"
-        return ExecutableNotFoundError(text, f"It lies there, but cannot be run: !chmod +x {file}, then source again.")
+        return ExecutableNotFoundError(
+            text, f"The file exists, but is not executable: !chmod +x {file}, then source again."
+        )
     if not package.executables:
         prefix = shown_path(str(package.prefix or package.share))
         return ExecutableNotFoundError(
             f"package '{package.name}' found at '{prefix}', but libexec directory '{libexec}' does not exist",
-            "It installs no program; write in its CMakeLists.txt install(PROGRAMS <file> DESTINATION "
+            "The package installs no program; write in its CMakeLists.txt install(PROGRAMS <file> DESTINATION "
             f"lib/${{PROJECT_NAME}} RENAME {executable}).",
         )
     names = ", ".join(sorted(package.executables))
@@ -177,9 +179,9 @@ def _launch_file_hint(package: Package, file_name: str) -> str:
         place = lying[0].parent.relative_to(package.source).as_posix()
         if _is_python(package):
             entry = f"('share/{package.name}/{place}', ['{place}/{file_name}'])"
-            return f"It lies in {place}/, but is not installed: add {entry} to data_files in setup.py and build again."
+            return f"The file is in {place}/, but it is not installed: add {entry} to data_files in setup.py and build again."
         return (
-            f"It lies in {place}/, but is not installed: write install(DIRECTORY {place} DESTINATION "
+            f"The file is in {place}/, but it is not installed: write install(DIRECTORY {place} DESTINATION "
             "share/${PROJECT_NAME}) in CMakeLists.txt and build again."
         )
     known = sorted({file.name for file in package.shared_files("*launch.*") if is_launch_file(file.name)})

@@ -40,7 +40,7 @@ def _parts(found: Found, file: str) -> list[Item]:
 
 
 def _modules(package: str, files: list[str]) -> list[Item]:
-    """The Python package, whose modules ask the classroom for their class."""
+    """The Python package, whose modules get their classes from the simulation."""
     folder = f"local/lib/{PYTHON}/dist-packages/{package}"
     items = [Item(f"{folder}/__init__.py")]
     kinds: dict[str, list[str]] = {}

@@ -1,4 +1,4 @@
-"""The packages that a fresh ROS 2 Humble has, as far as builds of this classroom ask for them."""
+"""The packages that a fresh ROS 2 Humble has, as far as builds in the simulation ask for them."""
 
 from __future__ import annotations
 

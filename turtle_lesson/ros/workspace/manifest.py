@@ -57,14 +57,14 @@ def read_manifest(file: Path) -> Manifest:
 
 def _root(file: Path) -> ElementTree.Element:
     if not file.is_file():
-        reason = "it is missing: a folder is a ROS 2 package if a package.xml lies in it"
+        reason = "it is missing: a folder is a ROS 2 package if it holds a package.xml"
         raise PackageError(reason, file, hint="ros2 pkg create <name> --build-type ament_cmake makes one.")
     try:
         root = ElementTree.fromstring(file.read_bytes())
     except ElementTree.ParseError as error:
         line = error.position[0]
         hint = "Is every <tag> closed by a </tag>?"
-        raise PackageError(f"this is no well-formed XML ({error})", file, line, hint) from None
+        raise PackageError(f"this is not well-formed XML ({error})", file, line, hint) from None
     if root.tag != "package":
         raise PackageError(f'the outermost tag is <{root.tag}>; it must be <package format="3">', file)
     return root

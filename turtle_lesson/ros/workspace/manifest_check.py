@@ -48,7 +48,7 @@ def faults(root: ElementTree.Element) -> list[str]:
 def hint(fault: str) -> str:
     """What to try about a fault, or nothing."""
     if re.search(r"format version [12]\)", fault):
-        return 'Write <package format="3"> in the second line: these tags came with a newer format than is said there.'
+        return 'Write <package format="3"> in the second line: these tags belong to a newer format than the one that it names.'
     for part, advice in _HINTS.items():
         if part in fault:
             return advice
@@ -153,10 +153,10 @@ def _odd(root: ElementTree.Element) -> list[str]:
 
 _HINTS = {
     "format version '": 'Write <package format="3">.',
-    'more than one "export"': "Put all that is exported into one <export>.",
-    "following attributes": "Take them out; only the text between the tags counts.",
+    'more than one "export"': "Put everything that is exported into one <export>.",
+    "following attributes": "Remove them; only the text between the tags counts.",
     "following children": "Close the tag before the next one begins.",
-    'exactly one "': "Write that tag once, directly inside of <package>.",
+    'exactly one "': "Write that tag once, directly inside <package>.",
     "naming conventions": "A name has small letters, digits and '_', and begins with a letter.",
     "version conventions": "A version is three numbers, such as <version>0.1.0</version>.",
     "at least one maintainer": 'Add <maintainer email="you@example.org">Your Name</maintainer>.',

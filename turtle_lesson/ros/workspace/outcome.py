@@ -93,4 +93,4 @@ def check_targets(items: Iterable[Item]) -> None:
     for item in items:
         place = PurePosixPath(item.target)
         if place.is_absolute() or ".." in place.parts or "\0" in item.target:
-            raise BuildFailure(f"error: '{item.target}' lies outside of the package's install folder\n")
+            raise BuildFailure(f"error: '{item.target}' lies outside the package's install folder\n")

@@ -77,7 +77,7 @@ def read_source_package(folder: Path | str) -> Package:
     if manifest.build_type == "ament_python":
         return _read_ament_python(folder, manifest)
     if manifest.build_type != "ament_cmake":
-        reason = f"build_type {manifest.build_type} cannot be used in this classroom, ament_cmake and ament_python can"
+        reason = f"build_type {manifest.build_type} cannot be used here; use ament_cmake or ament_python"
         raise PackageError(reason, manifest.file)
     return _read_ament_cmake(folder, manifest)
 
@@ -144,10 +144,10 @@ def _check_project(cmake: CMakeFile, manifest: Manifest, file: Path) -> None:
         raise PackageError(reason, file, project.line)
     for command in cmake.named("add_executable") + cmake.named("add_library"):
         what = f"{command.name}({' '.join(command.args[:1])} …)"
-        reason = f"{what} builds a C++ program; this classroom runs Python only"
+        reason = f"{what} builds a C++ program; only Python is run here"
         raise PackageError(reason, file, command.line)
     if not cmake.named("ament_package"):
-        reason = "there is no ament_package(): without it nobody finds the package; write it last"
+        reason = "there is no ament_package(): without it the package is not found; write it last"
         raise PackageError(reason, file)
 
 
@@ -169,7 +169,7 @@ def _check_interfaces(cmake: CMakeFile, manifest: Manifest, folder: Path, file: 
 
 def _check_interface(name: str, line: int, folder: Path, file: Path) -> None:
     if Path(name).suffix not in {".msg", ".srv", ".action"}:
-        raise PackageError(f"'{name}' is no interface file: it must end in .msg, .srv or .action", file, line)
+        raise PackageError(f"'{name}' is not an interface file: it must end in .msg, .srv or .action", file, line)
     if not (folder / name).is_file():
         hint = _others(folder, f"*{Path(name).suffix}")
         reason = f"rosidl_generate_interfaces names '{name}', which does not exist"
@@ -202,7 +202,7 @@ def _installed(cmake: CMakeFile, manifest: Manifest, folder: Path, file: Path) -
         path = folder / entry.source
         if not path.exists():
             reason = f"install() names '{entry.source}', which does not exist"
-            raise PackageError(reason, file, entry.line, hint=f"Make it, or take it out of {file.name}.")
+            raise PackageError(reason, file, entry.line, hint=f"Create it, or remove it from {file.name}.")
         if f"{entry.destination}/".startswith(f"{share}/"):
             place = entry.destination[len(share) :].strip("/")
             name = "" if entry.source.endswith("/") else entry.name or path.name

@@ -21,18 +21,18 @@ def add_selection(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--base-paths", nargs="*", metavar="PATH", help="folders to look for packages in (default: .)")
     for option, text in _MANY.items():
         parser.add_argument(option, nargs="*", metavar="PATTERN" if "regex" in option else "PKG_NAME", help=text)
-    parser.add_argument("--packages-start", metavar="PKG_NAME", help="this one and those that come after it")
-    parser.add_argument("--packages-end", metavar="PKG_NAME", help="this one and those that come before it")
+    parser.add_argument("--packages-start", metavar="PKG_NAME", help="this package and those that come after it")
+    parser.add_argument("--packages-end", metavar="PKG_NAME", help="this package and those that come before it")
 
 
 _MANY = {
-    "--packages-ignore": "as if these were not there",
-    "--packages-up-to": "these and all that they need",
-    "--packages-above": "these and all that need them",
-    "--packages-select": "these packages alone",
-    "--packages-skip": "all but these",
-    "--packages-select-regex": "those whose names match alone",
-    "--packages-skip-regex": "all but those whose names match",
+    "--packages-ignore": "packages to ignore, as if they did not exist",
+    "--packages-up-to": "these packages and all that they depend on",
+    "--packages-above": "these packages and all that depend on them",
+    "--packages-select": "only these packages",
+    "--packages-skip": "all packages except these",
+    "--packages-select-regex": "only packages whose names match",
+    "--packages-skip-regex": "all packages except those whose names match",
 }
 
 
@@ -90,7 +90,7 @@ def _matching(names: set[str], patterns: list[str]) -> set[str]:
     try:
         return {name for name in names if any(re.fullmatch(pattern, name) for pattern in patterns)}
     except re.error as error:
-        raise ColconError(f"{' '.join(patterns)[:80]} is no regular expression: {error}") from None
+        raise ColconError(f"{' '.join(patterns)[:80]} is not a regular expression: {error}") from None
 
 
 def _between(found: list[Found], start: str | None, end: str | None) -> set[str]:
