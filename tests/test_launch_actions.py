@@ -150,7 +150,7 @@ def test_a_log_folder_is_named_and_nothing_is_written(tmp_path: Path, capsys: py
     launch(
         tmp_path, "SetROSLogDir('/var/logs'), SetROSLogDir('mine'), LogInfo(msg=EnvironmentVariable('ROS_LOG_DIR')),"
     )
-    begin = "[INFO] [launch_ros.actions.set_ros_log_dir]: there are no log files in this classroom:"
+    begin = "[INFO] [launch_ros.actions.set_ros_log_dir]: there are no log files here:"
     assert screen(capsys) == [
         f"{begin} nothing is written to '/var/logs'",
         f"{begin} nothing is written to '/var/logs/mine'",
@@ -164,11 +164,11 @@ def test_a_log_folder_is_named_and_nothing_is_written(tmp_path: Path, capsys: py
         (
             "ComposableNodeContainer(name='c', namespace='', package='rclcpp_components', executable='component_container',"
             " composable_node_descriptions=[ComposableNode(package='composition', plugin='composition::Talker')]),",
-            "ComposableNodeContainer: composable nodes are C++ libraries, and this classroom runs Python nodes",
+            "ComposableNodeContainer: composable nodes are C++ libraries, and only Python nodes run here",
         ),
         (
             "LoadComposableNodes(target_container='c', composable_node_descriptions=[]),",
-            "LoadComposableNodes: composable nodes are C++ libraries, and this classroom runs Python nodes",
+            "LoadComposableNodes: composable nodes are C++ libraries, and only Python nodes run here",
         ),
     ],
 )
@@ -294,7 +294,7 @@ def test_values_of_asked_for_types() -> None:
 def test_a_file_that_includes_itself_is_stopped(tmp_path: Path, name: str, text: str) -> None:
     with pytest.raises(LaunchError) as caught:
         launch_file(FakeWorld(), write(tmp_path, text, name))
-    assert caught.value.reason == "launch files include one another without end"
+    assert caught.value.reason == "launch files include one another endlessly"
     assert caught.value.hint.startswith(f"{name} is taken in again and again")
 
 
@@ -336,8 +336,6 @@ def test_a_node_that_is_to_have_a_terminal_runs_without_one(
 ) -> None:
     launch(tmp_path, node(prefix=prefix))
     lines = screen(capsys)
-    warning = (
-        f"[WARNING] [launch]: there is no {terminal} in this classroom: navigator-1 runs without a terminal of its own"
-    )
+    warning = f"[WARNING] [launch]: there is no {terminal} here: navigator-1 runs without a terminal of its own"
     assert lines[: len(lines) - 1] == ([warning] if terminal else [])
     assert lines[-1].startswith("[INFO] [navigator-1]: process started")

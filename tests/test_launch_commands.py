@@ -172,7 +172,7 @@ def test_a_wrong_command_says_so_where_it_prints(
         ("['rviz2']", "ExecuteProcess(cmd='rviz2') would run a program of the operating system", "no windows here"),
         (
             "['ros2 topic list']",
-            "ExecuteProcess(cmd='ros2 topic list'): there is no program of the name",
+            "ExecuteProcess(cmd='ros2 topic list'): there is no program called",
             "cmd is a list",
         ),
         ("['ros2', 'launch', 'a', 'b']", "ExecuteProcess(cmd='ros2 launch a b'): a launch file is", "Write Include"),

@@ -152,7 +152,7 @@ def test_a_bad_node_name(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> 
             "DeclareLaunchArgument('rate', default_value=10),",
             "TypeError: Failed to normalize given item of type '<class 'int'>', when only 'str' or "
             "'launch.Substitution' were expected.",
-            "Launch wants text here and got a value of type int: put it in quotes, as in '5.0'.",
+            "Launch needs text here, but got a value of type int: put it in quotes, as in '5.0'.",
         ),
         (
             "DeclareLaunchArgument('mode', default_value='c', choices=['a', 'b']),",
@@ -199,12 +199,11 @@ def test_a_name_that_was_not_imported(tmp_path: Path) -> None:
         ),
         (
             "from launch.actions import Node",
-            "launch.actions has no 'Node' in this classroom yet: it is in launch_ros: from "
-            "launch_ros.actions import Node",
+            "launch.actions has no 'Node' here yet: it is in launch_ros: from launch_ros.actions import Node",
         ),
         (
             "from launch_ros.descriptions import RosExecutable",
-            "launch_ros.descriptions has no 'RosExecutable' in this classroom yet: use Node",
+            "launch_ros.descriptions has no 'RosExecutable' here yet: use Node",
         ),
     ],
 )
@@ -336,4 +335,4 @@ def test_an_included_file_that_is_not_there(tmp_path: Path, path: str, hint: str
 
 def test_a_package_that_shows_windows(tmp_path: Path) -> None:
     error = failure(write_launch_file(tmp_path, "Node(package='rviz2', executable='rviz2'),"))
-    assert error.hint.startswith("There are no windows in this classroom, so rviz2 is not here")
+    assert error.hint.startswith("There are no windows here, so rviz2 is not available")

@@ -392,7 +392,7 @@ NODE = '<node pkg="robot_controller" exec="navigator"'
         (
             '<log message="$(var)"/>',
             "TypeError: var substitution expects 1 or 2 arguments",
-            "Write $(var <variable_name> <default>); an argument with spaces in it stands in quotes.",
+            "Write $(var <variable_name> <default>); put an argument with spaces in quotes.",
         ),
         (
             '<log message="$(var x"/>',
@@ -401,7 +401,7 @@ NODE = '<node pkg="robot_controller" exec="navigator"'
         ),
         (
             '<node_container pkg="rclcpp_components" exec="component_container" name="c" namespace=""/>',
-            "CompositionNotHere: node_container: composable nodes are C++ libraries, and this classroom runs Python nodes",
+            "CompositionNotHere: node_container: composable nodes are C++ libraries, and only Python nodes run here",
             "Start the same node by itself, with Node(package=…, executable=…), if it has an executable in Python.",
         ),
     ],

@@ -113,7 +113,7 @@ def describe(world: World, path: Path | str) -> str:
 
 
 def _start() -> Any:
-    """The module that does the work, once it is sure that `import launch` finds the classroom's package."""
+    """The module that does the work, once it is sure that `import launch` finds the simulation's package."""
     from . import classroom
 
     classroom.check()

@@ -1,4 +1,4 @@
-"""Whether `import launch` finds the classroom's package: a real ROS 2, or something else, may come first."""
+"""Whether `import launch` finds the simulation's package: a real ROS 2, or something else, may come first."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ SITE = Path(__file__).resolve().parents[1] / "site"
 
 
 def check() -> None:
-    """Make the classroom's packages importable, after all others.
+    """Make the simulation's packages importable, after all others.
 
     Raises:
-        LaunchError: if another package named launch or launch_ros hides the classroom's.
+        LaunchError: if another package named launch or launch_ros hides the simulation's.
     """
     if str(SITE) not in sys.path:
         sys.path.append(str(SITE))
@@ -23,7 +23,7 @@ def check() -> None:
         spec = find_spec(name)
         if spec is None or not spec.origin or SITE not in Path(spec.origin).resolve().parents:
             raise LaunchError(
-                f"`import {name}` finds {spec.origin if spec else 'nothing'}, not the classroom's package",
+                f"`import {name}` finds {spec.origin if spec else 'nothing'}, not the simulation's package",
                 None,
                 "If a real ROS 2 is sourced, start Jupyter from a terminal without it; if pip installed it, "
                 f"pip uninstall {name}.",

@@ -23,7 +23,7 @@ Main = Callable[[], int | None]
 
 
 class UnknownCommand(NotImplementedError):
-    """A command that this classroom does not have. `hint` says what to do instead."""
+    """A command that the simulation does not have. `hint` says what to do instead."""
 
     def __init__(self, message: str, hint: str = "") -> None:
         super().__init__(message)
@@ -38,7 +38,7 @@ def program(words: Sequence[str], *, shell: bool = False) -> Program:
         shell: whether a shell takes them apart.
 
     Raises:
-        UnknownCommand: if it is no command of this classroom.
+        UnknownCommand: if the simulation does not have this command.
         PackageNotFoundError, ExecutableNotFoundError: if `ros2 run` names what is not there.
     """
     shown = " ".join(words)
@@ -96,8 +96,8 @@ def _taken_apart(text: str) -> list[tuple[str, list[str]]]:
         command = pipeline[0]
         if len(pipeline) > 1 or command.stdout or command.stderr or command.given or command.background:
             raise UnknownCommand(
-                f"the command {text!r} uses '|', '>' or '&', which launched commands do not have in this classroom",
-                "One command, or several with '&&' or ';' between them, can be run.",
+                f"the command {text!r} uses '|', '>' or '&', which launched commands cannot use here",
+                "Only one command, or several with '&&' or ';' between them, can be run.",
             )
         found.append((sign, [part for word in command.words for part in expand(word, home=Path.home(), exit_code=0)]))
     if not found:
@@ -154,13 +154,13 @@ def _main(words: list[str]) -> Main:
     """The function that a command is.
 
     Raises:
-        UnknownCommand: if it is none of this classroom.
+        UnknownCommand: if the simulation does not have it.
     """
     name = PurePath(words[0]).name
     if name == "ros2":
         if words[1:2] == ["launch"]:
             raise UnknownCommand(
-                f"ExecuteProcess(cmd='{' '.join(words)}'): a launch file is taken in by IncludeLaunchDescription",
+                f"ExecuteProcess(cmd='{' '.join(words)}'): a launch file is included with IncludeLaunchDescription",
                 "Write IncludeLaunchDescription(path_of_the_launch_file).",
             )
         return lambda: _ros2(words)
@@ -214,11 +214,11 @@ def _refusal(words: Sequence[str]) -> tuple[str, str]:
     command = " ".join(words)
     if " " in words[0]:
         return (
-            f"ExecuteProcess(cmd='{command}'): there is no program of the name '{words[0]}'",
-            "cmd is a list of single words, ['ros2', 'topic', 'list']; one text needs shell=True.",
+            f"ExecuteProcess(cmd='{command}'): there is no program called '{words[0]}'",
+            "cmd is a list of single words, ['ros2', 'topic', 'list']; a single string needs shell=True.",
         )
     return (
-        f"ExecuteProcess(cmd='{command}') would run a program of the operating system; in this classroom it runs "
+        f"ExecuteProcess(cmd='{command}') would run a program of the operating system; here it runs "
         "ros2 commands, Python files, echo and sleep. For a ROS node use Node(package=…, executable=…)",
         advice(words) or "",
     )

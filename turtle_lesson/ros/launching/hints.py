@@ -45,7 +45,7 @@ def _own_hint(error: BaseException) -> str:
     if isinstance(error, PackageNotFoundError):
         shown = next((name for name in _WINDOWS if f"package '{name}' not found" in error.text), None)
         if shown is not None:
-            return f"There are no windows in this classroom, so {shown} is not here: leave it out, or put a condition on it."
+            return f"There are no windows here, so {shown} is not available: leave it out, or put a condition on it."
     notes = " ".join(getattr(error, "__notes__", []))
     return str(getattr(error, "hint", "") or notes)
 
@@ -79,7 +79,7 @@ def _missing_file(path: Path) -> str:
         return ""
     names = sorted(other.name for other in path.parent.iterdir() if is_launch_file(other.name))
     if not path.is_absolute() and not names:
-        return "A launch file is named by its whole path: PathJoinSubstitution([FindPackageShare(…), 'launch', …])."
+        return "A launch file is given by its full path: PathJoinSubstitution([FindPackageShare(…), 'launch', …])."
     return f"There are: {', '.join(names)}." if names else ""
 
 
@@ -138,8 +138,8 @@ def _unexpected_keyword(match: re.Match[str]) -> str:
 
 def _text_wanted(match: re.Match[str]) -> str:
     if match[1] == "NoneType":
-        return "Launch wants text here and got None: is a variable or a return value empty?"
-    return f"Launch wants text here and got a value of type {match[1]}: put it in quotes, as in '5.0'."
+        return "Launch needs text here, but got None: is a variable or a return value empty?"
+    return f"Launch needs text here, but got a value of type {match[1]}: put it in quotes, as in '5.0'."
 
 
 _BY_TEXT: list[tuple[str, Hint]] = [
@@ -158,7 +158,7 @@ _BY_TEXT: list[tuple[str, Hint]] = [
     ),
     (
         r"object has no attribute '(?:visit|describe_sub_entities)'",
-        lambda _: "Only actions such as Node(…) can stand in a description.",
+        lambda _: "Only actions such as Node(…) can be in a launch description.",
     ),
     (r"is not a valid standard output config", lambda _: "The usual value is output='screen'."),
 ]

@@ -82,25 +82,25 @@ class Processes:
             return
         self._warned_of_folder = True
         what = "all programs work in the notebook's folder, whatever cwd= says"
-        self._service.screen.say("WARNING", "launch", f"in this classroom {what}")
+        self._service.screen.say("WARNING", "launch", f"here {what}")
 
     def _warn_of_terminal(self, action: ExecuteLocal) -> None:
         """Say that a program has no window of its own to run in."""
         if action.terminal:
             name = action.process_description.final_name
-            text = f"there is no {action.terminal} in this classroom: {name} runs without a terminal of its own"
+            text = f"there is no {action.terminal} here: {name} runs without a terminal of its own"
             self._service.screen.say("WARNING", "launch", text)
 
     # -- what processes tell ------------------------------------------------------------------------------
 
     def printed(self, process: RunningProcess, stream: str, text: str) -> None:
-        """Tell whoever listens to a process's output (OnProcessIO)."""
+        """Pass a process's output to its event handlers (OnProcessIO)."""
         if self._service.context._event_handlers:
             kind = ProcessStdout if stream == "stdout" else ProcessStderr
             self._emit(kind(text=text.encode(), **process.details()))
 
     def ended(self, process: RunningProcess) -> None:
-        """A process is dead: say how, tell whoever waits for it, start it again if it respawns."""
+        """A process is dead: say how, inform the callers that wait for it, start it again if it respawns."""
         if self._ending is not None:
             self._ending.append(process)
             return

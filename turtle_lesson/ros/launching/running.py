@@ -111,7 +111,7 @@ class RunningProcess:
     def signal(self, name: str) -> None:
         """Send SIGINT or SIGTERM, which a program may handle, or SIGKILL, which none survives."""
         if name not in {"SIGINT", "SIGTERM", "SIGKILL"}:
-            raise NotImplementedError(f"{name} does not exist in this classroom; SIGINT, SIGTERM and SIGKILL do")
+            raise NotImplementedError(f"{name} is not available here; SIGINT, SIGTERM and SIGKILL are")
         if self.process is None or not self.alive:
             return
         number = signal.Signals[name]

@@ -9,7 +9,7 @@ from pathlib import Path, PurePath
 
 
 class CommandFailure(RuntimeError):
-    """A command has failed, or is none of this classroom. `hint` says what to do instead."""
+    """A command has failed, or the simulation does not have it. `hint` says what to do instead."""
 
     def __init__(self, message: str, hint: str = "") -> None:
         super().__init__(message)
@@ -20,7 +20,7 @@ def output_of(text: str) -> str:
     """What a command prints.
 
     Raises:
-        CommandFailure: if it fails, or is no command of this classroom.
+        CommandFailure: if it fails, or the simulation does not have it.
     """
     try:
         words = shlex.split(text)
@@ -36,8 +36,8 @@ def output_of(text: str) -> str:
     if name == "xacro":
         return _xacro(words[1:])
     raise CommandFailure(
-        f"'{name}' is a program of the operating system, which launch files do not run in this classroom",
-        "cat FILE, echo TEXT and xacro of a file without macros can stand in Command(…).",
+        f"'{name}' is a program of the operating system, which launch files cannot run here",
+        "Command(…) can run cat FILE, echo TEXT, and xacro of a file without macros.",
     )
 
 
@@ -53,11 +53,11 @@ def _xacro(words: Sequence[str]) -> str:
     """A robot description that has no macros in it is what xacro would make of it."""
     files = [word for word in words if not word.startswith("-") and ":=" not in word]
     if len(files) != 1:
-        raise CommandFailure("xacro wants the name of one file")
+        raise CommandFailure("xacro needs the name of one file")
     text = _read(files[0])
     if re.search(r"<xacro:|\$\{|\$\(", text):
         raise CommandFailure(
-            f"{files[0]} has macros in it, and xacro itself is not in this classroom",
+            f"{files[0]} has macros in it, and xacro itself is not available here",
             "On a robot, xacro FILE > robot.urdf writes the plain description: use that file with cat.",
         )
     return text

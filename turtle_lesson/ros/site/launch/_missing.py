@@ -28,7 +28,7 @@ def _explanation(module: str, name: str, real: Mapping[str, str]) -> str:
     here = [public for public in vars(sys.modules[module]) if not public.startswith("_")]
     if name in real:
         advice = real[name] or "a real ROS 2 has it"
-        return f"{module} has no {name!r} in this classroom yet: {advice}"
+        return f"{module} has no {name!r} here yet: {advice}"
     close = difflib.get_close_matches(name, [*here, *real], n=1)
     if close:
         return f"{module} has no {name!r}; did you mean {close[0]!r}?"

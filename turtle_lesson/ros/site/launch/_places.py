@@ -11,7 +11,7 @@ Place = tuple[str, int]
 
 
 def written_at() -> Place | None:
-    """The file and line of the innermost caller that is not part of the classroom's own code."""
+    """The file and line of the innermost caller that is not part of the simulation's own code."""
     frame = sys._getframe(1)
     while frame is not None:
         if not is_ours(frame.f_code.co_filename):

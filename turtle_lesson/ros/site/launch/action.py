@@ -67,7 +67,7 @@ class Action(LaunchDescriptionEntity):
         return None
 
     def _complete(self, context: LaunchContext) -> None:
-        """Tell whoever waits for it that the action is done."""
+        """Tell the waiting callers that the action is done."""
         from .events import ExecutionComplete
 
         event = ExecutionComplete(action=self)

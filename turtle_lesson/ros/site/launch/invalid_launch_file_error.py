@@ -29,5 +29,5 @@ class InvalidFrontendLaunchFileError(InvalidLaunchFileError):
 
 
 def _text(error: BaseException) -> str:
-    """What the real one prints, without the classroom's hint behind it."""
+    """What the real one prints, without the simulation's hint after it."""
     return KeyError.__str__(error) if isinstance(error, KeyError) else str(error)

@@ -13,7 +13,7 @@ from .parameter_descriptions import Parameter, ParameterFile, ParameterValue
 
 __all__ = ["ComposableLifecycleNode", "ComposableNode", "Parameter", "ParameterFile", "ParameterValue"]
 
-COMPOSABLE = "composable nodes are C++ libraries, and this classroom runs Python nodes"
+COMPOSABLE = "composable nodes are C++ libraries, and only Python nodes run here"
 
 
 class ComposableNode:

@@ -62,10 +62,10 @@ def _hint(error: expat.ExpatError) -> str:
     said = expat.ErrorString(error.code)
     return {
         "mismatched tag": "Every <tag> needs its </tag>, in the right order, or ends with />.",
-        "not well-formed (invalid token)": "Values stand in quotation marks; & is written &amp; and < is &lt;.",
+        "not well-formed (invalid token)": "Put values in quotation marks; & is written &amp; and < is &lt;.",
         "no element found": "The file ends too early: is </launch> missing?",
-        "junk after document element": "Everything stands between <launch> and </launch>.",
+        "junk after document element": "Put everything between <launch> and </launch>.",
         "unclosed token": "A tag is not closed: is > or a quotation mark missing?",
-        "duplicate attribute": "An attribute may stand in a tag once.",
-        "syntax error": "Everything stands in tags: the file begins with <launch>.",
+        "duplicate attribute": "A tag can have each attribute only once.",
+        "syntax error": "Put everything in tags: the file begins with <launch>.",
     }.get(said, "Is this line well-formed: are tags closed, and values in quotation marks?")

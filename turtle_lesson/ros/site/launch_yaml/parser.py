@@ -81,9 +81,9 @@ def _hint(error: Any) -> str:
     if "\\t" in problem:
         return "YAML is indented with spaces, never with tabs."
     if "mapping values are not allowed" in problem or "found character '%'" in problem:
-        return "A value with ': ' in it stands in quotation marks; items at one level are indented alike."
+        return "Put a value that contains ': ' in quotation marks, and indent all items of one level alike."
     if "flow mapping" in str(error.context or ""):
-        return "Within {…} a value that has braces, commas or quotation marks in it stands in quotation marks itself."
+        return "Within {…}, put a value that contains braces, commas or quotation marks in quotation marks."
     if "expected <block end>" in problem or "could not find expected ':'" in problem:
         return "Look at the indentation of this line and of the one before."
     return ""

@@ -17,7 +17,7 @@ class EmitEvent(Action):
         super().__init__(**kwargs)
         if not isinstance(event, Event):
             error = RuntimeError(f"EmitEvent() expected an event instance, got '{event}'.")
-            error.add_note("An event is of launch.events; an action such as Shutdown() stands in the list by itself.")
+            error.add_note("Events are in launch.events; put an action such as Shutdown() directly into the list.")
             raise error
         self.__event = event
 

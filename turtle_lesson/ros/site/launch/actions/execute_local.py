@@ -48,7 +48,7 @@ class Program:
 
 
 class ExecuteLocal(Action):
-    """Base of the actions that run a program: in this classroom a node, a `ros2` command or a Python file."""
+    """Base of the actions that run a program: here a node, a `ros2` command or a Python file."""
 
     _completes_later = True
 
@@ -136,13 +136,13 @@ class ExecuteLocal(Action):
         name = PurePath(words[0]).name if words else ""
         if words and name not in TERMINALS:
             raise NotImplementedError(
-                f"prefix= puts another program ({name}) before the node; in this classroom nodes run inside the "
+                f"prefix= puts another program ({name}) before the node; here nodes run inside the "
                 "notebook, so there is no command to put anything before. Leave prefix out"
             )
         return name
 
     def _find_program(self, context: LaunchContext) -> Program:
-        """What to run: a command of this classroom, unless a subclass knows better.
+        """What to run: a command of the simulation, unless a subclass knows better.
 
         Raises:
             UnknownCommand: if there is none of this name here.

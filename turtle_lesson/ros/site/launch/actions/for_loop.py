@@ -137,7 +137,7 @@ class ForLoop(Action):
         """
         length = int(perform_substitutions(context, self._length))
         if length > MOST_ROUNDS:
-            raise ValueError(f"ForLoop has at most {MOST_ROUNDS} rounds in this classroom, got {length}")
+            raise ValueError(f"ForLoop has at most {MOST_ROUNDS} rounds here, got {length}")
         return [entity for i in range(length) for entity in self._function(i=i) or []]
 
 

@@ -103,9 +103,9 @@ class IncludeLaunchDescription(Action):
     def _check_depth(self, context: LaunchContext) -> None:
         context._include_depth += 1
         if context._include_depth > DEEPEST:
-            error = RuntimeError("launch files include one another without end")
+            error = RuntimeError("launch files include one another endlessly")
             name = os.path.basename(self.__source.location)
-            error.add_note(f"{name} is taken in again and again: give the include a condition that ends it.")
+            error.add_note(f"{name} is included again and again: give the include a condition that ends it.")
             raise error
 
     def _check_arguments(self, description: LaunchDescription, context: LaunchContext) -> None:

@@ -108,7 +108,7 @@ class _Reader:
         self._at += 2
         name = IDENTIFIER.match(self._text, self._at)
         if name is None:
-            raise self._wrong("Behind $( comes the name of a substitution, as in $(var rate).")
+            raise self._wrong("After $( comes the name of a substitution, as in $(var rate).")
         self._at = name.end()
         arguments = []
         while self._here == " ":
@@ -133,7 +133,7 @@ class _Reader:
         while self._here and self._here not in f"{quote or chr(39) + chr(34)} ()":
             found += [self._substitution(quote)] if self._begins_one else self._plain(quote or "'\"", argument=True)
         if self._at == begin:
-            raise self._wrong("Arguments are parted by one space; one with spaces in it stands in quotes.")
+            raise self._wrong("Separate arguments by one space; put an argument with spaces in quotes.")
         return found or [TextSubstitution(text="")]
 
     @property

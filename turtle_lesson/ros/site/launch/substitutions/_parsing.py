@@ -32,6 +32,6 @@ def arguments(tag: str, data: Sequence[Any], names: Sequence[str], least: int) -
         plural = "argument" if number == "1" else "arguments"
         error = TypeError(f"{tag} substitution expects {number} {plural}")
         shown = " ".join(f"<{name}>" for name in names)
-        error.hint = f"Write $({f'{tag} {shown}'.strip()}); an argument with spaces in it stands in quotes."  # type: ignore[attr-defined]
+        error.hint = f"Write $({f'{tag} {shown}'.strip()}); put an argument with spaces in quotes."  # type: ignore[attr-defined]
         raise error
     return dict(zip(names, data, strict=False))

@@ -49,7 +49,7 @@ class Command(Substitution):
         """What it prints.
 
         Raises:
-            SubstitutionFailure: if it fails, or is no command of this classroom.
+            SubstitutionFailure: if it fails, or the simulation does not have it.
         """
         from turtle_lesson.ros.launching.small_commands import CommandFailure, output_of
 

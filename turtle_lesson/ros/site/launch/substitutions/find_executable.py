@@ -14,7 +14,7 @@ from ._parsing import arguments
 from .substitution_failure import SubstitutionFailure
 
 PROGRAMS = {"ros2", "python3", "python"}
-"""Programs that this classroom has itself."""
+"""Programs that the simulation itself has."""
 
 
 @expose_substitution("find-exec")

@@ -199,7 +199,7 @@ class Node(ExecuteProcess):
         path = Path(argv[0])
         if not path.is_file():
             hint = "Did you leave package='…' out?"
-            raise SubstitutionFailure(f"executable '{argv[0]}' is no file", hint)
+            raise SubstitutionFailure(f"executable '{argv[0]}' is not a file", hint)
         return Program(path.resolve(), argv, shown)
 
 

@@ -8,7 +8,7 @@ from launch.frontend import expose_action
 
 @expose_action("ros_timer")
 class RosTimer(TimerAction):
-    """As `TimerAction`: in this classroom both go by robot time, also where a node publishes `/clock`."""
+    """As `TimerAction`: here both go by robot time, also where a node publishes `/clock`."""
 
 
 ROSTimer = RosTimer

@@ -14,7 +14,7 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 
 @expose_action("set_ros_log_dir")
 class SetROSLogDir(Action):
-    """Names the folder of log files. In this classroom nothing is written there.
+    """Names the folder of log files. Here nothing is written there.
 
     Args:
         new_log_dir: the folder; a relative one lies in the present one.
@@ -42,6 +42,6 @@ class SetROSLogDir(Action):
         folder = os.path.join(present, perform_substitutions(context, self.__log_dir))
         context.environment["ROS_LOG_DIR"] = folder
         logging.get_logger("launch_ros.actions.set_ros_log_dir").info(
-            f"there are no log files in this classroom: nothing is written to '{folder}'"
+            f"there are no log files here: nothing is written to '{folder}'"
         )
         return None
