@@ -247,7 +247,7 @@ def test_a_callback_that_returns_no_result_ends_the_server_and_is_told_why(world
         ("canceled", "EXECUTING", "CANCELED", "ask goal_handle.is_cancel_requested first"),
         ("execute", "EXECUTING", "EXECUTE", "execute() was called before for this goal"),
         ("succeed twice", "SUCCEEDED", "SUCCEED", "End a goal once, and return the result right after."),
-        ("abort after it", "SUCCEEDED", "ABORT", "This goal has ended already (SUCCEEDED)"),
+        ("abort after it", "SUCCEEDED", "ABORT", "This goal has already ended (SUCCEEDED)"),
     ],
 )
 def test_a_step_that_is_not_allowed_says_what_to_do(
@@ -363,7 +363,7 @@ def test_executing_needs_somebody_who_spins(run: Run) -> None:
         ActionServer(node, Fibonacci, "fibonacci", at_once, handle_accepted_callback=handles.append)
         send(node, ActionClient(node, Fibonacci, "fibonacci"))
         node.executor = None
-        with pytest.raises(RuntimeError, match=r"nobody spins <Node /both>, .*executor.add_node\(node\)"):
+        with pytest.raises(RuntimeError, match=r"no executor spins <Node /both>, .*executor.add_node\(node\)"):
             handles[0].execute()
 
     run(program)

@@ -286,7 +286,7 @@ def test_send_goal_when_nobody_spins(run: Run) -> None:
         found.append(str(caught.value))
 
     assert run(server, program) == [
-        "this send_goal of /fibonacci can never be answered: nobody spins <Node /client> meanwhile, so nobody takes the "
+        "this send_goal of /fibonacci can never be answered: no executor spins <Node /client> meanwhile, so nobody takes the "
         "answer. Write instead: future = action_client.send_goal_async(goal), then "
         "rclpy.spin_until_future_complete(node, future)."
     ]
@@ -326,7 +326,7 @@ def test_send_goal_to_a_server_in_the_same_callback_group(run: Run) -> None:
         rclpy.spin(node, MultiThreadedExecutor())
 
     (text,) = run(program)
-    assert "the action server is offered by this very process" in text
+    assert "the action server is offered by this same process" in text
     assert "Give the action server a callback group of its own" in text
 
 
@@ -336,7 +336,7 @@ def test_send_goal_to_a_server_in_the_same_callback_group(run: Run) -> None:
         (
             Fibonacci,
             "fibonaci",
-            "nobody offers this action (example_interfaces/action/Fibonacci); did you mean '/fibonacci'?",
+            "no node offers this action (example_interfaces/action/Fibonacci); did you mean '/fibonacci'?",
         ),
         (
             RotateAbsolute,

@@ -271,7 +271,7 @@ def test_numbers_are_compared_as_the_wire_has_them() -> None:
 
 
 REFUSED = [
-    (Pose, "x == 3", (), "expected a comparison such as = or > behind 'x', got '== 3': equal is one ="),
+    (Pose, "x == 3", (), "expected a comparison such as = or > behind 'x', got '== 3': write a single = for equality"),
     (Pose, "x > ", (), "expected a field or a value behind 'x >', got the end"),
     (Pose, "(x > 1", (), "expected AND, OR or ) behind '(x > 1', got the end"),
     (Pose, "x > 1)", (), "expected AND, OR or the end behind 'x > 1', got ')'"),

@@ -364,7 +364,7 @@ def test_an_exception_in_a_worker_thread_comes_out_of_spin_too(run: Run) -> None
             lambda node: node.create_timer(0.1, None),
             "'NoneType' object is not callable",
             "The callback of <Timer, every 0.1 s> is None. Hand over the function itself, as in self.tick; with "
-            "brackets, as in self.tick(), it is called at once, and its result is handed over.",
+            "brackets, as in self.tick(), it is called immediately, and its result is handed over.",
         ),
     ],
 )
@@ -453,7 +453,7 @@ def test_only_nodes_can_be_spun(world: World) -> None:
 
     rclpy.init()
     for value, hint in (
-        (Navigator, "got the class Navigator; make one of it first: node = Navigator()"),
+        (Navigator, "got the class Navigator; make an instance first: node = Navigator()"),
         (Forgetful(), "begin its __init__ with super().__init__('the_name_of_the_node')"),
         (None, "got None; after rclpy.init(), make one: node = rclpy.create_node('its_name')"),
     ):

@@ -127,7 +127,9 @@ def test_a_node_class_that_forgets_to_call_its_base_class_is_told_so(node: Node)
             self.publisher = self.create_publisher(String, "chatter", 10)
 
     text = message_of(AttributeError, Forgetful)
-    assert text == ("this Forgetful is no node yet: begin its __init__ with super().__init__('the_name_of_the_node')")
+    assert text == (
+        "this Forgetful is not a node yet: begin its __init__ with super().__init__('the_name_of_the_node')"
+    )
 
 
 def test_a_subclass_may_call_its_own_things_whatever_it_likes(node: Node) -> None:

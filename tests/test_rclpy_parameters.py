@@ -419,7 +419,9 @@ def test_a_whole_number_for_a_double_gets_the_advice_that_everybody_needs_once(w
     rclpy.init(args=["prog", "--ros-args", "-p", "speed:=2"])
     with pytest.raises(InvalidParameterTypeException) as caught:
         rclpy.create_node("n1").declare_parameter("speed", 0.5)
-    assert caught.value.__notes__ == ["ROS does not turn whole numbers into others by itself: write 2.0"]
+    assert caught.value.__notes__ == [
+        "ROS does not convert whole numbers to floating-point numbers by itself: write 2.0"
+    ]
 
 
 @pytest.mark.parametrize("rule", ["speed=1", "speed", "speed:="])

@@ -326,7 +326,7 @@ def test_a_service_in_the_callers_own_group_can_never_answer(run: Run) -> None:
         return [MutuallyExclusiveCallbackGroup(), None, None]
 
     text = call_in_a_callback(run, four_threads, client_apart, same_node=True)
-    assert "the service is offered by this very process, and cannot be called while this callback waits" in text
+    assert "the service is offered by this same process, and cannot be called while this callback waits" in text
 
 
 def test_when_all_threads_wait_for_answers_nobody_is_left_to_take_one(run: Run) -> None:
@@ -396,9 +396,9 @@ def test_a_call_where_nobody_spins_or_serves_is_explained(run: Run) -> None:
             node.create_service(AddTwoInts, "add", add)
 
     missing, unspun = run(program)
-    assert "nobody offers this service (example_interfaces/srv/AddTwoInts). Is its node running?" in missing
+    assert "no node offers this service (example_interfaces/srv/AddTwoInts). Is its node running?" in missing
     assert "wait_for_service(timeout_sec=…)" in missing
-    assert "nobody spins <Node /client> meanwhile" in unspun
+    assert "no executor spins <Node /client> meanwhile" in unspun
     assert "rclpy.spin_until_future_complete(node, future)" in unspun
 
 
@@ -584,7 +584,7 @@ def test_asyncio_does_not_run_inside_an_executor(run: Run) -> None:
 
     assert run(program) == [
         "no running event loop",
-        "rclpy's executors are no asyncio loops: asyncio's functions do not work in their callbacks. To wait, await a "
+        "rclpy's executors are not asyncio loops: asyncio's functions do not work in their callbacks. To wait, await a "
         "future of rclpy's, or have a timer call you later.",
     ]
 

@@ -73,7 +73,7 @@ def test_a_shutdown_after_ctrl_c_is_one_too_many_as_on_a_robot(world: World, cap
     assert process.exit_code == 1
     error = capsys.readouterr().err
     assert "RCLError: failed to shutdown: rcl_shutdown already called on the given context\n" in error
-    assert error.endswith("rclpy.try_shutdown() does it where it is still to be done.\n")
+    assert error.endswith("rclpy.try_shutdown() does it only if it is still necessary.\n")
 
 
 def test_after_that_one_may_begin_anew(world: World) -> None:

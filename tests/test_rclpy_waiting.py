@@ -263,4 +263,4 @@ def test_a_program_called_notebook_is_not_taken_for_the_notebook(world: World) -
 
     world.spawn(program, name="notebook")
     world.sim.run_until(1_000_000_000)
-    assert "nobody spins <Node /n> meanwhile" in told[0]
+    assert "no executor spins <Node /n> meanwhile" in told[0]

@@ -124,7 +124,7 @@ def test_a_frame_that_nobody_told_of_does_not_exist() -> None:
 def test_the_error_has_a_note_with_the_frames_that_there_are() -> None:
     with pytest.raises(LookupException) as caught:
         told(frame("world", "turtle1")).lookup_transform("turtle2", "world", LATEST)
-    assert caught.value.__notes__ == ["Frames that were heard of so far: turtle1, world."]
+    assert caught.value.__notes__ == ["Frames received so far: turtle1, world."]
     with pytest.raises(LookupException) as caught:
         Buffer().lookup_transform("turtle2", "world", LATEST)
     assert "No transform was heard yet" in caught.value.__notes__[0]
@@ -420,7 +420,7 @@ def test_data_that_nobody_registered_is_refused() -> None:
 
 def test_the_exceptions_are_tf2s() -> None:
     assert repr(tf2_py.LookupException) == "<class 'tf2.LookupException'>"
-    with pytest.raises(NotImplementedError, match="BufferClient is not built in this classroom"):
+    with pytest.raises(NotImplementedError, match="BufferClient is not available here"):
         from tf2_ros import BufferClient  # noqa: F401
 
 

@@ -117,7 +117,7 @@ def test_mistakes_are_explained() -> None:
         tft.euler_from_quaternion(Quaternion())
     with pytest.raises(ValueError, match="axes must be such as 'sxyz' or 'rzyx', got 'xyz'"):
         tft.quaternion_from_euler(0, 0, 0, "xyz")
-    with pytest.raises(AttributeError, match="shear_matrix is not built in this classroom, a real one has it"):
+    with pytest.raises(AttributeError, match="shear_matrix is not available here; a real ROS 2 has it"):
         tft.shear_matrix  # noqa: B018
     with pytest.raises(AttributeError, match="has no attribute 'quaternion_from_yaw'"):
         tft.quaternion_from_yaw  # noqa: B018

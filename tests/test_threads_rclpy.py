@@ -470,7 +470,9 @@ def test_a_call_that_the_main_program_leaves_alone(world: World, capsys: Capture
         threading.Thread(target=lambda: (client.wait_for_service(), client.call(Request()))).start()
         threading.Event().wait()
 
-    assert "Its other threads wait, too: Thread-1 (<lambda>) waits for the call of /add." in told(world, program)
+    assert "Its other threads are waiting as well: Thread-1 (<lambda>) waits for the call of /add." in told(
+        world, program
+    )
 
 
 def test_a_rate_in_a_callback_of_the_only_thread_that_spins(world: World, capsys: Capture) -> None:

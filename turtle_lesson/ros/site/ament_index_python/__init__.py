@@ -39,6 +39,4 @@ __all__ = [
 def __getattr__(name: str) -> object:
     if name.startswith("_"):
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    raise ImportError(
-        f"ament_index_python has no {name!r} in this classroom. It has: {', '.join(__all__)}", name=__name__
-    )
+    raise ImportError(f"ament_index_python has no {name!r} here. It has: {', '.join(__all__)}", name=__name__)

@@ -1,6 +1,6 @@
 """The index of resources: small files by type and name, which packages install (facts: ament_index's resources.py).
 
-Every package is itself a resource of the type `packages`, also one of the classroom's own, which installs no such file.
+Every package is itself a resource of the type `packages`, also one of the simulation's own, which installs no such file.
 """
 
 from __future__ import annotations

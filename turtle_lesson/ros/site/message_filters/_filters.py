@@ -18,7 +18,9 @@ class SimpleFilter:
         """Have `cb(message, …, *args)` called for each output; returns the callback's number."""
         if not callable(cb):
             error = TypeError(f"a callback is expected, got {cb!r}")
-            error.add_note("Hand over the function itself, as in self.both; with brackets it would be called at once.")
+            error.add_note(
+                "Hand over the function itself, as in self.both; with brackets it would be called immediately."
+            )
             raise error
         number = len(self.callbacks)
         self.callbacks[number] = (cb, args)

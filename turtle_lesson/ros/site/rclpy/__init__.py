@@ -1,4 +1,4 @@
-"""rclpy for the classroom: the client library's own names and signatures, on a virtual clock in one process.
+"""rclpy for the simulation: the client library's own names and signatures, on a virtual clock in one process.
 
 A program that uses this package runs unmodified on a real ROS 2. Facts about names, signatures and behaviour come from
 rclpy of Humble (https://docs.ros.org/en/humble/p/rclpy/) and from recordings of it.

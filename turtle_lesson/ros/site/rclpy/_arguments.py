@@ -91,7 +91,7 @@ def parse_arguments(words: list[str]) -> Arguments:
             found.obsolete.append(word)
     if found.unknown:
         error = UnknownROSArgsError(str(found.unknown))
-        error.add_note("After --ros-args stand -r, -p, --params-file, --log-level and their like; -- ends them.")
+        error.add_note("-r, -p, --params-file, --log-level and similar options follow --ros-args; -- ends them.")
         raise error
     return found
 

@@ -43,12 +43,12 @@ def in_a_callback(words: Words) -> str:
     """What to do instead of a synchronous call in a callback."""
     return (
         f"Make the callback `async def` and write `await {words.ask}`, with the {words.client} in a callback group of "
-        f"its own; or spin with a MultiThreadedExecutor, the {words.client} in another callback group than this callback."
+        f"its own; or spin with a MultiThreadedExecutor, the {words.client} in a different callback group from this callback."
     )
 
 
 CUT_OFF = (
-    "lesson.network has all transmissions of this service lost, and nobody can change that while this cell waits. Give "
+    "lesson.network loses all transmissions of this service, and nothing can change that while this cell waits. Give "
     "a timeout, or let the network work again first."
 )
 
@@ -107,7 +107,7 @@ def others_may_act(strand: Strand) -> bool:
     """Whether another thread of the program may still do anything, such as spin once more, while this strand waits.
 
     The main program may if this is a worker whose executor is not in `spin`, but spun now and then. A thread may that
-    neither waits in vain itself nor is in `spin`, where it does nothing else.
+    is neither waiting forever itself nor is in `spin`, where it does nothing else.
     """
     executor = executor_of_worker(strand)
     if executor is not None and not executor._spins_to_the_end:
@@ -138,13 +138,13 @@ def why_never_answered(client: Client, strand: Strand) -> str:
 
 
 def _why_nobody_serves(client: Client) -> str:
-    """What is known about a service that nobody offers by this name and type."""
+    """What is known about a service that no node offers by this name and type."""
     end, graph = client._end, client._of_node._ros_graph
     if others := graph.servers(end.name):
         return f"the service of this name is of type {others[0].type_name}, not {end.type_name}."
     hint = did_you_mean(end.name, graph.services())
     return (
-        f"nobody offers this service ({end.type_name}){hint or '.'} Is its node running? "
+        f"no node offers this service ({end.type_name}){hint or '.'} Is its node running? "
         "wait_for_service(timeout_sec=…) waits for it."
     )
 
@@ -162,7 +162,7 @@ def _why_not_taken(client: Client, strand: Strand, drives: bool) -> str:
     if callbacks_around():
         return f"the thread that would take the answer is the one that waits here. {in_a_callback(words)}"
     return (
-        f"nobody spins {client._of_node!r} meanwhile, so nobody takes the answer. Write instead: "
+        f"no executor spins {client._of_node!r} meanwhile, so nothing takes the answer. Write instead: "
         f"future = {words.ask}, then rclpy.spin_until_future_complete(node, future)."
     )
 
@@ -183,11 +183,11 @@ def _why_not_served(client: Client, servers: list[ServerEnd], strand: Strand, dr
     words, place = client._words, "notebook" if is_notebook(strand.process) else "process"
     if drives or not callbacks_around():
         return (
-            f"the {words.server}'s node is in this {place}, too, and nobody spins it meanwhile. Add both nodes to one "
+            f"the {words.server}'s node is in this {place}, too, and no executor spins it meanwhile. Add both nodes to one "
             f"executor: executor.add_node(…), future = {words.ask}, executor.spin_until_future_complete(future)."
         )
     return (
-        f"the {words.server} is offered by this very process, and cannot be called while this callback waits, because they "
+        f"the {words.server} is offered by this same process, and cannot be called while this callback waits, because they "
         f"share a thread or a callback group. Give the {words.server} a callback group of its own, and use a "
         "MultiThreadedExecutor."
     )
@@ -201,10 +201,10 @@ def why_never_done(future: Future, executor: Executor, strand: Strand) -> str:
     if others_may_act(strand) or _somebody_may_complete(future, executor, keeps_taken):
         return ""
     return (
-        f"this callback spins until {client.service_name} has answered, which can never be: the callback keeps its "
+        f"this callback spins until {client.service_name} has answered, which can never happen: the callback keeps its "
         f"callback group meanwhile, and the {client._words.client} that would take the answer is in the same group. Make "
         f"the callback `async def` and await {client._words.ask}, with the {client._words.client} in a callback group of "
-        "its own; or go on in future.add_done_callback(…)."
+        "its own; or continue in future.add_done_callback(…)."
     )
 
 

@@ -30,7 +30,7 @@ TOKEN = re.compile(
     re.VERBOSE | re.ASCII | re.DOTALL,
 )
 INSTEAD = {
-    "==": "equal is one =",
+    "==": "write a single = for equality",
     "=>": "write >=",
     "=<": "write <=",
     "'": "the text has no end",
@@ -128,7 +128,7 @@ def parse_value(text: str) -> Literal:
         return value
     hint = f"; write {chr(39) + text + chr(39)!r} for a text" if re.match(r"[A-Za-z_]", text) else ""
     raise FilterError(
-        f"the parameter {text!r} is no value: numbers, TRUE, FALSE and texts in single quotes are values{hint}"
+        f"the parameter {text!r} is not a value: numbers, TRUE, FALSE and texts in single quotes are values{hint}"
     )
 
 
@@ -207,7 +207,7 @@ class _Parser:
         self._tokens.popleft()
         self._depth += 1
         if self._depth > DEEPEST:
-            raise FilterError(f"more than {DEEPEST} parentheses in one another are too many")
+            raise FilterError(f"more than {DEEPEST} nested parentheses are too many")
         part = self.chain()
         self.expect("bracket", ")", "AND, OR or )")
         self._depth -= 1

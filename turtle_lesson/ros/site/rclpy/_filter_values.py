@@ -159,4 +159,4 @@ def _regular(pattern: str) -> re.Pattern[str]:
     try:
         return re.compile(pattern)
     except (re.error, OverflowError, RecursionError) as error:
-        raise FilterError(f"{pattern!r} is no regular expression: {error}") from None
+        raise FilterError(f"{pattern!r} is not a regular expression: {error}") from None

@@ -22,15 +22,15 @@ def explain_missing(module: str) -> Callable[[str], Any]:
         if not name.startswith("_") and importlib.util.find_spec(f"{module}.{name}") is not None:
             return importlib.import_module(f"{module}.{name}")
         known = [public for public in vars(sys.modules[module]) if not public.startswith("_")]
-        hint = did_you_mean(name, known) or "; on a real ROS 2 it may exist, here it is not built yet"
+        hint = did_you_mean(name, known) or "; a real ROS 2 may have it, but it is not available here yet"
         # With an object that has nothing, Python adds no "Did you mean" of its own.
-        raise AttributeError(f"module {module!r} of this classroom has no {name!r}{hint}", name=name, obj=None)
+        raise AttributeError(f"the simulated module {module!r} has no {name!r}{hint}", name=name, obj=None)
 
     return missing
 
 
 def refuse_unbuilt(**arguments: Any) -> None:
-    """Raise NotImplementedError if one of these arguments was given, which rclpy has and this classroom has not."""
+    """Raise NotImplementedError if one of these arguments was given, which rclpy has and the simulation does not."""
     for name, value in arguments.items():
         if value:
-            raise NotImplementedError(f"{name} is not built in this classroom yet, got {value!r}: leave it out")
+            raise NotImplementedError(f"{name} is not available here yet, got {value!r}: leave it out")

@@ -27,7 +27,7 @@ class _SetByInit:
         if owner is None:
             return self
         raise AttributeError(
-            f"this {kind.__name__} is no node yet: begin its __init__ with super().__init__('the_name_of_the_node')"
+            f"this {kind.__name__} is not a node yet: begin its __init__ with super().__init__('the_name_of_the_node')"
         )
 
 
@@ -40,7 +40,7 @@ def set_by_init(kind: type, *names: str) -> None:
 def no_node(value: object) -> TypeError:
     """The error for something else where a node is expected."""
     if isinstance(value, type):
-        hint = f"make one of it first: node = {value.__name__}()"
+        hint = f"make an instance first: node = {value.__name__}()"
     elif hasattr(value, "create_publisher"):
         hint = "begin its __init__ with super().__init__('the_name_of_the_node')"
     else:
@@ -52,10 +52,10 @@ def no_message(value: object, kind: Any) -> TypeError:
     """The error for something else where a message of a type is to be published."""
     error, name = TypeError(f"Expected {kind}, got {type(value)}"), kind.__name__
     if value is kind:
-        error.add_note(f"This is the class itself; a message of it is {name}().")
+        error.add_note(f"This is the class itself; {name}() makes a message.")
     elif type(value).__name__ == name and type(value).__module__ == kind.__module__:
         error.add_note(
-            f"This {name} was made before {name} was built anew: import it again, and make the message again."
+            f"This {name} was made before {name} was built again: import it again, and make the message again."
         )
     elif not hasattr(value, "get_fields_and_field_types"):
         fields = list(kind.get_fields_and_field_types())
@@ -75,7 +75,7 @@ def explain_call(entity: Any, arguments: tuple[Any, ...] | None, error: TypeErro
     if entity.callback is None or not callable(entity.callback):
         error.add_note(
             f"The callback of {entity!r} is {entity.callback!r}. Hand over the function itself, as in self.tick; "
-            "with brackets, as in self.tick(), it is called at once, and its result is handed over."
+            "with brackets, as in self.tick(), it is called immediately, and its result is handed over."
         )
     elif arguments is not None:
         if any(each == "TimerInfo" for each in getattr(entity.callback, "__annotations__", {}).values()):
@@ -91,7 +91,7 @@ def explain_event_loop(error: Exception) -> None:
     """Add to asyncio's complaint that it does not run what to do instead."""
     if isinstance(error, RuntimeError) and str(error) == "no running event loop":
         error.add_note(
-            "rclpy's executors are no asyncio loops: asyncio's functions do not work in their callbacks. To wait, await "
+            "rclpy's executors are not asyncio loops: asyncio's functions do not work in their callbacks. To wait, await "
             "a future of rclpy's, or have a timer call you later."
         )
 

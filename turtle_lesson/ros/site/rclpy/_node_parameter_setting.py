@@ -74,9 +74,7 @@ class ParameterSetting:
             try:
                 found.extend(changed)
             except TypeError as error:
-                error.add_note(
-                    "A callback before the setting ends with `return parameters`: the list that is to be set."
-                )
+                error.add_note("A pre-set callback ends with `return parameters`, the list of parameters to set.")
                 raise
         return found
 

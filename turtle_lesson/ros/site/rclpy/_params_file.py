@@ -21,7 +21,7 @@ def read_parameter_file(path: str) -> list[Entry]:
     try:
         text = Path(path).read_text(encoding="utf-8")
     except UnicodeDecodeError:
-        raise YamlValueError("Error opening YAML file: it is no text in UTF-8") from None
+        raise YamlValueError("Error opening YAML file: it is not text in UTF-8") from None
     except (OSError, ValueError) as error:
         raise YamlValueError(f"Error opening YAML file: {getattr(error, 'strerror', None) or error}") from None
     return list(_nodes(tree(text), []))

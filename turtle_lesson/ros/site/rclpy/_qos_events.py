@@ -1,4 +1,4 @@
-"""Warnings of a node's own that, as in rclpy, whoever spins the node hears."""
+"""Warnings of a node's own that, as in rclpy, are printed while the node is spun."""
 
 from __future__ import annotations
 

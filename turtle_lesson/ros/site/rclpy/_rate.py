@@ -73,7 +73,7 @@ class Rate:
             return
         if not somebody_spins(executor, strand):
             raise NeverWakes(
-                "this rate would sleep for ever: it is woken by a timer of its node, and no other thread is spinning "
+                "this rate would sleep forever: it is woken by a timer of its node, and no other thread is spinning "
                 "the node. Use a timer instead of a loop, or a MultiThreadedExecutor."
             )
         alarm = Alarm(self._context)
@@ -91,12 +91,14 @@ class Rate:
         timer, alarm = self._timer, Alarm(self._context)
         left = timer.time_until_next_call() or 0
         if timer._time is not timer._simulation and left > 0:
-            raise NeverWakes("this rate would sleep for ever: its clock follows /clock, which nobody hears meanwhile")
+            raise NeverWakes(
+                "this rate would sleep forever: its clock follows /clock, and nothing receives /clock meanwhile"
+            )
         alarm.wait(timer._simulation.now + left)
         timer._take()
 
     def destroy(self) -> None:
-        """Wake whoever sleeps, and never sleep again."""
+        """Wake the sleeping callers, and never sleep again."""
         self._is_destroyed = True
         for alarm in self._sleepers:
             alarm.ring()

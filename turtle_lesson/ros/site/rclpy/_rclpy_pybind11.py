@@ -48,8 +48,8 @@ def __getattr__(name: str) -> NoReturn:
     if name.startswith("__"):
         raise AttributeError(name)
     raise AttributeError(
-        f"rclpy._rclpy_pybind11 has no {name!r} here: on a robot it is rclpy's inner half, written in C++, and its names "
-        "change between releases. What programs need of it is in rclpy's own modules.",
+        f"rclpy._rclpy_pybind11 has no {name!r} here: on a robot it is rclpy's internal half, written in C++, and its names "
+        "change between releases. What programs need from it is in rclpy's own modules.",
         name=name,
         obj=None,
     )

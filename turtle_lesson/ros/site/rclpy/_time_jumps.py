@@ -1,4 +1,4 @@
-"""Jumps of a clock: when ROS time begins or ends to follow /clock, or is set to another time, who wants to know is told.
+"""Jumps of a clock: when ROS time begins or ends to follow /clock, or is set to another time, its callbacks are called.
 
 What is told to whom are the rules of rcl's time.c. Everybody knows these classes as `rclpy.clock.…`.
 """

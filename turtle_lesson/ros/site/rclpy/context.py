@@ -106,8 +106,8 @@ class Context:
         if self.ended:
             self._end_is_told()
             error = RCLError("failed to shutdown: rcl_shutdown already called on the given context")
-            who = "Ctrl-C has shut it down already, as on a robot. " if self.ended_by_signal else ""
-            error.add_note(f"{who}rclpy.try_shutdown() does it where it is still to be done.")
+            who = "Ctrl-C has already shut it down, as on a robot. " if self.ended_by_signal else ""
+            error.add_note(f"{who}rclpy.try_shutdown() does it only if it is still necessary.")
             raise error
         if not self._initialized:
             raise RuntimeError("Context must be initialized before it can be shutdown")
@@ -134,7 +134,7 @@ class Context:
         self._leave()
 
     def _leave(self) -> None:
-        """Take the nodes out of the graph, for they could do nothing any more, and tell who wants to know of the end."""
+        """Take the nodes out of the graph, for they could do nothing any more, and call those who registered for the end."""
         contexts = contexts_of(self._process)
         if self in contexts:
             contexts.remove(self)

@@ -141,7 +141,9 @@ class InvalidParameterTypeException(ParameterException):
             f"'{desired_parameter.type_.name}', expecting type '{expected_type}'",
         )
         if (desired_parameter.type_.name, expected_type) == ("INTEGER", "DOUBLE"):
-            self.add_note(f"ROS does not turn whole numbers into others by itself: write {desired_parameter._value}.0")
+            self.add_note(
+                f"ROS does not convert whole numbers to floating-point numbers by itself: write {desired_parameter._value}.0"
+            )
 
 
 class ParameterImmutableException(ParameterException):
@@ -167,7 +169,7 @@ def refuse_destroyed(simulation: Simulation) -> NoReturn:
     error = InvalidHandle("cannot use Destroyable because destruction was requested")
     error.add_note(
         "It, or its node, was destroyed, perhaps by rclpy.shutdown(). Make the node and this again, after rclpy.init(); "
-        "in a notebook, run the cells again that do so."
+        "in a notebook, run the cells that do this again."
     )
     raise error
 

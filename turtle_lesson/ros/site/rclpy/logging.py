@@ -68,7 +68,7 @@ def get_logging_severity_from_string(log_severity: str) -> LoggingSeverity:
         return LoggingSeverity[log_severity.upper()]
     except KeyError:
         known = ", ".join(severity.name for severity in LoggingSeverity)
-        text = f"Failed to get severity name: '{log_severity}' is no log level; levels are {known}"
+        text = f"Failed to get severity name: '{log_severity}' is not a log level; levels are {known}"
         raise RuntimeError(text) from None
 
 

@@ -1,4 +1,4 @@
-"""Parameters by which whoever starts a node may override the quality of service of its publishers and subscriptions.
+"""Parameters by which the caller that starts a node may override the quality of service of its publishers and subscriptions.
 
 They are called `qos_overrides./chatter.publisher.reliability` and the like, are declared when the publisher or
 subscription is made, and are read-only.

@@ -165,7 +165,7 @@ class Future:
                 self._call(callback)
 
     def _call_or_warn(self, callback: Callable[[Future], Any]) -> None:
-        """Whoever sets the result is not to blame for what is done with it, so an error is only told."""
+        """The code that sets the result is not to blame for what is done with it, so an error is only reported."""
         try:
             callback(self)
         except Exception as error:
@@ -258,7 +258,7 @@ class Task(Future):
         if not isinstance(awaited, Future):
             return TypeError(
                 f"a callback can only await rclpy's own futures and coroutines, not {awaited!r}: "
-                "asyncio's need an asyncio loop, which an executor is not"
+                "asyncio's futures need an asyncio loop, and an executor is not one"
             )
         if awaited._answered_by is None or awaited is self._refused:
             return None

@@ -26,8 +26,8 @@ PATIENCE = 5 * NANOSECONDS
 """How long nothing may be heard on /clock before the node is told of it (a real one waits in silence)."""
 
 SILENCE = (
-    "The parameter use_sim_time is true, but nothing has been heard on /clock so far: for this node the time stands still, "
-    "and its timers wait. Does anybody publish /clock? Without use_sim_time the node goes by the time of the system."
+    "The parameter use_sim_time is true, but nothing has been heard on /clock so far: time stands still for this node, "
+    "and its timers wait. Does a node publish /clock? Without use_sim_time the node uses the system time."
 )
 
 

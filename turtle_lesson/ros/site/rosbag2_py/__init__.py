@@ -1,4 +1,4 @@
-"""Bags read and written by programs: rosbag2_py, as far as this classroom has it (SequentialReader, SequentialWriter, Info).
+"""Bags read and written by programs: rosbag2_py, as far as the simulation has it (SequentialReader, SequentialWriter, Info).
 
 Names and sentences are those of rosbag2_py's _reader.cpp, _writer.cpp and _storage.cpp, of Humble and Jazzy.
 """
@@ -61,5 +61,5 @@ _ELSEWHERE = {
 
 def __getattr__(name: str) -> Any:
     if name in _ELSEWHERE:
-        raise NotImplementedError(f"rosbag2_py.{name} is not in this classroom: {_ELSEWHERE[name]}.")
+        raise NotImplementedError(f"rosbag2_py.{name} is not available here: {_ELSEWHERE[name]}.")
     raise AttributeError(f"module 'rosbag2_py' has no attribute {name!r}")

@@ -82,5 +82,5 @@ def _namespaced_type(identifier: str, folder: str | None = None) -> NamespacedTy
     if len(namespaces) == 1 and folder is not None:
         namespaces.append(folder)
     if not namespaces or not namespaces[0]:
-        raise ValueError(f"Empty module name: '{identifier}' is no name such as geometry_msgs/msg/Twist")
+        raise ValueError(f"Empty module name: '{identifier}' is not a name such as geometry_msgs/msg/Twist")
     return NamespacedType(namespaces, name)

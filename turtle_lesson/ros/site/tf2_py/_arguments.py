@@ -58,8 +58,8 @@ def wrong_name(frame: Any) -> str:
 
 def _known(frames: Frames) -> str:
     if frames:
-        return f"Frames that were heard of so far: {', '.join(frames)}."
-    return "No transform was heard yet: does a broadcaster run, and is the node with the TransformListener spun?"
+        return f"Frames received so far: {', '.join(frames)}."
+    return "No transform has been received yet: is a broadcaster running, and is the node with the TransformListener spinning?"
 
 
 def read_transform(transform: Any, authority: str) -> tuple[str, Kept] | None:

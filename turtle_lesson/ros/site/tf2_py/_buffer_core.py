@@ -167,7 +167,7 @@ class BufferCore:
     def _allFramesAsDot(self, time: Any = None) -> str:
         """Not here: a drawing for Graphviz. Raises NotImplementedError."""
         raise NotImplementedError(
-            "_allFramesAsDot() is not built in this classroom: print(buffer.all_frames_as_yaml()), "
+            "_allFramesAsDot() is not available here: print(buffer.all_frames_as_yaml()), "
             "or ros2 run tf2_tools view_frames"
         )
 

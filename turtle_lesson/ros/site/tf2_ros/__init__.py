@@ -57,11 +57,11 @@ __all__ = [
 
 _NOT_HERE = {
     "BufferClient": "ask a Buffer with a TransformListener instead",
-    "StaticTransformListener": "a TransformListener hears /tf_static, too",
+    "StaticTransformListener": "a TransformListener also receives /tf_static",
 }
 
 
 def __getattr__(name: str) -> Any:
     if name in _NOT_HERE:
-        raise NotImplementedError(f"tf2_ros.{name} is not built in this classroom: {_NOT_HERE[name]}")
+        raise NotImplementedError(f"tf2_ros.{name} is not available here: {_NOT_HERE[name]}")
     raise AttributeError(f"module 'tf2_ros' has no attribute {name!r}")

@@ -48,5 +48,5 @@ class StaticTransformBroadcaster:
     def _say_ignored(self, child: str) -> None:
         self._logger.warning(
             f"'{child}' was sent before, and on /tf_static the first transform of a frame counts: this one is ignored. "
-            "A frame that moves is told by a TransformBroadcaster."
+            "Use a TransformBroadcaster for a frame that moves."
         )

@@ -74,7 +74,7 @@ _OTHERS = """
 def __getattr__(name: str) -> Any:
     if name in _OTHERS.split():
         raise AttributeError(
-            f"tf_transformations.{name} is not built in this classroom, a real one has it; "
-            "numpy can do what it does with the 4 × 4 matrix"
+            f"tf_transformations.{name} is not available here; a real ROS 2 has it, and "
+            "numpy can do the same with the 4 × 4 matrix"
         )
     raise AttributeError(f"module 'tf_transformations' has no attribute {name!r}")

@@ -40,7 +40,7 @@ def check_action(role: str, node: Any, action_type: Any) -> None:
     try:
         check_for_type_support(action_type)
     except AttributeError as error:
-        error.add_note(f"{ORDER[role]} An action's class is wanted, such as example_interfaces.action.Fibonacci.")
+        error.add_note(f"{ORDER[role]} It needs an action's class, such as example_interfaces.action.Fibonacci.")
         raise
     if not hasattr(action_type, "Impl"):
         problem = RuntimeError(

@@ -95,7 +95,7 @@ class ServerGoalHandle:
             server.notify_execute(self, execute_callback)
 
     def publish_feedback(self, feedback: Any) -> None:
-        """Tell whoever has sent the goal how it goes. Raises TypeError for anything but the action's Feedback."""
+        """Tell the client that sent the goal about its progress. Raises TypeError for anything but the action's Feedback."""
         if not isinstance(feedback, self._action_type.Feedback):
             name = f"{self._action_type.__name__}.Feedback"
             raise TypeError(f"feedback is of type {name}, got {shown(feedback)}: try {name}(…)")

@@ -63,12 +63,12 @@ def state_after(state: int, event: GoalEvent) -> int:
 
 def _advice(state: int, event: GoalEvent) -> str:
     if state not in ACTIVE:
-        return f"This goal has ended already ({NAMES[state]}). End a goal once, and return the result right after."
+        return f"This goal has already ended ({NAMES[state]}). End a goal once, and return the result right after."
     if event is GoalEvent.EXECUTE:
-        return "execute() was called before for this goal: the default handle_accepted_callback does it, too."
+        return "execute() has already been called for this goal: the default handle_accepted_callback also calls it."
     if state == GoalStatus.STATUS_ACCEPTED:
         return "This goal is not being executed yet: call goal_handle.execute(), and end it in the execute callback."
     return (
-        "canceled() is for a goal that somebody wants cancelled, and whose cancel_callback has accepted that: ask "
-        "goal_handle.is_cancel_requested first. To give up by yourself, call goal_handle.abort()."
+        "canceled() is for a goal whose cancellation was requested, and accepted by its cancel_callback: check "
+        "goal_handle.is_cancel_requested first. To give up for another reason, call goal_handle.abort()."
     )

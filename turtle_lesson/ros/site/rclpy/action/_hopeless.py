@@ -45,6 +45,6 @@ def _why_nobody_offers(action_client: ActionClient) -> str:
     if name in offered:
         return f"the action of this name is of type {offered[name][0].removesuffix('_SendGoal')}, not {own}."
     return (
-        f"nobody offers this action ({own}){did_you_mean(name, offered) or '.'} Is its node running? "
+        f"no node offers this action ({own}){did_you_mean(name, offered) or '.'} Is its node running? "
         "wait_for_server(timeout_sec=…) waits for it."
     )

@@ -1,4 +1,4 @@
-"""Which actions there are, and who offers and uses them. Newer releases have the same as methods of the node."""
+"""Which actions there are, and which nodes offer and use them. Newer releases have the same as methods of the node."""
 
 from __future__ import annotations
 

@@ -56,8 +56,8 @@ __all__ = [
 FEEDBACK = QoSProfile(depth=10)
 
 OVERHEAD = 200_000
-"""What a real rclpy needs, about, from `execute()` to the execute callback (ns). So whoever has sent the goal hears that it
-was accepted before there is any feedback."""
+"""What a real rclpy needs, about, from `execute()` to the execute callback (ns). So the client that sent the
+goal hears that it was accepted before there is any feedback."""
 
 
 class ActionServer(Requests, Waitable):
@@ -199,7 +199,7 @@ class ActionServer(Requests, Waitable):
         executor = self._node.executor
         if executor is None:
             raise RuntimeError(
-                f"nobody spins {self._node!r}, so nobody could call the execute callback of {self._name}: add the "
+                f"no executor spins {self._node!r}, so nothing can call the execute callback of {self._name}: add the "
                 "node to an executor first, with executor.add_node(node)"
             )
         self._goals.begin(goal_handle)

@@ -153,7 +153,7 @@ def as_severity(level: int) -> LoggingSeverity:
         return LoggingSeverity(level)
     except ValueError as error:
         names = ", ".join(severity.name for severity in LoggingSeverity)
-        error.add_note(f"Levels are rclpy.logging.LoggingSeverity.DEBUG and its like: {names}.")
+        error.add_note(f"Levels are rclpy.logging.LoggingSeverity.DEBUG and the others: {names}.")
         raise
 
 

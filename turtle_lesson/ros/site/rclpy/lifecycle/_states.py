@@ -140,7 +140,7 @@ class StateMachine:
         if transition is None:
             error = RCLError("Failed to trigger lifecycle state machine transition: Transition is not registered.")
             possible = ", ".join(f"{each.label} [{each.id}]" for each in self.available_transitions) or "nothing"
-            error.add_note(f"The node is {self.current_state.label}; from there is possible: {possible}.")
+            error.add_note(f"The node is {self.current_state.label}; possible from there: {possible}.")
             raise error
         self.current_state = transition.goal
         if publish_update:
