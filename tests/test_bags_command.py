@@ -112,7 +112,7 @@ def test_by_pattern(terminal: Terminal) -> None:
 def test_topics_as_newer_releases_spell_them(terminal: Terminal) -> None:
     err = terminal("ros2 bag record -o run --topics count /nobody --for 1")[2]
     assert "Subscribed to topic '/count'" in err
-    assert "nobody published on /nobody while the bag was recorded" in err
+    assert "no node published on /nobody while the bag was recorded" in err
     assert "All requested topics" not in err
     assert terminal("ros2 bag info -t run") == (0, "/count\n", "")
 
@@ -210,9 +210,9 @@ def test_nothing_is_overwritten(terminal: Terminal) -> None:
         ),
         ("record -e (", "[ERROR] [ros2bag]: '(' is not a regular expression: missing ), unterminated subpattern"),
         ("record /a//b", "Invalid topic name: topic name must not contain repeated '/':"),
-        ("info .", "[ERROR] [ros2bag]: '.' is no bag: there is no .mcap or .db3 file in it"),
+        ("info .", "[ERROR] [ros2bag]: '.' is not a bag: there is no .mcap or .db3 file in it"),
         ("play bag --topics /cout", "[ERROR] [ros2bag]: the bag has no topic '/cout'. Did you mean '/count'?"),
-        ("play bag -m count", "[ERROR] [ros2bag]: 'count' is no remapping: write it as /old_topic:=/new_topic"),
+        ("play bag -m count", "[ERROR] [ros2bag]: 'count' is not a remapping: write it as /old_topic:=/new_topic"),
     ],
 )
 def test_mistakes(terminal: Terminal, line: str, error: str) -> None:

@@ -287,7 +287,7 @@ def test_a_file_outside_of_the_bag_is_never_read(sound: Sound, tmp_path: Path) -
     data_file(folder).rename(secret)
     text = (folder / "metadata.yaml").read_text()
     (folder / "metadata.yaml").write_text(text.replace(secret.name, f"../{secret.name}"))
-    with pytest.raises(BagError, match=r"is no bag: there is no .mcap or .db3 file in it"):
+    with pytest.raises(BagError, match=r"is not a bag: there is no .mcap or .db3 file in it"):
         open_bag(folder)
 
 
@@ -308,10 +308,10 @@ def test_a_missing_file_of_several(tmp_path: Path) -> None:
 def test_no_bag_at_all(tmp_path: Path) -> None:
     with pytest.raises(BagError, match="does not exist"):
         open_bag(tmp_path / "nothing")
-    with pytest.raises(BagError, match=r"is no bag: there is no .mcap or .db3"):
+    with pytest.raises(BagError, match=r"is not a bag: there is no .mcap or .db3"):
         open_bag(tmp_path)
     (tmp_path / "notes.txt").write_text("hello")
-    with pytest.raises(BagError, match="is no bag: a bag is a folder"):
+    with pytest.raises(BagError, match="is not a bag: a bag is a folder"):
         open_bag(tmp_path / "notes.txt")
 
 

@@ -209,7 +209,7 @@ def test_a_message_that_has_other_fields_today_is_left_out(world: World, tmp_pat
         definition.write_text("float32 length  # in metres\n")
         registry.add("mine", tmp_path)
         assert play_in(world, tmp_path / "b")[0] == [
-            "nothing was played: the bag holds 0 messages in 0 s, and none that was asked for"
+            "nothing was played: the bag holds 0 messages in 0 s, and none that was requested"
         ]
         definition.write_text("float64 length\n")
         registry.add("mine", tmp_path)
@@ -228,7 +228,7 @@ def test_spoiled_messages_are_counted(world: World, tmp_path: Path, numbers: Num
         writer.write("/count", "std_msgs/msg/Int32", BEGIN + number, b"\0\1\0\0" + bytes(4 if number % 2 else 1))
     writer.close()
     heard = numbers("/count")
-    assert play_in(world, tmp_path / "b")[0] == ["2 messages of '/count' are spoiled and were left out"]
+    assert play_in(world, tmp_path / "b")[0] == ["2 messages of '/count' are damaged and were left out"]
     assert len(heard) == 2
 
 
@@ -243,14 +243,14 @@ def test_a_damaged_bag_is_played_as_far_as_it_goes(world: World, bag: Path, numb
 
 def test_behind_the_end_there_is_nothing(world: World, bag: Path) -> None:
     assert play_in(world, bag, start_offset=5.0)[0] == [
-        "nothing was played: the bag holds 200 messages in 0.99 s, and none that was asked for"
+        "nothing was played: the bag holds 200 messages in 0.99 s, and none that was requested"
     ]
 
 
 @pytest.mark.parametrize(
     ("rule", "error"),
     [
-        ("a", "is no remapping: write it as /old_topic:=/new_topic"),
+        ("a", "is not a remapping: write it as /old_topic:=/new_topic"),
         (":=/b", "no remapping"),
         ("/a:=/b c", "Invalid topic"),
     ],

@@ -275,7 +275,7 @@ def test_a_topic_with_two_types_is_left_out(world: World, tmp_path: Path) -> Non
 def test_a_topic_that_nobody_published_is_told_at_the_end(world: World, tmp_path: Path) -> None:
     world.spawn(talk("chatter", String, 10), name="a")
     with (
-        pytest.warns(UserWarning, match="nobody published on /chater .* Did you mean '/chatter'"),
+        pytest.warns(UserWarning, match="no node published on /chater .* Did you mean '/chatter'"),
         Recording(world, tmp_path / "b", ["/chater"]),
     ):
         world.sim.run_until(1_000_000_000)

@@ -147,7 +147,7 @@ def test_a_subscription_that_asks_for_too_much_hears_nothing_and_is_told_why(wor
     assert warning.endswith(
         "incompatible QoS. No messages will be received from it. Last incompatible policy: DURABILITY"
     )
-    assert "another quality of service" in reason and "topic info -v /chatter" in hint
+    assert "do not offer the quality of service that was requested" in reason and "topic info -v /chatter" in hint
     assert (answer.stdout, answer.code) == ("", 1)
     for option in ("", " --qos-reliability best_effort", " std_msgs/msg/String"):
         answer = type_in(world, f"ros2 topic echo --once /chatter{option}")
@@ -326,7 +326,7 @@ def test_usage(world: World) -> None:
         assert type_in(world, f"ros2 topic echo /x {option}").code == 2
 
 
-def test_the_classrooms_own_ears_are_not_counted(world: World) -> None:
+def test_the_simulations_own_ears_are_not_counted(world: World) -> None:
     def _lab() -> None:
         from std_msgs.msg import String
 

@@ -160,10 +160,10 @@ def test_outside_of_programs_atexit_is_pythons(run: Run) -> None:
 def test_other_processes_of_the_computer_are_refused(run: Run) -> None:
     def program(found: list[Any]) -> None:
         with pytest.raises(
-            NotImplementedError, match=r"os.fork\(\) is not possible in this classroom: .* Threads can be"
+            NotImplementedError, match=r"os.fork\(\) is not possible here: .* Threads can be"
         ):
             os.fork()
-        with pytest.raises(NotImplementedError, match=r"signal.setitimer\(\) does not exist in this classroom"):
+        with pytest.raises(NotImplementedError, match=r"signal.setitimer\(\) is not available here"):
             signal.setitimer(signal.ITIMER_REAL, 1)
         found.append("refused")
 
@@ -184,7 +184,7 @@ def test_so_is_multiprocessing(world: World, tmp_path: Path, capsys: Capture) ->
     world.spawn(file, name="program")
     world.sim.run_until(SECOND)
     said = capsys.readouterr().out.splitlines()
-    assert len(said) == 2 and all(line.startswith("multiprocessing is not possible in this classroom") for line in said)
+    assert len(said) == 2 and all(line.startswith("multiprocessing is not possible here") for line in said)
 
 
 def test_ways_to_end_a_program_end_that_alone(world: World, tmp_path: Path, capsys: Capture) -> None:

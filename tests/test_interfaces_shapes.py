@@ -242,23 +242,23 @@ def refusal(text: str) -> InvalidDefinition:
     [
         (
             "float32 default",
-            "Member name 'default' is a word of C++, which ROS 2 generates code in, too. Please use a diff",
+            "Member name 'default' is a keyword of C++, in which ROS 2 also generates code. Please use a diff",
         ),
         ("bool delete false", "such as 'delete_value'"),
         ("float32 lambda", "is a reserved keyword in Python"),
-        ("float32 x nan", "value 'nan' has no form yet in which a build could take it. Set it in the program"),
+        ("float32 x nan", "value 'nan' cannot be written in a form that a build accepts. Set it in the program"),
         ("float64 X=-inf", "value '-inf' has no form yet"),
         ("float64[] x [1.0, inf]", "value 'inf' has no form yet"),
         ("float32 x 1e39", "value '1e+39' is too large for float32"),
         ("float64 x 1e999", "value 'inf' has no form yet"),
-        ('string s "ends with \\\\"', "has a backslash that no build gets through"),
+        ('string s "ends with \\\\"', "has a backslash that no build accepts"),
         (r'string s "\u00e9"', "write é itself"),
-        (r"string S='\x4'", "has a backslash that no build gets through"),
+        (r"string S='\x4'", "has a backslash that no build accepts"),
         (r"string<=2 s '\nab'", "value '\\nab' can not be converted to type 'string<=2'"),
         ("string<=3 s 'ab\\", "must not exceed|has a backslash"),
         (
             "float64[1000000000000] x",
-            "would consist of 1,000,000,000,002 values: more than this classroom has room for",
+            "would consist of 1,000,000,000,002 values: which is more than fits into memory here",
         ),
         ("string[20000000] x", "A sequence such as float64[] is as long as what is in it"),
         ("geometry_msgs/Pose[2000000] x", "would consist of"),
@@ -279,7 +279,7 @@ def test_a_file_cannot_have_the_name_of_a_word_of_python(tmp_path: Path) -> None
     registry.add("odd_msgs", write_package(tmp_path, {"msg/None.msg": "int8 x\n", "msg/Fine.msg": "None none\n"}))
     faults = registry.check("odd_msgs")
     assert {str(fault) for fault in faults} == {
-        "odd_msgs/msg/None.msg: 'None' is a word of Python, which cannot have a class of this name"
+        "odd_msgs/msg/None.msg: 'None' is a keyword of Python, which cannot be the name of a class"
     }
 
 

@@ -177,7 +177,7 @@ def test_a_launch_file_that_is_not_installed(workspace: Workspace) -> None:
     workspace.write("launch/all.launch.py", "")
     workspace.build()
     assert workspace.type("ros2 launch demo all.launch.py").splitlines()[1] == (
-        "It lies in launch/, but is not installed: add ('share/demo/launch', ['launch/all.launch.py']) to data_files in "
+        "The file is in launch/, but it is not installed: add ('share/demo/launch', ['launch/all.launch.py']) to data_files in "
         "setup.py and build again."
     )
 

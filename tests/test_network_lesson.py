@@ -155,7 +155,7 @@ def test_a_topic_need_not_be_there_yet(lesson: Lesson) -> None:
         ({"topic": "/scan", "latency": float("nan")}, "latency must be a number of seconds from 0 to 3600, got nan"),
         ({"topic": "/scan", "jitter": True}, "jitter must be a number of seconds from 0 to 3600, got True"),
         ({"topic": "scan", "loss": 0.1}, "the full name of a topic begins with a slash, got 'scan': try '/scan'"),
-        ({"topic": "/my scan", "loss": 0.1}, "'/my scan' can be no topic: topic name must not contain characters"),
+        ({"topic": "/my scan", "loss": 0.1}, "'/my scan' cannot be a topic: topic name must not contain characters"),
         ({"topic": 5, "loss": 0.1}, "the name of a topic is a text such as '/scan'"),
         ({"loss": 0.1}, "these conditions are for which topic?"),
     ],

@@ -289,7 +289,7 @@ def test_programs_ask_for_resources(tmp_path: Path) -> None:
             has_resource("tools", "a/b")
 
 
-def test_importing_the_classroom_does_not_load_launch() -> None:
+def test_importing_the_simulation_does_not_load_launch() -> None:
     code = "import sys, turtle_lesson.ros.launching; print('launch' in sys.modules, 'yaml' in sys.modules)"
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert result.stdout.split()[0] == "False"

@@ -93,7 +93,7 @@ def test_a_lock_taken_twice_by_the_same_thread_although_others_are_busy(why: Why
             pass
 
     assert why(program) == (
-        "waiting for the lock would never end: this very thread has taken it already. Release it before, or use "
+        "waiting for the lock would never end: this same thread has already taken it. Release it first, or use "
         "threading.RLock(), which the same thread may take again."
     )
 
@@ -146,14 +146,14 @@ def test_a_program_that_waits_for_a_thread_that_waits_in_vain(world: World, caps
     assert log == ["main goes on"] and process.exit_code == 0
     error = capsys.readouterr().err
     assert "Exception in thread Thread-1 (<lambda>):" in error
-    assert "Its other threads wait, too: MainThread waits in Thread.join()." in error
+    assert "Its other threads are waiting as well: MainThread waits in Thread.join()." in error
 
 
 def test_an_asyncio_loop_whose_tasks_wait_for_one_another(why: Why) -> None:
     async def main() -> None:
         await asyncio.Event().wait()
 
-    assert why(lambda: asyncio.run(main())).startswith("this asyncio loop would wait for ever: all of its tasks wait")
+    assert why(lambda: asyncio.run(main())).startswith("this asyncio loop would wait forever: all of its tasks wait")
 
 
 def test_it_can_be_caught_and_locks_are_given_back(world: World) -> None:

@@ -1,4 +1,4 @@
-"""How fast the classroom is, beside SimPy and asyncio doing the same number of events, and beside a real rclpy.
+"""How fast the simulation is, beside SimPy and asyncio doing the same number of events, and beside a real rclpy.
 
 The real rclpy's figures were recorded on another machine (2 cores, ROS 2 Humble, one process): they are there for scale.
 """

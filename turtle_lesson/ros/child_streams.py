@@ -125,7 +125,7 @@ def stream_for(wanted: Any, inherited: Output | None, text: bool) -> tuple[Any, 
     if wanted == subprocess.DEVNULL:
         return _Nowhere(), None
     if isinstance(wanted, int):
-        raise NotImplementedError("a file's number is not built in this classroom: give the file itself, or PIPE")
+        raise NotImplementedError("a file descriptor cannot be used here: give the file itself, or PIPE")
     return (wanted if "b" not in getattr(wanted, "mode", "") else _ToBytes(wanted)), None
 
 

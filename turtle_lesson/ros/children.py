@@ -97,7 +97,7 @@ class ClassroomPopen(_Real):
         if not self._simulated:
             return super().communicate(input, timeout)
         if input:
-            raise NotImplementedError("input= is not built in this classroom: a program's child has no input")
+            raise NotImplementedError("input= is not available here: a program's child has no input")
         self.wait(timeout)
         return (self.stdout and self.stdout.read(), self.stderr and self.stderr.read())
 
@@ -125,10 +125,12 @@ _OWN_TERMINAL = ("start_new_session", "preexec_fn", "process_group")
 def _check(given: dict[str, Any]) -> None:
     """Refuse what no simulated process can have."""
     if given.get("stdin") not in (None, subprocess.DEVNULL):
-        raise NotImplementedError("stdin= is not built in this classroom: a program's child has no input")
+        raise NotImplementedError("stdin= is not available here: a program's child has no input")
     folder = given.get("cwd")
     if folder is not None and os.path.realpath(folder) != os.getcwd():
-        raise NotImplementedError("cwd= is not built in this classroom: a program's child has the folder of all others")
+        raise NotImplementedError(
+            "cwd= is not available here: a program's child works in the same folder as all programs"
+        )
 
 
 def _plan(args: Any, shell: bool) -> Plan | None:
@@ -200,7 +202,7 @@ def _refusal(line: str, error: Exception) -> str:
     hint = getattr(error, "hint", "")
     said = f"{error}" if not str(error).startswith("ExecuteProcess(") else "it is a program of the operating system"
     return (
-        f"{line!r} cannot be started by a program in this classroom ({said}): ros2 commands, Python files, echo and "
+        f"{line!r} cannot be started by a program here ({said}): ros2 commands, Python files, echo and "
         f"sleep can. {hint}".strip()
     )
 

@@ -77,7 +77,7 @@ class World:
         """Start a process at this instant: a Python file, run as `__main__`, or a callable.
 
         Does not wait for it. The file's errors are the process's: they are shown, and its exit code is 1. Without
-        `environ` it has the environment variables of whoever starts it. Its main program begins `start_up` ns later.
+        `environ` it has the environment variables of the caller that starts it. Its main program begins `start_up` ns later.
         """
         arguments = list(argv) or [str(target) if isinstance(target, Path) else name]
         process = self._make_process(name, argv=arguments, stdout=stdout, stderr=stderr, on_exit=on_exit)

@@ -18,7 +18,7 @@ OF_OTHERS = {
     "log": "get_logger().info(…)", "get_time": "get_clock().now()", "get_param": "get_parameter('name').value",
     "set_param": "set_parameters([Parameter('name', value=…)])", "param": "declare_parameter('name', …)",
     "advertise": "create_publisher(type, topic, qos)", "subscribe": "create_subscription(type, topic, callback, qos)",
-    "publish": "create_publisher(…).publish(message)", "spin": "rclpy.spin(node), which is no method",
+    "publish": "create_publisher(…).publish(message)", "spin": "rclpy.spin(node), which is not a method",
     "logger": "get_logger()", "destroy": "destroy_node()", "sleep": "time.sleep(seconds), or a timer",
     "create_service_client": "create_client(type, name)",
     "create_subscriber": "create_subscription(type, topic, callback, qos)",
@@ -49,11 +49,11 @@ def advice(error: BaseException) -> str:
 
 def _attribute(error: AttributeError) -> str:
     text, owner, name = str(error), error.obj, error.name or ""
-    if match := re.match(r"module 'rclpy' of this classroom has no '(\w+)'", text):
+    if match := re.match(r"the simulated module 'rclpy' has no '(\w+)'", text):
         return f"Here it is: {OF_RCLPY[match[1]]}." if match[1] in OF_RCLPY else _case("rclpy", match[1])
     if match := re.match(r"(?:property '(\w+)' of '\w+' object has no setter|can't set attribute '(\w+)')", text):
         taken = match[1] or match[2]
-        return f"Every node has {taken!r} already, which cannot be replaced: take another name, as in self.my_{taken}."
+        return f"Every node already has {taken!r}, which cannot be replaced: choose another name, as in self.my_{taken}."
     if not name and (match := re.match(r"'(\w+)' object has no attribute '(\w+)'", text)):
         owner, name = _message_of(match[1]), match[2]  # it was to be set
         return "" if owner is None else _field(owner, name)
@@ -62,7 +62,7 @@ def _attribute(error: AttributeError) -> str:
     if owner is None:
         return "" if _is_within_ours(error) else _of_none(error, name)
     if callable(owner) and hasattr(owner, "__name__") and not isinstance(owner, type):
-        return f"{owner.__name__} is a function, and is called with brackets: {owner.__name__}().{name}"
+        return f"{owner.__name__} is a function: call it with brackets, {owner.__name__}().{name}"
     if hasattr(owner, "get_fields_and_field_types"):
         return _field(owner, name)
     if hasattr(owner, "create_publisher") and name in OF_OTHERS:
@@ -79,7 +79,7 @@ def _of_none(error: BaseException, name: str) -> str:
         )
     found = re.findall(r"(\w[\w.]*(?:\[[^\]]*\]|\(\))*)\." + name, line)
     frame = learners_frames(error.__traceback__)[-1].tb_frame
-    what = next((each for each in found if _may_be_none(each, frame)), f"what stands before .{name}")
+    what = next((each for each in found if _may_be_none(each, frame)), f"the part before .{name}")
     return f"Here {what} is None: has it been given a value yet, or has the callback that sets it not been called?"
 
 
@@ -137,7 +137,7 @@ def _variable(error: NameError) -> str:
     frame = frames[-1].tb_frame
     this = frame.f_locals.get("self")
     if this is not None and hasattr(this, name):
-        return f"Inside of a class it is self.{name}."
+        return f"Inside a class, write self.{name}."
     return _importable(name) or meant(name, [*frame.f_locals, *frame.f_globals, *dir(__builtins__)])
 
 

@@ -20,7 +20,7 @@ def advice(error: BaseException) -> str:
         return ""
     text = str(error)
     if "'__init__' requires a 'super' object" in text:
-        return "super is called with brackets: super().__init__('the_name_of_the_node')"
+        return "Call super with brackets: super().__init__('the_name_of_the_node')"
     match = _WRONG_CALL.match(text)
     if match is None or not _is_called_by_a_learner(error):
         return ""
@@ -40,11 +40,11 @@ def _is_called_by_a_learner(error: BaseException) -> bool:
 def _how(name: str, function: Callable[..., Any], keyword: str | None) -> str:
     owner, _, method = name.rpartition(".")
     if name == "Node.__init__":
-        return "A node has a name: super().__init__('the_name_of_the_node')"
+        return "A node needs a name: super().__init__('the_name_of_the_node')"
     if hasattr(getattr(function, "__self__", None), "get_fields_and_field_types"):
         kind: Any = function.__self__  # type: ignore[attr-defined]
         fields = list(kind.get_fields_and_field_types())
-        return f"Fields are given by their names: {kind.__name__}({', '.join(f'{each}=…' for each in fields[:3])})"
+        return f"Give the fields by name: {kind.__name__}({', '.join(f'{each}=…' for each in fields[:3])})"
     if owner == "RcutilsLogger":
         return "A log message is one text: put values into it with an f-string, as in f'x is {x}'."
     signature = _signature(function)

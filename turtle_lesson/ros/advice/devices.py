@@ -1,16 +1,16 @@
-"""What a program in the classroom has not: a terminal whose keys it reads, a screen, somebody who answers."""
+"""What a program in the simulation does not have: a terminal whose keys it reads, a screen, a user who answers."""
 
 from __future__ import annotations
 
 KEYS = (
     "A program here has no terminal of its own whose keys it could read. In a notebook lesson.teleop() drives a turtle, "
-    "and `ros2 topic pub` sends any message; on a robot the program is run in a terminal."
+    "and `ros2 topic pub` sends any message; on a robot you run the program in a terminal."
 )
 SCREEN = (
-    "A program here has no screen for a window of its own. What it shows, lesson.dashboard() may show; its nodes can do "
-    "their work without the window."
+    "A program here has no screen for a window of its own. lesson.dashboard() may show the same; the "
+    "program's nodes can do their work without the window."
 )
-ANSWER = "Nobody could answer input() here: give the values as arguments (sys.argv) or as parameters (-p name:=value)."
+ANSWER = "input() cannot be answered here: give the values as arguments (sys.argv) or as parameters (-p name:=value)."
 
 _BY_KIND = {
     "termios.error": KEYS, "_curses.error": KEYS, "tty.error": KEYS, "builtins.EOFError": ANSWER,

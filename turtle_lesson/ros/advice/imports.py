@@ -16,10 +16,10 @@ FOLDERS = ("msg", "srv", "action")
 FROM_ROS_1 = {
     "rospy": "rospy is ROS 1's library; in ROS 2 it is rclpy.",
     "roslib": "roslib is ROS 1's; in ROS 2 it is not needed.",
-    "rospkg": "rospkg is ROS 1's; in ROS 2 take ament_index_python.packages.get_package_share_directory.",
+    "rospkg": "rospkg is ROS 1's; in ROS 2 use ament_index_python.packages.get_package_share_directory.",
     "actionlib": "actionlib is ROS 1's; in ROS 2 it is rclpy.action.",
     "tf": "tf is ROS 1's; in ROS 2 it is tf2_ros, and for angles tf_transformations.",
-    "moveit_commander": "moveit_commander is ROS 1's; this classroom has no MoveIt.",
+    "moveit_commander": "moveit_commander is ROS 1's; there is no MoveIt here.",
     "dynamic_reconfigure": "dynamic_reconfigure is ROS 1's; in ROS 2 nodes have parameters.",
     "rclcpp": "rclcpp is the library of C++; in Python it is rclpy.",
 }
@@ -36,7 +36,7 @@ ABSENT = frozenset((
     "rqt_gui_py", "slam_toolbox", "smach", "smach_ros", "teleop_twist_keyboard", "test_msgs", "tf2_kdl",
     "turtlebot3_msgs", "ur_msgs", "vision_msgs", "webots_ros2_driver", "xacro",
 ))  # fmt: skip
-"""Packages that a robot may have, and this classroom has not."""
+"""Packages that a robot may have, and the simulation does not."""
 
 
 def advice(error: BaseException) -> str:
@@ -54,10 +54,10 @@ def _no_module(name: str) -> str:
     if top in FROM_ROS_1:
         return FROM_ROS_1[top]
     if top in _DEVICES:
-        return f"{top} is installed apart from ROS 2 ({_DEVICES[top][1]}). {_DEVICES[top][0]}"
+        return f"{top} is installed separately from ROS 2 ({_DEVICES[top][1]}). {_DEVICES[top][0]}"
     if top in ABSENT:
         return (
-            f"{top} is a package of ROS 2 that this classroom does not have: a program that needs it runs on a robot "
+            f"{top} is a package of ROS 2 that is not available here: a program that needs it runs on a robot "
             f"where it is installed ({_apt(top)})."
         )
     if rest and (parent := _parent(name)):
@@ -116,7 +116,7 @@ def _of_ones_own(name: str) -> str:
     if sources or (Path.cwd() / "src" / name).is_dir():
         return f"There is a package {name} in src: build it (colcon build), then source install/setup.bash."
     return (
-        "Is the name spelt right? A package of your own is found when it is built (colcon build) and sourced "
+        "Is the name spelled correctly? A package of your own is found when it is built (colcon build) and sourced "
         f"(source install/setup.bash); a module beside the program, when its package is installed; {_pip(name)}."
     )
 
@@ -125,7 +125,7 @@ def _pip(name: str) -> str:
     return f"any other when it is installed for this Python (pip install {_ON_PYPI.get(name, name)})"
 
 
-_TURTLE = " If it has none, an editor may have put in a line like `from turtle import …`: delete that."
+_TURTLE = " If it has none, an editor may have inserted a line like `from turtle import …`: delete that."
 _DEVICES = {
     **{name: (KEYS, f"pip install {name}") for name in ("pynput", "keyboard", "sshkeyboard", "getkey", "readchar", "inputs")},
     **{name: (SCREEN, f"pip install {name}") for name in ("PyQt5", "PyQt6", "PySide2", "PySide6", "pygame", "kivy")},

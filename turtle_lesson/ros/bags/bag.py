@@ -86,7 +86,7 @@ class Bag:
         """What is wrong with the bag, and how much of it can be read, in a sentence; empty for a sound one."""
         if not self._flaws and not self.lost:
             return ""
-        reasons = "; ".join(self._flaws[:3]) or f"{METADATA} promises more than there is"
+        reasons = "; ".join(self._flaws[:3]) or f"{METADATA} lists more than the bag contains"
         more = f"; and {len(self._flaws) - 3} more places" if len(self._flaws) > 3 else ""
         return f"the bag is damaged: {reasons}{more}. {self._what_is_left()}"
 
@@ -162,9 +162,9 @@ def _read_metadata(path: Path) -> tuple[dict[str, Any], list[str]]:
         text = (path / METADATA).read_text("utf-8")
         found = yaml.load(text, LOADER)["rosbag2_bagfile_information"]
         if not isinstance(found, dict):
-            raise ValueError("it is no mapping")
+            raise ValueError("it is not a mapping")
         wrong = [key for key in LISTS if not isinstance(found.get(key, []), list)]
-        return found, [f"{METADATA} makes no sense: its {key} is no list" for key in wrong]
+        return found, [f"{METADATA} is not valid: its {key} is not a list" for key in wrong]
     except FileNotFoundError:
         return {}, [f"there is no {METADATA} (was the recording not stopped?)"]
     except Exception as error:
@@ -175,7 +175,7 @@ def _files_of(path: Path, metadata: dict[str, Any]) -> tuple[list[Path], list[st
     """The data files of a bag, and a sentence for each one that is missing."""
     if path.is_file():
         if _kind(path) not in SCANNERS:
-            raise BagError(f"'{path}' is no bag: a bag is a folder with {METADATA}, or an .mcap or .db3 file")
+            raise BagError(f"'{path}' is not a bag: a bag is a folder with {METADATA}, or an .mcap or .db3 file")
         return [path], []
     named = metadata.get("relative_file_paths")
     named = [path / PurePath(str(name)).name for name in named] if isinstance(named, list) else []
@@ -183,7 +183,7 @@ def _files_of(path: Path, metadata: dict[str, Any]) -> tuple[list[Path], list[st
     files = [file for file in named if file.is_file() and _kind(file) in SCANNERS]
     files = files or sorted(file for file in path.iterdir() if file.is_file() and _kind(file) in SCANNERS)
     if not files:
-        raise BagError(f"'{path}' is no bag: there is no .mcap or .db3 file in it")
+        raise BagError(f"'{path}' is not a bag: there is no .mcap or .db3 file in it")
     return files, missing
 
 

@@ -114,9 +114,9 @@ class Player:
         """A sentence for each topic with messages that are spoiled, and one if there was nothing to play."""
         if not self.published and not self._unreadable:
             length = f"{self._bag.message_count} messages in {self._bag.duration / NANOSECONDS:g} s"
-            return [f"nothing was played: the bag holds {length}, and none that was asked for"]
+            return [f"nothing was played: the bag holds {length}, and none that was requested"]
         return [
-            f"{count} messages of '{topic}' are spoiled and were left out" for topic, count in self._unreadable.items()
+            f"{count} messages of '{topic}' are damaged and were left out" for topic, count in self._unreadable.items()
         ]
 
 
@@ -157,7 +157,7 @@ def _class_of(topic: BagTopic) -> Any:
         raise BagError(str(error.args[0])) from None
     if topic.definition and not _same_definition(message_class, topic.definition):
         raise BagError(
-            f"the {topic.type_name} in the bag has other fields than today's. Play it with the package that it was "
+            f"the {topic.type_name} in the bag has other fields than the current one. Play it with the package that it was "
             "recorded with, or record it again"
         )
     return message_class
@@ -189,7 +189,7 @@ def parse_remaps(rules: list[str]) -> dict[str, str]:
     for rule in rules:
         old, sign, new = rule.partition(":=")
         if not (sign and old and new):
-            raise BagError(f"'{rule[:80]}' is no remapping: write it as /old_topic:=/new_topic")
+            raise BagError(f"'{rule[:80]}' is not a remapping: write it as /old_topic:=/new_topic")
         validate_topic_name(old)
         validate_topic_name(new)
         remaps[_absolute(old)] = new

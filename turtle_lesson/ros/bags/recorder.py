@@ -50,7 +50,7 @@ class Selection:
             try:
                 re.compile(pattern)
             except re.error as error:
-                raise BagError(f"{pattern!r} is no regular expression: {error}") from None
+                raise BagError(f"{pattern!r} is not a regular expression: {error}") from None
 
     def takes(self, name: str) -> bool:
         """Whether a topic of this full name is to be recorded."""
@@ -187,7 +187,7 @@ class Recorder:
         known = self._graph.topics()
         missing = [name for name in self._selection.topics if name not in self._heard and name not in self._refused]
         return [
-            f"nobody published on {name} while the bag was recorded, so it holds nothing of it. "
+            f"no node published on {name} while the bag was recorded, so the bag contains none of its messages. "
             f"{did_you_mean(name, known)}".rstrip()
             for name in missing
         ]

@@ -66,7 +66,7 @@ class _Scan:
     def run(self) -> Contents:
         """Read everything that can be read."""
         if self._file.read(len(MAGIC)) != MAGIC:
-            self._flaw("it does not begin as an MCAP file does")
+            self._flaw("it does not begin like an MCAP file")
         self._read_summary()
         place = len(MAGIC)
         while not self._complete:
@@ -74,12 +74,12 @@ class _Scan:
                 place = self._read_record(place)
             except (_Spoiled, struct.error, UnicodeDecodeError) as error:
                 following = [chunk for chunk in self._chunks if chunk > place]
-                self._flaw(str(error) if isinstance(error, _Spoiled) else f"the record at byte {place} is spoiled")
+                self._flaw(str(error) if isinstance(error, _Spoiled) else f"the record at byte {place} is damaged")
                 if not following:
                     break
                 place = following[0]
         if self._complete and not self._ends_well:
-            self._flaw("its end is missing or spoiled")
+            self._flaw("its end is missing or damaged")
         return self._result()
 
     def _flaw(self, text: str) -> None:
@@ -135,7 +135,7 @@ class _Scan:
         records = _decompressed(compression, body[begin:], size)
         whole = len(records) == size  # also where only the record's length is spoiled, so that it seems cut short
         if (whole and checksum and zlib.crc32(records) != checksum) or not (whole or cut_short):
-            self._flaw(f"the chunk at byte {place} is spoiled (its checksum is wrong), so its messages are left out")
+            self._flaw(f"the chunk at byte {place} is damaged (its checksum is wrong), so its messages are left out")
             return
         view, at = memoryview(records), 0
         while at + HEAD.size <= len(records):
@@ -166,7 +166,7 @@ class _Scan:
                 elif kind != MESSAGE:
                     self._take(kind, body)
         except (struct.error, UnicodeDecodeError):
-            self._flaw("its summary is spoiled")
+            self._flaw("its summary is damaged")
         self._chunks = sorted(place for place in self._chunks if place < self._size)
 
     # -- the result --------------------------------------------------------------------------------------------------
@@ -231,7 +231,7 @@ def _decompressed(compression: str, data: bytes, size: int) -> bytes:
     if compression == "":
         return data[:size]
     if compression not in DECOMPRESSORS:
-        raise _Spoiled(f"its chunks are compressed in a way that is not known here ({compression[:20]})")
+        raise _Spoiled(f"its chunks are compressed in an unknown way ({compression[:20]})")
     try:
         return DECOMPRESSORS[compression](data, size)
     except Exception:

@@ -64,9 +64,9 @@ def _scan(database: sqlite3.Connection, name: str, found: Contents, keep: bool) 
     try:
         verdict = database.execute("PRAGMA integrity_check(1)").fetchone()[0]
         if verdict != "ok":
-            found.flaws.append(f"{name}: the database is spoiled ({_told(verdict.splitlines()[-1])})")
+            found.flaws.append(f"{name}: the database is damaged ({_told(verdict.splitlines()[-1])})")
     except BROKEN as error:
-        found.flaws.append(f"{name}: the database is spoiled ({_told(error)})")
+        found.flaws.append(f"{name}: the database is damaged ({_told(error)})")
     if found.flaws:
         with suppress(*BROKEN):
             database.execute("PRAGMA writable_schema=ON")  # or a file that is too short is not read at all
@@ -113,11 +113,11 @@ def _rows(database: sqlite3.Connection, query: str, found: Contents) -> Iterator
         try:
             for row in database.execute(f"{query} WHERE id > ? ORDER BY id", (last + jump,)):
                 if row[0] <= last:
-                    raise sqlite3.DatabaseError("the rows go round in a circle")
+                    raise sqlite3.DatabaseError("the rows form a cycle")
                 last, jump = row[0], 0
                 yield row
             return
         except BROKEN:
             if not found.flaws:
-                found.flaws.append("the database is spoiled in its middle")
+                found.flaws.append("the database is damaged in the middle")
             jump = jump * 2 or 1

@@ -1,7 +1,7 @@
 """Parking with care, for simulations in which a program uses asyncio or handles signals.
 
 An asyncio loop that runs is noted in the state of the real thread, which all strands share. So a strand takes that note
-along when it parks. And whoever handles signals has its handler called where it waits. Both would slow every switch, so
+along when it parks. And a process that handles signals has its handler called where it waits. Both would slow every switch, so
 a simulation begins to park like this when it is first needed.
 """
 

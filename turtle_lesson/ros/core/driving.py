@@ -95,6 +95,6 @@ def why_not_done(simulation: Simulation, strand: Strand, limit: int) -> Simulati
         )
     return DriveTimeout(
         f"{what} was still not done after {limit // 1_000_000_000} s of robot time, so it was given up. "
-        "Does anybody publish what it waits for, or offer the service, under the very name (`ros2 topic list`, "
+        "Does a node publish what it waits for, or offer the service, under exactly that name (`ros2 topic list`, "
         "`ros2 service list`)? A timeout_sec lets you decide how long to wait."
     )

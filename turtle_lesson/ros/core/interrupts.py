@@ -78,7 +78,7 @@ class Guard:
         if spent:
             call, self.simulation.suspect = self.simulation.suspect, _learners_call(frame)
             if call is not None and call is self.simulation.suspect:  # the same call is still not done
-                self._give_up_on(running_strand(), "has computed very much for the little time that passed")
+                self._give_up_on(running_strand(), "has computed for very long in the little time that passed")
         elif tripped is None:
             self.interrupted = True
             self.simulation.halt()

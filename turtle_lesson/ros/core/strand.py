@@ -29,7 +29,7 @@ class Strand(greenlet):
         process: the process that it belongs to.
         simulation: that process's simulation.
         parked: whether it waits to be woken.
-        activity: what it does, for whoever has to explain why it takes so long.
+        activity: what it does, for messages that explain why it takes so long.
         warned: whether it was told once that it computes without end.
         cell: the cell that it prints to.
         waits_for: for what it waits without a time limit, and in vain if all others of its process do; None else.

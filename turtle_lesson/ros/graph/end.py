@@ -20,13 +20,13 @@ class End:
         self.topic = topic
         self.quality = quality
         self.profile: Any = None
-        """The profile that the program gave, for whoever shows this end."""
+        """The profile that the program gave, for displays of this end."""
         self.tallies: dict[str, Tally] = {}
 
     def listen(self, kind: str) -> Tally:
         """Count from now on, or go on counting, how often something of this kind happens.
 
-        What has come about already is news for whoever listens first.
+        What has happened already is reported to the first listener.
         """
         tally = self.tallies.get(kind)
         if tally is None:

@@ -1,4 +1,4 @@
-"""How long messages and requests are under way in the classroom's usual network."""
+"""How long messages and requests are under way in the simulation's usual network."""
 
 from __future__ import annotations
 

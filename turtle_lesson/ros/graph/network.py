@@ -105,7 +105,9 @@ def set_conditions(
         if name != "":
             graph.set_network(None if name is None else checked_name(name), None)
     elif not name:
-        raise ValueError('these conditions are for which topic? All are "*", as in lesson.network("*", loss=0.1)')
+        raise ValueError(
+            'name the topic of these conditions; "*" means all topics, as in lesson.network("*", loss=0.1)'
+        )
     else:
         graph.set_network(checked_name(name), conditions(latency, jitter, loss))
     return graph.network.rules()
@@ -125,5 +127,5 @@ def checked_name(name: object) -> str:
     if not name.startswith("/"):
         raise ValueError(f"the full name of a topic begins with a slash, got '{name}': try '/{name}'")
     if flaw := full_topic_name_flaw(name):
-        raise ValueError(f"'{name}' can be no topic: {flaw.reason}")
+        raise ValueError(f"'{name}' cannot be a topic: {flaw.reason}")
     return name

@@ -59,7 +59,7 @@ class Reader(End):
         return len(self.writers())
 
     def listen(self, kind: str) -> Tally:
-        """See End. Whoever listens for missed deadlines has the messages watched, from the next one on."""
+        """See End. A listener for missed deadlines makes the reader watch the messages, from the next one on."""
         tally = super().listen(kind)
         period = self.quality.deadline
         if kind == DEADLINE and period is not None and self._deadline is None:

@@ -33,7 +33,7 @@ class Request(NamedTuple):
     call: Call | None = None
 
     def answer(self, message: Any) -> None:
-        """Send the answer to whoever asked."""
+        """Send the answer to the client that asked."""
         if self.server.witness is not None:
             self.server.witness(RESPONSE_SENT, self.client, self.number, message)
         self.client.reply(self.number, message)

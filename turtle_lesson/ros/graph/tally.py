@@ -34,7 +34,7 @@ class Tally:
         self.tell()
 
     def tell(self) -> None:
-        """Wake whoever wants to know."""
+        """Wake the waiting callers."""
         self.news = True
         self.wake()
 

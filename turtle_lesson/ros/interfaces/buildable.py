@@ -46,14 +46,14 @@ def check_field(field: Field) -> None:
     """Raise InvalidDefinition for a field that no build gets through."""
     if field.type.base in ("time", "duration"):
         better = f"builtin_interfaces/{field.type.base.capitalize()}"
-        raise InvalidType(f"the type '{field.type.base}' is of ROS 1", hint=f"Write '{better} {field.name}'")
+        raise InvalidType(f"the type '{field.type.base}' belongs to ROS 1", hint=f"Write '{better} {field.name}'")
     if keyword.iskeyword(field.name):
         raise InvalidMemberName(
             f"Member name '{field.name}' is a reserved keyword in Python and is not supported at the moment."
             " Please use a different name"
         )
     if field.name in CPP_WORDS:
-        reason = f"Member name '{field.name}' is a word of C++, which ROS 2 generates code in, too"
+        reason = f"Member name '{field.name}' is a keyword of C++, in which ROS 2 also generates code"
         raise InvalidMemberName(reason, hint=f"Please use a different name, such as '{field.name}_value'")
     if field.name in TAKEN:
         raise InvalidMemberName(f"the field name '{field.name}' is taken", hint="Please use a different name")
@@ -62,14 +62,14 @@ def check_field(field: Field) -> None:
 def check_class_name(name: str) -> None:
     """Raise InvalidResourceName for a message that Python could not have a class of."""
     if keyword.iskeyword(name):
-        raise InvalidResourceName(f"'{name}' is a word of Python, which cannot have a class of this name")
+        raise InvalidResourceName(f"'{name}' is a keyword of Python, which cannot be the name of a class")
 
 
 def check_weight(name: str, weight: int) -> None:
     """Raise InvalidType for a message of which each instance would consist of too many values."""
     if weight > MAX_WEIGHT:
         raise InvalidType(
-            f"each message {name} would consist of {weight:,} values: more than this classroom has room for",
+            f"each message {name} would consist of {weight:,} values, which is more than fits into memory here",
             hint="A sequence such as float64[] is as long as what is in it",
         )
 
@@ -97,7 +97,7 @@ def built_value(base: str, value: Plain, string_bound: int | None = None) -> Pla
 def _number(base: str, value: float) -> float:
     if not isfinite(value):
         hint = "Set it in the program: float('nan'), float('inf')"
-        raise InvalidValue(f"value '{value}' has no form yet in which a build could take it", hint=hint)
+        raise InvalidValue(f"value '{value}' cannot be written in a form that a build accepts", hint=hint)
     if abs(value) > FLOAT_BOUNDS[base]:
         raise InvalidValue(f"value '{value}' is too large for {base}")
     return value
@@ -123,5 +123,5 @@ def _text(text: str, bound: int | None) -> str:
 
 
 def _lost(text: str) -> InvalidValue:
-    hint = r"Before each backslash that is to stay write three more; write é itself, not \u00e9"
-    return InvalidValue(f"value '{text}' has a backslash that no build gets through", hint=hint)
+    hint = r"Write three more backslashes before each one that is to stay; write é itself, not \u00e9"
+    return InvalidValue(f"value '{text}' has a backslash that no build accepts", hint=hint)

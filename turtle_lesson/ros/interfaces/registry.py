@@ -143,7 +143,7 @@ class Registry:
             package, interface = self._split(name)
             found = getattr(self.module(package, interface), interface.partition("/")[2], None)
             if found is None:
-                raise LookupError(f"'{name}' is no part of a service or action")
+                raise LookupError(f"'{name}' is not a part of a service or action")
             self._classes[name] = found
         return found
 
@@ -187,7 +187,7 @@ class Registry:
             circle = " -> ".join([*self._in_progress, name])
             raise UnknownMessageType(f"a message cannot contain itself: {circle}")
         if len(self._in_progress) >= DEEPEST:
-            raise UnknownMessageType(f"messages lie within each other more than {DEEPEST} deep")
+            raise UnknownMessageType(f"messages are nested more than {DEEPEST} deep")
         self._in_progress.append(name)
         self._uses[name] = {owner.name}
         try:
@@ -201,7 +201,7 @@ class Registry:
             return parts[0], f"{parts[1]}/{parts[2]}"
         if len(parts) != 2:
             hint = self._where_is(parts[-1], "/msg")
-            raise LookupError(f"'{name}' is no name such as 'geometry_msgs/msg/Twist'. {hint}".rstrip())
+            raise LookupError(f"'{name}' is not a name such as 'geometry_msgs/msg/Twist'. {hint}".rstrip())
         owner = self.package(parts[0])
         for folder in FOLDERS:
             if owner.has(f"{folder}/{parts[1].partition('_')[0]}"):

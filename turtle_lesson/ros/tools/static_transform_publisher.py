@@ -26,7 +26,7 @@ usage: static_transform_publisher [--x X] [--y Y] [--z Z] [--qx QX] [--qy QY] [-
                                   [--roll ROLL] [--pitch PITCH] [--yaw YAW]
                                   --frame-id FRAME_ID --child-frame-id CHILD_FRAME_ID
 
-Tells of a frame that never moves: where child-frame-id is, seen from frame-id. Lengths are in m; the turn is
+Publishes a frame that never moves: where child-frame-id is, seen from frame-id. Lengths are in m; the turn is
 given by angles in rad or by a quaternion. What is left out is 0, no turn."""
 SHIFT, ANGLES, TURN = ("x", "y", "z"), ("roll", "pitch", "yaw"), ("qx", "qy", "qz", "qw")
 FRAMES = ("frame-id", "child-frame-id")

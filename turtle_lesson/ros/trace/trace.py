@@ -87,7 +87,7 @@ class Trace:
 
 
 def caller_name(node: NodeEntry) -> str:
-    """Who asks: a node, or the command whose hidden node it is."""
+    """The caller: a node, or the command whose hidden node it is."""
     words = node.process.argv
     if node.hidden and words and words[0] == "ros2":
         return " ".join(words[:3])

@@ -1,7 +1,7 @@
 """The module `datetime` as simulated programs see it: `datetime.now()` and `date.today()` tell the robot's time.
 
 The real classes are made in C and cannot be changed. So the import statements of a program get a module with two
-classes derived from them; whoever asks whether an object is a `datetime` gets the same answer for both. A robot's
+classes derived from them; `isinstance(…, datetime)` gives the same answer for both. A robot's
 clock is in UTC: moments without a time zone are taken for that, and not for the computer's.
 """
 

@@ -13,7 +13,7 @@ from ..strand import Strand, getcurrent
 
 
 class ProcessEnviron(os._Environ):
-    """The type of `os.environ`: which variables it holds depends on who looks."""
+    """The type of `os.environ`: which variables it holds depends on the process that reads it."""
 
     _data: Any = property(lambda self: vars(self)["_data"] if (own := _own()) is None else own)
 
@@ -33,7 +33,7 @@ class ProcessEnviron(os._Environ):
 
 
 def encoded(variables: Mapping[str, str] | None) -> dict[Any, Any]:
-    """These variables as a process keeps them; without any, a copy of those that whoever asks has."""
+    """These variables as a process keeps them; without any, a copy of the caller's."""
     environ: Any = os.environ
     if variables is None:
         return dict(environ._data)

@@ -6,7 +6,7 @@ Locks, threads and their kin belong to the simulation if they are made
   is imported: it is there for everybody; and except for Jupyter's own modules, which wait for Jupyter's threads; or
 - in the notebook, while a world is open and in the thread that the world lives in, directly by code of a cell (of the
   module `__main__`) or of a file of the learner's own. What the modules `threading`, `queue` and `concurrent.futures`, and
-  the listener of tf2_ros, make on the way counts as made by whoever called them.
+  the listener of tf2_ros, make on the way counts as made by their caller.
 
 Code of a cell sleeps in robot time as long as a thread lives that cells have started: else that would never go on.
 

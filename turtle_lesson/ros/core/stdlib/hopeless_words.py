@@ -1,4 +1,4 @@
-"""What is said of waits that can never end: who waits for what, and what to do."""
+"""Messages about waits that can never end: what waits for what, and what to do."""
 
 from __future__ import annotations
 
@@ -38,12 +38,12 @@ hints: list[Callable[[Strand], str]] = []
 
 
 def why_nobody_is_left(strand: Strand) -> str:
-    """Why a strand would wait for ever: because nobody else in its process can do anything."""
+    """Why a strand would wait forever: because nothing else in its process can do anything."""
     what = wait_of(strand)
     if what == LOOP:
         return (
-            "this asyncio loop would wait for ever: all of its tasks wait, none of them for a time, and nothing is left in "
-            f"this program that could go on. {_others(strand)}"
+            "this asyncio loop would wait forever: all of its tasks wait, none of them for a time, and nothing is left in "
+            f"this program that could wake one. {_others(strand)}"
         )
     action = _WHAT_ENDS_IT.get(what, "release it" if what == LOCK else "end that")
     text = f"{_never(what)}: nothing is left in this program that could {action}. {_others(strand)}"
@@ -51,13 +51,13 @@ def why_nobody_is_left(strand: Strand) -> str:
 
 
 def why_in_a_circle(strand: Strand, chain: Sequence[Strand], owner: Strand) -> str:
-    """Why a strand would wait for ever: because those who wait for one another form a circle, or one has ended."""
+    """Why a strand would wait forever: because the strands that wait for one another form a circle, or one has ended."""
     never = _never(wait_of(strand))
     if owner.dead:
         return f"{never}: {name_of(owner)} has ended without releasing it."
     if owner is strand and len(chain) == 1:
         return (
-            f"{never}: this very thread has taken it already. Release it before, or use threading.RLock(), which the "
+            f"{never}: this same thread has already taken it. Release it first, or use threading.RLock(), which the "
             "same thread may take again."
         )
     if owner is not strand:
@@ -106,7 +106,7 @@ def _called_in(frame: FrameType | None) -> str:
 def _others(strand: Strand) -> str:
     others = [each for each in strand.process.strands if each is not strand and each.waits_for != IDLE]
     waiting = [f"{name_of(each)} waits {_where(wait_of(each))}" for each in others if not each.dead and each.waits_for]
-    return f"Its other threads wait, too: {', '.join(waiting)}." if waiting else "It has no other thread."
+    return f"Its other threads are waiting as well: {', '.join(waiting)}." if waiting else "It has no other thread."
 
 
 def _where(what: str) -> str:

@@ -74,7 +74,7 @@ def become(thread: threading.Thread, strand: Strand) -> None:
 
 
 def end(thread: threading.Thread) -> None:
-    """The thread has ended: whoever joins it goes on."""
+    """The thread has ended: the threads that join it continue."""
     handle: Handle = vars(thread)["_virtual"]
     if handle.lock.locked():
         handle.lock.release()

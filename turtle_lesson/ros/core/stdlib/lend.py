@@ -1,7 +1,7 @@
 """Puts all this in place of the functions and classes of the standard library; `install` is called by the first world.
 
 Modules that took a name out of the standard library before that, as `from threading import Lock` does, keep the real
-one. All replacements give whoever is no simulated process, and no cell of a learner, what the real ones give.
+one. Outside simulated processes and a learner's cells, all replacements behave as the real ones do.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 Such a lock is a real one inside. So it may be used from everywhere: another thread of the real computer waits for it in
 real time, and in a plain notebook cell waiting for it runs the simulation. Of those who wait, the one who came first
-is woken; but whoever asks just when the lock is free gets it, as in Python.
+is woken; but a thread that asks while the lock is free gets it, as in Python.
 """
 
 from __future__ import annotations
@@ -131,7 +131,7 @@ class VirtualLock:
     def _refuse_if_closed(self) -> None:
         if self.owner is not None and self.owner.simulation.closed:
             raise WorldClosed(
-                "this would wait for a thread of a world that was closed by a later start(), and so for ever: make new "
+                "this would wait for a thread of a world that was closed by a later start(), and so forever: make new "
                 "locks, queues and threads in the new world"
             )
 

@@ -141,8 +141,8 @@ class VirtualEventLoop(asyncio.BaseEventLoop):
 def _refused(name: str) -> Callable[..., Any]:
     def refuse(self: VirtualEventLoop, *arguments: Any, **keywords: Any) -> Any:
         raise NotImplementedError(
-            f"loop.{name}() is not possible in this classroom: files, sockets and processes of the real computer know "
-            "nothing of virtual time. Tasks, queues, events, sleep, run_in_executor and signals work."
+            f"loop.{name}() is not possible here: files, sockets and processes of the real computer know "
+            "nothing about virtual time. Tasks, queues, events, sleep, run_in_executor and signals work."
         )
 
     refuse.__name__ = name

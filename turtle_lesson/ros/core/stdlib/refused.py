@@ -7,21 +7,21 @@ from typing import Any
 
 from ..strand import Strand, getcurrent
 
-INSTEAD = "Threads can be had (threading, concurrent.futures.ThreadPoolExecutor), and further nodes by a launch file."
-SIGNALS = "signal.signal, signal.alarm, signal.pause and signal.raise_signal do"
+INSTEAD = "Threads can be used (threading, concurrent.futures.ThreadPoolExecutor), and further nodes by a launch file."
+SIGNALS = "signal.signal, signal.alarm, signal.pause and signal.raise_signal are"
 
 
 def processes(what: str) -> Callable[..., Any]:
     """A function that does what the real one does, but refuses a simulated process another process."""
     return _refusing(
-        f"{what} is not possible in this classroom: another process of the computer would know nothing of the simulation "
+        f"{what} is not possible here: another process of the computer would know nothing about the simulation "
         f"and its time. {INSTEAD}"
     )
 
 
 def signals(what: str) -> Callable[..., Any]:
     """The same for what only a real operating system can do with signals."""
-    return _refusing(f"{what} does not exist in this classroom; {SIGNALS}")
+    return _refusing(f"{what} is not available here; {SIGNALS}")
 
 
 def _refusing(sentence: str) -> Callable[..., Any]:

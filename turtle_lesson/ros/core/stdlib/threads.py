@@ -1,6 +1,6 @@
 """`threading.Thread` in a simulated process: a strand of it, in virtual time.
 
-The class stays Python's own; `start` decides whose thread it is. A thread begins at once: whoever starts it goes on
+The class stays Python's own; `start` decides whose thread it is. A thread begins at once: its starter continues
 when it waits for the first time, as in Python, where `start` waits until the thread runs. In the notebook it begins at
 this instant of robot time, and lives on whenever the simulation runs.
 """
