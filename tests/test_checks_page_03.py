@@ -1,16 +1,21 @@
-"""The checks of page 03: what they say of navigators that turn the long way, turn the short way, or refuse nothing."""
+"""The checks of page 03, and how functions that a learner wrote are found and called."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from turtle_lesson import Lesson, start
-from turtle_lesson.lab.checks import CheckResult
+from turtle_lesson.lab.checks import CheckResult, Exam, Expectation
+from turtle_lesson.lab.checks.functions import learner_function, returns
+from turtle_lesson.lab.checks.rows import CannotLook
+from turtle_lesson.ros.command import shell
+from turtle_lesson.workspace import workspace
 
 # isort: split
 # Importing turtle_lesson made these importable.
@@ -22,25 +27,21 @@ from rclpy.task import Future
 from test_simple_stage import in_our_words
 from turtlesim.msg import Pose
 
-Turn = Callable[[float, float], float]
+
+def row(result: CheckResult, expected: str) -> Any:
+    return next(each for each in result.rows if expected in each.expected)
 
 
-def the_long_way(wanted: float, heading: float) -> float:
-    return wanted - heading
+# -- navigators --------------------------------------------------------------------------------------------------------
 
 
-def the_short_way(wanted: float, heading: float) -> float:
-    return math.remainder(wanted - heading, math.tau)
+class OnArrival(Node):
+    """A navigator in a cell that answers on arrival, by a coroutine; it refuses nothing."""
 
-
-class Navigator(Node):
-    """A navigator as a reader writes it in a cell: a timer steers, and a coroutine answers."""
-
-    def __init__(self, turn_to: Turn) -> None:
+    def __init__(self) -> None:
         from robot_controller.srv import NavigateTo
 
         super().__init__("navigator")
-        self.turn_to = turn_to
         self.pose: Any = None
         self.goal: Any = None
         self.arrived = Future()
@@ -54,11 +55,9 @@ class Navigator(Node):
         self.pose = pose
 
     async def on_goal(self, request: Any, response: Any) -> Any:
-        began = self.get_clock().now()
+        self.get_logger().info(f"{request}")
         self.goal, self.arrived = request, Future()
-        self.on_timer()
         response.success = await self.arrived
-        response.time_taken = (self.get_clock().now() - began).nanoseconds / 1e9
         return response
 
     def on_timer(self) -> None:
@@ -67,82 +66,127 @@ class Navigator(Node):
         dx, dy = self.goal.x - self.pose.x, self.goal.y - self.pose.y
         command = Twist()
         there = math.hypot(dx, dy) < 0.1
-        turn = self.turn_to(self.goal.theta if there else math.atan2(dy, dx), self.pose.theta)
+        turn = math.remainder((self.goal.theta if there else math.atan2(dy, dx)) - self.pose.theta, math.tau)
         if there and abs(turn) < 0.05:
-            self.goal = self.arrived.set_result(True)
+            self.goal = None
+            self.arrived.set_result(True)
         else:
             command.linear.x = 1.0 if not there and abs(turn) < 0.3 else 0.0
             command.angular.z = 2.0 * turn
         self.commands.publish(command)
 
 
-def in_a_cell(turn_to: Turn, kind: type[Navigator] = Navigator) -> tuple[Lesson, Navigator]:
+def test_a_coroutine_in_a_cell_goes_on_from_step_to_step(capsys: pytest.CaptureFixture[str]) -> None:
     lesson = start()
     rclpy.init()
-    return lesson, kind(turn_to)
-
-
-def row(result: CheckResult, expected: str) -> Any:
-    return next(each for each in result.rows if expected in each.expected)
-
-
-def test_the_finished_navigator_turns_the_short_way() -> None:
-    lesson = start()
-    lesson.launch("robot_controller", "start_system.launch.py")
-    lesson.run(1)
-    result = lesson.check("short_way")
-    assert result.passed, result
-
-
-def test_a_coroutine_in_a_cell_goes_on_from_step_to_step_and_the_short_way_is_seen() -> None:
-    lesson, _node = in_a_cell(the_short_way)
-    result = lesson.check("short_way")
-    assert result.passed, result
-
-
-def test_pirouettes_are_counted() -> None:
-    lesson, _node = in_a_cell(the_long_way)
-    result = lesson.check("short_way")
-    assert row(result, "the turtle within").good
-    assert row(result, "turns of 400°").mark == "✗"
-    assert "math.remainder" in row(result, "turns of 400°").advice.direction
-
-
-def test_what_refuses_nothing_is_no_navigator_yet(capsys: pytest.CaptureFixture[str]) -> None:
-    lesson, _node = in_a_cell(the_short_way)
+    node = OnArrival()
     result = lesson.check("navigator")
-    assert row(result, "outside the world").seen == "no answer in 5 s"
-    assert row(result, "no number").seen == "not looked at, because the goal (20.00, 5.00) was not refused"
-    assert [each.expected for each in result.rows if not each.good] == [
-        "refuses a goal outside the world",
-        "refuses a goal that is no number",
-    ]
-    assert "[ERROR]" not in capsys.readouterr().out
+    assert row(result, "a goal: the turtle within").good
+    assert row(result, "another in the west").good
+    assert row(result, "x outside").seen == "(20, 5, 0): no answer in 5 s"
+    node.destroy_node()
 
 
-class WithinTheWorld(Navigator):
-    """Refuses what is outside the world, by a comparison that lets pass what is no number."""
-
-    async def on_goal(self, request: Any, response: Any) -> Any:
-        if request.x > 11.09 or request.y > 11.09:
-            return response
-        return await super().on_goal(request, response)
-
-
-def test_a_goal_that_is_no_number_is_looked_at_once_one_outside_is_refused() -> None:
-    lesson, _node = in_a_cell(the_short_way, WithinTheWorld)
-    result = lesson.check("navigator")
-    assert row(result, "outside the world").good
-    assert row(result, "no number").seen == "no answer in 5 s"
-    assert "turtlesim" in row(result, "no error").seen
-
-
-@pytest.mark.parametrize(("name", "passed"), [("simple_navigator", True), ("short_way", False)])
-def test_the_simple_stage(tmp_path: Path, name: str, passed: bool) -> None:
+def test_the_simple_stage_is_no_navigator(tmp_path: Path) -> None:
     lesson = start(package=in_our_words(tmp_path))
     lesson.launch("robot_controller", "start_system.launch.py")
     lesson.run(1)
-    result = lesson.check(name)
-    assert result.passed == passed, result
-    if not passed:
-        assert row(result, "turns of").seen == "not looked at, because the turtle never turned"
+    result = lesson.check("navigator")
+    assert row(result, "a goal: success").mark == "✗"
+    assert row(result, "in the west").mark == "✗"
+
+
+# -- functions ---------------------------------------------------------------------------------------------------------
+
+
+class Looking(Exam):
+    """An exam of a fresh world."""
+
+    def __init__(self, lesson: Lesson) -> None:
+        super().__init__(lesson._make_exam_place(), limit=10)
+
+
+@pytest.fixture
+def exam() -> Iterator[Exam]:
+    with Looking(start()) as exam:
+        yield exam
+
+
+@pytest.fixture
+def cells() -> Iterator[dict[str, Any]]:
+    """The names of the notebook's cells."""
+    names = vars(sys.modules["__main__"])
+    before = dict(names)
+    yield names
+    names.clear()
+    names.update(before)
+
+
+@pytest.fixture
+def file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A file of the learner's package that does not exist yet."""
+    monkeypatch.setattr(shell, "_home", tmp_path)
+    folder = workspace().package / "robot_controller"
+    folder.mkdir(parents=True)
+    return folder / "node.py"
+
+
+def look(exam: Exam, expectation: Expectation) -> tuple[bool, str]:
+    good, words, _ = expectation.look(exam)
+    return good, words
+
+
+def test_a_function_of_a_cell(exam: Exam, cells: dict[str, Any]) -> None:
+    cells["double"] = lambda x: 2 * x
+    assert look(exam, returns("double", [((3,), 6)], "twice")) == (True, "double(3) is 6")
+    assert look(exam, returns("double", [((3,), 6), ((0.5,), 2.0)], "twice")) == (False, "double(0.5) is 1.0, not 2.0")
+
+
+def test_a_number_may_be_a_little_off_but_not_nan(exam: Exam, cells: dict[str, Any]) -> None:
+    cells["root"] = math.sqrt
+    assert look(exam, returns("root", [((2.0,), 1.414)], "root", within=0.001))[0]
+    assert not look(exam, returns("root", [((2.0,), 1.414)], "root", within=0.0001))[0]
+    cells["root"] = lambda x: math.nan
+    assert look(exam, returns("root", [((2.0,), 1.414)], "root", within=9.0)) == (False, "root(2.0) is nan, not 1.414")
+
+
+def test_true_is_not_one_and_nothing_is_not_false(exam: Exam, cells: dict[str, Any]) -> None:
+    cells["it"] = lambda x: x
+    assert not look(exam, returns("it", [((1,), True)], "it"))[0]
+    assert not look(exam, returns("it", [((True,), 1)], "it"))[0]
+    assert look(exam, returns("it", [((None,), False)], "it")) == (False, "it(None) is None, not False")
+
+
+def test_a_message_as_an_argument_is_shown_by_its_fields(exam: Exam, cells: dict[str, Any]) -> None:
+    cells["x_of"] = lambda pose: pose.x
+    said = look(exam, returns("x_of", [((Pose(x=1.5),), 2.0)], "x"))[1]
+    assert said.startswith("x_of((x=1.5, y=0.0, theta=0.0")
+    assert said.endswith(" is 1.5, not 2.0")
+
+
+def test_a_function_that_is_not_there(exam: Exam, cells: dict[str, Any]) -> None:
+    cells["turn_too"] = abs
+    with pytest.raises(CannotLook, match=r'no function turn_to in this notebook\. Did you mean "turn_too"'):
+        learner_function(exam, "turn_to")
+    cells["turn_to"] = 3
+    with pytest.raises(CannotLook, match="turn_to in this notebook is 3, not a function"):
+        learner_function(exam, "turn_to")
+
+
+def test_a_function_of_a_file(file: Path) -> None:
+    file.write_text('def one():\n    return 1\n\nif __name__ == "__main__":\n    raise SystemExit\n')
+    with Looking(start()) as exam:
+        assert learner_function(exam, "one", "node.py")() == 1
+        with pytest.raises(CannotLook, match=r"no function two in node\.py of your package"):
+            learner_function(exam, "two", "node.py")
+
+
+def test_a_file_that_is_missing_or_no_python(file: Path) -> None:
+    with (
+        Looking(start()) as exam,
+        pytest.raises(CannotLook, match=r"no file workspace/src/robot_controller/robot_contr"),
+    ):
+        learner_function(exam, "one", "node.py")
+    file.write_text("def one(:\n")
+    with Looking(start()) as exam, pytest.raises(SyntaxError):
+        learner_function(exam, "one", "node.py")

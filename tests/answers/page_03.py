@@ -341,12 +341,12 @@ ANSWERS = {
             ),
             "up to 11": (
                 changed(CAREFUL, ("request.x <= 11.09", "request.x <= 11")),
-                "(11.09, 11.09, 0.8): success is False",
+                "(11.08, 11.08, 0.8): success is False",
             ),
             "up to 12": (changed(CAREFUL, ("request.x <= 11.09", "request.x <= 12")), "(11.2, 5, 0): success is True"),
             "theta from −π to π": (
                 changed(CAREFUL, ("if finite and", "if finite and abs(request.theta) <= math.pi and")),
-                "heading 7",
+                "(6.5, 5.5, 7): success is False",
             ),
             "or for and": (changed(CAREFUL, ("11.09 and 0.0", "11.09 or 0.0")), "(20, 5, 0): success is True"),
             "keeps the goal first": (

@@ -55,7 +55,7 @@ TO_THE_LEFT = Way("a goal in the west", (8.0, 5.0, 3.05), (5.0, 4.8, -3.05))
 TO_THE_RIGHT = Way("another in the west", (8.0, 5.0, -3.05), (5.0, 5.2, 3.05))
 CORNERS = (
     Way("the lower left corner", (1.0, 1.0, -2.3), (0.0, 0.0, -2.3)),
-    Way("the upper right corner", (10.0, 10.0, 0.8), (11.09, 11.09, 0.8)),
+    Way("the upper right corner", (10.0, 10.0, 0.8), (11.08, 11.08, 0.8)),
 )
 ANYWHERE = (0.0, 7.0, -7.0)
 """Headings that are numbers, and so make sense."""
