@@ -49,13 +49,13 @@ def mend(case: Case) -> list[str]:
         "The parameter publish_rate": ["ros2 param set /status_monitor publish_rate 10"],
         "The simulator did not run": ["ros2 run turtlesim turtlesim_node"],
         "The navigator published": ["kill {navigator}", RUN_NAVIGATOR],
-        "The parameter linear_speed": ["ros2 param set /navigator linear_speed 4.0"],
-        "A command came every": ["ros2 param set /navigator command_period 0.1"],
+        "The speed limiter let no more": ["ros2 param set /speed_limiter max_speed 4.0"],
+        "The speed limiter let a command": ["ros2 param set /speed_limiter command_period 0.1"],
         "The laser sends": [
             "kill {obstacle_alarm}",
             "ros2 run robot_draft obstacle_alarm --ros-args -p reliability:=best_effort",
         ],
-        "Somebody published": ["kill {status_text}", f"ros2 node list | grep status_monitor || {RUN_MONITOR}"],
+        "A node published": ["kill {status_text}", f"ros2 node list | grep status_monitor || {RUN_MONITOR}"],
         "The navigator subtracted": ["ros2 param set /navigator short_way true"],
         "The node made its timer twice": ["kill {status_twice}", RUN_MONITOR],
         "The status monitor ran twice": ["kill {status_monitor}"],
@@ -122,7 +122,7 @@ def test_it_can_be_mended_by_code_in_a_cell(capsys: pytest.CaptureFixture[str]) 
     node = rclpy.create_node("status_monitor")
     publisher = node.create_publisher(TurtleStatus, "/robot/status", 10)
     assert not case.mended
-    node.create_timer(0.1, lambda: publisher.publish(TurtleStatus(battery=50.0)))
+    node.create_timer(0.1, lambda: publisher.publish(TurtleStatus(x=5.54, y=5.54, battery=50.0)))
     assert case.mended
 
 

@@ -58,6 +58,8 @@ class Insight(Desk):
     def trouble(self, seed: int | None = None, *, name: str | None = None) -> Case:
         """Break the system on purpose, and return the case: what a user reports. All that runs, but the simulator, is ended.
 
+        The system is the learner's own where it is sourced, as after `start(package="mine")`, else the finished one. Files
+        are broken in a copy only, in the folder `trouble_ws`, which the next case or the next `start()` removes.
         Mend the running system by commands or code; `case.check()`, or `lesson.check("trouble")`, says whether it is well.
 
         Args:
@@ -68,7 +70,7 @@ class Insight(Desk):
         from .lesson import FINISHED, _install
         from .stage import WorldStage
 
-        stage = WorldStage(self._world, lambda: _install(self._world, FINISHED), FINISHED)
+        stage = WorldStage(self._world, lambda: _install(self._world, FINISHED))
         return open_case(stage, seed, name, lambda: self.check("trouble"))
 
     def prompt_for(self, kind: str, *, code: Any = None, lines: int = 12) -> Prompt:

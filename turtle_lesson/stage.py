@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import re
 import shutil
 from collections.abc import Callable
 from pathlib import Path
@@ -14,25 +16,35 @@ from .ros.console import CellOutput
 from .ros.core import Process
 from .ros.interfaces.registry import registry
 from .ros.workspace.package import Package
+from .ros.workspace.source import overlay, overlays, remove_all
 from .sourced import HERE
 
 if TYPE_CHECKING:
     from .lab.troubles import Program
     from .ros.world import World
 
+PACKAGE = "robot_controller"
 WORKSPACE = "trouble_ws"
+MARK = ".made_for_a_case"
+"""An empty file in a `trouble_ws` that was made here: only such a folder is ever replaced."""
+
 DRAFTS = HERE / "lab" / "troubles" / "robot_draft"
 STAYS = frozenset({"lab", "turtlesim", "turtlesim_node"})
-MESSAGE_LINE = '"msg/TurtleStatus.msg"'
+MESSAGE_FILE = re.compile(r'"?\bmsg/TurtleStatus\.msg"?')
 
 
 class WorldStage:
-    """A `Stage` (see lab/troubles/model.py) in a world of this notebook. `install` makes the finished package findable."""
+    """A `Stage` (see lab/troubles/model.py) in a world of this notebook. `install` makes the finished package findable.
 
-    def __init__(self, world: World, install: Callable[[], None], finished: Path) -> None:
+    Where the learner's own package is sourced when the first case is opened, the cases are about that one. Its files are
+    only read: what is to be broken in files is broken in a copy, which goes with the next case and with the world.
+    """
+
+    def __init__(self, world: World, install: Callable[[], None]) -> None:
         self._world = world
         self._install = install
-        self._finished = finished
+        sourced = list(dict.fromkeys(each.install for each in overlays(world)))
+        self._sourced: list[Path] = world.notebook.locals.setdefault("sourced before a case", sourced)
         if "robot_draft" not in world.packages:
             files = {path.stem: path for path in sorted(DRAFTS.glob("*.py"))}
             world.packages.add(Package("robot_draft", DRAFTS, executables=dict(files)))
@@ -43,7 +55,7 @@ class WorldStage:
         return self._world.sim.closed
 
     def clear(self) -> None:
-        """Ctrl-C for every program but the simulator; the simulator and the finished package are there again."""
+        """Ctrl-C for every program but the simulator; the simulator and the package are there again, as before."""
         for process in self._programs():
             if process.name not in STAYS:
                 process.interrupt()
@@ -55,7 +67,11 @@ class WorldStage:
             out = CellOutput(self._world.sim)
             target = self._world.packages.executable("turtlesim", "turtlesim_node")
             self._world.spawn(target, name="turtlesim", argv=["turtlesim_node"], stdout=out, stderr=out)
-        if "robot_controller" not in self._world.packages:
+        remove_all(self._world)
+        remove_scratch()
+        for folder in self._sourced:
+            overlay(self._world, folder)
+        if PACKAGE not in self._world.packages:
             self._install()
         self._world.sim.settle()
 
@@ -92,21 +108,31 @@ class WorldStage:
         self._world.sim.settle()
 
     def make_workspace(self, fault: str) -> None:
-        """A fresh workspace in the notebook's folder with the package in source; nowhere else is it found from now on."""
+        """A copy of the package's source in the workspace `trouble_ws`; nowhere else is it found from now on.
+
+        Raises FileExistsError for a `trouble_ws` that was not made here, ValueError for a package without the message.
+        """
         folder = home() / WORKSPACE
-        shutil.rmtree(folder, ignore_errors=True)
-        source = folder / "src" / "robot_controller"
-        shutil.copytree(self._finished, source, ignore=shutil.ignore_patterns("__pycache__"))
+        if folder.exists():
+            raise FileExistsError(f"{WORKSPACE} is a folder of your own: give it another name, then run this again")
+        written = self._world.packages.get(PACKAGE).source
+        assert written is not None, "what is sourced here was built here, or lies in its source folder"
+        source = folder / "src" / PACKAGE
+        shutil.copytree(written, source, ignore=shutil.ignore_patterns("__pycache__"))
+        (folder / MARK).touch()
+        self._world.notebook.at_exit.append(remove_scratch)
         if fault == "not in CMakeLists.txt":
             text = (source / "CMakeLists.txt").read_text(encoding="utf-8")
-            assert MESSAGE_LINE in text, "the finished package names its message otherwise by now"
-            (source / "CMakeLists.txt").write_text(text.replace(MESSAGE_LINE, ""), encoding="utf-8")
+            if not MESSAGE_FILE.search(text):
+                raise ValueError('your CMakeLists.txt does not name "msg/TurtleStatus.msg", so that cannot be broken')
+            (source / "CMakeLists.txt").write_text(MESSAGE_FILE.sub("", text), encoding="utf-8")
         if fault != "not built":
             self._build(folder)
-        while "robot_controller" in self._world.packages:
-            self._world.packages.remove("robot_controller")
-        if "robot_controller" in registry.packages():
-            registry.remove("robot_controller")
+        remove_all(self._world)
+        while PACKAGE in self._world.packages:
+            self._world.packages.remove(PACKAGE)
+        if PACKAGE in registry.packages():
+            registry.remove(PACKAGE)
 
     def _build(self, folder: Path) -> None:
         """`colcon build`, which somebody has done before: nothing of it is shown."""
@@ -116,3 +142,12 @@ class WorldStage:
 
         said = io.StringIO()
         colcon.run(self._world, ["build"], stdout=said, stderr=said, cwd=folder)
+
+
+def remove_scratch() -> None:
+    """Delete the `trouble_ws` that a case has made; a terminal that is in it goes back to its first folder."""
+    folder = home() / WORKSPACE
+    if (folder / MARK).is_file():
+        if Path.cwd().is_relative_to(folder):
+            os.chdir(home())
+        shutil.rmtree(folder, ignore_errors=True)

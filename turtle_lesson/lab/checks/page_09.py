@@ -10,31 +10,63 @@ LIMIT = 600
 
 @check("trouble", page=PAGE, points=1, limit=LIMIT)
 def trouble() -> list[Expectation]:
-    """A system that does again what it should."""
+    """A system that works again as specified."""
     from ..troubles import current_expectations
 
     return current_expectations()
 
 
-@check("slow_case", page=PAGE, points=3, limit=LIMIT)
-def slow_case() -> list[Expectation]:
-    """The first guided case: a turtle that gets where it is sent."""
+@check(
+    "topic_case",
+    page=PAGE,
+    points=3,
+    limit=LIMIT,
+    learnt="A topic has a publisher, a name and a rate, and a command for each of them.",
+)
+def topic_case() -> list[Expectation]:
+    """A dashboard that gets ten messages a second."""
     from ..troubles import expectations_of
 
-    return expectations_of("turtle stands still")
+    return expectations_of(9, "topic silent")
 
 
-@check("deaf_case", page=PAGE, points=3, limit=LIMIT)
-def deaf_case() -> list[Expectation]:
-    """The second guided case: an alarm that rings."""
+@check(
+    "service_case",
+    page=PAGE,
+    points=3,
+    limit=LIMIT,
+    learnt="A call needs a node, a service of the same name, and a callback that is called.",
+)
+def service_case() -> list[Expectation]:
+    """A navigator that answers its calls."""
     from ..troubles import expectations_of
 
-    return expectations_of("alarm stays silent")
+    return expectations_of(9, "service times out")
 
 
-@check("own_case", page=PAGE, points=5, limit=LIMIT)
-def own_case() -> list[Expectation]:
-    """A case that was drawn by its number, mended."""
+@check(
+    "message_case",
+    page=PAGE,
+    points=3,
+    limit=LIMIT,
+    learnt="A message type is named in CMakeLists.txt, built and sourced, in this order.",
+)
+def message_case() -> list[Expectation]:
+    """A message type that programs can use."""
     from ..troubles import expectations_of
 
-    return expectations_of(None)
+    return expectations_of(12, "message not found")
+
+
+@check(
+    "turtle_case",
+    page=PAGE,
+    points=3,
+    limit=LIMIT,
+    learnt="A command can be followed from the node that sends it to the robot that obeys it.",
+)
+def turtle_case() -> list[Expectation]:
+    """A turtle that gets where it is sent."""
+    from ..troubles import expectations_of
+
+    return expectations_of(1, "turtle stands still")

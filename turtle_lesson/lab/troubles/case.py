@@ -1,4 +1,4 @@
-"""A case file: what a user reports of a broken system, and hints for who looks for the cause."""
+"""A case file: what a user reports of a broken system, and hints for the learner who looks for the cause."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ LEVELS = 3
 
 
 class Case:
-    """One broken system. What is wrong is not told before it is mended.
+    """One broken system. It does not say what is wrong until that is mended.
 
     Attributes:
         number: by which `lesson.trouble(number)` brings it back.
@@ -83,9 +83,9 @@ def open_case(stage: Stage, seed: int | None, name: str | None, check: Callable[
         stage: the world.
         seed: chooses the trouble, or, of a named one, the fault behind it.
         name: the trouble's name.
-        check: what looks whether it is mended.
+        check: looks at the system and says whether it is mended.
 
-    Raises ValueError for a name that there is not, with the one that is perhaps meant, and for a seed that is no number.
+    Raises ValueError for a name that does not exist, with the one that may be meant, and for a seed that is no number.
     """
     global _current
     number = 0 if seed is None else seed
@@ -125,19 +125,22 @@ def current_expectations() -> list[Expectation]:
     return _current[0]._trouble.expectations()
 
 
-def expectations_of(name: str | None) -> list[Expectation]:
-    """The same, and that the current case is this trouble; None is one that was drawn by its number alone."""
-    wanted = f'lesson.trouble(name="{name}")' if name else "lesson.trouble(a number)"
+def expectations_of(number: int, name: str) -> list[Expectation]:
+    """The same, and that the current case is this one."""
+    wanted = f'case = lesson.trouble({number}, name="{name}")'
 
     def look(exam: Exam) -> Seen:
         if _current is None or _current[1].ended:
-            return Seen(False, "there is none in this world yet", f"Run the cell with case = {wanted} first.")
-        return Seen(_current[0].trouble == name, _current[0]._title, f"Another one is asked for: case = {wanted}")
+            return Seen(False, "there is none in this world yet", f"Run the cell with {wanted} first.")
+        return Seen(is_open(), f"it is {_current[0]._title}", f"Another one is asked for: {wanted}")
 
-    is_it = Expectation("the case was opened", look)
-    if _current is None or _current[1].ended or _current[0].trouble != name:
-        return [is_it]
-    return [is_it, *current_expectations()]
+    def is_open() -> bool:
+        if _current is None or _current[1].ended:
+            return False
+        return (_current[0].number, _current[0].trouble) == (number, name)
+
+    case = Expectation(f"the case {number}, {name}", look)
+    return [case, *current_expectations()] if is_open() else [case]
 
 
 def _no_case(exam: Exam) -> Seen:

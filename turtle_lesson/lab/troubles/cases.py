@@ -10,9 +10,9 @@ TROUBLES: dict[str, Trouble] = {
     for trouble in (
         Trouble(
             "message not found",
-            "I wrote TurtleStatus.msg in my package in trouble_ws and wanted to start the status monitor. ROS says that it "
-            "knows no robot_controller/msg/TurtleStatus.",
-            ("A message type is text first. What has to happen until a program can use it?",
+            "I copied my package into a new workspace, trouble_ws, and wanted to start the status monitor there. ROS cannot "
+            "find robot_controller/msg/TurtleStatus.",
+            ("A message type is only a text at first. What has to happen before a program can use it?",
              "Go through the three steps in order: CMakeLists.txt, colcon build, source."),
             ("ros2 interface show robot_controller/msg/TurtleStatus", "ros2 pkg list", "ls trouble_ws",
              "cat trouble_ws/src/robot_controller/CMakeLists.txt"),
@@ -22,7 +22,7 @@ TROUBLES: dict[str, Trouble] = {
         Trouble(
             "service times out",
             "I call /navigate_to, and no answer ever comes.",
-            ("Somebody has to offer the service, under this name, and have time to answer.",
+            ("Some node has to offer the service, under this name, and its callback has to be called.",
              "ros2 service list, ros2 node info /navigator; then lesson.plot_sequence() after a call."),
             ("ros2 node list", "ros2 service list", "ros2 node info /navigator", 'lesson.plot_timeline("/navigator")'),
             faults.no_answer,
@@ -30,7 +30,7 @@ TROUBLES: dict[str, Trouble] = {
         ),
         Trouble(
             "topic silent",
-            "The display for /robot/status stays grey, or moves in jerks; it wants ten messages a second.",
+            "The dashboard stays empty, or moves in jerks. It needs ten messages a second on /robot/status.",
             ("A topic needs a publisher, the right name, and the right rate.",
              "ros2 topic list, ros2 topic info /robot/status, ros2 topic hz /robot/status."),
             ("ros2 node list", "ros2 topic list", "ros2 topic hz /robot/status", "ros2 node info /status_monitor",
@@ -40,11 +40,11 @@ TROUBLES: dict[str, Trouble] = {
         ),
         Trouble(
             "turtle stands still",
-            "I send the turtle to a goal and it hardly moves, or not at all. It never gets there.",
-            ("Follow the command from the navigator to the turtle: is it sent, where to, how large, how often?",
+            "I send the turtle to a goal, and it hardly moves, or not at all. It never gets there.",
+            ("Follow the commands from the navigator to the turtle: are they sent, on which topic, how large, how often?",
              "ros2 node list, ros2 topic info /turtle1/cmd_vel --verbose, ros2 topic echo /turtle1/cmd_vel during a call."),
             ("ros2 node list", "ros2 topic info /turtle1/cmd_vel --verbose", "ros2 topic echo /turtle1/cmd_vel",
-             "ros2 param dump /navigator", 'lesson.plot_timeline("/turtle1/cmd_vel")'),
+             "ros2 node info /navigator", 'lesson.plot_timeline("/turtle1/cmd_vel")'),
             faults.stands,
             faults.motion_rows,
         ),
@@ -78,7 +78,7 @@ TROUBLES: dict[str, Trouble] = {
         Trouble(
             "status comes twice",
             "The display for /robot/status flickers: twenty messages come a second, where ten are specified.",
-            ("Messages that come twice have two publishers, or one that is called twice.",
+            ("If messages come twice, there are two publishers, or one callback is called twice.",
              "ros2 topic hz /robot/status, ros2 topic info /robot/status --verbose, ros2 node list."),
             ("ros2 topic hz /robot/status", "ros2 topic info /robot/status --verbose", "ros2 node list",
              'lesson.plot_timeline("/status_monitor")'),
@@ -88,7 +88,7 @@ TROUBLES: dict[str, Trouble] = {
         Trouble(
             "status frozen",
             "The status comes ten times a second and says that the turtle is at (0, 0), wherever it is.",
-            ("The monitor is alive, and knows nothing. Where should it know it from?",
+            ("The monitor runs, but it does not know where the turtle is. Which topic should tell it?",
              "ros2 node info /status_monitor and ros2 topic info /turtle1/pose --verbose; its log warns, too."),
             ("ros2 topic echo /robot/status --once", "ros2 node info /status_monitor",
              "ros2 topic info /turtle1/pose --verbose"),

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import itertools
 import math
+from pathlib import Path
 
 from ..checks import CannotLook, Exam, Expectation, Seen, interface
-from ..checks.drives import NAVIGATE, NAVIGATE_TYPE, NEAR, POSE, POSE_TYPE, drive, where
+from ..checks.drives import COMMANDS, NAVIGATE, NAVIGATE_TYPE, NEAR, POSE, POSE_TYPE, Drive, drive, where
 from ..checks.parts import node, publishes
 from ..checks.streams import rate
 from ..words import number, point
 
 STATUS, STATUS_TYPE = "/robot/status", "robot_controller/msg/TurtleStatus"
+SLOWEST = 10.0
+"""Robot time, s, within which a goal in the turtle's world is reached; a longer goal_timeout mends nothing."""
 
 
 def importable(type_name: str) -> Expectation:
@@ -21,10 +25,31 @@ def importable(type_name: str) -> Expectation:
             interface(type_name)
         except CannotLook:
             step = "Named in CMakeLists.txt? Then: colcon build, source install/setup.bash, in the workspace's folder."
-            return Seen(False, "nobody can use it here", step)
+            return Seen(False, "no program can use it here", step)
         return Seen(True, "it can be used")
 
     return Expectation(f"the type {type_name}", look)
+
+
+def found_in(folder: str, package: str) -> Expectation:
+    """A package is found in the workspace of this name, and not elsewhere."""
+
+    def look(exam: Exam) -> Seen:
+        from ament_index_python.packages import PackageNotFoundError, get_package_prefix
+
+        try:
+            prefix = Path(get_package_prefix(package))
+        except PackageNotFoundError:
+            return Seen(False, "it is not found at all", "Which step comes after colcon build?")
+        if folder in prefix.parts:
+            return Seen(True, "it is")
+        return Seen(
+            False,
+            f"it is found in {'/'.join(prefix.parts[-3:])}",
+            f"Which setup file was sourced? {folder} has one, too.",
+        )
+
+    return Expectation(f"{package} is found in {folder}", look)
 
 
 def advised(expectation: Expectation, step: str) -> Expectation:
@@ -38,7 +63,10 @@ def advised(expectation: Expectation, step: str) -> Expectation:
 
 def there(name: str, command: str) -> Expectation:
     """One node of this name; `command` starts it."""
-    step = f"ros2 node list shows who is there. Too few: {command}. Too many: jobs, and the pids that a launch tells; kill."
+    step = (
+        f"ros2 node list shows the nodes. One is missing: {command}. There is one too many: jobs and the lines of the "
+        "launch tell its pid; kill."
+    )
     return advised(node(name), step)
 
 
@@ -51,7 +79,8 @@ def status_as_specified() -> list[Expectation]:
         advised(
             published, f"ros2 topic info {STATUS} --verbose; ros2 node info /status_monitor: what does it publish?"
         ),
-        advised(paced, f"ros2 topic hz {STATUS}; who publishes it, from which callback, and at a rate set by what?"),
+        advised(paced, f"ros2 topic hz {STATUS}. Which node publishes it, and what sets its rate?"),
+        status_follows(),
     ]
 
 
@@ -62,22 +91,43 @@ def drives(*goals: tuple[float, float]) -> list[Expectation]:
 
 
 def reaches(x: float, y: float) -> Expectation:
-    """A goal is answered with success, and the turtle is there."""
+    """A goal is answered with success in reasonable time, and the turtle is there."""
 
     def look(exam: Exam) -> Seen:
-        if not exam.once(("answers",), lambda: _answers(exam)).good:
-            raise CannotLook(f"{NAVIGATE} does not answer")
-        it = drive(exam, f"to {x} {y}", lambda pose: (x, y, 0.0))
+        it = _drive_to(exam, x, y)
         if it.answer.response is None:
             return Seen(False, f"no answer in {it.answer.seconds:g} s", 'lesson.plot_timeline("/navigator")')
         success, end = bool(it.response.success), it.end()
         seen = f"success is {success} after {number(it.answer.seconds)} s, at {point(end.x, end.y)}"
         step = (
-            "During a call: ros2 topic echo /turtle1/cmd_vel. Do commands come, how large, how often, who hears them?"
+            "ros2 topic echo /turtle1/cmd_vel during a call: do commands come, how large, how often, from which node?"
         )
-        return Seen(success and it.distance() <= NEAR, seen, step)
+        return Seen(success and it.distance() <= NEAR and it.answer.seconds <= SLOWEST, seen, step)
 
-    return Expectation(f"the goal {point(x, y)} is reached", look)
+    return Expectation(f"the goal {point(x, y)} is reached within {SLOWEST:g} s", look)
+
+
+def commands_steady(x: float, y: float) -> Expectation:
+    """On the way to a goal, commands come ten times a second."""
+
+    def look(exam: Exam) -> Seen:
+        it = _drive_to(exam, x, y)
+        begin, end = it.moving()
+        times = [each.at for each in it.commands if begin - 0.2 <= each.at <= end]
+        gap = max((after - before for before, after in itertools.pairwise(times)), default=end - begin)
+        step = (
+            'lesson.plot_timeline("/turtle1/cmd_vel") after a call. Which node publishes them, and what sets its rate?'
+        )
+        return Seen(gap <= 0.15, f"the longest pause was {number(gap)} s", step)
+
+    return Expectation(f"{COMMANDS}: ten commands a second meanwhile", look)
+
+
+def _drive_to(exam: Exam, x: float, y: float) -> Drive:
+    """The drive to a place. Raises CannotLook where the navigator does not answer at all."""
+    if not exam.once(("answers",), lambda: _answers(exam)).good:
+        raise CannotLook(f"{NAVIGATE} does not answer")
+    return drive(exam, f"to {x} {y}", lambda pose: (x, y, 0.0))
 
 
 def answers_at_all() -> Expectation:
@@ -87,8 +137,8 @@ def answers_at_all() -> Expectation:
 
 def _answers(exam: Exam) -> Seen:
     if not exam.servers(NAVIGATE):
-        step = "ros2 node list, ros2 service list: is its node there, and does it offer another name?"
-        return Seen(False, f"nobody offers it{exam.like(NAVIGATE, exam.services())}", step)
+        step = "ros2 node list, ros2 service list: is the node there, and does it offer the service under another name?"
+        return Seen(False, f"no node offers it{exam.like(NAVIGATE, exam.services())}", step)
     try:
         here = where(exam)
         x, y, theta = here.x, here.y, here.theta
@@ -102,7 +152,7 @@ def _answers(exam: Exam) -> Seen:
 
 
 def status_follows() -> Expectation:
-    """The status tells where the turtle is."""
+    """The status says where the turtle is."""
 
     def look(exam: Exam) -> Seen:
         poses, statuses = exam.listen(POSE, POSE_TYPE), exam.listen(STATUS, STATUS_TYPE)
@@ -110,11 +160,13 @@ def status_follows() -> Expectation:
         if not poses or not statuses:
             raise CannotLook(f"nothing came on {STATUS if poses else POSE}")
         told, true = statuses[-1].message, poses[-1].message
-        seen = f"it tells {point(told.x, told.y)}, the turtle is at {point(true.x, true.y)}"
+        seen = f"it says {point(told.x, told.y)}, the turtle is at {point(true.x, true.y)}"
         good = math.dist((told.x, told.y), (true.x, true.y)) < 0.3
-        return Seen(good, seen, "ros2 node info /status_monitor: which topic does it hear, and who publishes that one?")
+        return Seen(
+            good, seen, "ros2 node info /status_monitor: which topic does it hear, and which node publishes that one?"
+        )
 
-    return Expectation(f"{STATUS} tells where the turtle is", look)
+    return Expectation(f"{STATUS} says where the turtle is", look)
 
 
 def battery_falls() -> Expectation:

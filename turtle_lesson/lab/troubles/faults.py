@@ -13,10 +13,11 @@ from .expect import (
     STATUS_TYPE,
     advised,
     battery_falls,
+    commands_steady,
     drives,
+    found_in,
     importable,
     status_as_specified,
-    status_follows,
     there,
 )
 from .model import DETECTOR, MONITOR, NAVIGATOR, Fault, Program
@@ -46,8 +47,13 @@ def no_message(chance: Random) -> Fault:
 
 
 def message_rows() -> list[Expectation]:
-    """Both types can be used, and the status comes."""
-    return [importable(STATUS_TYPE), importable(NAVIGATE_TYPE), *status_as_specified()]
+    """Both types of the package in trouble_ws can be used, and the status comes."""
+    return [
+        found_in("trouble_ws", "robot_controller"),
+        importable(STATUS_TYPE),
+        importable(NAVIGATE_TYPE),
+        *status_as_specified(),
+    ]
 
 
 # -- 2: the service does not answer -------------------------------------------------------------------------------------
@@ -118,7 +124,7 @@ def stands(chance: Random) -> Fault:
     faults = (
         Fault(
             "The simulator did not run.",
-            "Who hears /turtle1/cmd_vel? ros2 node list",
+            "Which node should obey /turtle1/cmd_vel, and is it there? ros2 node list",
             (NAVIGATOR, *OTHERS),
             simulator=False,
         ),
@@ -128,22 +134,35 @@ def stands(chance: Random) -> Fault:
             (Program("navigator", remaps={"/turtle1/cmd_vel": wrong}), *OTHERS),
         ),
         Fault(
-            f"The parameter linear_speed was {speed} m/s: too small to get anywhere in time.",
-            "Commands arrive. How large are they? ros2 topic echo /turtle1/cmd_vel, ros2 param dump /navigator",
-            (Program("navigator", parameters={"linear_speed": speed}), *OTHERS),
+            f"The speed limiter let no more than {speed} m/s through: too little to get anywhere in time.",
+            "Commands arrive. How large are they, and which node sends them? ros2 param dump /speed_limiter",
+            (*limited({"max_speed": speed}), *OTHERS),
         ),
         Fault(
-            f"A command came every {period:g} s, and the simulator stops a turtle whose last command is a second old.",
-            'How often do commands come? lesson.plot_timeline("/turtle1/cmd_vel"), ros2 param dump /navigator',
-            (Program("navigator_draft", DRAFT, "navigator", {"command_period": period, "short_way": True}), *OTHERS),
+            f"The speed limiter let a command through every {period:g} s, and the simulator stops a turtle whose last "
+            "command is a second old.",
+            "How often do commands come, and from which node? ros2 param dump /speed_limiter",
+            (*limited({"command_period": period}), *OTHERS),
         ),
     )
     return chance.choice(faults)
 
 
+def limited(parameters: dict[str, float]) -> tuple[Program, Program]:
+    """A navigator whose commands pass a speed limiter with these parameters."""
+    return (
+        Program("navigator", remaps={"/turtle1/cmd_vel": "/wanted_vel"}),
+        Program("speed_limiter", DRAFT, parameters=parameters),
+    )
+
+
 def motion_rows() -> list[Expectation]:
     """Simulator and navigator are there, and goals are reached."""
-    return [there("/turtlesim", "ros2 run turtlesim turtlesim_node"), *drives((8.0, 5.5), (5.5, 5.5))]
+    return [
+        there("/turtlesim", "ros2 run turtlesim turtlesim_node"),
+        *drives((8.0, 5.5), (5.5, 5.5)),
+        commands_steady(8.0, 5.5),
+    ]
 
 
 # -- more ---------------------------------------------------------------------------------------------------------------
@@ -178,7 +197,7 @@ def typed_wrong(chance: Random) -> Fault:
         (Program("status_text", DRAFT, name), MONITOR) if twin else (Program("status_text", DRAFT, "status_monitor"),)
     )
     return Fault(
-        f"Somebody published /robot/status as std_msgs/msg/String, where {STATUS_TYPE} is specified.",
+        f"A node published /robot/status as std_msgs/msg/String, where {STATUS_TYPE} is specified.",
         "ros2 topic info /robot/status --verbose: two ends of different types never connect.",
         (*also, NAVIGATOR, DETECTOR),
     )
@@ -225,12 +244,12 @@ def frozen(chance: Random) -> Fault:
     """A monitor that hears nothing."""
     wrong = chance.choice(("/pose", "/turtle/pose", "/turtle2/pose", "/turtle1/position"))
     return Fault(
-        f"The status monitor heard {wrong}, where nobody publishes: it was started with a remapping.",
-        "ros2 node info /status_monitor: which topic does it hear, and who publishes that one?",
+        f"The status monitor heard {wrong}, where no node publishes: it was started with a remapping.",
+        "ros2 node info /status_monitor: which topic does it hear, and which node publishes that one?",
         (Program("status_monitor", remaps={"/turtle1/pose": wrong}), NAVIGATOR, DETECTOR),
     )
 
 
 def frozen_rows() -> list[Expectation]:
-    """The status tells where the turtle is."""
-    return [*status_as_specified(), status_follows()]
+    """The status says where the turtle is."""
+    return status_as_specified()

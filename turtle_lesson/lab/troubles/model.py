@@ -68,7 +68,7 @@ class Stage(Protocol):
     """Where a trouble is put on: what can be done to a world by public means."""
 
     def clear(self) -> None:
-        """End every program but the simulator, and see to it that this and the finished package are there."""
+        """End every program but the simulator; the simulator and the package are there again, as before."""
 
     def start(self, programs: tuple[Program, ...]) -> None:
         """Launch nodes."""
@@ -77,7 +77,7 @@ class Stage(Protocol):
         """Ctrl-C for the turtle simulator."""
 
     def make_workspace(self, fault: str) -> None:
-        """A workspace `trouble_ws` with the package in source, which is found nowhere else from now on."""
+        """A copy of the package's source in the workspace `trouble_ws`; nowhere else is it found from now on."""
 
     @property
     def ended(self) -> bool:

@@ -76,18 +76,19 @@ def overlay(world: World, install: Path) -> list[str]:
 def resource(world: World, install: Path, name: str) -> None:
     """Read one package anew, if it is sourced: its files have changed."""
     install = install.resolve()
-    if any((each.install, each.package.name) == (install, name) for each in _overlays(world)):
+    if any((each.install, each.package.name) == (install, name) for each in overlays(world)):
         _add(world, install, name)
         importlib.invalidate_caches()
 
 
-def _overlays(world: World) -> list[_Overlay]:
-    overlays: list[_Overlay] = world.notebook.locals.setdefault("overlays", [])
-    return overlays
+def overlays(world: World) -> list[_Overlay]:
+    """What is sourced, in its order."""
+    sourced: list[_Overlay] = world.notebook.locals.setdefault("overlays", [])
+    return sourced
 
 
 def _add(world: World, install: Path, name: str) -> None:
-    if not _overlays(world):
+    if not overlays(world):
         world.notebook.at_exit.append(lambda: remove_all(world))
     _remove(world, install, name)
     package = read_installed(install, name)
@@ -96,7 +97,7 @@ def _add(world: World, install: Path, name: str) -> None:
     if paths:
         package.executables = {name: _program(target, paths) for name, target in package.executables.items()}
     hidden = _hidden(package)
-    _overlays(world).append(_Overlay(install, package, paths, hidden))
+    overlays(world).append(_Overlay(install, package, paths, hidden))
     world.packages.add(package)
     if package.interfaces:
         registry.add(package.name, package.share, package.interfaces)
@@ -119,12 +120,12 @@ def _hidden(package: Package) -> tuple[Path, tuple[str, ...] | None] | None:
 
 
 def _remove(world: World, install: Path, name: str) -> None:
-    for each in [each for each in _overlays(world) if (each.install, each.package.name) == (install, name)]:
-        _overlays(world).remove(each)
+    for each in [each for each in overlays(world) if (each.install, each.package.name) == (install, name)]:
+        overlays(world).remove(each)
         world.packages.remove_package(each.package)
         _restore(each)
         for path in each.paths:
-            shared = any(path in other.paths for other in _overlays(world))  # in a merged install folder
+            shared = any(path in other.paths for other in overlays(world))  # in a merged install folder
             if str(path) in sys.path and not shared:
                 sys.path.remove(str(path))
         forget_below([each.package.prefix or each.install])
@@ -142,7 +143,7 @@ def _restore(each: _Overlay) -> None:
 
 def remove_all(world: World) -> None:
     """Undo every `source` of a world."""
-    for each in reversed(_overlays(world)[:]):
+    for each in reversed(overlays(world)[:]):
         _remove(world, each.install, each.package.name)
 
 
@@ -160,4 +161,4 @@ def make_importable(world: World, package: Package) -> None:
     world.notebook.at_exit.append(undo)
 
 
-__all__ = ["make_importable", "overlay", "remove_all", "source"]
+__all__ = ["make_importable", "overlay", "overlays", "remove_all", "source"]

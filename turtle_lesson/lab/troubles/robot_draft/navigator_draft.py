@@ -15,15 +15,13 @@ PATIENCE = 12.0
 
 
 class Navigator(Node):
-    """Offers /navigate_to. A new command goes out each `command_period` seconds."""
+    """Offers /navigate_to. With the parameter `short_way` it turns the short way round."""
 
     def __init__(self) -> None:
         super().__init__("navigator")
-        self.period = self.declare_parameter("command_period", 0.1).value
-        self.short_way = self.declare_parameter("short_way", False).value
+        self.declare_parameter("short_way", False)
         self.pose = Pose()
         self.goal: NavigateTo.Request | None = None
-        self.since_command = 0.0
         self.driven = 0.0
         self.done = Future()
         self.commands = self.create_publisher(Twist, "/turtle1/cmd_vel", 10)
@@ -37,21 +35,16 @@ class Navigator(Node):
 
     async def on_goal(self, request: NavigateTo.Request, response: NavigateTo.Response) -> NavigateTo.Response:
         """Drive there, and answer at the end."""
-        self.goal, self.done, self.driven, self.since_command = request, Future(), 0.0, math.inf
+        self.goal, self.done, self.driven = request, Future(), 0.0
         response.success = await self.done
         response.time_taken = self.driven
         return response
 
     def on_timer(self) -> None:
-        """Steer, if there is a goal and a command is due."""
-        goal = self.goal
-        if goal is None:
-            return
-        self.driven += 0.1
-        self.since_command += 0.1
-        if self.since_command >= self.get_parameter("command_period").value:
-            self.since_command = 0.0
-            self.steer(goal)
+        """Steer, if there is a goal."""
+        if self.goal is not None:
+            self.driven += 0.1
+            self.steer(self.goal)
 
     def steer(self, goal: NavigateTo.Request) -> None:
         """Send the next command; stop at the goal or when patience is over."""
