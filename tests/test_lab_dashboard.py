@@ -99,8 +99,8 @@ def test_its_text_says_what_is_not_there() -> None:
         "Dashboard at 0.00 s of robot time: no pose heard yet; no scan heard yet; missing: /turtlesim, /navigator, "
         "/status_monitor, /obstacle_detector and /navigate_to; no goal sent."
     )
-    assert "nobody publishes /robot/status" in lesson.dashboard().status_note.lower()
-    assert "nobody publishes /obstacles" in lesson.dashboard().scan_words["note"].lower()
+    assert "no node publishes /robot/status" in lesson.dashboard().status_note.lower()
+    assert "no node publishes /obstacles" in lesson.dashboard().scan_words["note"].lower()
 
 
 def test_its_picture_shows_path_and_status_side_by_side(dashboard: Dashboard) -> None:
@@ -321,7 +321,7 @@ def test_at_the_very_beginning_nothing_is_late(lesson: Lesson) -> None:
         run_line(lesson._world, f"ros2 run robot_controller {program}")  # is up at once
     dashboard = lesson.dashboard()
     assert {row["state"] for row in dashboard.rates} == {"just begun", "at rest"}
-    wait = "Nothing came on /robot/status yet: messages come while robot time goes on."
+    wait = "No message has come on /robot/status yet: messages come while robot time passes."
     assert dashboard.status_note == wait
 
 

@@ -184,7 +184,7 @@ def test_fixed_and_bounded_arrays() -> None:
     for _ in range(3):
         bounded.add()
     assert bounded.why_full == "at most 3" and bounded.value() == [0.0, 0.0, 0.0]
-    with pytest.raises(ValueError, match="takes no more rows: at most 3"):
+    with pytest.raises(ValueError, match="can have no more rows: at most 3"):
         bounded.add()
     assert Single("name", "name", Kind("string", longest=3), "", {}).state()["help"] == "at most 3 characters"
 
@@ -283,7 +283,7 @@ def test_it_calls_a_service_and_shows_the_answer(lesson: Lesson) -> None:
     order(widget, "call")
     assert widget.running
     order(widget, "call")
-    assert "has not answered the last question yet" in widget.words
+    assert "has not answered the last request yet" in widget.words
     lesson.run(10)
     assert widget.answer.startswith("success: true\ntime_taken: ")
     assert widget.words.startswith("/navigate_to answered after ") and not widget.running
@@ -301,7 +301,7 @@ def test_no_answer_within_the_time_and_nobody_there(lesson: Lesson) -> None:
         handle.stop()
     lesson.run(1)
     order(widget, "call")
-    assert widget.words == "Not asked: Nobody offers /navigate_to now."
+    assert widget.words == "Not asked: No node offers /navigate_to now."
 
 
 def test_one_can_stop_waiting(lesson: Lesson) -> None:

@@ -126,7 +126,7 @@ def test_without_a_navigator_it_says_what_to_type() -> None:
     go(pad, 8.0, 8.0)
     assert pad.goals[0]["state"] == "not sent"
     assert pad.goals[0]["answer"] == (
-        'Nobody answers /navigate_to. Start the navigator: lesson.launch("robot_controller", "start_system.launch.py") '
+        'No node answers /navigate_to. Start the navigator: lesson.launch("robot_controller", "start_system.launch.py") '
         "or ros2 run robot_controller navigator &"
     )
     assert lesson.now == 1.0
@@ -451,7 +451,7 @@ def test_while_time_stands_still_the_map_shows_what_was_put_there(lesson: Lesson
     tell(pad, "obstacle_add", shape="box")
     assert len(pad.obstacles) == 1
     assert len(lesson._recording.obstacles) == 0
-    assert pad.words.endswith("1 obstacle in the world. The nodes hear of it when time goes on.")
+    assert pad.words.endswith("1 obstacle in the world. The nodes notice it once robot time passes.")
 
 
 def test_what_another_node_publishes_counts_too(lesson: Lesson) -> None:

@@ -68,7 +68,7 @@ def test_it_asks_without_moving_time_and_shows_what_the_node_says(lesson: Lesson
     before = lesson.now
     panel = lesson.parameters("/navigator")
     assert lesson.now == before and panel.standing
-    assert repr(panel) == "Parameters of /navigator: Asked /navigator; it answers when robot time goes on."
+    assert repr(panel) == "Parameters of /navigator: Asked /navigator; it answers once robot time passes."
     lesson.run(1)
     assert repr(panel).startswith("/navigator has 7 parameters: use_sim_time = False, goal_timeout = 5.0, ")
     speed = item(panel, "linear_speed")
@@ -200,7 +200,7 @@ def test_a_change_while_time_goes_on_needs_no_step() -> None:
         return asked, panel.words
 
     asked, answered = asyncio.run(page())
-    assert asked == "Asked /navigator to set linear_speed; its answer comes when robot time goes on."
+    assert asked == "Asked /navigator to set linear_speed; its answer comes once robot time passes."
     assert answered == "linear_speed is 2.0 now."
 
 
@@ -228,13 +228,13 @@ def test_values_are_read_by_their_type(typed: Any, kind: int, value: Any) -> Non
 @pytest.mark.parametrize(
     ("typed", "kind", "said"),
     [
-        ("yes", BOOL, "true or false is wanted"),
-        ("1.5", INTEGER, "a whole number is wanted"),
+        ("yes", BOOL, "expected true or false, got"),
+        ("1.5", INTEGER, "expected a whole number, got"),
         (str(2**64), INTEGER, "64 bits"),
-        ("x", DOUBLE, 'a number is wanted, got "x"'),
-        ("1, 2", DOUBLES, "a list of numbers is wanted, such as [1, 2]"),
+        ("x", DOUBLE, 'expected a number, got "x"'),
+        ("1, 2", DOUBLES, "a list of numbers is expected, such as [1, 2]"),
         ("[1, a]", DOUBLES, "'a' is none"),
-        ("[1", DOUBLES, "is no YAML"),
+        ("[1", DOUBLES, "is not valid YAML"),
         ("[1]", STRINGS, "a list of texts"),
     ],
 )

@@ -283,7 +283,7 @@ def test_the_text_is_exact(lesson: Lesson) -> None:
     lesson.scene().redraw()
     assert (
         lesson.scene().description
-        == "Turtle at (5.54, 5.54) m facing 0.0°; 1 obstacle; 181 of 181 beams hit something."
+        == "Turtle at (5.54, 5.54) m facing 0.0°; 1 obstacle; 181 of 181 beams see something."
     )
 
 

@@ -71,7 +71,7 @@ def test_a_stick_that_falls_silent_is_let_go(lesson: Lesson, hand: dict[str, flo
     hand["now"] = 0.31
     widget.tick()
     assert not widget.stick["held"] and widget.sent["linear"] == 0.0
-    assert widget.words == "Stopped: the stick said nothing for 0.3 s."
+    assert widget.words == "Stopped: no sign of the stick for 0.3 s."
 
 
 def test_it_also_stops_while_a_cell_computes_and_only_robot_time_passes(lesson: Lesson, hand: dict[str, float]) -> None:
@@ -101,7 +101,7 @@ def test_looking_at_it_changes_nothing(lesson: Lesson) -> None:
 
 
 def test_it_says_when_nobody_listens_and_who_does_elsewhere(lesson: Lesson) -> None:
-    said = "Nobody listens on /turtle9/cmd_vel. Somebody does on /turtle1/cmd_vel."
+    said = "No node listens on /turtle9/cmd_vel. There are listeners on /turtle1/cmd_vel."
     assert lesson.teleop("/turtle9/cmd_vel").unheard == said
     assert lesson.teleop().unheard == ""
     listen(lesson, "/turtle9/cmd_vel")
@@ -112,11 +112,11 @@ def test_it_says_when_nobody_listens_and_who_does_elsewhere(lesson: Lesson) -> N
 
 
 def test_whoever_listens_for_another_type_is_named(lesson: Lesson) -> None:
-    assert lesson.teleop("/rosout").unheard == "Nobody listens on /rosout. Somebody does on /turtle1/cmd_vel."
+    assert lesson.teleop("/rosout").unheard == "No node listens on /rosout. There are listeners on /turtle1/cmd_vel."
     events = "rcl_interfaces/msg/ParameterEvent, not for geometry_msgs/msg/Twist."
     assert lesson.teleop("/parameter_events").unheard in (
-        "Nobody listens on /parameter_events. Somebody does on /turtle1/cmd_vel.",
-        f"Whoever listens on /parameter_events listens for {events}",
+        "No node listens on /parameter_events. There are listeners on /turtle1/cmd_vel.",
+        f"The nodes that listen on /parameter_events expect {events}",
     )
 
 

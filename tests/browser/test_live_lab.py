@@ -182,7 +182,7 @@ def test_without_a_navigator_it_says_so_and_how_to_start_one(board: Board) -> No
     board.click(2.0, 2.0)
     expect(board.states.first).to_have_text("not sent")
     expect(board.answers.first).to_contain_text(
-        'Nobody answers /navigate_to. Start the navigator: lesson.launch("robot'
+        'No node answers /navigate_to. Start the navigator: lesson.launch("robot'
     )
     expect(board.root.locator(".tl-light-missing")).to_have_count(4)
     python(board.page, SYSTEM.splitlines()[3])

@@ -123,7 +123,7 @@ def test_the_form_publishes(window: Page) -> None:
     expect(form.locator(".tl-line")).to_contain_text('"{linear: {x: 1.5}}"')
     form.get_by_role("button", name="Publish once").click()
     expect(form.locator(".tl-actions")).to_contain_text("1 published")
-    form.get_by_role("button", name="Publish again and again").click()
+    form.get_by_role("button", name="Publish repeatedly").click()
     expect(form.locator(".tl-line")).to_contain_text("--rate 10")
     expect(form.locator(".tl-actions")).to_contain_text(re.compile(r"\d\d published"))
     form.get_by_role("button", name="Stop").click()

@@ -38,7 +38,7 @@ class Caller:
     def ask(self, request: Any, timeout: float, answered: Answered) -> None:
         """Ask; `answered` hears what came, at the latest after `timeout` s of robot time."""
         if self.asking:
-            raise ValueError(f"{self._name} has not answered the last question yet: wait, or stop waiting.")
+            raise ValueError(f"{self._name} has not answered the last request yet: wait, or stop waiting.")
         self._answered = answered
         if self._client is None:
             self._client = self._station.node.create_client(self._class, self._name)
@@ -60,7 +60,7 @@ class Caller:
             waited = number(self._deadline - self._asked, 1)
             self._end(f"No answer from {self._name} within {waited} s of robot time.", "")
         elif not self._is_offered():
-            self._end(f"No answer: whoever offered {self._name} is gone.", "")
+            self._end(f"No answer: the node that offered {self._name} is gone.", "")
 
     def give_up(self) -> None:
         """Wait no more."""
@@ -77,7 +77,7 @@ class Caller:
 
     def why_unheard(self) -> str:
         """A sentence on why nobody would answer; "" if somebody would."""
-        return "" if self._is_offered() else f"Nobody offers {self._name} now."
+        return "" if self._is_offered() else f"No node offers {self._name} now."
 
     def _is_offered(self) -> bool:
         """Looks at the graph alone where nothing was asked yet, so that looking leaves no client there."""

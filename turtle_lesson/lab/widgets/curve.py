@@ -29,7 +29,7 @@ class Curve:
         self.topic = ""
         self.type_name = ""
         self.path = ""
-        self.problem = "It was not looked for yet."
+        self.problem = "The topic has not been looked for yet."
         """Why it cannot be heard now, as a sentence; "" if it can."""
         self.table = Table("value", limit=KEPT)
         self.read: Callable[[Any], float] = _nothing
@@ -74,7 +74,7 @@ def steps_of(rest: str) -> list[Step]:
     while at < len(rest):
         found = _STEP.match(rest, at)
         if not found:
-            raise ValueError(f'"{rest}" is no way to a field: try /linear/x or /ranges[90]')
+            raise ValueError(f'"{rest}" is not a path to a field: try /linear/x or /ranges[90]')
         steps.append(found[1] if found[1] is not None else int(found[2]))
         at = found.end()
     return steps
@@ -106,11 +106,11 @@ def check_steps(message_class: Any, steps: list[Step], curve: Curve) -> list[Ste
             continue
         if kind.is_message:
             ways = _ways(walked, kinds_of(find_class(kind.base)))
-            raise ValueError(f"{walked} is no number but a {kind.base}: try {enumerated(ways)}")
+            raise ValueError(f"{walked} is not a number but a {kind.base}: try {enumerated(ways)}")
         if not kind.is_number:
-            raise ValueError(f"{walked} is no number but a {kind}, which cannot be drawn as a curve")
+            raise ValueError(f"{walked} is not a number but a {kind}, which cannot be drawn as a curve")
         if pending:
-            raise ValueError(f"{walked} is a {kind}, a number without fields: leave out what follows it")
+            raise ValueError(f"{walked} is a {kind}, a number without fields: leave out the rest")
         return steps
 
 

@@ -76,7 +76,7 @@ class Form(LiveWidget):
         """Put a text (true or false, for a checkbox) into a field."""
         part = find_part(self._whole, path)
         if not isinstance(part, Single):
-            raise ValueError(f"{path} is no single field.")
+            raise ValueError(f"{path} is not a single field.")
         part.set(text)
         self._bring_up_to_date()
 
@@ -94,7 +94,7 @@ class Form(LiveWidget):
         """Fill a time with the moment of sending, or not."""
         part = find_part(self._whole, path)
         if not isinstance(part, Group) or not part.is_time:
-            raise ValueError(f"{path} is no time.")
+            raise ValueError(f"{path} is not a time.")
         part.now = bool(on)
         self._bring_up_to_date(fields_too=True)
 
@@ -116,7 +116,7 @@ class Form(LiveWidget):
     def _rows(self, path: str) -> Rows:
         part = find_part(self._whole, path)
         if not isinstance(part, Rows):
-            raise ValueError(f"{path} is no array.")
+            raise ValueError(f"{path} is not an array.")
         return part
 
     # -- orders: sending ---------------------------------------------------------------------------------------------
@@ -141,7 +141,7 @@ class Form(LiveWidget):
             self.words = f"Stopped after {count(self.published, 'message')} on {self.name}."
         elif self._caller.asking:
             self._caller.give_up()
-            self.words = f"Waits for {self.name} no more; whether it does what was asked is not known."
+            self.words = f"No longer waiting for {self.name}; whether it does what was asked is unknown."
 
     def do_call(self) -> None:
         """Call the service."""
@@ -155,7 +155,7 @@ class Form(LiveWidget):
     def _publish_again_and_again(self) -> None:
         self._drop_timer()
         self._timer = self.station.node.create_timer(1 / self.rate, self._hop)
-        self.words = f"Publishes on {self.name}, {self.rate:g} times a second of robot time."
+        self.words = f"Publishing on {self.name}, {self.rate:g} times a second of robot time."
         self._bring_up_to_date()
 
     def _hop(self) -> None:
@@ -185,7 +185,7 @@ class Form(LiveWidget):
     # -- as time goes by ---------------------------------------------------------------------------------------------
 
     def tick(self) -> None:
-        """Look who listens, and whether an answer is overdue."""
+        """Look which nodes listen, and whether an answer is overdue."""
         self._caller.look()
         self._outlet.flush()
         self.running = self._timer is not None or self._caller.asking
@@ -233,7 +233,7 @@ class Form(LiveWidget):
         """What the form is for, and what it would send."""
         what = "messages on" if self.kind == "topic" else "requests to"
         wrong = listed([f"{path} ({words})" for path, words in self.errors.items()])
-        now = f"to mend first: {wrong}" if self.errors else self.line
+        now = f"to correct first: {wrong}" if self.errors else self.line
         return f"Form for {what} {self.name} ({self.type_name}): {now}"
 
 
@@ -250,7 +250,7 @@ def _look_up(node: Any, name: str) -> tuple[str, str, str]:
     hint = did_you_mean(name, known_names)
     if not hint:
         usual = [each for each in known_names if "parameter" not in each]
-        hint = f"There are: {enumerated(usual)}." if usual else "There are none at all yet."
+        hint = f"There are: {enumerated(usual)}." if usual else "There are no topics and services yet."
     raise ValueError(f'there is no topic or service called "{name}" now. {hint}')
 
 

@@ -173,13 +173,13 @@ class Rows:
     def add(self) -> None:
         """Add a row at the end. Raises ValueError if there can be no more."""
         if self.why_full:
-            raise ValueError(f"{self.path} takes no more rows: {self.why_full}.")
+            raise ValueError(f"{self.path} can have no more rows: {self.why_full}.")
         self.rows.append(self._row(len(self.rows), self._empty()))
 
     def remove(self, number: int) -> None:
         """Take a row away; those below move up."""
         if self.kind.array == "fixed" or not isinstance(number, int) or not 0 <= number < len(self.rows):
-            raise ValueError(f"{self.path} has no row {number!r} that could be taken away.")
+            raise ValueError(f"{self.path} has no row {number!r} to remove.")
         del self.rows[number]
         for at, row in enumerate(self.rows):
             _move(row, _join(self.path, str(at)))

@@ -115,7 +115,11 @@ class GoalDesk:
                 self._ask(goal)
             elif gone:
                 self._client.remove_pending_request(self._asked.pop(goal.number, None))
-                self._finish(goal, "no answer", "The navigator was stopped on the way; send the goal to the next one.")
+                self._finish(
+                    goal,
+                    "no answer",
+                    "The navigator was stopped on the way; send the goal again when another one is running.",
+                )
 
     def open(self) -> None:
         """Somebody looks."""
@@ -155,7 +159,7 @@ class GoalDesk:
             self._found_by = now + (DISCOVERY if self._station.clock is None else 0)
         if not self._client.service_is_ready():
             if now >= self._found_by:
-                self._finish(goal, "not sent", f"Nobody answers {SERVICE}. {self._how_to_start()}")
+                self._finish(goal, "not sent", f"No node answers {SERVICE}. {self._how_to_start()}")
             return
         self.server.listen()
         goal.state = "on its way"

@@ -109,7 +109,7 @@ class LivePlot(LiveWidget):
                 if curve.topic == topic and not curve.problem:
                     curve.hear(message, info)
 
-        return Channel(self.station.node, topic, type_name, lambda _: hear, "It waits until somebody does.")
+        return Channel(self.station.node, topic, type_name, lambda _: hear, "It waits until a node does.")
 
     def opened(self) -> None:
         """Listen, if it does not yet."""
@@ -164,7 +164,7 @@ class LivePlot(LiveWidget):
         if len(curve.table):
             return ""
         channel = self._channels.get(curve.topic)
-        return channel.why_silent() if channel is not None else "It listens no more."
+        return channel.why_silent() if channel is not None else "It no longer listens."
 
     def text(self) -> str:
         """Each curve in figures: how many messages, the last number, lowest and highest."""

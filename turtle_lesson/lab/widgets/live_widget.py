@@ -83,7 +83,7 @@ class LiveWidget(anywidget.AnyWidget):
             with self.hold_sync():
                 self.tick()
         except Exception as error:  # or the widget would stand still without a word
-            self.words = f"This widget could not be brought up to date: {error}"
+            self.words = f"This widget could not be updated: {error}"
 
     def _order(self, widget: object, content: Any, buffers: object) -> None:
         """Carry out what a view asks for. What it cannot understand it says in `words`: nothing from outside may break it."""

@@ -1,4 +1,4 @@
-"""Where a widget publishes: a publisher that is made when it is first used, and who listens there."""
+"""Where a widget publishes: a publisher that is made when it is first used, and the nodes that listen there."""
 
 from __future__ import annotations
 
@@ -52,14 +52,14 @@ class Outlet:
             return ""
         if there:
             types = listed(sorted({end.topic_type for end in there}))
-            return f"Whoever listens on {self.topic} listens for {types}, not for {self.type_name}."
+            return f"The nodes that listen on {self.topic} expect {types}, not {self.type_name}."
         elsewhere = [
             name
             for name, types in self._node.get_topic_names_and_types()
             if self.type_name in types and any(end.topic_type == self.type_name for end in self._others(name))
         ]
-        hint = f" Somebody does on {enumerated(elsewhere)}." if elsewhere else ""
-        return f"Nobody listens on {self.topic}.{hint}"
+        hint = f" There are listeners on {enumerated(elsewhere)}." if elsewhere else ""
+        return f"No node listens on {self.topic}.{hint}"
 
     def _others(self, topic: str) -> list[Any]:
         me = (self._node.get_name(), self._node.get_namespace())

@@ -75,7 +75,7 @@ class EditorPanel(LiveWidget):
         if words:
             clock = self.station.clock
             later = clock is not None and not clock.playing
-            hint = " The nodes hear of it when time goes on." if later else ""
+            hint = " The nodes notice it once robot time passes." if later else ""
             self.words = f"{words} {self.obstacles_in_words()}{hint}"
 
     def _free_place(self) -> tuple[float, float]:

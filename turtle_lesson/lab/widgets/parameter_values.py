@@ -76,7 +76,7 @@ def _converted(typed: Any, kind: int) -> Any:
 
 def _boolean(typed: Any) -> bool:
     if not isinstance(typed, bool):
-        raise ValueError(f"true or false is wanted, got {typed!r}")
+        raise ValueError(f"expected true or false, got {typed!r}")
     return typed
 
 
@@ -84,9 +84,9 @@ def _whole(text: str) -> int:
     try:
         value = int(text)
     except ValueError:
-        raise ValueError(f'a whole number is wanted, got "{text}"') from None
+        raise ValueError(f'expected a whole number, got "{text}"') from None
     if not -_LARGEST <= value < _LARGEST:
-        raise ValueError("a whole number of 64 bits is wanted, and this one is larger")
+        raise ValueError("expected a whole number of 64 bits, and this one is larger")
     return value
 
 
@@ -95,16 +95,16 @@ def _decimal(text: str) -> float:
         return float(text)
     except ValueError:
         hint = ": write a point, not a comma" if "," in text else ""
-        raise ValueError(f'a number is wanted, got "{text}"{hint}') from None
+        raise ValueError(f'expected a number, got "{text}"{hint}') from None
 
 
 def _array(value: Any, element: type) -> list[Any]:
     if not isinstance(value, list):
-        raise ValueError(f"a list of {_WORDS[element]} is wanted, such as [{'a, b' if element is str else '1, 2'}]")
+        raise ValueError(f"a list of {_WORDS[element]} is expected, such as [{'a, b' if element is str else '1, 2'}]")
     made = [float(each) if element is float and type(each) is int else each for each in value]
     for each in made:
         if type(each) is not element:
-            raise ValueError(f"a list of {_WORDS[element]} is wanted, and {each!r} is none")
+            raise ValueError(f"a list of {_WORDS[element]} is expected, and {each!r} is none")
     return made
 
 
@@ -128,4 +128,4 @@ def _yaml(text: str) -> Any:
     try:
         return yaml.safe_load(text)
     except yaml.YAMLError:
-        raise ValueError(f'"{text}" is no YAML: lists are written [1, 2, 3]') from None
+        raise ValueError(f'"{text}" is not valid YAML: lists are written [1, 2, 3]') from None

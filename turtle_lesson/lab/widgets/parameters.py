@@ -55,7 +55,7 @@ class ParametersPanel(LiveWidget):
         self._pending.add(name)
         self._desk.set(name, wanted, lambda reason: self._told(name, reason and f"Refused: {reason}"))
         if name in self._pending:
-            self.words = f"Asked {self.node_name} to set {name}; its answer comes when robot time goes on."
+            self.words = f"Asked {self.node_name} to set {name}; its answer comes once robot time passes."
         self._show()
 
     def do_ask(self) -> None:
@@ -116,7 +116,7 @@ class ParametersPanel(LiveWidget):
         if self._desk.problem:
             return self._desk.problem
         if not self._desk.known:
-            return f"Asked {self.node_name}; it answers when robot time goes on."
+            return f"Asked {self.node_name}; it answers once robot time passes."
         return "" if self._desk.found else f"{self.node_name} has no parameters."
 
     def _item(self, found: Found) -> dict[str, Any]:

@@ -60,7 +60,9 @@ class PredictionWidget(LiveWidget):
     def do_guess(self, value: Any) -> None:
         """Record a guess."""
         self._asked.answer(value)
-        self.words = f"Recorded: {self._asked.kind.shown(self._asked.guess)}. You can change it until it is run."
+        self.words = (
+            f"Recorded: {self._asked.kind.shown(self._asked.guess)}. You can change it until the outcome is shown."
+        )
 
     def text(self) -> str:
         """The question and the guess."""

@@ -1,4 +1,4 @@
-"""The scene in meshcat's own commands, as bytes: what its viewer draws, whoever brings it the bytes.
+"""The scene in meshcat's own commands, as bytes: what its viewer draws, wherever the bytes come from.
 
 A view of a widget gets them over the notebook's channel, a saved page has them inside. meshcat's server is not used: it
 listens on a port for everyone, and no proxy lets it through.

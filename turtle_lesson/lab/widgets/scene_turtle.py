@@ -39,7 +39,7 @@ def legs() -> dict[str, tuple[tuple[float, float], Mesh]]:
 
 
 def layers(head_in_front: bool) -> list[Mesh]:
-    """The turtle standing still, as pieces of which each hides what comes before it, for one who looks from above."""
+    """The turtle standing still, as pieces, each of which hides the pieces before it when seen from above."""
     standing = joined([_tail(), *(leg.moved(placed(x, y, size=1 / LENGTH)) for (x, y), leg in legs().values())])
     order = [_rim(), _seams(), _plates()]
     pieces = [standing, *order, _head()] if head_in_front else [standing, _head(), *order]

@@ -35,7 +35,7 @@ def brief(recorder: Recording, goal: Goal | None, beams: bool = True) -> str:
         facts.append(count(len(recorder.obstacles), "obstacle"))
     if beams and recorder.last_scan is not None:
         scan = read_beams(recorder.last_scan)
-        facts.append(f"{int(scan.sees.sum())} of {count(len(scan), 'beam')} hit something")
+        facts.append(f"{int(scan.sees.sum())} of {count(len(scan), 'beam')} see something")
     if goal is not None:
         facts.append(f"goal {number(math.hypot(goal.x - x, goal.y - y))} m away")
     return f"{'; '.join(facts)}."

@@ -16,7 +16,7 @@ SLACK = 0.1
 
 
 class Server:
-    """Whoever offers one service. `said()` is called with each of its warnings."""
+    """The node that offers one service. `said()` is called with each of its warnings."""
 
     def __init__(self, station: Station, service: str, said: Callable[[], None]) -> None:
         self._station, self._service, self._said = station, service, said
@@ -26,7 +26,7 @@ class Server:
         self._warnings: deque[tuple[float, str]] = deque(maxlen=1000)
 
     def listen(self) -> None:
-        """Notice who offers the service now, and listen to the warnings from there."""
+        """Notice which node offers the service now, and listen to its warnings."""
         self._names = self._offering()
         self._ends = self._rosout_ends()
         if self._subscription is None:

@@ -1,6 +1,6 @@
 """Where a widget stands: a hidden node in a running system, what it has heard, and the clock if it can be turned.
 
-The widgets see nothing else of the system. In the classroom the station is the lab's node in the simulated world; on a
+The widgets see nothing else of the system. In the simulation the station is the lab's node in the simulated world; on a
 robot it is a node of the real rclpy (see robot_station.py).
 """
 
@@ -62,7 +62,7 @@ class Station(Protocol):
     recorder: Recorder
     """What was heard so far."""
     board: ObstacleBoard
-    """The obstacles of the world, and who publishes them."""
+    """The obstacles of the world, and their publisher."""
     loop: Loop
     """The notebook's event loop."""
     clock: Clock | None

@@ -80,7 +80,7 @@ class Teleop(LiveWidget):
             self._stop("Stopped.")
 
     def do_stop(self) -> None:
-        """Send zeros, whoever drives."""
+        """Send zeros, whatever drives."""
         self._stop("Stopped.")
 
     def do_limits(self, **speeds: float) -> None:
@@ -95,7 +95,7 @@ class Teleop(LiveWidget):
     # -- as time goes by ---------------------------------------------------------------------------------------------
 
     def tick(self) -> None:
-        """Stop if nobody says any more that the stick is held, and look who listens."""
+        """Stop if the page no longer says that the stick is held, and look which nodes listen."""
         self._watch()
         self._outlet.flush()
         if self._looks.due():
@@ -121,7 +121,7 @@ class Teleop(LiveWidget):
 
     def _watch(self) -> None:
         if self._timer is not None and real_monotonic() - self._last_sign > SIGN_OF_LIFE:
-            self._stop(f"Stopped: the stick said nothing for {SIGN_OF_LIFE} s.")
+            self._stop(f"Stopped: no sign of the stick for {SIGN_OF_LIFE} s.")
 
     def _stop(self, words: str) -> None:
         if self._timer is not None:

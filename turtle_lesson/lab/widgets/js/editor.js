@@ -104,7 +104,7 @@ function editorTool(desk) {
   };
   return {
     name: "Edit the world",
-    hint: "Drag an obstacle to move it. Keys: Enter selects the next one, arrows move it by 0.5 m, with Shift by 0.1 m; Delete removes it.",
+    hint: "Drag an obstacle to move it. Keys: Enter selects the next one, arrows move it by 0.5 m (with Shift by 0.1 m), Delete removes it.",
     press: (x, y) => {
       const at = desk.standing().findLastIndex((each) => covers(each, x, y));
       desk.select(at);

@@ -64,11 +64,11 @@ function publishing(model, order) {
   const repeat = button("", () => order(model.get("running") ? "stop" : "repeat"), { class: "tl-button tl-repeat" });
   const rate = amount("rate", model, order, { min: 0.01, max: 100 });
   const count = element("small");
-  const reset = button("Reset", () => order("reset"), { title: "Put the defaults into all fields" });
+  const reset = button("Reset", () => order("reset"), { title: "Reset all fields to their defaults" });
   const times = element("label", { class: "tl-amount" }, rate, "times a second");
   const panel = element("div", { class: "tl-actions" }, once, element("span", { class: "tl-pair" }, repeat, times), reset, count);
   const show = () => {
-    repeat.textContent = model.get("running") ? "Stop" : "Publish again and again";
+    repeat.textContent = model.get("running") ? "Stop" : "Publish repeatedly";
     repeat.classList.toggle("tl-running", model.get("running"));
     once.disabled = !isSound(model);
     repeat.disabled = !isSound(model) && !model.get("running");
@@ -82,7 +82,7 @@ function calling(model, order) {
   const call = button("Call", () => order("call"), { class: "tl-button tl-main" });
   const stop = button("Stop waiting", () => order("stop"));
   const timeout = amount("timeout", model, order, { min: 0.1, max: 3600 });
-  const reset = button("Reset", () => order("reset"), { title: "Put the defaults into all fields" });
+  const reset = button("Reset", () => order("reset"), { title: "Reset all fields to their defaults" });
   const wait = element("label", { class: "tl-amount" }, "wait at most", timeout, "s of robot time");
   const actions = element("div", { class: "tl-actions" }, call, stop, wait, reset);
   const answer = element("pre", { class: "tl-answer", "aria-label": "Answer", tabindex: 0 });
@@ -122,7 +122,7 @@ function terminalLine(model) {
   const row = element("div", { class: "tl-terminal" }, code, copy);
   const panel = element("div", { class: "tl-same" }, element("small", {}, "The same in a terminal"), row, remark);
   const show = () => {
-    code.textContent = model.get("line") || "(mend the fields first)";
+    code.textContent = model.get("line") || "(correct the fields first)";
     copy.disabled = !model.get("line");
     remark.textContent = model.get("remark");
   };

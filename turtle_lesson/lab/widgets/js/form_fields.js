@@ -44,7 +44,7 @@ function formRows(part, made, depth) {
 
 const removal = (part, row, made) =>
   button("×", () => made.order("remove", { path: part.path, row }), {
-    class: "tl-button tl-remove", title: "Take this row away", "aria-label": `Take row ${row} of ${part.name} away`,
+    class: "tl-button tl-remove", title: "Remove this row", "aria-label": `Remove row ${row} of ${part.name}`,
     "data-path": `${part.path} remove ${row}`,
   }); // prettier-ignore
 

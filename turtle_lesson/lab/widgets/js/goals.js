@@ -2,7 +2,7 @@
 
 const GOAL_SIGNS = { reached: "good", "not reached": "bad", refused: "bad", busy: "quiet", "on its way": "way" };
 const CURSOR_STEP = 0.5; // m
-const DRAG_LEAST = 0.25; // m: whoever drags less far has clicked
+const DRAG_LEAST = 0.25; // m: a shorter drag counts as a click
 
 const degrees = (radians) => (radians * 180) / Math.PI;
 const radians = (degrees) => (degrees * Math.PI) / 180;
@@ -68,7 +68,7 @@ function goalTool(model, send, form) {
   };
   return {
     name: "Send goals",
-    hint: "Click sends the turtle there, drag sets how it shall face. Keys: arrows, Shift+←→ turns by 15° (↑↓ by 1°), Enter sends, Esc cancels.",
+    hint: "Click to send the turtle there, drag to set its heading. Keys: arrows, Shift+←→ turns by 15° (↑↓ by 1°), Enter sends, Esc cancels.",
     press: (x, y) => set({ x: within(x), y: within(y), theta: null }),
     move: (x, y) => draft && Math.hypot(x - draft.x, y - draft.y) > DRAG_LEAST && set({ ...draft, theta: Math.atan2(y - draft.y, x - draft.x) }),
     release: finish,

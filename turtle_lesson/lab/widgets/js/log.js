@@ -10,7 +10,7 @@ function logPanel(model, order) {
   for (const level of LOG_LEVELS) least.append(element("option", { value: level }, level === "DEBUG" ? "all" : `${level} and above`));
   const copy = element("button", { class: "tl-button", type: "button", onclick: () => copyLog() }, "Copy");
   const tools = element("div", { class: "tl-log-tools" }, element("label", {}, element("span", {}, "Show "), least), copy);
-  const empty = element("p", { class: "tl-note" }, "No line heard yet: lines come while robot time goes on.");
+  const empty = element("p", { class: "tl-note" }, "No line heard yet: lines come while robot time passes.");
   const panel = element("div", { class: "tl-log-panel" }, empty, list, newest);
 
   const items = new Map(); // the line's number, and its element

@@ -6,7 +6,7 @@ function predictionPanel(model, order) {
   const ways = { choice: choiceGuess, number: numberGuess, point: pointGuess };
   const way = ways[model.get("kind")](model, send, id);
   const body = element("fieldset", { class: "tl-guess" }, element("legend", { id }, model.get("question")), way.control);
-  const closed = element("p", { class: "tl-note" }, "The outcome is known. Run this cell again to guess anew.");
+  const closed = element("p", { class: "tl-note" }, "The outcome is known. Run this cell again to make a new guess.");
   const show = () => {
     way.show(model.get("guess"));
     body.disabled = !model.get("is_open");

@@ -44,7 +44,7 @@ function sceneView(model, el) {
   }
 
   function fail(error) {
-    spoken.textContent = `This browser cannot draw the scene in three dimensions: ${error.message}`;
+    spoken.textContent = `This browser cannot draw the scene in 3D: ${error.message}`;
     box.classList.add("tl-scene-failed");
   }
 
