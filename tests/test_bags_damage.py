@@ -85,7 +85,7 @@ def test_one_spoiled_byte_costs_one_chunk(sound: Sound, tmp_path: Path) -> None:
     assert set(read(bag)) < set(sound[1])
     assert bag.lost is not None
     assert 0 < bag.lost < 80
-    assert "is spoiled (its checksum is wrong), so its messages are left out" in bag.damage
+    assert "is damaged (its checksum is wrong), so its messages are left out" in bag.damage
 
 
 def test_cut_short_at_every_twentieth_the_more_there_is_the_more_is_read(sound: Sound, tmp_path: Path) -> None:
@@ -177,7 +177,7 @@ def test_a_database_whose_index_is_spoiled_is_read_without_it(tmp_path: Path) ->
     data[page * size - 2000 : page * size - 1990] = bytes(10)  # within the entries of the index
     file.write_bytes(data)
     bag = open_bag(tmp_path / "run")
-    assert "the database is spoiled" in bag.damage
+    assert "the database is damaged" in bag.damage
     assert sorted(read(bag)) == sorted(written)
 
 
@@ -277,7 +277,7 @@ def test_files_that_are_none(tmp_path: Path) -> None:
     (tmp_path / "y" / "metadata.yaml").mkdir()
     with pytest.raises(BagError, match=r"there is no \.mcap or \.db3 file in it"):
         open_bag(tmp_path / "y")
-    with pytest.raises(BagError, match="is no bag"):
+    with pytest.raises(BagError, match="is not a bag"):
         open_bag(tmp_path / "y" / "y_0.mcap")
 
 

@@ -217,7 +217,7 @@ def test_a_message_that_has_other_fields_today_is_left_out(world: World, tmp_pat
     finally:
         registry.remove("mine")
     assert said[0].startswith(
-        "Ignoring a topic '/leg', reason: the mine/msg/Leg in the bag has other fields than today's"
+        "Ignoring a topic '/leg', reason: the mine/msg/Leg in the bag has other fields than the current one"
     )
 
 
@@ -251,7 +251,7 @@ def test_behind_the_end_there_is_nothing(world: World, bag: Path) -> None:
     ("rule", "error"),
     [
         ("a", "is not a remapping: write it as /old_topic:=/new_topic"),
-        (":=/b", "no remapping"),
+        (":=/b", "not a remapping"),
         ("/a:=/b c", "Invalid topic"),
     ],
 )

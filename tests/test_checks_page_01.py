@@ -28,5 +28,5 @@ def test_reporter_without_a_turtle() -> None:
     lesson = start(package=None, simulator=False)
     program(lesson, lambda: report([5.5], lambda xs: xs[-1]))
     assert row(lesson.check("reporter"), "the newest x").seen == (
-        "not looked at, because nobody publishes /turtle1/pose"
+        "not looked at, because no node publishes /turtle1/pose"
     )

@@ -100,4 +100,4 @@ def test_go_home_without_a_navigator_says_what_is_missing() -> None:
 
     program(lesson, node)
     result = lesson.check("go_home")
-    assert "nobody offers the service /navigate_to" in row(result, "answered with success").seen
+    assert "no node offers the service /navigate_to" in row(result, "answered with success").seen

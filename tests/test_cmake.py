@@ -173,26 +173,26 @@ def test_folders_of_an_installation_have_names() -> None:
         ("foreach(a b)\nset(c d)", "line 1: this foreach() has no endforeach()"),
         (
             "foreach(f RANGE 3)\ninstall(PROGRAMS ${f} DESTINATION x)\nendforeach()",
-            "line 2: install() inside of foreach()",
+            "line 2: install() inside foreach()",
         ),
         (
             "foreach(f a)\nbreak()\ninstall(PROGRAMS ${f} DESTINATION x)\nendforeach()",
-            "line 3: install() inside of foreach()",
+            "line 3: install() inside foreach()",
         ),
         (
             "function(f a)\ninstall(PROGRAMS ${f} DESTINATION x)\nendfunction()",
-            "line 2: install() inside of function()",
+            "line 2: install() inside function()",
         ),
         (
             "foreach(a 1 2 3 4 5 6 7 8)\n" * 6 + "endforeach()\n" * 6,
             "line 6: foreach() runs more than 10000 times",
         ),
-        ("file(GLOB m LIST_DIRECTORIES true *)", "line 1: file(GLOB …) with these words is not understood"),
-        ("file(GLOB m RELATIVE /etc *)", "line 1: file(GLOB …) with these words is not understood"),
+        ("file(GLOB m LIST_DIRECTORIES true *)", "line 1: file(GLOB …) with these arguments is not understood"),
+        ("file(GLOB m RELATIVE /etc *)", "line 1: file(GLOB …) with these arguments is not understood"),
         ("set(a b)", "line 1: there is no project(…)"),
         ("project()", "line 1: project() needs a name"),
         ("project(p)\ninstall(PROGRAMS a.py)", "line 2: install(PROGRAMS …) needs a DESTINATION"),
-        ("project(p)\ninstall(PROGRAMS a b DESTINATION x RENAME c)", "line 2: RENAME gives one name"),
+        ("project(p)\ninstall(PROGRAMS a b DESTINATION x RENAME c)", "line 2: RENAME gives a single name"),
     ],
 )
 def test_what_is_refused(text: str, said: str) -> None:

@@ -26,7 +26,7 @@ def lesson(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Lesson:
 def test_the_finished_package(lesson: Lesson, tmp_path: Path) -> None:
     result = lesson.export("robot_controller", to="robot")
     assert repr(result) == (
-        "robot_controller is in robot/src/robot_controller/; how to build it is in README.md beside src/.\n"
+        "robot_controller is in robot/src/robot_controller/; README.md beside src/ says how to build it.\n"
         "Copy src/ and README.md to the robot, but not build/, install/ or log/: the robot builds its own.\n"
         "programs: navigator, obstacle_detector, status_monitor\n"
         "interfaces: msg/TurtleStatus.msg, srv/NavigateTo.srv"
@@ -102,7 +102,7 @@ def test_what_a_robot_has_not_is_refused(lesson: Lesson, tmp_path: Path) -> None
     with pytest.raises(PackageError, match=r"navigator_node.py, line 2: this imports turtle_lesson"):
         lesson.export("robot_controller", to="robot")
     change(folder / "robot_controller/navigator_node.py", "import turtle_lesson", "import turtle_lesson (")
-    with pytest.raises(PackageError, match=r"line 2: this is no Python"):
+    with pytest.raises(PackageError, match=r"line 2: this is not valid Python"):
         lesson.export("robot_controller", to="robot")
 
 

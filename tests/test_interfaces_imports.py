@@ -282,7 +282,7 @@ def test_every_built_in_definition_is_sound():
             "Twist",
             "'Twist' is not a name such as 'geometry_msgs/msg/Twist'. Did you mean 'geometry_msgs/msg/Twist'?",
         ),
-        ("geometry_msgs/msgs/Twist", "'geometry_msgs/msgs/Twist' is no name such as"),
+        ("geometry_msgs/msgs/Twist", "'geometry_msgs/msgs/Twist' is not a name such as"),
         ("std_srvs/srv/Empty_Nope", "'std_srvs/srv/Empty_Nope' is not a part of a service or action"),
         ("zzz/msg/X", "there is no interface package 'zzz'."),
     ],

@@ -247,10 +247,10 @@ def refusal(text: str) -> InvalidDefinition:
         ("bool delete false", "such as 'delete_value'"),
         ("float32 lambda", "is a reserved keyword in Python"),
         ("float32 x nan", "value 'nan' cannot be written in a form that a build accepts. Set it in the program"),
-        ("float64 X=-inf", "value '-inf' has no form yet"),
-        ("float64[] x [1.0, inf]", "value 'inf' has no form yet"),
+        ("float64 X=-inf", "value '-inf' cannot be written in a form"),
+        ("float64[] x [1.0, inf]", "value 'inf' cannot be written in a form"),
         ("float32 x 1e39", "value '1e+39' is too large for float32"),
-        ("float64 x 1e999", "value 'inf' has no form yet"),
+        ("float64 x 1e999", "value 'inf' cannot be written in a form"),
         ('string s "ends with \\\\"', "has a backslash that no build accepts"),
         (r'string s "\u00e9"', "write é itself"),
         (r"string S='\x4'", "has a backslash that no build accepts"),
@@ -258,7 +258,7 @@ def refusal(text: str) -> InvalidDefinition:
         ("string<=3 s 'ab\\", "must not exceed|has a backslash"),
         (
             "float64[1000000000000] x",
-            "would consist of 1,000,000,000,002 values: which is more than fits into memory here",
+            "would consist of 1,000,000,000,002 values, which is more than fits into memory here",
         ),
         ("string[20000000] x", "A sequence such as float64[] is as long as what is in it"),
         ("geometry_msgs/Pose[2000000] x", "would consist of"),
@@ -317,7 +317,7 @@ def test_messages_lie_within_each_other_only_so_deep(tmp_path: Path) -> None:
     files = {"msg/M0.msg": "int8 x\n"} | {f"msg/M{level}.msg": f"M{level - 1} m\n" for level in range(1, 200)}
     registry = Registry()
     registry.add("deep_msgs", write_package(tmp_path, files))
-    with pytest.raises(InvalidDefinition, match="messages lie within each other more than 50 deep"):
+    with pytest.raises(InvalidDefinition, match="messages are nested more than 50 deep"):
         registry.get("deep_msgs/M199")
     assert registry.get("deep_msgs/M30")() == registry.get("deep_msgs/M30")()
 

@@ -99,9 +99,9 @@ def test_poses_that_are_no_numbers_are_left_out():
     heard = drive(recording(), seconds=1.0)
     heard.poses.append(START + SECOND, math.nan, 1.0, 0.0, 0.0)
     picture = plot_path(heard)
-    assert "Left out: 1 pose with nan, which is no number." in picture.text and picture.png()
+    assert "Left out: 1 pose with nan, which is not a number." in picture.text and picture.png()
     nowhere = plot_path(heard, since=1.0).text
-    assert nowhere == "No path to draw: 1 pose heard in that time, all with nan, which is no number."
+    assert nowhere == "No path to draw: 1 pose heard in that time, all with nan, which is not a number."
 
 
 @pytest.mark.parametrize(

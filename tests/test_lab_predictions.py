@@ -100,7 +100,7 @@ def test_a_number_may_be_written_with_its_unit(lesson: Lesson, unit: str, typed:
 @pytest.mark.parametrize(
     ("unit", "typed", "said"),
     [
-        ("Hz", "20 m", "A number in Hz is asked for, got '20 m': 'm' is not understood. Write the number alone."),
+        ("Hz", "20 m", "A number in Hz is asked for, got '20 m': 'm' is not understood. Write only the number."),
         ("m", "1 m/s", "got '1 m/s': 'm/s' is not understood"),
         ("s", "2 or 3", "'or 3' is not understood"),
         ("s", "soon", "got 'soon'. Write it like 2.5 or 2.5 s."),
@@ -121,13 +121,13 @@ def test_a_number_has_a_unit(lesson: Lesson) -> None:
         "  0.5 m off, 50 %.",
     ]
     lesson.predict("count", "How many?", unit="messages", guess=10)
-    assert lesson.outcome("count", 10).verdict == "That is it."
+    assert lesson.outcome("count", 10).verdict == "That is right."
 
 
 def test_a_choice_is_right_or_not(lesson: Lesson) -> None:
     asked = lesson.predict("on", "Does it drive on?", choices=["yes", "no"], guess="yes")
     assert repr(asked) == "Does it drive on? (yes / no) – your guess: yes."
-    assert lesson.outcome("on", "no").verdict == "It came out differently: why?"
+    assert lesson.outcome("on", "no").verdict == "The outcome is different: why?"
 
 
 def test_asked_twice_the_guess_stays_until_the_outcome_is_known(lesson: Lesson) -> None:

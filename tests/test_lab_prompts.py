@@ -88,7 +88,7 @@ def test_code_can_be_named_in_many_ways(tmp_path: Path, monkeypatch: pytest.Monk
     assert list(code_of([Listener(), Listener.on_message, "node.py"])) == ["Listener", "Listener.on_message", "node.py"]
 
 
-@pytest.mark.parametrize(("what", "said"), [("nope.py", "there is no file nope.py"), (3, "is not to be found")])
+@pytest.mark.parametrize(("what", "said"), [("nope.py", "there is no file nope.py"), (3, "cannot be found")])
 def test_what_has_no_code_is_explained(what: object, said: str) -> None:
     with pytest.raises(ValueError, match=said):
         code_of(what)

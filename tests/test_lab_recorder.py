@@ -164,18 +164,18 @@ def test_two_runs_of_the_same_world_are_told_in_the_same_words():
 
 def test_silence_is_explained(bench, package):
     assert plot_path(bench.recorder).text == (
-        "No path yet. Nobody publishes /turtle1/pose. "
+        "No path yet. No node publishes /turtle1/pose. "
         "Is the simulator running? Try start(simulator=True), or: ros2 run turtlesim turtlesim_node"
     )
     assert plot_scan(bench.recorder).text == (
-        "No scan yet. Nobody publishes /obstacles. "
+        "No scan yet. No node publishes /obstacles. "
         'Try lesson.launch("robot_controller", "start_system.launch.py"), '
         "or: ros2 run robot_controller obstacle_detector"
     )
     bench.publish(Pose, "/turtle1/pose", Pose(), period=5.0)
     bench.run(0.1)
     assert plot_path(bench.recorder).text == (
-        "No path yet. /talker_turtle1_pose can publish /turtle1/pose, but no message came yet. "
+        "No path yet. /talker_turtle1_pose can publish /turtle1/pose, but no message has come yet. "
         "Let time pass: lesson.run(1.0)"
     )
 

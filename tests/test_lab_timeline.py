@@ -56,7 +56,7 @@ def test_a_sleeping_callback_holds_up_the_others(lesson: Lesson) -> None:
         "/sleepy.on_slow (every 1 s): 2 calls, one every 1000.0 ms on average, the longest gap 1000.0 ms; "
         "lasted at most 0.55 s, 1.10 s in all. "
         "/sleepy.on_tick (every 0.1 s): 18 calls, one every 158.8 ms on average, the longest gap 650.0 ms; "
-        "none took any robot time; 2 had to wait, at most 0.55 s; 10 ticks were left out."
+        "none took any robot time; 2 had to wait, at most 0.55 s; 10 ticks were skipped."
     )
 
 
@@ -78,7 +78,7 @@ def test_an_async_callback_awaits_and_others_run(lesson: Lesson) -> None:
     client.call_async(NavigateTo.Request(x=8.0, y=5.5))
     lesson.run(0.5)
     text = lesson.plot_timeline("/navigator").text
-    assert "on_navigate_to (/navigate_to): 1 call; it awaited 0.50 s; 1 goes on." in text
+    assert "on_navigate_to (/navigate_to): 1 call; it awaited 0.50 s; 1 continues." in text
     assert "/navigator.on_steering_timer (every 0.1 s): 10 calls" in text
 
 
@@ -173,7 +173,7 @@ def test_a_call_is_told_from_the_question_to_the_answer(simple: Lesson) -> None:
         "2 calls of /navigate_to. "
         "At 0.900 s /asker asked /navigate_to (x 0.2, y 0, theta 0); /navigator received it 0.12 ms later; "
         "answered after 1.00 s (success True, time_taken 1.00001); "
-        "meanwhile had to wait: on_goal (/navigate_to) 1 time, at most 1.00 s. "
+        "had to wait meanwhile: on_goal (/navigate_to) 1 time, at most 1.00 s. "
         "At 0.900 s /asker asked /navigate_to (x 0.4, y 0, theta 0); /navigator received it 0.12 ms later; "
         "on_goal began after a wait of 1.00 s; answered after 2.00 s (success True, time_taken 1.00001)."
     )
@@ -198,9 +198,9 @@ def test_a_call_that_is_not_answered_yet(simple: Lesson) -> None:
         client.call_async(NavigateTo.Request(x=5.0, y=5.0))
     simple.run(4)
     first, second = simple.plot_sequence().text.split(". At")[1:]
-    assert "has not answered yet; meanwhile had to wait: on_goal (/navigate_to) 1 time, at most 4.00 s" in first
+    assert "has not answered yet; had to wait meanwhile: on_goal (/navigate_to) 1 time, at most 4.00 s" in first
     assert "no callback has begun yet" in second
-    assert "1 goes on; 1 waits now, the first since 0.90 s" in simple.plot_timeline("/navigator").text
+    assert "1 continues; 1 waits now, the first since 0.90 s" in simple.plot_timeline("/navigator").text
     assert "waits: no callback has begun yet" in simple.plot_sequence().mermaid
     assert "waits: no callback has begun" in simple.plot_sequence().svg
 
@@ -217,12 +217,12 @@ def test_a_command_is_named_by_its_words(lesson: Lesson, capsys: pytest.CaptureF
 def test_nothing_was_called_yet_or_not_in_these_seconds(lesson: Lesson, capsys: pytest.CaptureFixture[str]) -> None:
     from turtle_lesson.ros.command.shell import run_line
 
-    assert lesson.plot_sequence().text == "Nobody has called a service yet. Try: ros2 service call /navigate_to …"
+    assert lesson.plot_sequence().text == "No node has called a service yet. Try: ros2 service call /navigate_to …"
     run_line(lesson._world, "ros2 service call /clear std_srvs/srv/Empty")
     assert "Did you mean /clear?" in lesson.plot_sequence("/claer").text
     assert "the calls were between 0.100 s" not in lesson.plot_sequence("/clear").text
     lesson.run(1)
-    assert "Nobody called /clear from 1.00 s" in lesson.plot_sequence("/clear", since=1).text
+    assert "No node called /clear from 1.00 s" in lesson.plot_sequence("/clear", since=1).text
     with pytest.raises(TypeError, match="a service is named as in"):
         lesson.plot_sequence(1)  # type: ignore[arg-type]
 
@@ -231,7 +231,7 @@ def test_parameters_are_left_out_unless_asked_for(lesson: Lesson, capsys: pytest
     from turtle_lesson.ros.command.shell import run_line
 
     run_line(lesson._world, "ros2 param set /turtlesim background_r 3")
-    assert "Nobody has called a service yet" in lesson.plot_sequence().text
+    assert "No node has called a service yet" in lesson.plot_sequence().text
     assert "ros2 param set asked /turtlesim/set_parameters" in lesson.plot_sequence("/turtlesim/set_parameters").text
     assert "/turtlesim.set_parameters (/turtlesim/set_parameters): 1 call" in lesson.plot_timeline("/turtlesim").text
 
@@ -297,5 +297,5 @@ def test_a_node_of_very_many_topics_has_the_first_ones_noted(lesson: Lesson) -> 
     lesson._world.spawn(program, name="many")
     lesson.run(0.1)
     assert "/t31: 1 message" in lesson.plot_timeline("/t31").text
-    with pytest.raises(ValueError, match="/t32 is not noted: of each node only its first 32 topics are"):
+    with pytest.raises(ValueError, match="/t32 is not recorded: only the first 32 topics of each node are"):
         lesson.plot_timeline("/t32")

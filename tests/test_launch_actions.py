@@ -295,7 +295,7 @@ def test_a_file_that_includes_itself_is_stopped(tmp_path: Path, name: str, text:
     with pytest.raises(LaunchError) as caught:
         launch_file(FakeWorld(), write(tmp_path, text, name))
     assert caught.value.reason == "launch files include one another endlessly"
-    assert caught.value.hint.startswith(f"{name} is taken in again and again")
+    assert caught.value.hint.startswith(f"{name} is included again and again")
 
 
 @pytest.mark.parametrize(
@@ -304,7 +304,7 @@ def test_a_file_that_includes_itself_is_stopped(tmp_path: Path, name: str, text:
         (
             "EmitEvent(event=Shutdown()),",
             "EmitEvent() expected an event instance, got '<launch.actions.shutdown_action.Shutdown object>'.",
-            "An event is of launch.events",
+            "Events are in launch.events",
         ),
         ("ForLoop('100000', function=print),", "ForLoop has at most 10000 rounds", ""),
         ("ForEach('[1, 2]', function=print),", "ForEach expected sets such as", ""),

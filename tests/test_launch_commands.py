@@ -177,7 +177,7 @@ def test_a_wrong_command_says_so_where_it_prints(
         ),
         ("['ros2', 'launch', 'a', 'b']", "ExecuteProcess(cmd='ros2 launch a b'): a launch file is", "Write Include"),
         ("['python3', 'nope.py']", "ExecuteProcess(cmd='python3 nope.py'): there is no file nope.py", ""),
-        ("['bash', '-c', 'echo a | grep b']", "the command 'echo a | grep b' uses '|'", "One command, or several"),
+        ("['bash', '-c', 'echo a | grep b']", "the command 'echo a | grep b' uses '|'", "Only one command, or several"),
         ("['bash', '-c', 'echo \"a']", "syntax error in the command 'echo \"a'", ""),
         ("['bash', '-c', '']", "there is no command in cmd=[…]", ""),
         ("['ros2', 'run', 'demo', 'listner']", "No executable found", "Did you mean 'listener'?"),

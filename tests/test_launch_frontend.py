@@ -484,7 +484,7 @@ def test_a_mistake_in_yaml_is_named_with_its_line(tmp_path: Path, text: str, sai
             "launch:\n- log:\n    message: a: b\n",
             "ScannerError: mapping values",
             3,
-            "A value with ': '",
+            "Put a value that contains ': '",
         ),
         ("a.launch.yaml", "a: 1\nb: 2\n", "RuntimeError: Expected only one root", 1, "The file begins with launch:"),
         ("a.launch.yaml", "", "RuntimeError: Expected only one root", 1, "The file begins with launch:"),

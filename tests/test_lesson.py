@@ -87,7 +87,7 @@ def test_time_must_be_a_number_of_seconds(lesson: Lesson, seconds: Any) -> None:
     ("arguments", "said"),
     [
         ({"seed": "x"}, "seed must be a whole number"),
-        ({"package": "nope"}, "no folder here"),
+        ({"package": "nope"}, "not a folder here"),
         ({"package": 3}, "package must be"),
     ],
 )
@@ -205,7 +205,7 @@ def test_a_callback_that_raises_ends_live_mode(lesson: Lesson, capsys: pytest.Ca
     node.create_timer(0.1, lambda: 1 / 0)
     asyncio.run(live())
     said = capsys.readouterr()
-    assert "Live mode has stopped, because of this" in said.out
+    assert "Live mode has stopped because of this error" in said.out
     assert "ZeroDivisionError" in said.out + said.err
 
 
@@ -222,7 +222,7 @@ def test_an_interrupt_ends_live_mode_but_not_the_event_loop(lesson: Lesson, caps
         return lesson.now
 
     assert asyncio.run(live()) < 2.0
-    assert "lesson.play() goes on" in capsys.readouterr().out
+    assert "lesson.play() continues it" in capsys.readouterr().out
     lesson.run(1)
 
 

@@ -167,7 +167,7 @@ def test_a_marker_can_be_deleted_or_replaced_within_a_message() -> None:
 def test_a_marker_that_is_no_obstacle_is_refused_with_what_was_expected() -> None:
     message = to_marker_array([Circle(1, 1, 1)], stamp())
     message.markers[1].type = Marker.SPHERE
-    with pytest.raises(ValueError, match=r"marker 0 of namespace 'obstacles' is no obstacle: expected type CUBE"):
+    with pytest.raises(ValueError, match=r"marker 0 of namespace 'obstacles' is not an obstacle: expected type CUBE"):
         from_marker_array(message)
     message.markers[1].type = Marker.CYLINDER
     message.markers[1].scale.y = 1.0

@@ -148,7 +148,7 @@ def test_a_wrong_package_xml(demo: Path, old: str, new: str, said: str) -> None:
             "Cout.msg",
             "line 4: rosidl_generate_interfaces names 'msg/Cout.msg', which does not exist",
         ),
-        ("Count.msg", "Count.txt", "line 4: 'msg/Count.txt' is no interface file"),
+        ("Count.msg", "Count.txt", "line 4: 'msg/Count.txt' is not an interface file"),
         ("DIRECTORY launch", "DIRECTORY lunch", "line 6: install() names 'lunch', which does not exist"),
         (
             "find_package(rosidl_default_generators REQUIRED)\n",

@@ -210,7 +210,7 @@ def send_and_wait(client: Any, node: Any) -> Any:
 
 AWAIT = (
     "Make the callback `async def` and write `await action_client.send_goal_async(goal)`, with the action client in a "
-    "callback group of its own; or spin with a MultiThreadedExecutor, the action client in another callback group than "
+    "callback group of its own; or spin with a MultiThreadedExecutor, the action client in a different callback group from "
     "this callback."
 )
 
@@ -237,7 +237,9 @@ def test_send_goal_in_the_only_thread(run: Run) -> None:
 
 def test_spinning_in_a_callback_for_the_answer(run: Run) -> None:
     (text,) = run(server, in_a_callback(lambda client, node: send(node, client), SingleThreadedExecutor))
-    assert text.startswith("this callback spins until /fibonacci/_action/send_goal has answered, which can never be")
+    assert text.startswith(
+        "this callback spins until /fibonacci/_action/send_goal has answered, which can never happen"
+    )
     assert "await action_client.send_goal_async(goal), with the action client in a callback group of its own" in text
 
 
@@ -286,7 +288,7 @@ def test_send_goal_when_nobody_spins(run: Run) -> None:
         found.append(str(caught.value))
 
     assert run(server, program) == [
-        "this send_goal of /fibonacci can never be answered: no executor spins <Node /client> meanwhile, so nobody takes the "
+        "this send_goal of /fibonacci can never be answered: no executor spins <Node /client> meanwhile, so nothing takes the "
         "answer. Write instead: future = action_client.send_goal_async(goal), then "
         "rclpy.spin_until_future_complete(node, future)."
     ]
@@ -398,7 +400,7 @@ def test_in_a_cell_a_server_and_its_client(world: World) -> None:
     client = ActionClient(other, Fibonacci, "fibonacci")
     executor = SingleThreadedExecutor()
     executor.add_node(one)
-    with pytest.raises(NeverWakes, match="the action server's node is in this notebook, too, and nobody spins it"):
+    with pytest.raises(NeverWakes, match="the action server's node is in this notebook, too, and no executor spins it"):
         client.send_goal(Goal())
     executor.add_node(other)
     assert list(client.send_goal(Goal()).result.sequence) == [1]

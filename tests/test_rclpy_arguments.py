@@ -179,7 +179,7 @@ def test_all_unknown_words_are_named(world: World) -> None:
     with pytest.raises(UnknownROSArgsError) as caught:
         rclpy.init(args=["prog", "--ros-args", "--foo", "-r", "a:=b", "bar"])
     assert str(caught.value) == "['--foo', 'bar']"
-    assert caught.value.__notes__[0].startswith("After --ros-args stand -r, -p, --params-file")
+    assert caught.value.__notes__[0].startswith("-r, -p, --params-file, --log-level and similar")
 
 
 def test_a_rule_may_be_for_topics_or_for_services_alone(world: World) -> None:

@@ -291,7 +291,7 @@ REFUSED = [
     (Pose, "x[0] > 3", (), "'x' is one float32"),
     (Pose, "x.y > 3", (), "a float32 has no fields, and so no 'y'"),
     (Pose, "x > 99999999999999999999", (), "has more than 64 bits"),
-    (Pose, "(" * 60 + "x > 1" + ")" * 60, (), "more than 50 parentheses in one another"),
+    (Pose, "(" * 60 + "x > 1" + ")" * 60, (), "more than 50 nested parentheses"),
     (
         Twist,
         "linear > 3",

@@ -552,7 +552,7 @@ def test_without_a_timeout_that_would_hang_for_ever_so_it_is_explained(run: Run)
         found.append(str(caught.value))
 
     text, beats = heartbeat_while(run, callback)
-    assert text.startswith("this callback spins until /add has answered, which can never be")
+    assert text.startswith("this callback spins until /add has answered, which can never happen")
     assert "callback group of its own" in text
     assert beats >= 24  # recorded: 3, the real one never comes back
 

@@ -64,7 +64,7 @@ def test_a_transition_that_is_not_possible_says_what_is(node: LifecycleNode, cap
     with pytest.raises(RCLError) as caught:
         node.trigger_activate()
     assert str(caught.value) == "Failed to trigger lifecycle state machine transition: Transition is not registered."
-    assert caught.value.__notes__ == ["The node is unconfigured; from there is possible: configure [1], shutdown [5]."]
+    assert caught.value.__notes__ == ["The node is unconfigured; possible from there: configure [1], shutdown [5]."]
     assert "[rcl_lifecycle]: No transition matching 3 found for current state unconfigured" in capsys.readouterr().out
     assert state_of(node) == "unconfigured"
 

@@ -422,7 +422,7 @@ def test_a_cell_may_call_a_service_of_its_own_node_but_not_of_one_that_nobody_sp
     other = rclpy.create_node("other")
     other.create_service(AddTwoInts, "elsewhere", add)
     elsewhere = node.create_client(AddTwoInts, "elsewhere")
-    with pytest.raises(NeverWakes, match="the service's node is in this notebook, too, and nobody spins it"):
+    with pytest.raises(NeverWakes, match="the service's node is in this notebook, too, and no executor spins it"):
         elsewhere.call(Request())
     together = SingleThreadedExecutor()
     together.add_node(node)
@@ -432,10 +432,10 @@ def test_a_cell_may_call_a_service_of_its_own_node_but_not_of_one_that_nobody_sp
 
 def test_a_cell_that_calls_nobody_is_told_so_and_who_was_perhaps_meant(world: World) -> None:
     node, client = start()
-    with pytest.raises(NeverWakes, match="nobody offers this service"):
+    with pytest.raises(NeverWakes, match="no node offers this service"):
         client.call(Request())
     node.create_service(AddTwoInts, "add_two", add)
-    with pytest.raises(NeverWakes, match=r"nobody offers this service \(.*\); did you mean '/add_two'\? Is its node"):
+    with pytest.raises(NeverWakes, match=r"no node offers this service \(.*\); did you mean '/add_two'\? Is its node"):
         node.create_client(AddTwoInts, "ad_two").call(Request())
     with pytest.raises(NeverWakes, match="of type example_interfaces/srv/AddTwoInts, not std_srvs/srv/Empty"):
         node.create_client(Empty, "add_two").call(Empty.Request())

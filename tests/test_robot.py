@@ -95,7 +95,7 @@ def test_the_dashboard_ticks_with_a_clock_that_cannot_be_turned(story):
 def test_teleop_drives_and_stops_when_nobody_holds_the_stick(story):
     facts = story("teleop_publishes")
     assert facts["way"] > 1.0 and facts["sent"] >= 10
-    assert facts["words"] == "Stopped: the stick said nothing for 0.3 s."
+    assert facts["words"] == "Stopped: no sign of the stick for 0.3 s."
 
 
 def test_a_form_publishes_its_first_message_and_asks_its_first_question(story):
@@ -139,7 +139,7 @@ def test_a_cell_that_connects_can_be_run_twice(story):
 
 def test_silence_is_explained_without_a_lesson(story):
     silent = story("nobody_is_there")["silent"]
-    assert silent.startswith("Nobody publishes /world/obstacles.") and "lesson" not in silent
+    assert silent.startswith("No node publishes /world/obstacles.") and "lesson" not in silent
 
 
 def test_closing_ends_the_thread_and_takes_the_node_away_without_waiting(story):

@@ -127,7 +127,7 @@ def test_the_error_has_a_note_with_the_frames_that_there_are() -> None:
     assert caught.value.__notes__ == ["Frames received so far: turtle1, world."]
     with pytest.raises(LookupException) as caught:
         Buffer().lookup_transform("turtle2", "world", LATEST)
-    assert "No transform was heard yet" in caught.value.__notes__[0]
+    assert "No transform has been received yet" in caught.value.__notes__[0]
 
 
 def test_names_are_neither_empty_nor_begin_with_a_slash() -> None:

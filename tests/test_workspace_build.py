@@ -172,7 +172,7 @@ def test_symlink_install(package: Path, world: World, tmp_path: Path) -> None:
         ),
         (CMAKE, "# line 10", "find_package(launch REQUIRED)", 1, "launch is a Python package, which CMake cannot find"),
         (CMAKE, "# line 10", "find_package(sensor_mgs REQUIRED)", 1, "Did you mean 'sensor_msgs'?"),
-        (CMAKE, "# line 10", "add_executable(x x.cpp)", 1, "builds and runs Python only"),
+        (CMAKE, "# line 10", "add_executable(x x.cpp)", 1, "only Python is built and run here"),
         (CMAKE, "# line 10", "find_package(nope_msgs)", 0, "CMake Warning at CMakeLists.txt:10 (find_package)"),
         (
             CMAKE,
@@ -383,7 +383,7 @@ def test_names_that_would_lead_elsewhere(package: Path, world: World, tmp_path: 
 def test_nothing_is_installed_from_or_to_elsewhere(package: Path, world: World, old: str, new: str) -> None:
     change(package / CMAKE, old, new)
     answer = colcon(world)
-    assert (answer.code, "lies outside of the package's" in answer.err) == (1, True)
+    assert (answer.code, "lies outside the package's" in answer.err) == (1, True)
 
 
 def test_no_build_removes_the_source(package: Path, world: World) -> None:

@@ -95,7 +95,7 @@ def test_a_message_made_before_the_build_is_told_from_a_new_one(package: Path, w
     publisher = rclpy.create_node("n").create_publisher(kind, "status", 10)
     with pytest.raises(TypeError) as caught:
         publisher.publish(old)
-    assert "was made before TurtleStatus was built anew: import it again" in caught.value.__notes__[0]
+    assert "was made before TurtleStatus was built again: import it again" in caught.value.__notes__[0]
 
 
 def test_with_symlinks_an_edit_counts_at_once(package: Path, world: World) -> None:

@@ -84,9 +84,7 @@ def _built(seed: int, mine: Workspace) -> Workspace:
         for each in underlay_packages():
             world.packages.add(each)
         if said := mine.build(world):
-            print(
-                f"{said.rstrip()}\nThe package was not built, so what was built before is used, if there is anything."
-            )
+            print(f"{said.rstrip()}\nThe package was not built, so an earlier build of it is used, if there is one.")
     return mine
 
 
@@ -94,7 +92,7 @@ def _check_no_real_ros() -> None:
     place = real_ros()
     if place:
         raise RuntimeError(
-            f"a real ROS 2 is sourced here (rclpy is {place}), and the simulated one never hides it. "
+            f"a real ROS 2 is sourced here (rclpy is {place}), and the simulated one never replaces it. "
             "turtle_lesson.connect() shows its robot with the same widgets. For a simulated world, start Jupyter from a "
             "terminal in which no setup file was sourced."
         )
@@ -113,7 +111,7 @@ def _package_folder(package: str | Path | None) -> Path | None:
     if isinstance(package, (str, Path)) and Path(package).is_dir():
         return Path(package).resolve()
     raise ValueError(
-        f'package must be "finished", "mine", None or the folder of a package, got {package!r}, which is no folder here'
+        f'package must be "finished", "mine", None or the folder of a package, got {package!r}, which is not a folder here'
     )
 
 

@@ -88,7 +88,7 @@ class Player:
     def rate(self, rate: float) -> None:
         if isinstance(rate, bool) or not isinstance(rate, (int, float)) or not rate > 0:
             raise ValueError(
-                f"rate must be a number above 0, got {rate!r}: 1.0 is as fast as life, 10 ten times faster, "
+                f"rate must be a number above 0, got {rate!r}: 1.0 is real time, 10 is ten times faster, "
                 "math.inf as fast as possible"
             )
         self._rate = float(rate)
@@ -112,7 +112,7 @@ class Player:
             loop = asyncio.get_running_loop()
         except RuntimeError:
             raise RuntimeError(
-                "play() needs a notebook, whose event loop goes on between cells; in a script use lesson.run(seconds)"
+                "play() needs a notebook, whose event loop runs between cells; in a script use lesson.run(seconds)"
             ) from None
         self._watch.start(real_monotonic())
         self._task = loop.create_task(self._play())
@@ -137,11 +137,11 @@ class Player:
                 done = self._run(begun + round(step * NANOSECONDS))
             except KeyboardInterrupt:  # which would end Jupyter's event loop, and with it the kernel
                 self._task = None
-                print("Live mode was interrupted; lesson.play() goes on.")
+                print("Live mode was interrupted; lesson.play() continues it.")
                 return
             except Exception as error:
                 self._task = None
-                print("Live mode has stopped, because of this; lesson.play() goes on.")
+                print("Live mode has stopped because of this error; lesson.play() continues it.")
                 print_error(error)
                 return
             self._watch.mark(real_monotonic(), simulation.now - begun)

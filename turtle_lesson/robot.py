@@ -44,7 +44,7 @@ def _check_real_ros() -> None:
         raise RuntimeError(
             "there is no real ROS 2 here to connect to, only the simulated one. In a terminal: source "
             "/opt/ros/jazzy/setup.bash (or that of your release), and start Jupyter from there. In the simulated world "
-            "the same widgets are to be had from: from turtle_lesson import start; lesson = start()"
+            "you get the same widgets from: from turtle_lesson import start; lesson = start()"
         )
 
 
@@ -53,7 +53,7 @@ def _check_loop() -> None:
         asyncio.get_running_loop()
     except RuntimeError:
         raise RuntimeError(
-            "connect() needs a notebook, in whose event loop everything happens that is heard; in a script use rclpy itself"
+            "connect() needs a notebook, whose event loop receives the messages; in a script use rclpy itself"
         ) from None
 
 

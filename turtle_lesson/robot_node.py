@@ -36,7 +36,7 @@ TELLS_TIMES = hasattr(Subscription, "CallbackType")
 class LabNode(Node):
     """The lab's hidden node, `/_lab`: it offers no parameters and writes no log.
 
-    Nothing is called after it was destroyed, although its thread may have had it in hand already: whoever destroys and
+    Nothing is called after it was destroyed, although its thread may have taken it already: the code that destroys and
     creates in the loop sees what a node that is spun in the loop would show.
     """
 
@@ -88,7 +88,7 @@ class LabNode(Node):
         return super().destroy_client(client)
 
     def destroy_node(self) -> None:
-        """As every node's. Who asks about the graph afterwards, such as an old widget that is shown again, finds nobody."""
+        """As every node's. A later query of the graph, such as that of an old widget that is shown again, finds no nodes."""
         super().destroy_node()
         for name in LISTS:
             setattr(self, name, _no_list)

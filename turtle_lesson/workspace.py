@@ -85,7 +85,7 @@ class Workspace:
         memory["files"] = {}
         self._remember(memory)
         self.prepare(page)
-        return f'{said} Go on with: lesson = start(seed=0, package="mine")'
+        return f'{said} Continue with: lesson = start(seed=0, package="mine")'
 
     def state(self) -> str:
         """Which files the package has, and whether each was filled in or is the learner's own work; as a text."""

@@ -142,7 +142,7 @@ ANSWERS = {
             ),
             "the rate as the period": (
                 changed(COUNTER, ("create_timer(0.5", "create_timer(2.0")),
-                "not how many calls a second",
+                "not the number of calls a second",
             ),
             "the period in milliseconds": (changed(COUNTER, ("create_timer(0.5", "create_timer(500")), "no message"),
             "text": (
@@ -218,8 +218,8 @@ ANSWERS = {
                 ),
                 "1001 was answered never",
             ),
-            "speaks where it listens": (changed(DOUBLER, ("/doubled", "/count")), "nobody publishes /doubled"),
-            "listens to another topic": (changed(DOUBLER, ("/count", "/counter")), "nobody"),
+            "speaks where it listens": (changed(DOUBLER, ("/doubled", "/count")), "no node publishes /doubled"),
+            "listens to another topic": (changed(DOUBLER, ("/count", "/counter")), "no node"),
             "a callback without the message": (
                 changed(DOUBLER, ("def on_count(self, message)", "def on_count(self)")),
                 "on_count",

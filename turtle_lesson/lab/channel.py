@@ -76,7 +76,7 @@ class Channel:
         """Why nothing was heard, and what to try."""
         publishers = self.node.get_publishers_info_by_topic(self.topic)
         if not publishers:
-            return f"Nobody publishes {self.topic}. {self.remedy}"
+            return f"No node publishes {self.topic}. {self.remedy}"
         types = sorted({publisher.topic_type for publisher in publishers})
         if self.type_name not in types:
             mismatch = f"{self.topic} is published as {listed(types)}, but this plot reads {self.type_name}"
@@ -86,7 +86,7 @@ class Channel:
             unknown = f"{self.topic} is published as {self.type_name}, but that type cannot be imported here"
             return f"{unknown}: try colcon build --packages-select {package}, then source install/setup.bash"
         names = listed(sorted({_full_name(publisher) for publisher in publishers}))
-        return f"{names} can publish {self.topic}, but no message came yet. {self.patience}"
+        return f"{names} can publish {self.topic}, but no message has come yet. {self.patience}"
 
     def _wanted(self) -> bool:
         """Whether somebody else is there at the other end (or, of a driven topic, at this end)."""

@@ -68,7 +68,7 @@ def _read(path: Path) -> str:
     try:
         return path.read_text(encoding="utf-8")
     except UnicodeDecodeError:
-        raise ValueError(f"{path.name} is no text") from None
+        raise ValueError(f"{path.name} is not a text file") from None
 
 
 def _source(target: Any) -> str:
@@ -81,7 +81,7 @@ def _source(target: Any) -> str:
     try:
         return inspect.getsource(target)
     except (OSError, TypeError):
-        raise ValueError(f"the source of {target!r} is not to be found: give the file, or the text itself") from None
+        raise ValueError(f"the source of {target!r} cannot be found: give the file, or the text itself") from None
 
 
 def _codes(kind: type) -> Iterable[CodeType]:

@@ -1,4 +1,4 @@
-"""The ROS graph as a diagram: who publishes, who hears, who offers and who calls."""
+"""The ROS graph as a diagram: publishers, subscriptions, services and their clients."""
 
 from __future__ import annotations
 

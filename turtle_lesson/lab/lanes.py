@@ -132,7 +132,7 @@ def _unknown(name: str, nodes: list[str], topics: list[str]) -> str:
 def _topic_lane(trace: Any, topic: str, window: Window) -> Lane:
     if topic in trace.not_noted:
         raise ValueError(
-            f"{topic} is not noted: of each node only its first {TOPICS} topics are. `ros2 topic hz {topic}` "
+            f"{topic} is not recorded: only the first {TOPICS} topics of each node are. `ros2 topic hz {topic}` "
             "measures any."
         )
     by_node = {
@@ -218,9 +218,9 @@ def _callback_lane(
     if len(kept_waiting):
         text += f"; {len(kept_waiting)} had to wait, at most {number(float(kept_waiting.max()) / NANOSECONDS)} s"
     if missed := _missed(callbacks[0].period, waited[within]):
-        text += f"; {count(missed, 'tick')} {'was' if missed == 1 else 'were'} left out"
+        text += f"; {count(missed, 'tick')} {'was' if missed == 1 else 'were'} skipped"
     if going_on := sum(len(callback.open) for callback in callbacks):
-        text += f"; {going_on} goes on" if going_on == 1 else f"; {going_on} go on"
+        text += f"; {going_on} continues" if going_on == 1 else f"; {going_on} continue"
     if len(waiting):
         first = number(waiting[0, 0] / NANOSECONDS)
         text += f"; {len(waiting)} {'waits' if len(waiting) == 1 else 'wait'} now, the first since {first} s"

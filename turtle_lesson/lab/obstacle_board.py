@@ -25,7 +25,7 @@ class ObstacleBoard:
     """
 
     def __init__(self, recorder: Recorder, now: Callable[[], int] | None = None) -> None:
-        """`now` tells the time, in ns since 1970, for whoever has a way to tell it without the node's clock."""
+        """`now` tells the time, in ns since 1970, for a caller that can tell it without the node's clock."""
         self._recorder = recorder
         self._now = now or (lambda: recorder.node.get_clock().now().nanoseconds)
         self._publisher: Any = None

@@ -41,7 +41,7 @@ def plot_path(
     sentences = [
         _journey(recording, poses, driven),
         f"It was put elsewhere {count(len(jumps), 'time')} (teleport or reset)." if len(jumps) else "",
-        f"Left out: {count(broken, 'pose')} with nan, which is no number." if broken else "",
+        f"Left out: {count(broken, 'pose')} with nan, which is not a number." if broken else "",
         _at_wall(poses[-1]),
         f"{count(commands, 'command').capitalize()} on {recording.command_topic} in that time.",
         *(_to_goal(each, poses[-1]) for each in goals),
@@ -57,7 +57,7 @@ def plot_path(
 
 def _nothing(recording: Recording, broken: int) -> str:
     if broken:
-        return f"No path to draw: {count(broken, 'pose')} heard in that time, all with nan, which is no number."
+        return f"No path to draw: {count(broken, 'pose')} heard in that time, all with nan, which is not a number."
     if not len(recording.poses):
         return f"No path yet. {recording.why_silent(recording.pose_topic)}"
     return f"No path in these seconds: poses were heard from {recording.span(recording.poses)}."

@@ -63,7 +63,7 @@ class Choice:
 
     def compared(self, guess: Any, value: Any) -> str:
         """Right, or not."""
-        return "That is it." if guess == value else "It came out differently: why?"
+        return "That is right." if guess == value else "The outcome is different: why?"
 
 
 @dataclass(frozen=True)
@@ -89,7 +89,7 @@ class Number:
             raise ValueError(f"{self._asked()}, got {text!r}. Write it like 2.5{self._example()}.")
         factor = _factor(found[2], self.unit)
         if factor is None:
-            raise ValueError(f"{self._asked()}, got {text!r}: {found[2]!r} is not understood. Write the number alone.")
+            raise ValueError(f"{self._asked()}, got {text!r}: {found[2]!r} is not understood. Write only the number.")
         return value * factor
 
     def _asked(self) -> str:
@@ -107,7 +107,7 @@ class Number:
         """The difference, and its share of the true value."""
         off = abs(guess - value)
         if self.shown(guess) == self.shown(value):
-            return "That is it."
+            return "That is right."
         share = f", {number(100 * off / abs(value), 0)} %" if value else ""
         return f"{self.shown(off)} off{share}."
 
@@ -194,7 +194,7 @@ class Question:
     def answer(self, guess: Any) -> None:
         """Record a guess. Raises ValueError for what it cannot be, and when the outcome is known."""
         if not self.open:
-            raise ValueError("The outcome is known by now. Run the cell of the question again to guess anew.")
+            raise ValueError("The outcome is already known. Run the question's cell again to make a new guess.")
         self.guess = self.kind.read(guess)
 
     def text(self) -> str:
@@ -235,7 +235,9 @@ def tell(name: str, value: Any, because: str = "") -> Outcome:
         from .widgets.typed_names import did_you_mean, enumerated
 
         hint = did_you_mean(str(name), _questions) or f"Asked were: {enumerated(_questions)}."
-        raise ValueError(f"nothing was asked under the name {name!r}. {hint} Run the cell with lesson.predict first.")
+        raise ValueError(
+            f"no question was asked under the name {name!r}. {hint} Run the cell with lesson.predict first."
+        )
     found = _questions[name]
     found.outcome = found.kind.read(value)
     return Outcome(found, because)

@@ -79,7 +79,7 @@ class ProgressFile:
         aside = unused(self.path.with_name(f"{self.path.name}.broken"))
         try:
             self.path.rename(aside)
-            self.remark = f"{self.path.name} was damaged. It is kept as {aside.name}, and a new one was begun."
+            self.remark = f"{self.path.name} was damaged. It is kept as {aside.name}, and a new one was started."
         except OSError:
             self.remark = f"{self.path.name} is damaged and cannot be replaced."
 

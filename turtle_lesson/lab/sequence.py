@@ -56,11 +56,11 @@ def _nothing(trace: Any, names: list[str], called: Sequence[Any], window: Window
     what = listed(names) if names else "a service"
     if called:
         when = f"{number(called[0].asked / NANOSECONDS)} s and {number(called[-1].asked / NANOSECONDS)} s"
-        return f"Nobody called {what} from {window.seconds}: the calls were between {when}."
+        return f"No node called {what} from {window.seconds}: the calls were between {when}."
     others = sorted({call.service for call in trace.calls})
     close = difflib.get_close_matches(names[0], others, 1, 0.6) if names else []
     meant = f" Did you mean {close[0]}?" if close else ""
-    return f"Nobody has called {what} yet.{meant} Try: ros2 service call {names[0] if names else '/navigate_to'} …"
+    return f"No node has called {what} yet.{meant} Try: ros2 service call {names[0] if names else '/navigate_to'} …"
 
 
 # -- in words ----------------------------------------------------------------------------------------------------------
@@ -75,7 +75,7 @@ def _sentence(step: Step) -> str:
     call = step.call
     parts = [f"At {clock(call.asked)} {call.caller} asked {call.service} ({fields(call.request)})"]
     if call.received is None:
-        parts.append("nobody received it" if not call.server else "")
+        parts.append("no node received it" if not call.server else "")
     else:
         parts.append(f"{call.server} received it {after(call.asked, call.received)} later")
         if step.began is None:
@@ -88,5 +88,5 @@ def _sentence(step: Step) -> str:
         parts.append("has not answered yet")
     meanwhile = [f"{name} {times}, at most {after(0, longest)}" for name, (times, longest) in waits_of(step)]
     if meanwhile:
-        parts.append(f"meanwhile had to wait: {listed(meanwhile)}")
+        parts.append(f"had to wait meanwhile: {listed(meanwhile)}")
     return f"{'; '.join(filter(None, parts))}."

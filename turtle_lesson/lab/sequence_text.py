@@ -58,7 +58,7 @@ def _events(step: Step) -> list[tuple[int, Event]]:
     asked = f"{clock(call.asked)}: {call.service}<br/>{fields(call.request)}"
     if not call.server:
         lost = Event("lost", call.caller, text=asked)
-        return [(call.asked, lost), (call.asked, Event("note", call.caller, text="nobody received it"))]
+        return [(call.asked, lost), (call.asked, Event("note", call.caller, text="no node received it"))]
     events = [(call.asked, Event("call", call.caller, call.server, asked))]
     if step.began is None:
         return [*events, (call.asked, Event("note", call.server, text="waits: no callback has begun yet"))]

@@ -190,7 +190,7 @@ def _from_marker(marker: "Marker") -> Obstacle:
     if marker.type == Marker.CYLINDER and width == height:
         return Circle(x, y, width / 2)
     raise ValueError(
-        f"marker {marker.id} of namespace {marker.ns!r} is no obstacle: expected type CUBE ({Marker.CUBE}) "
+        f"marker {marker.id} of namespace {marker.ns!r} is not an obstacle: expected type CUBE ({Marker.CUBE}) "
         f"or CYLINDER ({Marker.CYLINDER}) with scale.x equal to scale.y; "
         f"it has type {marker.type} and scale ({width}, {height})"
     )

@@ -229,7 +229,7 @@ def turning(poses: list[Any]) -> float:
     """The sum of all turns from pose to pose, to and fro, in rad."""
     headings = [each.theta for each in poses]
     if not all(map(math.isfinite, headings)):
-        raise CannotLook("the turtle's heading is no number")
+        raise CannotLook("the turtle's heading is not a number")
     return math.fsum(abs(turned(b - a)) for a, b in itertools.pairwise(headings))
 
 
@@ -275,7 +275,7 @@ def steady_commands(way: Way, most: float = 0.15) -> Expectation:
         times = [each.at for each in it.commands if begin - 0.2 <= each.at <= end + 0.2]
         gaps = [after - before for before, after in itertools.pairwise(times)]
         if not gaps:
-            return Seen(False, "one command for the whole way", "The turtle forgets a command after 1 s: send on.")
+            return Seen(False, "one command for the whole way", "The turtle forgets a command after 1 s: keep sending.")
         seen = f"the longest gap was {number(1000 * max(gaps), 0)} ms"
         return Seen(max(gaps) <= most, seen, "How much time passes between two commands, at the most?")
 

@@ -249,7 +249,7 @@ class Exam(GraphView):
     def _listen(self, topic: str, type_name: str) -> list[Heard]:
         types = sorted({kind for _, kind in self.publishers(topic)})
         if not types:
-            raise CannotLook(f"nobody publishes {topic}{self.like(topic, self.topics())}")
+            raise CannotLook(f"no node publishes {topic}{self.like(topic, self.topics())}")
         if type_name not in types:
             raise CannotLook(f"{topic} is published as {listed(types)}, not as {type_name}")
         message_class = interface(type_name)
@@ -345,7 +345,7 @@ class Exam(GraphView):
     def _client(self, service: str, type_name: str) -> Any:
         types = sorted({kind for _, kind in self.servers(service)})
         if not types:
-            raise CannotLook(f"nobody offers the service {service}{self.like(service, self.services())}")
+            raise CannotLook(f"no node offers the service {service}{self.like(service, self.services())}")
         if type_name not in types:
             raise CannotLook(f"{service} is offered as {listed(types)}, not as {type_name}")
         client = self.node.create_client(interface(type_name), service)

@@ -84,8 +84,8 @@ def _in_a_callback(calls: list[tuple[FrameType, int]]) -> list[tuple[FrameType, 
 
 
 STOP_ADVICE = Advice(
-    "It was stopped because it would have gone on for ever, and nothing else could happen in its node.",
-    "A callback does a little and returns; a timer calls it again. To wait, let a timer or another callback go on.",
+    "It was stopped because it would have run forever, and nothing else could happen in its node.",
+    "A callback does a little and returns; a timer calls it again. To wait, let a timer or another callback continue.",
 )
 READ = Advice(direction="Read the error first, then the line above it: what has each name in it at that moment?")
 

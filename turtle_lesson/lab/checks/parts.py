@@ -9,7 +9,7 @@ from .exam import Answer, Exam
 from .registry import Expectation
 from .rows import CannotLook, Seen
 
-TOO_MANY = "Stop the one too many: Ctrl-C in a terminal; in a notebook run the set-up cell again, then each cell once."
+TOO_MANY = "Stop the extra node: Ctrl-C in a terminal; in a notebook run the set-up cell again, then each cell once."
 ANSWER_TIME = 1.0
 """Robot time, s, within which a node should say what parameters it has."""
 
@@ -23,13 +23,13 @@ def node(name: str, start: str = "") -> Expectation:
         if amount == 1:
             return Seen(True, "it is there")
         if amount > 1:
-            return Seen(False, f"{amount} nodes of this name: messages come {amount}-fold", TOO_MANY)
+            return Seen(False, f"{amount} nodes of this name: each message comes {amount} times", TOO_MANY)
         others = [each for each in found if each != "/turtlesim"]
         seen = f"it is not there; there is {listed(others)}" if others else "it is not there"
         if fallen := exam.fallen():
             seen += f"; {' and '.join(fallen)}"
         begin = f"Start it: {start}." if start else "Start it."
-        return Seen(False, seen, f"{begin} If it ended by itself, its error stands in the output above.")
+        return Seen(False, seen, f"{begin} If it ended by itself, its error is in the output above.")
 
     return Expectation(f"one node {name}", look)
 
@@ -46,7 +46,7 @@ def publishes(topic: str, type_name: str, by: str = "") -> Expectation:
 
 def subscribes(topic: str, type_name: str, by: str = "") -> Expectation:
     """A topic that is subscribed to as this type, by this node where one is named."""
-    who = f"{by} listens to" if by else "somebody listens to"
+    who = f"{by} listens to" if by else "a node listens to"
     step = f"Which line makes the subscription, when is it run, and is the name {topic} the same in every letter?"
 
     def look(exam: Exam) -> Seen:
@@ -170,7 +170,7 @@ def no_errors() -> Expectation:
 
     def look(exam: Exam) -> Seen:
         if set(exam.nodes_before) <= {"/turtlesim"}:
-            raise CannotLook("no node was there that could go wrong")
+            raise CannotLook("there was no node that could go wrong")
         if exam.now - exam.began < A_WHILE:
             exam.wait(A_WHILE)
         if raised := exam.errors():
@@ -182,7 +182,7 @@ def no_errors() -> Expectation:
         if not wrong:
             return Seen(True, "none")
         more = f" (and {count(len(wrong) - 1, 'more', 'more')})" if len(wrong) > 1 else ""
-        return Seen(False, _short(wrong[0]) + more, "Read what stands in the log: which callback says it, and when?")
+        return Seen(False, _short(wrong[0]) + more, "Read the log: which callback logs it, and when?")
 
     return Expectation("no error meanwhile", look)
 

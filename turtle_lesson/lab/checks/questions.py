@@ -70,7 +70,7 @@ NANOSECONDS = Advice(
     "timer_period_ns counts nanoseconds: one second is 1 000 000 000 of them.",
 )
 FOLLOW = Advice(
-    direction="When does the node read the parameter, and what becomes of the timer's period then?",
+    direction="When does the node read the parameter, and what happens to the timer's period then?",
     hint="Open Hints 2 and 3 under the exercise.",
 )
 
@@ -87,7 +87,9 @@ def gives_up(owner: str, parameter: str, seconds: float, ask: Callable[[Exam], A
             return no_answer(exam, "the goal was never answered")
         good = not answer.response.success and abs(answer.seconds - seconds) <= LATEST
         seen = f"success is {answer.response.success} after {number(answer.seconds)} s"
-        step = f"At each step: how long has this goal been under way, and how long may it, according to {parameter}?"
+        step = (
+            f"At each step: how long has this goal been under way, and how long may it take, according to {parameter}?"
+        )
         return Seen(good, seen, Advice(direction=step, hint="Open Hint 2 under the exercise."))
 
     return Expectation(f"{parameter} set to {seconds!r}: gives up on a far goal", look)

@@ -64,9 +64,9 @@ def _how_to_pace(low: float, high: float, mean: float, hz: float, uneven: bool) 
     if uneven and low < 0.01 / hz:
         return f"Several messages come at once, then none for {number(1000 * high, 0)} ms. Send one each time."
     if abs(mean - hz) < 0.01 * hz and hz != 1:
-        return "create_timer wants to know the seconds from one call to the next, not how many calls a second."
+        return "create_timer takes the seconds from one call to the next, not the number of calls a second."
     if uneven:
-        return "Something holds the timer's callback up. Make that short, or give it a callback group and a thread of its own."
+        return "Something delays the timer's callback. Make that short, or give it a callback group and a thread of its own."
     return "What is the timer's period, in seconds? Where a parameter sets the rate: what is its value?"
 
 
@@ -137,7 +137,7 @@ def relays(
 
     def look(exam: Exam) -> Seen:
         if not exam.subscriptions(heard_on):
-            raise CannotLook(f"nobody listens to {heard_on}")
+            raise CannotLook(f"no node listens to {heard_on}")
         answers = exam.listen(said_on, said_type)
         for fields, right, words in pairs:
             before = len(answers)

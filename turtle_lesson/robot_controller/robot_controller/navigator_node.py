@@ -153,7 +153,7 @@ def turning_speed(turn: float, limits: Limits, turning: float) -> float:
 def refusal(goal: Place) -> str | None:
     """Return why the turtle cannot go to a goal, or None if it can."""
     if not all(map(math.isfinite, (goal.x, goal.y, goal.theta))):
-        return f"x={goal.x}, y={goal.y}, theta={goal.theta} is no pose: all three must be finite numbers"
+        return f"x={goal.x}, y={goal.y}, theta={goal.theta} is not a pose: all three must be finite numbers"
     beyond = WORLD_SIZE + 1e-5  # the wall itself, rounded to float32 as messages are, is a little beyond
     if not (0.0 <= goal.x <= beyond and 0.0 <= goal.y <= beyond):
         where = f"({goal.x:.2f}, {goal.y:.2f})"
@@ -191,7 +191,7 @@ PARAMETERS = (
     ("angular_speed", 6.0, 0.01, 10.0, "Highest turning speed, rad/s"),
     ("goal_tolerance", 0.2, 0.01, 2.0, "A goal counts as reached within this distance, m"),
     ("heading_tolerance", 0.1, 0.01, math.pi, "A goal counts as reached within this angle, rad"),
-    ("obstacle_warning_distance", 0.4, 0.0, 10.0, "Warn of what is nearer than this, m; mock scans show 0.5"),
+    ("obstacle_warning_distance", 0.4, 0.0, 10.0, "Warn of obstacles nearer than this, m; mock scans show 0.5"),
 )
 """Name, default, lowest and highest value, description. Read when used: `ros2 param set` works at once."""
 

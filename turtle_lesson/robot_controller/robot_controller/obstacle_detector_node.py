@@ -178,7 +178,8 @@ class ObstacleDetectorNode(Node):
             "seed",
             -1,
             ParameterDescriptor(
-                description="Same seed, same made-up readings; -1: others at each start", read_only=True
+                description="The same seed gives the same made-up readings; -1: different ones at each start",
+                read_only=True,
             ),
         )
         seed = self.get_parameter("seed").value
