@@ -4,67 +4,130 @@ from __future__ import annotations
 
 import math
 
-from ..words import number
+from ..words import angle, number, point, turned
 from . import page_04
 from .drives import COMMAND_TYPE, COMMANDS, POSE, POSE_TYPE
 from .exam import Exam
-from .parts import parameter
+from .parts import no_errors, node, parameter
 from .registry import Expectation, check
-from .rows import CannotLook, Seen
-from .streams import judge_rate, rate, some
+from .rows import Advice, CannotLook, Seen
+from .streams import judge_rate, some
 
 PAGE = "07_command_line"
-TWIN, TWIN_PLACE = "/turtle2", (2.0, 9.0)
+TWIN, TWIN_PLACE = "/turtle2", (2.0, 9.0, 1.57)
+RADIUS = 2.0
+"""Metres."""
+
+SOON = 0.5
+"""Robot time, s, after which what was typed last has its effect: a program is up, a timer has its new period."""
 
 
-@check("tuned", page=PAGE, points=2, limit=10)
+@check("tuned", page=PAGE, points=2, limit=10, learnt="You can change a node while it runs, without its code.")
 def tuned() -> list[Expectation]:
     """A parameter that was changed while its node runs."""
     return [
+        node("/status_monitor", "ros2 launch robot_controller start_system.launch.py"),
         parameter("/status_monitor", "publish_rate", 20),
-        rate(page_04.STATUS, page_04.STATUS_TYPE, hz=20),
+        Expectation(f"{page_04.STATUS}: a message every 50 ms ± 5 ms", _twenty_a_second),
+        parameter("/obstacle_detector", "scan_rate", 5),
+        no_errors(),
     ]
 
 
-@check("second_turtle", page=PAGE, points=2, limit=10)
+def _twenty_a_second(exam: Exam) -> Seen:
+    exam.listen(page_04.STATUS, page_04.STATUS_TYPE)
+    exam.wait(SOON)
+    heard = exam.hear(page_04.STATUS, page_04.STATUS_TYPE, 2.0)
+    return judge_rate(heard, 20, 0.005, len(exam.publishers(page_04.STATUS)))
+
+
+@check(
+    "second_turtle", page=PAGE, points=2, limit=10, learnt="Any service can be found out about, and called, by hand."
+)
 def second_turtle() -> list[Expectation]:
     """A service of the simulator was called: there are two turtles."""
     return [
         Expectation(f"{TWIN}/pose is published", _twin_is_there),
-        Expectation("turtle2 near (2.00, 9.00) m", _twin_in_place),
+        Expectation(f"turtle2 at {point(*TWIN_PLACE[:2])}", _twin_in_place),
+        Expectation("turtle2 faces up", _twin_faces_up),
+        no_errors(),
     ]
 
 
 def _twin_is_there(exam: Exam) -> Seen:
     there = bool(exam.publishers(f"{TWIN}/pose"))
-    step = "The request's field name says how the turtle is called: ros2 interface show turtlesim/srv/Spawn."
-    return Seen(there, "it is" if there else "it is not", step)
+    others = [topic for topic in exam.topics() if topic.endswith("/pose") and topic != POSE]
+    seen = "it is" if there else f"there is {others[0]}" if others else "there is one turtle"
+    return Seen(there, seen, Advice(direction="Which field of the request says how the turtle is called?"))
 
 
 def _twin_in_place(exam: Exam) -> Seen:
     pose = some(exam, f"{TWIN}/pose", POSE_TYPE, 0.1)[-1].message
     away = math.hypot(pose.x - TWIN_PLACE[0], pose.y - TWIN_PLACE[1])
-    return Seen(away < 0.1, f"it is {number(away)} m from there", "x and y stand in the request: {x: 2.0, y: 9.0, …}.")
+    advice = Advice(direction="x and y are fields of the request. (/kill takes a turtle away again.)")
+    return Seen(away < 0.05, f"it is at {point(pose.x, pose.y)}", advice)
 
 
-@check("circle", page=PAGE, points=3, limit=15)
+def _twin_faces_up(exam: Exam) -> Seen:
+    pose = some(exam, f"{TWIN}/pose", POSE_TYPE, 0.1)[-1].message
+    advice = Advice(direction="theta is an angle in radians: how many are 90°? (/kill takes a turtle away again.)")
+    return Seen(abs(turned(pose.theta - TWIN_PLACE[2])) < 0.02, f"it faces {angle(pose.theta)}", advice)
+
+
+@check("circle", page=PAGE, points=3, limit=15, learnt="A speed ahead and a turn, sent again and again, make a circle.")
 def circle() -> list[Expectation]:
     """Commands from a terminal drive the turtle round and round."""
     return [
-        Expectation(f"{COMMANDS}: a message every 100 ms ± 10 ms", _ten_a_second),
-        Expectation("the turtle drives, and turns", _goes_round),
+        Expectation(f"{COMMANDS}: ten messages a second", _ten_a_second),
+        Expectation("the turtle drives ahead and turns left", _goes_round),
+        Expectation(f"the circle's radius is {RADIUS:g} m", _radius),
+        no_errors(),
     ]
 
 
 def _ten_a_second(exam: Exam) -> Seen:
-    good, seen, _ = judge_rate(some(exam, COMMANDS, COMMAND_TYPE, 2.0), 10, 0.010)  # the navigator may publish, too
-    return Seen(good, seen, "ros2 topic pub --rate 10 … & goes on behind the scenes.")
+    """A command that was started twice sends twice as many; that is no mistake in it."""
+    exam.wait(SOON)
+    amount = len([owner for owner, _ in exam.publishers(COMMANDS) if owner != "/navigator"])
+    if not amount:
+        advice = Advice(direction="A command that is to go on while the check looks ends with &.")
+        return Seen(False, "no command in a terminal publishes", advice)
+    heard = len(some(exam, COMMANDS, COMMAND_TYPE, 2.0)) / 2.0 / amount
+    return Seen(
+        abs(heard - 10.0) <= 0.5, f"{number(heard, 1)} a second", "ros2 topic pub -h names the option for the rate."
+    )
+
+
+def _motion(exam: Exam) -> tuple[float, float]:
+    """The turtle's speed ahead (m/s) and its turn (rad/s); each the smallest in two seconds."""
+    return exam.once("motion", lambda: _measured(exam))
+
+
+def _measured(exam: Exam) -> tuple[float, float]:
+    commands = [each.message for each in some(exam, COMMANDS, COMMAND_TYPE, 0.5)]
+    poses = [each.message for each in some(exam, POSE, POSE_TYPE, 2.0)]
+    ahead = math.copysign(min(each.linear_velocity for each in poses), commands[-1].linear.x)
+    turn = min((each.angular_velocity for each in poses), key=abs)
+    if not math.isfinite(ahead + turn):
+        raise CannotLook("the pose is no number")
+    return ahead, turn
 
 
 def _goes_round(exam: Exam) -> Seen:
-    poses = [each.message for each in some(exam, POSE, POSE_TYPE, 2.0)]
-    slow, turn = min(each.linear_velocity for each in poses), min(abs(each.angular_velocity) for each in poses)
-    if not math.isfinite(slow + turn):
-        raise CannotLook("the pose is no number")
-    seen = f"at least {number(slow)} m/s, and {number(turn)} rad/s"
-    return Seen(slow > 0.1 and turn > 0.1, seen, 'A circle is both at once: "{linear: {x: 1.0}, angular: {z: 0.5}}".')
+    ahead, turn = _motion(exam)
+    advice = Advice(
+        direction="A circle is both at once, in one message: a speed ahead and a turn. Which sign is left?",
+        hint="Open Hint 1 under the exercise.",
+    )
+    return Seen(ahead > 0.05 and turn > 0.05, f"{number(ahead)} m/s and {number(turn)} rad/s", advice)
+
+
+def _radius(exam: Exam) -> Seen:
+    ahead, turn = _motion(exam)
+    if abs(turn) < 1e-3 or abs(ahead) < 1e-3:
+        raise CannotLook("the turtle drives no circle")
+    radius = abs(ahead / turn)
+    advice = Advice(
+        direction="How far does it drive while it turns by one radian?", hint="Open Hint 2 under the exercise."
+    )
+    return Seen(abs(radius - RADIUS) <= 0.1, f"it is {number(radius)} m", advice)
