@@ -51,7 +51,7 @@ def test_the_table_says_what_was_missed() -> None:
         Path("anna.ipynb"), copies.PAGE, [CheckScore("counter", 3, "failed", rows), CheckScore("doubler", 3, "not run")]
     )
     ben = Graded(
-        Path("benjamin.ipynb"), problem="is no notebook: Expecting value", errors=["cell 2 raised NameError: x"]
+        Path("benjamin.ipynb"), problem="is not a notebook: Expecting value", errors=["cell 2 raised NameError: x"]
     )
     assert in_words([anna, ben]).splitlines() == [
         "anna.ipynb        0 of   6 points  01_publish_and_subscribe",
@@ -59,7 +59,7 @@ def test_the_table_says_what_was_missed() -> None:
         "  – doubler   0 of  3  it was not run",
         "",
         "benjamin.ipynb    0 of   0 points",
-        "  ! is no notebook: Expecting value",
+        "  ! is not a notebook: Expecting value",
         "  ! cell 2 raised NameError: x",
         "",
         "2 graded, 0 with all points, 1 not run to the end.",

@@ -138,7 +138,7 @@ def test_reset_in_a_learners_folder_leaves_no_outputs(
     assert update(mine) == [], "the version that reset brought is not offered again"
     assert main(["reset", str(mine)]) == 0
     assert main(["reset", str(mine)]) == 0
-    assert "It was already." in capsys.readouterr().out
+    assert "It already was." in capsys.readouterr().out
 
 
 def test_what_was_begun_in_notebooks_is_taken_along(checkout: Path, mine: Path) -> None:
@@ -153,9 +153,9 @@ def test_what_was_begun_in_notebooks_is_taken_along(checkout: Path, mine: Path) 
     assert nbformat.read(mine, as_version=4).cells[1].source == copies.STUB
     ProgressFile(mine.parent / FILE).keep({"doubler": 3})
     assert LearnersFolder(mine.parent).take_along() == [
-        f"{NAME} was taken along.",
-        "The workspace was taken along, without what a build makes: build it again.",
-        "5 points were taken along.",
+        f"{NAME} was copied.",
+        "The workspace was copied without its build: build it again.",
+        "5 points were copied.",
     ]
     page = nbformat.read(mine, as_version=4)
     assert page.cells[1].source == copies.RIGHT and not page.cells[1].outputs
@@ -174,7 +174,7 @@ def test_what_is_here_already_is_not_overwritten_by_what_is_taken_along(checkout
     for folder in (mine.parent, checkout.parent):
         (folder / "workspace").mkdir()
     said = LearnersFolder(mine.parent).take_along()
-    assert said[0] == f"{NAME} was taken along, as {copies.PAGE}.mine-1.ipynb."
+    assert said[0] == f"{NAME} was copied, as {copies.PAGE}.mine-1.ipynb."
     assert "There is a workspace" in said[1]
     assert mine.read_bytes() == before
 
@@ -182,7 +182,7 @@ def test_what_is_here_already_is_not_overwritten_by_what_is_taken_along(checkout
 def test_nothing_to_take_along_is_said(checkout: Path, mine: Path) -> None:
     copies.commit()
     update(mine)
-    assert LearnersFolder(mine.parent).take_along() == [f"Nothing was begun in {checkout.parent}."]
+    assert LearnersFolder(mine.parent).take_along() == [f"No page was begun in {checkout.parent}."]
 
 
 # -- the command ---------------------------------------------------------------------------------------------------------
@@ -227,9 +227,9 @@ def test_a_folder_that_cannot_be_the_learners_is_explained(
     (tmp_path / "other").mkdir()
     (tmp_path / "other" / "thesis.txt").write_text("")
     for wrong, reason in {
-        "notes": "notes is a file, and a folder is wanted",
+        "notes": "notes is a file, but a folder is needed",
         "notes/deeper": "pages cannot be kept in notes/deeper: Not a directory",
-        "other": "other holds other things already, and they are left alone",
+        "other": "other already holds other files, and they are left alone",
     }.items():
         assert main(["open", wrong]) == 1
         said = capsys.readouterr().err
@@ -268,7 +268,7 @@ def test_a_port_that_is_in_use_is_explained(
         taken.listen()
         port = taken.getsockname()[1]
         assert main(["open", "--port", str(port)]) == 1
-    assert f"port {port} cannot be used: address already in use. Leave --port out" in capsys.readouterr().err
+    assert f"port {port} cannot be used: address already in use. Without --port" in capsys.readouterr().err
 
 
 def test_readmes_first_command_ends_in_opening_the_lesson() -> None:

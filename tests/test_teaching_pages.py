@@ -30,7 +30,7 @@ def test_a_page_is_reset_and_mine_is_kept(checkout: Path, mine: Path, capsys: py
     assert mine.with_name(f"{copies.PAGE}.mine-1.ipynb").read_bytes() == before
     assert "Yours is kept as" in capsys.readouterr().out
     assert main(["reset", str(mine)]) == 0
-    assert "It was already." in capsys.readouterr().out
+    assert "It already was." in capsys.readouterr().out
     mine.write_text("damaged")
     assert main(["reset", str(mine)]) == 0
     assert mine.with_name(f"{copies.PAGE}.mine-2.ipynb").read_text() == "damaged"
@@ -70,7 +70,7 @@ def test_student_leaves_the_solutions_and_outputs_out(
 ) -> None:
     copies.write(mine.parent, copies.PAGE, copies.was_run(nbformat.read(mine, as_version=4)))
     assert main(["student", str(mine)]) == 0
-    assert "1 cell with a solution left out" in capsys.readouterr().out
+    assert "1 cell with a solution was left out" in capsys.readouterr().out
     written = mine.with_name(f"{copies.PAGE}.student.ipynb")
     notebook = nbformat.read(written, as_version=4)
     assert len(notebook.cells) == 5
@@ -85,7 +85,7 @@ def test_student_leaves_the_solutions_and_outputs_out(
 def test_student_of_no_notebook(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "x.ipynb").write_text("{}")
     assert main(["student", str(tmp_path / "x.ipynb")]) == 1
-    assert "is no notebook" in capsys.readouterr().err
+    assert "is not a notebook" in capsys.readouterr().err
 
 
 def test_notebooks_are_found_once_and_hidden_ones_are_not(tmp_path: Path, mine: Path) -> None:

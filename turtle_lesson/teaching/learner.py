@@ -34,10 +34,10 @@ class LearnersFolder:
         self._memory = path / MEMORY
         elsewhere = f"Name another folder: turtle-lesson open {Path.home() / FOLDER}"
         if path.exists() and not path.is_dir():
-            raise pages.PageError(f"{path} is a file, and a folder is wanted. {elsewhere}")
+            raise pages.PageError(f"{path} is a file, but a folder is needed. {elsewhere}")
         try:
             if not is_learners(path) and path.is_dir() and any(path.glob("[!.]*")):
-                raise pages.PageError(f"{path} holds other things already, and they are left alone. {elsewhere}")
+                raise pages.PageError(f"{path} already holds other files, and they are left alone. {elsewhere}")
             path.mkdir(parents=True, exist_ok=True)
             self._versions = self._recall()
             self._remember()
@@ -111,19 +111,19 @@ class LearnersFolder:
             if not self._put(name, page, self._versions.get(name, "")):
                 path = pages.unused(path, "mine")
                 nbformat.write(page, path)
-            said.append(f"{name} was taken along" + (f", as {path.name}." if path.name != name else "."))
+            said.append(f"{name} was copied" + (f", as {path.name}." if path.name != name else "."))
         self._remember()
         theirs, mine = pages.PUBLISHED / "workspace", self.path / "workspace"
         if theirs.is_dir() and mine.exists():
-            said.append(f"There is a workspace in {self.path} already: {theirs} was left where it is.")
+            said.append(f"There is a workspace in {self.path} already: {theirs} was not copied.")
         elif theirs.is_dir():
             shutil.copytree(theirs, mine, ignore=shutil.ignore_patterns(*NOT_TAKEN))
-            said.append("The workspace was taken along, without what a build makes: build it again.")
+            said.append("The workspace was copied without its build: build it again.")
         points = progress.ProgressFile(pages.PUBLISHED / progress.FILE).points()
         if points:
             progress.ProgressFile(self.path / progress.FILE).keep(points)
-            said.append(f"{sum(points.values())} points were taken along.")
-        return said or [f"Nothing was begun in {pages.PUBLISHED}."]
+            said.append(f"{sum(points.values())} points were copied.")
+        return said or [f"No page was begun in {pages.PUBLISHED}."]
 
 
 def is_learners(path: Path) -> bool:

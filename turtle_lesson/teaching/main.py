@@ -52,13 +52,11 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _add_open(commands: argparse._SubParsersAction) -> None:
-    text = (
-        "Open your own folder of the lesson's pages in JupyterLab. It is made if it is not there; what you did stays."
-    )
+    text = "Open your own folder of the lesson's pages in JupyterLab. It is made if it does not exist; your work in it stays."
     opening = commands.add_parser(
         "open",
         help="your folder of pages, in JupyterLab",
-        description=f"{text} Options that are not listed here are handed to JupyterLab.",
+        description=f"{text} Other options are passed on to JupyterLab.",
     )
     where = f"your folder (default: this one if it is yours already, or else {learner.FOLDER} in it)"
     opening.add_argument("folder", nargs="?", type=Path, metavar="DIR", help=where)
@@ -66,7 +64,7 @@ def _add_open(commands: argparse._SubParsersAction) -> None:
     opening.add_argument(
         "--port", type=int, metavar="N", help="port of this machine (default: 8888 or the next free one)"
     )
-    begun = "bring the pages, the workspace and the points that you began in the checkout's notebooks"
+    begun = "copy the pages, the workspace and the points that you began in the checkout's notebooks"
     opening.add_argument("--take-along", action="store_true", help=begun)
     _add_from(opening)
     opening.set_defaults(act=_open)
@@ -94,8 +92,8 @@ def _add_grade(commands: argparse._SubParsersAction) -> None:
 
 
 def _add_reset(commands: argparse._SubParsersAction) -> None:
-    text = "Put a page back into its published state, in your folder without outputs."
-    text += " What it was is kept beside it, as NAME.mine-1.ipynb."
+    text = "Restore the published state of a page, in your folder without outputs."
+    text += " Your version is kept beside it, as NAME.mine-1.ipynb."
     reset = commands.add_parser("reset", help="a page as it was published", description=text)
     reset.add_argument("notebook", type=Path, metavar="NOTEBOOK")
     _add_from(reset)
@@ -176,7 +174,7 @@ def _reset(options: argparse.Namespace) -> int:
     kept = learner.LearnersFolder(home).reset(path, published) if mine else pages.reset(path, published)
     print(
         f"{options.notebook} is as it was published."
-        + (f" Yours is kept as {kept.name}." if kept else " It was already.")
+        + (f" Yours is kept as {kept.name}." if kept else " It already was.")
     )
     return 0
 
@@ -184,9 +182,9 @@ def _reset(options: argparse.Namespace) -> int:
 def _student(options: argparse.Namespace) -> int:
     written, removed = pages.without_solutions(options.notebook, options.to)
     print(
-        f"{written}: {removed} cells with solutions left out."
+        f"{written}: {removed} cells with solutions were left out."
         if removed != 1
-        else f"{written}: 1 cell with a solution left out."
+        else f"{written}: 1 cell with a solution was left out."
     )
     return 0
 

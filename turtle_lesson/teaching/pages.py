@@ -42,13 +42,13 @@ def read(path: Path) -> Any:
     try:
         text = path.read_text(encoding="utf-8-sig")
     except FileNotFoundError:
-        raise PageError(f"{path} is not there") from None
+        raise PageError(f"{path} does not exist") from None
     except IsADirectoryError:
         raise PageError(f"{path} is a folder; name the notebook in it") from None
     except OSError as error:
         raise PageError(f"{path} cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:
-        raise PageError(f"{path} is no notebook: it holds no text") from None
+        raise PageError(f"{path} is not a notebook: it holds no text") from None
     return parse(text, path)
 
 
@@ -59,7 +59,7 @@ def parse(text: str | bytes, path: Path) -> Any:
         nbformat.validate(notebook)
     except Exception as error:  # nbformat raises many kinds
         reason = " ".join(str(error).split())[:120]
-        raise PageError(f"{path} is no notebook: {reason or type(error).__name__}") from None
+        raise PageError(f"{path} is not a notebook: {reason or type(error).__name__}") from None
     return notebook
 
 
@@ -94,7 +94,7 @@ def reset(path: Path, published: str | bytes) -> Path | None:
         kept = unused(path, "mine")
         shutil.copy2(path, kept)
     elif not path.parent.is_dir():
-        raise PageError(f"{path.parent} is not there")
+        raise PageError(f"{path.parent} does not exist")
     path.write_bytes(content)
     return kept
 
@@ -114,7 +114,7 @@ def published(path: Path, source: Path | None = None) -> bytes:
     checkout's `notebooks`. Raises PageError where it is found in neither.
     """
     if path.suffix != ".ipynb":
-        raise PageError(f"{path} is no notebook: its name should end in .ipynb")
+        raise PageError(f"{path} is not a notebook: its name should end in .ipynb")
     name = published_name(path)
     content = find_published(name, source)
     file = PUBLISHED / name
@@ -127,8 +127,8 @@ def published(path: Path, source: Path | None = None) -> bytes:
         )
     if source is None and file.resolve() == path.resolve() and _from_git(name) is None:
         raise PageError(
-            f"{name} is the published page itself, and the checkout has no version control to ask for what it was. "
-            "Download the lesson once more, and name its folder of notebooks: --from FOLDER"
+            f"{name} is the published page itself, and the checkout has no version control that could restore it. "
+            "Download the lesson again, and name its folder of notebooks: --from FOLDER"
         )
     return content
 
@@ -180,7 +180,7 @@ def without_solutions(path: Path, to: Path | None = None) -> tuple[Path, int]:
             nbformat.write(notebook, file)
     except FileExistsError:
         raise PageError(
-            f"{target} is there already, and nothing is ever overwritten: name another one with --to"
+            f"{target} already exists, and nothing is ever overwritten: choose another name with --to"
         ) from None
     except OSError as error:
         raise PageError(f"{target} cannot be written: {error.strerror}") from None

@@ -51,6 +51,4 @@ def _check_free(port: int) -> None:
             probe.bind(("127.0.0.1", port))
         except (OSError, OverflowError) as error:
             reason = (getattr(error, "strerror", None) or str(error)).lower().rstrip(".")
-            raise PageError(
-                f"port {port} cannot be used: {reason}. Leave --port out, and a free one is found."
-            ) from None
+            raise PageError(f"port {port} cannot be used: {reason}. Without --port, a free one is found.") from None

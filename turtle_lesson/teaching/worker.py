@@ -82,7 +82,7 @@ def _run(notebook: Any, folder: Path, seconds: float) -> str:
     try:
         asyncio.run(_limited(client, seconds))
     except TimeoutError:
-        return f"it was not done after {seconds:g} s, and was stopped"
+        return f"it had not finished after {seconds:g} s, and was stopped"
     except DeadKernelError:
         return "its kernel died"
     except Exception as error:  # whatever a damaged notebook can do to the one that runs it

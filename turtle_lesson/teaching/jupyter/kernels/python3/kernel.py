@@ -16,7 +16,7 @@ from IPython.core.error import UsageError
 
 HINT = (
     "Run the set-up cell first: it is the page's first code cell, with %load_ext turtle_lesson.\n"
-    "A kernel that has just started knows nothing of the cells that ran before."
+    "A kernel that has just started knows nothing about cells that ran before."
 )
 SET_UP = re.compile(r"(?m)^[ \t]*%load_ext[ \t]+turtle_lesson\b")
 COMMAND = re.compile(r"[ \t]*(?:ros2|colcon|source|cd|mkdir|ls|cat|touch)[ \t]+[\w~./$\"'-]")
