@@ -309,7 +309,7 @@ def test_one_can_stop_waiting(lesson: Lesson) -> None:
     order(widget, "call")
     order(widget, "stop")
     lesson.run(5)
-    assert widget.answer == "" and "Waits for /navigate_to no more" in widget.words
+    assert widget.answer == "" and "No longer waiting for /navigate_to" in widget.words
 
 
 def test_a_form_can_be_for_any_topic_and_service_that_is_there(lesson: Lesson) -> None:

@@ -177,5 +177,5 @@ def test_the_widget_records_what_is_clicked(lesson: Lesson) -> None:
     assert lesson.outcome("end", (1, 2)).verdict == "0.00 m off."
     widget._order(widget, {"do": "guess", "view": "v", "value": [5, 5]}, [])
     assert not widget.is_open
-    assert "The outcome is known" in widget.words
+    assert "The outcome is already known" in widget.words
     assert widget.guess == [1.0, 2.0]

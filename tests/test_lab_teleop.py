@@ -113,7 +113,7 @@ def test_it_says_when_nobody_listens_and_who_does_elsewhere(lesson: Lesson) -> N
 
 def test_whoever_listens_for_another_type_is_named(lesson: Lesson) -> None:
     assert lesson.teleop("/rosout").unheard == "No node listens on /rosout. There are listeners on /turtle1/cmd_vel."
-    events = "rcl_interfaces/msg/ParameterEvent, not for geometry_msgs/msg/Twist."
+    events = "rcl_interfaces/msg/ParameterEvent, not geometry_msgs/msg/Twist."
     assert lesson.teleop("/parameter_events").unheard in (
         "No node listens on /parameter_events. There are listeners on /turtle1/cmd_vel.",
         f"The nodes that listen on /parameter_events expect {events}",
