@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, redirect_stdout
 from typing import TYPE_CHECKING, Any
 
+from .live import LONGEST_CALLBACK, CellNodes
 from .ros.core import NANOSECONDS
 from .ros.core.driving import drive_within
 from .ros.core.errors import DriveTimeout, NeverReturns, SimulationError, WorldClosed
@@ -17,10 +18,6 @@ if TYPE_CHECKING:
     from .lab.recorder import Recorder
     from .ros.core.strand import Strand
     from .ros.world import World
-
-
-LONGEST = 150 * NANOSECONDS
-"""Robot time, in ns, for which a callback or function of a cell may hold a check up."""
 
 
 class ExamPlace:
@@ -36,7 +33,7 @@ class ExamPlace:
         self.node = recording.node
         self._board = board
         self._errors: list[tuple[str, Exception]] = []
-        self._executor: Any = None  # one for all steps: it keeps the coroutines that wait from one step to the next
+        self._cells = CellNodes(world)
 
     @property
     def now(self) -> float:
@@ -121,49 +118,17 @@ class ExamPlace:
 
     def call(self, function: Callable[..., Any], *arguments: Any) -> Any:
         """Call a function of the learner's as a cell would: it may sleep, and is stopped if it computes without end."""
-        return drive_within(LONGEST, self._world.sim, self._world.notebook, lambda: function(*arguments))
+        return drive_within(LONGEST_CALLBACK, self._world.sim, self._world.notebook, lambda: function(*arguments))
 
     def step(self, seconds: float) -> None:
         """Let robot time pass. Raises KeyboardInterrupt, and SimulationError where the world itself cannot go on."""
         end = self._world.now + round(seconds * NANOSECONDS)
         while self._world.now < end:
             try:
-                if not self._spin_cells(end):
-                    self._world.sim.run_until(end)
+                self._cells.run_until(end)
             except Exception as error:
                 if type(error) in (SimulationError, WorldClosed):
                     raise  # the world itself cannot go on; the other kinds are of a callback
                 self._errors.append(("", error))
                 if isinstance(error, (NeverReturns, DriveTimeout)):
                     return
-
-    def _spin_cells(self, end: int) -> bool:
-        """Spin the nodes of the notebook's cells until `end` (ns); whether there are any."""
-        nodes = self._cell_nodes()
-        if not nodes:
-            return False
-        from rclpy.executors import SingleThreadedExecutor
-        from rclpy.task import Future
-
-        executor = next((node._ros_executor for node in nodes if node._ros_executor is not None), None)
-        if executor is None:
-            executor = self._executor = self._executor or SingleThreadedExecutor()
-        added = [node for node in nodes if node._ros_executor is None and executor.add_node(node)]
-        try:
-            before = self._world.now
-            seconds = (end - before) / NANOSECONDS
-            drive_within(
-                LONGEST,
-                self._world.sim,
-                self._world.notebook,
-                lambda: executor.spin_until_future_complete(Future(), seconds),
-            )
-            return self._world.now > before  # an executor that was shut down lets no time pass
-        finally:
-            for node in added:
-                executor.remove_node(node)
-
-    def _cell_nodes(self) -> list[Any]:
-        """The nodes that live in the notebook itself."""
-        context = self._world.notebook.locals.get("rclpy.context")
-        return list(context._nodes) if context is not None and context.ok() else []

@@ -7,6 +7,7 @@ from collections import deque
 from typing import TYPE_CHECKING, Any
 
 from .ros.core import NANOSECONDS
+from .ros.core.driving import drive_within
 from .ros.core.tracebacks import print_error
 from .ros.core.virtual_time import real_monotonic
 
@@ -28,6 +29,10 @@ PIECE = NANOSECONDS // 10
 
 MOST = 1e6
 """Seconds of robot time in one step at most; an infinite rate, which is as fast as possible, never gets there."""
+
+
+LONGEST_CALLBACK = 150 * NANOSECONDS
+"""Robot time, in ns, for which a callback or function of a cell may hold a check or live mode up."""
 
 
 class CellNodes:
@@ -57,7 +62,13 @@ class CellNodes:
         added = [node for node in nodes if node._ros_executor is None and executor.add_node(node)]
         try:
             before = self._world.now
-            executor.spin_until_future_complete(Future(), (end - before) / NANOSECONDS)
+            seconds = (end - before) / NANOSECONDS
+            drive_within(
+                LONGEST_CALLBACK,
+                self._world.sim,
+                self._world.notebook,
+                lambda: executor.spin_until_future_complete(Future(), seconds),
+            )
             return self._world.now > before  # an executor that was shut down lets no time pass
         finally:
             for node in added:
