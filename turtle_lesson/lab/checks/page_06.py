@@ -173,7 +173,7 @@ def side_by_side() -> list[Expectation]:
         *(Expectation(f"one node /{side}/status_monitor", _is_there(side)) for side in SIDES),
         only({"/slow/status_monitor", "/fast/status_monitor", "/turtlesim"}),
         *(publishes(f"/{side}{STATUS}", STATUS_TYPE, by=f"/{side}/status_monitor") for side in SIDES),
-        Expectation(f"nobody publishes {STATUS}", _nobody),
+        Expectation(f"no node publishes {STATUS}", _nobody),
         *(parameter(f"/{side}/status_monitor", "publish_rate", hz) for side, hz in SIDES.items()),
         *(Expectation(f"/{side}{STATUS} comes at {hz} Hz", _keeps(side, hz)) for side, hz in SIDES.items()),
         no_errors(),
@@ -201,7 +201,7 @@ def _nobody(exam: Exam) -> Seen:
         hint="Open Hint 2 under the exercise.",
     )
     return Seen(
-        not owners, f"{listed(owners)} {'do' if len(owners) > 1 else 'does'}" if owners else "nobody does", advice
+        not owners, f"{listed(owners)} {'do' if len(owners) > 1 else 'does'}" if owners else "none does", advice
     )
 
 
