@@ -148,8 +148,8 @@ def test_what_is_wrong_is_said_in_bashs_words(package: Path, world: World) -> No
     assert (code, err) == (
         1,
         [
-            "bash: install/setup.bash: No such file or directory. Is colcon build done, and are you in the workspace's "
-            "folder (the one that has src/ in it)?"
+            "bash: install/setup.bash: No such file or directory. Have you run colcon build, and are you in the workspace's "
+            "folder (the one that contains src/)?"
         ],
     )
     colcon(world)

@@ -19,7 +19,7 @@ class Channel:
 
     `make_listener` is given the message class and returns the two-argument callback. With `driven`, it
     subscribes while somebody else subscribes (a topic that drives a machine); otherwise while somebody
-    publishes. `latched` asks for the last message from before, too. `remedy` is what to try where nobody publishes,
+    publishes. `latched` asks for the last message from before, too. `remedy` is what to try where no node publishes,
     `patience` where somebody does, who has said nothing yet.
     """
 
@@ -59,7 +59,7 @@ class Channel:
             self.follow()
 
     def follow(self) -> None:
-        """Subscribe if there is somebody to hear, unsubscribe if there is nobody any more."""
+        """Subscribe if there is a publisher, unsubscribe if there is none any more."""
         message_type = self._find_message_type() if self._wanted() else None
         if message_type is not self._message_type:
             self.close()

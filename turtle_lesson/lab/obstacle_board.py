@@ -21,7 +21,7 @@ class ObstacleBoard:
     """Knows which obstacles there are, and puts others there.
 
     The topic is the truth, since somebody else may publish there, too. But a message takes time to arrive, and while
-    the clock is paused it takes for ever: until it is heard, what was put up last counts.
+    the clock is paused it takes forever: until it is heard, what was put up last counts.
     """
 
     def __init__(self, recorder: Recorder, now: Callable[[], int] | None = None) -> None:

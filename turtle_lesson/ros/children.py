@@ -1,7 +1,7 @@
 """Programs that a program starts: `subprocess`, `os.system` and `os.popen` run further processes of the world.
 
 What they can start in it is what a launch file's ExecuteProcess can: `ros2 …`, Python files, echo, sleep. All else is run by
-the computer itself, and takes no robot time; so it is for whoever is no simulated process, except for `ros2 …` in a cell or
+the computer itself, and takes no robot time; so it is for code outside simulated processes, except for `ros2 …` in a cell or
 a launch file.
 """
 

@@ -1,7 +1,7 @@
 """The action ``<turtle>/rotate_absolute``: turns a turtle to a heading, with feedback at every tick.
 
 Plain ``rclpy``. As in the real turtlesim every goal is accepted, and so is every wish to cancel; a new goal aborts
-the one before. Where it differs: a heading that is NaN or infinite, with which the real turtle would turn for ever,
+the one before. Where it differs: a heading that is NaN or infinite, with which the real turtle would turn forever,
 is rejected.
 """
 

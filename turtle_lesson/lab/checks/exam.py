@@ -235,7 +235,7 @@ class Exam(GraphView):
     def listen(self, topic: str, type_name: str) -> list[Heard]:
         """Begin to listen, if it was not done before; returns the list that fills itself.
 
-        Raises CannotLook where nobody publishes the topic as this type.
+        Raises CannotLook where no node publishes the topic as this type.
         """
         return self.once(("listen", topic, type_name), lambda: self._listen(topic, type_name))
 
@@ -323,7 +323,7 @@ class Exam(GraphView):
     def ask(self, service: str, type_name: str, timeout: float, **fields: Any) -> Answer:
         """Call a service, and let robot time pass until it answers or the timeout (s) is over.
 
-        Raises CannotLook where nobody offers it as this type.
+        Raises CannotLook where no node offers it as this type.
         """
         answer = self.ask_soon(service, type_name, **fields)
         self.wait_for(answer, timeout)

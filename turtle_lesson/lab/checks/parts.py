@@ -35,7 +35,7 @@ def node(name: str, start: str = "") -> Expectation:
 
 
 def publishes(topic: str, type_name: str, by: str = "") -> Expectation:
-    """A topic that is published as this type: by this node, where one is named, and by nobody else."""
+    """A topic that is published as this type: by this node, where one is named, and by no other node."""
     who = f"{by} publishes" if by else "somebody publishes"
     step = f"Which line makes the publisher, when is it run, and is the name {topic} the same in every letter?"
     return Expectation(

@@ -16,7 +16,7 @@ from .rows import Advice, CannotLook, Seen
 Judge = Callable[[list[Heard]], Seen]
 
 CATCH_UP = 0.001
-"""Robot time, s, before a rate is measured: a timer in a cell that nobody spun for a while ticks once, late, then in step."""
+"""Robot time, s, before a rate is measured: a timer whose node was not spun for a while ticks once, late, then in step."""
 
 
 def rate(topic: str, type_name: str, hz: float, within: float = 0.010, seconds: float = 3.0) -> Expectation:
@@ -71,7 +71,7 @@ def _how_to_pace(low: float, high: float, mean: float, hz: float, uneven: bool) 
 
 
 def messages(topic: str, type_name: str, expected: str, judge: Judge, seconds: float = 2.0) -> Expectation:
-    """Whatever a function judges of the messages that come in some seconds (at least one, or nobody looks)."""
+    """Whatever a function judges of the messages that come in some seconds (at least one, or they are not looked at)."""
 
     def look(exam: Exam) -> Seen:
         return judge(some(exam, topic, type_name, seconds))

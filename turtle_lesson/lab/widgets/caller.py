@@ -45,7 +45,7 @@ class Caller:
         self._asked, self._deadline = self._station.now, self._station.now + timeout
         if self._client.service_is_ready():
             self._send(request)
-        elif self._station.clock is None:  # a real network, where a client finds nobody in its first moments
+        elif self._station.clock is None:  # a real network, where a client finds no server in its first moments
             self._held = request
         else:
             self._end(f"Not asked: {self.why_unheard()}", "")
@@ -76,7 +76,7 @@ class Caller:
             self._client = None
 
     def why_unheard(self) -> str:
-        """A sentence on why nobody would answer; "" if somebody would."""
+        """A sentence that says why no node would answer; "" if one would."""
         return "" if self._is_offered() else f"No node offers {self._name} now."
 
     def _is_offered(self) -> bool:

@@ -126,7 +126,7 @@ class GoalDesk:
         self._wanted = True
 
     def rest(self) -> None:
-        """Nobody looks any more: stop listening, as soon as every goal has its answer."""
+        """The widget is no longer shown: stop listening, as soon as every goal has its answer."""
         self._wanted = False
         self._leave_if_done()
 

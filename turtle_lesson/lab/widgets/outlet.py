@@ -46,7 +46,7 @@ class Outlet:
         return sum(end.topic_type == self.type_name for end in self._others(self.topic))
 
     def why_unheard(self) -> str:
-        """A sentence on why nobody gets what is published; "" if somebody does."""
+        """A sentence that says why no node gets what is published; "" if one does."""
         there = self._others(self.topic)
         if any(end.topic_type == self.type_name for end in there):
             return ""

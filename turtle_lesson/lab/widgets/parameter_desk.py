@@ -61,7 +61,7 @@ class ParameterDesk:
             node = self._station.node
             self._events = node.create_subscription(ParameterEvent, "/parameter_events", self._hear, 100)
         for what in SERVICES:
-            self._client(what)  # now, since on a real network a client finds nobody in its first moments
+            self._client(what)  # now, since on a real network a client finds no server in its first moments
         self._found_by = self._station.now + DISCOVERY
         self.ask()
 

@@ -40,7 +40,7 @@ class Teleop(LiveWidget):
     sent = traitlets.Dict({"linear": 0.0, "angular": 0.0, "count": 0}).tag(sync=True)
     """The newest velocity on the topic, m/s and rad/s, and how many there were."""
     unheard = traitlets.Unicode().tag(sync=True)
-    """Why nobody hears it; "" if somebody does."""
+    """Why no node hears it; "" if one does."""
 
     def __init__(self, station: Station, topic: str) -> None:
         from geometry_msgs.msg import Twist

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from rclpy.task import Future
 
 LONGEST_GOAL = 600.0
-"""How long, in s of robot time, a goal may take unless `--for` tells otherwise. The real tool waits for ever."""
+"""How long, in s of robot time, a goal may take unless `--for` tells otherwise. The real tool waits forever."""
 
 LOOK_AGAIN = 1.0
 

@@ -2,7 +2,7 @@
 
 Each command is a simulated process; a verb is ordinary blocking rclpy code in it. It prints to `sys.stdout` and
 `sys.stderr` as the real tool does, and `main` returns the exit code: 0, 1 after an error, 2 for wrong usage and for
-what would go on for ever in a terminal (as after a Ctrl-C there).
+what would go on forever in a terminal (as after a Ctrl-C there).
 """
 
 from __future__ import annotations
@@ -174,7 +174,7 @@ def answer_of(node: Node, future: Future, seconds: float | None = None) -> Any:
 
 
 def spin_for(node: Node, seconds: float | None, done: Future | None = None) -> bool:
-    """Spin the node for some robot time (s, or None for ever) or until `done` is; whether `done` is."""
+    """Spin the node for some robot time (s, or None forever) or until `done` is; whether `done` is."""
     import rclpy
     from rclpy.task import Future
 

@@ -160,7 +160,7 @@ def _logger(name: str) -> Any:
     def say(severity: str, text: str) -> None:
         if severity == "INFO":
             logger.info(text)
-        elif severity == "WARN":  # on a line of its own: a logger's line has one severity for ever
+        elif severity == "WARN":  # on a line of its own: a logger's line has one severity forever
             logger.warning(text)
         else:
             logger.error(text)

@@ -33,7 +33,7 @@ def _managed(node: Node, include_hidden: bool) -> list[str]:
 
 
 def _ask(node: Node, node_name: str, kind: str, service: str, **request: Any) -> Any:
-    """The answer of a managed node's service. Raises CommandError: the real tool waits for ever for a busy node."""
+    """The answer of a managed node's service. Raises CommandError: the real tool waits forever for a busy node."""
     import lifecycle_msgs.srv
 
     made = getattr(lifecycle_msgs.srv, kind)

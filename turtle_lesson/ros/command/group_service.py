@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from rclpy.task import Future
 
 LONGEST_ANSWER = 600.0
-"""How long, in s of robot time, an answer may take unless `--for` tells otherwise. The real tool waits for ever."""
+"""How long, in s of robot time, an answer may take unless `--for` tells otherwise. The real tool waits forever."""
 
 LOOK_AGAIN = 1.0
 

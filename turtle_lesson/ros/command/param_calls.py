@@ -29,7 +29,7 @@ def find_node(node: Node, args: Namespace) -> str:
 def ask(node: Node, node_name: str, service: str, **request: Any) -> Any:
     """The answer of a node's parameter service, such as GetParameters.
 
-    Raises CommandError if there is none: the real tool waits for ever for a node that is busy.
+    Raises CommandError if there is none: the real tool waits forever for a node that is busy.
     """
     import rcl_interfaces.srv
 

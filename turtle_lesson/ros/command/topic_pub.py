@@ -110,7 +110,7 @@ def _matched(node: Node, publisher: Publisher) -> int:
 
 
 def _why_nobody(node: Node, publisher: Publisher, needed: int) -> tuple[str, str]:
-    """Why there are too few subscriptions, and a hint. The real tool waits for ever."""
+    """Why there are too few subscriptions, and a hint. The real tool waits forever."""
     name, kind = publisher.topic_name, publisher.msg_type._TYPE_NAME  # type: ignore[attr-defined]
     there = subscriptions(node, name)
     waited = f"Gave up after {PATIENCE:g} s of robot time"

@@ -2,7 +2,7 @@
 
 On a robot such a loop burns a processor, and the other thread goes on beside it. Here nobody else goes on before time passes.
 So when a program's file is compiled, each round of such a loop is made to take a little time. A program that has but one
-thread would wait for ever; there the loop is left alone, and is found when it has computed for too long.
+thread would wait forever; there the loop is left alone, and is found when it has computed for too long.
 """
 
 from __future__ import annotations

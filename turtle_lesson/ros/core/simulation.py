@@ -70,7 +70,7 @@ class Simulation(Face):
     # -- asking for things to happen -------------------------------------------------------------------------
 
     def at(self, time: int, action: Callable[[Any], object], argument: Any) -> None:
-        """Have `action(argument)` called at virtual time `time` (ns), by whoever waits then.
+        """Have `action(argument)` called at virtual time `time` (ns), by the strand that waits then.
 
         It must be short and may only wake strands; what does more is given to `call_later`.
         """
@@ -125,7 +125,7 @@ class Simulation(Face):
             self.park(strand)
 
     def read_clock(self, cost: int = CLOCK_READ) -> int:
-        """The virtual time in ns, for somebody who looks at a clock: looking costs time itself (ns)."""
+        """The virtual time in ns, for a caller that reads a clock: reading costs time itself (ns)."""
         if self._raising:
             return self.now  # somebody who was interrupted cleans up, all in this instant
         if running_strand() is not None:

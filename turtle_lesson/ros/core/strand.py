@@ -32,7 +32,7 @@ class Strand(greenlet):
         activity: what it does, for messages that explain why it takes so long.
         warned: whether it was told once that it computes without end.
         cell: the cell that it prints to.
-        waits_for: for what it waits without a time limit, and in vain if all others of its process do; None else.
+        waits_for: what it waits for without a time limit, and without end if all others of its process do so; None otherwise.
         may_act: asks whether anything that it waits for could have it go on; None if that is not known.
         name: what it is called, if nobody gives it another name.
         thread: the `threading.Thread` that it is, once somebody has asked.

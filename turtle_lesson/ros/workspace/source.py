@@ -27,7 +27,7 @@ def source(world: World, words: list[str], *, cwd: Path | None = None, stdout: T
         print("bash: source: filename argument required\nsource: usage: source filename [arguments]", file=stderr)
         return 2
     if words[0].startswith(_UNDERLAY):
-        return 0  # the classroom's own packages are always there
+        return 0  # the simulation's own packages are always there
     file = (cwd or Path.cwd()) / Path(words[0]).expanduser()
     if problem := _problem(words[0], file):
         print(problem, file=stderr)
@@ -43,11 +43,9 @@ def _problem(word: str, file: Path) -> str:
         text = f"bash: {word}: No such file or directory"
         if file.parent.is_dir() and (close := did_you_mean(file.name, _SETUP_FILES)):
             return f"{text}. {close}" if (file.parent / LAYOUT).is_file() else text
-        return f"{text}. Is colcon build done, and are you in the workspace's folder (the one that has src/ in it)?"
+        return f"{text}. Have you run colcon build, and are you in the workspace's folder (the one that contains src/)?"
     if file.name not in _SETUP_FILES or not (file.parent / LAYOUT).is_file():
-        return (
-            f"bash: {word}: this classroom's terminal sources only what colcon build makes: source install/setup.bash"
-        )
+        return f"bash: {word}: this simulated terminal sources only what colcon build makes: source install/setup.bash"
     return ""
 
 

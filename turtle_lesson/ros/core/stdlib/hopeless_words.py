@@ -34,7 +34,7 @@ _WHAT_ENDS_IT = {
 _PUBLIC = {"_PySimpleQueue.get": "SimpleQueue.get", "_RLock.acquire": LOCK}
 
 hints: list[Callable[[Strand], str]] = []
-"""Functions that know what to advise a strand that waits in vain; the first one that says something is heard."""
+"""Functions that know what to advise a strand that waits for something impossible; the first text that one returns is used."""
 
 
 def why_nobody_is_left(strand: Strand) -> str:

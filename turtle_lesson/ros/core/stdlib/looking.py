@@ -1,7 +1,7 @@
 """Asking whether something has happened yet.
 
 On a robot, a loop that does nothing but ask, such as `while not future.done(): pass`, burns a processor while other threads
-go on. Here nobody else goes on before it lets time pass. So to ask in vain costs time, as looking at a clock does; but only
+go on. Here nothing else continues before it lets time pass. So polling costs time, as looking at a clock does; but only
 for those who ask very often at the same instant, so that the time of all other programs is left as it is.
 """
 

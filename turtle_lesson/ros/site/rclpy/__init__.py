@@ -135,7 +135,7 @@ def create_node(
 
 @drives_the_simulation
 def spin_once(node: Node, *, executor: Executor | None = None, timeout_sec: float | None = None) -> None:
-    """Run one callback of the node, or wait until the timeout (s) for one to become ready; None waits for ever."""
+    """Run one callback of the node, or wait until the timeout (s) for one to become ready; None waits forever."""
     executor = get_global_executor() if executor is None else executor
     try:
         executor.add_node(node)
@@ -168,7 +168,7 @@ def _spin(node: Node, executor: Executor) -> None:
 def spin_until_future_complete(
     node: Node, future: Future, executor: Executor | None = None, timeout_sec: float | None = None
 ) -> None:
-    """Run the node's callbacks until the future is done, or the timeout (s) has passed; None waits for ever."""
+    """Run the node's callbacks until the future is done, or the timeout (s) has passed; None waits forever."""
     executor = get_global_executor() if executor is None else executor
     try:
         executor.add_node(node)

@@ -35,7 +35,7 @@ class Alarm:
         self.strand.simulation.wake(self.strand)
 
     def wait(self, deadline: int | None, *, only_from_within: bool = True) -> bool:
-        """Wait until the deadline (ns of the simulation; None for ever); whether it rang before.
+        """Wait until the deadline (ns of the simulation; None forever); whether it rang before.
 
         `only_from_within`: nobody but another thread of this process can ring it.
         """

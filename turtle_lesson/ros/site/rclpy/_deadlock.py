@@ -1,6 +1,6 @@
 """Calls that can never be answered are found before they hang, and explained.
 
-A real rclpy waits for ever in these cases. Which they are was tried on one: a synchronous call in the only thread that
+A real rclpy waits forever in these cases. Which they are was tried on one: a synchronous call in the only thread that
 could take its answer, or in the mutually exclusive callback group in which the client (or the service, if it lives in
 the same process) would have to be called.
 """
@@ -73,7 +73,7 @@ def callbacks_around(frame: FrameType | None = None) -> list[Any]:
 
 
 def advice_for_callbacks(strand: Strand) -> str:
-    """What to do if it is a callback that waits in vain for another one."""
+    """What to do if it is a callback that waits for another one that cannot run."""
     frame = sys._getframe(1) if strand is running_strand() else strand.gr_frame
     if not callbacks_around(frame):
         return ""
@@ -127,7 +127,7 @@ def is_in_spin(strand: Strand) -> bool:
 
 
 def why_never_answered(client: Client, strand: Strand) -> str:
-    """Why a synchronous call of a service from this strand would wait for ever; '' if it need not."""
+    """Why a synchronous call of a service from this strand would wait forever; '' if it need not."""
     servers = client._servers()
     if not servers:
         return _why_nobody_serves(client)
@@ -194,7 +194,7 @@ def _why_not_served(client: Client, servers: list[ServerEnd], strand: Strand, dr
 
 
 def why_never_done(future: Future, executor: Executor, strand: Strand) -> str:
-    """Why spinning inside a callback until a future is done would take for ever; '' if it need not, or in doubt."""
+    """Why spinning inside a callback until a future is done would take forever; '' if it need not, or in doubt."""
     client = future._answered_by
     if client is None or future._done or not keeps_taken(client.callback_group):
         return ""
@@ -209,7 +209,7 @@ def why_never_done(future: Future, executor: Executor, strand: Strand) -> str:
 
 
 def why_never_awaited(future: Future, task: Task, strand: Strand | None) -> str:
-    """Why a coroutine would await a future for ever; '' if it need not, or in doubt."""
+    """Why a coroutine would await a future forever; '' if it need not, or in doubt."""
     client, entity, executor = future._answered_by, task._entity, task._executor
     if client is None or entity is None or executor is None or client.callback_group is not entity.callback_group:
         return ""

@@ -96,7 +96,7 @@ class Executor(ExecutorBase):
             self._let_another_go_on()
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
-        """Run one callback, waiting at most `timeout_sec` (s; None waits for ever) for one to become ready.
+        """Run one callback, waiting at most `timeout_sec` (s; None waits forever) for one to become ready.
 
         An executor that is shut down runs none, and says nothing.
         """

@@ -89,7 +89,7 @@ class Client(Entity):
 
     @drives_the_simulation
     def wait_for_service(self, timeout_sec: float | None = None) -> bool:
-        """Wait until somebody offers the service; False if nobody does within the timeout (s). None waits for ever."""
+        """Wait until a node offers the service; False if none does within the timeout (s). None waits forever."""
         strand, simulation = running_strand(), self._end.simulation
         if strand is not None:
             strand.activity = f"wait_for_service for {self._end.name}"

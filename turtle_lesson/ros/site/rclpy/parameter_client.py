@@ -65,7 +65,7 @@ class AsyncParameterClient:
 
     @drives_the_simulation
     def wait_for_services(self, timeout_sec: float | None = None) -> bool:
-        """Wait until all six services are there; False if they are not within the timeout (s). None waits for ever."""
+        """Wait until all six services are there; False if they are not within the timeout (s). None waits forever."""
         strand = running_strand()
         assert strand is not None
         strand.activity = f"wait_for_services of {self.remote_node_name}"

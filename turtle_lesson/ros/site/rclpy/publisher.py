@@ -109,7 +109,7 @@ class Publisher:
     def wait_for_all_acked(self, timeout: Duration = FOR_EVER) -> bool:
         """Wait until all reliable subscriptions have what was published; False if the timeout is over before that.
 
-        A negative timeout waits for ever, one of 0 only looks. A best-effort publisher never waits.
+        A negative timeout waits forever, one of 0 only looks. A best-effort publisher never waits.
         """
         if not isinstance(timeout, Duration):
             raise TypeError(f"the timeout must be a Duration, got {timeout!r}: try Duration(seconds=1)")

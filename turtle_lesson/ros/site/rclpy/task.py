@@ -99,7 +99,7 @@ class Future:
         return self._done or looked_in_vain()
 
     def _is_done(self) -> bool:
-        """The same, for executors, which do not ask in vain: they wait when there is nothing to do."""
+        """The same, for executors, which do not poll: they wait when there is nothing to do."""
         return self._done
 
     def result(self) -> Any:

@@ -61,7 +61,7 @@ def remove_ros_args(args: list[str] | None = None) -> list[str]:
 
 
 def timeout_sec_to_nsec(timeout_sec: float | None) -> int:
-    """Seconds to ns; None and negative numbers mean "wait for ever", which is -1."""
+    """Seconds to ns; None and negative numbers mean "wait forever", which is -1."""
     return -1 if timeout_sec is None or timeout_sec < 0 else int(timeout_sec * S_TO_NS)
 
 

@@ -21,7 +21,7 @@ __all__ = ["wait_for_message"]
 def wait_for_message(
     msg_type: Any, node: Node, topic: str, time_to_wait: float = -1, *, qos_profile: QoSProfile | int = 1
 ) -> tuple[bool, Any]:
-    """(True, message) for the next message that comes, or (False, None) after `time_to_wait` (s; -1 waits for ever).
+    """(True, message) for the next message that comes, or (False, None) after `time_to_wait` (s; -1 waits forever).
 
     Also (False, None) if ROS is shut down meanwhile. The node need not be spun, and none of its callbacks is called.
     """

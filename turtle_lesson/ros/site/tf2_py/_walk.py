@@ -66,7 +66,7 @@ def latest_common_time(frames: Frames, target: str, source: str) -> int:
 
 
 def _earlier(known: int | None, stamp: int) -> int | None:
-    """The earlier of two times; a time of 0 is that of a static frame, and holds for ever."""
+    """The earlier of two times; a time of 0 is that of a static frame, and holds forever."""
     if not stamp:
         return known
     return stamp if known is None else min(known, stamp)

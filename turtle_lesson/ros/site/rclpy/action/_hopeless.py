@@ -30,7 +30,7 @@ SUFFIX = "/_action/send_goal"
 
 
 def refuse_hopeless(action_client: ActionClient, client: Client, what: str, strand: Strand) -> None:
-    """Raise NeverWakes if a synchronous call from this strand, such as send_goal (`what`), would wait for ever."""
+    """Raise NeverWakes if a synchronous call from this strand, such as send_goal (`what`), would wait forever."""
     ready = action_client.server_is_ready()
     problem = why_never_answered(client, strand) if ready else _why_nobody_offers(action_client)
     if problem:

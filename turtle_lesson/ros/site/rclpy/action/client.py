@@ -127,7 +127,7 @@ class ActionClient(Waitable):
 
     @drives_the_simulation
     def wait_for_server(self, timeout_sec: float | None = None) -> bool:
-        """Wait until somebody offers the action; False if nobody does within the timeout (s). None waits for ever.
+        """Wait until a node offers the action; False if none does within the timeout (s). None waits forever.
 
         As the real one it looks every quarter of a second, and waits for whole quarters.
         """
