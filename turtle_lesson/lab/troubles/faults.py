@@ -161,7 +161,7 @@ def motion_rows() -> list[Expectation]:
     return [
         there("/turtlesim", "ros2 run turtlesim turtlesim_node"),
         *drives((8.0, 5.5), (5.5, 5.5)),
-        commands_steady(8.0, 5.5),
+        commands_steady(5.5, 5.5),
     ]
 
 
