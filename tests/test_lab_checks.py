@@ -29,7 +29,6 @@ OF_THE_SYSTEM = [
     "status_monitor",
     "parameters",
     "launch",
-    "system",
 ]
 """What the finished package meets; other checks call functions that the learner writes."""
 

@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 import math
+import sys
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 from ..track import WORLD
-from ..words import count, number, point
+from ..words import count, listed, number, point
 from . import page_04, page_05, page_06
 from .drives import NAVIGATE, NAVIGATE_TYPE, NEAR, Drive, drive, where
 from .exam import Exam, Heard
+from .fields import interface
+from .functions import learner_function
 from .parts import no_errors, publishes, subscribes
 from .registry import Expectation, check
-from .rows import CannotLook, Seen
+from .rows import Advice, CannotLook, Seen
 from .streams import judge_rate, relays
 
 PAGE = "10_test_and_validate"
@@ -23,105 +28,204 @@ GOALS = ((8.0, 8.0, 1.57), (2.0, 8.0, 3.14), (2.0, 2.0, -1.57), (9.0, 2.0, 0.0),
 """Driven to in turn: all four quarters of the world, and all directions."""
 
 MINUTES = 5.0
-CRITERION = "five minutes of work"
+SETTLING = 1.0
+"""Robot time, s, before the work begins: an interval may still be of the rate that a parameter had before."""
 
 VERDICT_TYPE = "std_msgs/msg/Bool"
 BATTERY_VERDICT, ALIVE = "/tests/battery", "/tests/alive"
+
+LIMIT = 0.5
+"""How old the last status may be, s, for the watchdog to call the robot alive."""
+TICK = 0.2
+"""How often the watchdog speaks, s."""
 
 
 # -- a test of one message -----------------------------------------------------------------------------------------------
 
 
-@check("battery_test", page=PAGE, points=3, limit=20)
+@check(
+    "battery_test",
+    page=PAGE,
+    points=3,
+    limit=20,
+    learnt="A test says yes to what is right, both ends included, and no to everything else.",
+)
 def battery_test() -> list[Expectation]:
     """A test of one message: passes every percentage, and can fail."""
-    step = "Compare both ends, 0 <= status.battery <= 100, and return what comes out."
+    ends = Advice(
+        direction="Both ends belong to a percentage. What does your comparison make of them?", hint="Open Hint 1."
+    )
+    beyond = Advice(direction="Which values does your function never say False to?", hint="Open Hint 1.")
+    nan = Advice(direction="Each comparison with nan is false. What is left of your test then?", hint="Open Hint 2.")
+    pairs = [({"battery": 50.0}, _says(True), "50 % → True"), ({"battery": 150.0}, _says(False), "150 % → False")]
     return [
         subscribes(page_04.STATUS, page_04.STATUS_TYPE, by="/tester"),
         publishes(BATTERY_VERDICT, VERDICT_TYPE, by="/tester"),
-        Expectation("0, 50 and 100 % pass", _judged(True, (0.0, 50.0, 100.0), step)),
-        Expectation("150 and -1 % fail", _judged(False, (150.0, -1.0), step)),
-        Expectation("a battery that is no number fails", _judged(False, (math.nan,), step)),
+        Expectation("0, 50 and 100 % pass", _judged(True, (50.0, 0.0, 100.0), ends)),
+        Expectation("150 and -1 % fail", _judged(False, (150.0, -1.0, 100.5, -0.5), beyond)),
+        Expectation("a battery that is no number fails", _judged(False, (math.nan, math.inf, -math.inf), nan)),
+        relays(page_04.STATUS, page_04.STATUS_TYPE, BATTERY_VERDICT, VERDICT_TYPE, pairs),
+        no_errors(),
     ]
 
 
-def _judged(verdict: bool, charges: tuple[float, ...], step: str) -> Any:
-    pairs = [({"battery": each}, _says(verdict), f"{each:g} % → {verdict}") for each in charges]
-    return relays(page_04.STATUS, page_04.STATUS_TYPE, BATTERY_VERDICT, VERDICT_TYPE, pairs, step).look
+def _judged(verdict: bool, charges: Sequence[float], advice: Advice) -> Callable[[Exam], Seen]:
+    def look(exam: Exam) -> Seen:
+        function = learner_function(exam, "battery_ok")
+        for charge in charges:
+            said = exam.call(function, interface(page_04.STATUS_TYPE)(battery=charge))
+            if said is not verdict:
+                return Seen(False, f"battery_ok returned {said!r} for {charge:g} %", advice)
+        return Seen(True, f"battery_ok returned {verdict} for each")
+
+    return look
 
 
-def _says(verdict: bool) -> Any:
+def _says(verdict: bool) -> Callable[[Any], bool]:
     return lambda message: message.data is verdict
 
 
 # -- a test that goes on -------------------------------------------------------------------------------------------------
 
 
-@check("watchdog", page=PAGE, points=4, limit=20)
+@check(
+    "watchdog",
+    page=PAGE,
+    points=4,
+    limit=30,
+    learnt="A watchdog remembers when it last heard something, so it notices silence.",
+)
 def watchdog() -> list[Expectation]:
     """A watchdog that notices when the status stops coming."""
     return [
         subscribes(page_04.STATUS, page_04.STATUS_TYPE, by="/watchdog"),
         publishes(ALIVE, VERDICT_TYPE, by="/watchdog"),
-        Expectation("True while the status comes", _alive),
-        Expectation("False after a second of silence", _silent),
-        Expectation("True when it comes again", _alive_again),
+        Expectation("False before the first status", _before_the_first),
+        Expectation("True while a status comes every 0.4 s", _while_it_comes),
+        Expectation(f"True until {LIMIT:g} s after the last one", _in_silence(True)),
+        Expectation(f"False from {LIMIT:g} s after the last one on", _in_silence(False)),
+        Expectation("True when it comes again", _when_it_comes_again),
+        no_errors(),
     ]
 
 
-def _alive(exam: Exam) -> Seen:
-    return _watched(exam)[0]
+def _before_the_first(exam: Exam) -> Seen:
+    """A new watchdog of the learner's class is asked, since the one in the notebook may have heard something already."""
+    running = vars(sys.modules["__main__"]).get("watchdog")
+    if not hasattr(running, "is_alive"):
+        raise CannotLook("watchdog is not a node with a method is_alive")
+    fresh = exam.call(type(running))
+    try:
+        said = exam.call(fresh.is_alive)
+    finally:
+        exam.call(fresh.destroy_node)
+    advice = Advice(
+        direction="What is heard_at before the first status, and what should is_alive say then?", hint=_HINT
+    )
+    return Seen(said is False, f"a new one says {said!r}", advice)
 
 
-def _silent(exam: Exam) -> Seen:
-    return _watched(exam)[1]
+_HINT = "Open Hint 2 under the exercise."
 
 
-def _alive_again(exam: Exam) -> Seen:
-    return _watched(exam)[2]
+@dataclass(frozen=True)
+class Verdict:
+    """What the watchdog said, and how long after the last status (s)."""
+
+    age: float
+    alive: Any
 
 
-def _watched(exam: Exam) -> tuple[Seen, Seen, Seen]:
-    """What the watchdog says while statuses come for a second, while none does, and while they come again."""
-    return exam.once("watched", lambda: _speak_and_hush(exam))
-
-
-def _speak_and_hush(exam: Exam) -> tuple[Seen, Seen, Seen]:
-    others = exam.publishers(page_04.STATUS)
-    if others:
-        raise CannotLook(f"{others[0][0]} publishes {page_04.STATUS}, so there is no silence: stop it first")
-    heard = exam.listen(ALIVE, VERDICT_TYPE)
-    first = _speak(exam, heard)
-    heard.clear()
-    exam.wait(1.0)
-    silent = _verdict(heard, False, "Compare the time since the last status with the limit, each time the timer ticks.")
-    return first, silent, _speak(exam, heard)
-
-
-def _speak(exam: Exam, heard: list[Heard]) -> Seen:
-    for _ in range(10):
-        heard.clear()
-        exam.publish(page_04.STATUS, page_04.STATUS_TYPE, battery=50.0)
-        exam.wait(0.1)
-    exam.wait(0.1)
-    return _verdict(heard, True, "In on_status, remember the time: self.get_clock().now().")
-
-
-def _verdict(heard: list[Heard], wanted: bool, step: str) -> Seen:
+def _while_it_comes(exam: Exam) -> Seen:
+    heard = _verdicts(exam)
+    _speak(exam, heard)
+    step = "What does is_alive compare, and in which unit? A status that came 0.4 s ago is recent enough."
+    wrong = [each.message.data for each in heard if each.message.data is not True]
     if not heard:
-        return Seen(False, f"nothing came on {ALIVE}", "Publish from a timer, so that silence is reported, too.")
-    said = heard[-1].message.data
-    return Seen(said is wanted, f"it says {said}", step)
+        return _nothing_came(exam)
+    return Seen(not wrong, f"it says {wrong[0] if wrong else True}", Advice(direction=step, hint=_HINT))
+
+
+def _in_silence(alive: bool) -> Callable[[Exam], Seen]:
+    def look(exam: Exam) -> Seen:
+        verdicts = [each for each in exam.once("silence", lambda: _hush(exam)) if (each.age < LIMIT) is alive]
+        if not verdicts:
+            return _nothing_came(exam)
+        wrong = [each for each in verdicts if each.alive is not alive]
+        shown = (wrong or verdicts)[-1 if alive else 0]
+        step = "How long ago did the last status come, by the clock, each time that the timer ticks?"
+        seen = f"{number(shown.age)} s after it: {shown.alive}"
+        return Seen(not wrong, seen, Advice(direction=step, hint=_HINT))
+
+    return look
+
+
+def _when_it_comes_again(exam: Exam) -> Seen:
+    exam.once("silence", lambda: _hush(exam))
+    heard = _verdicts(exam)
+    _speak(exam, heard)
+    if not heard:
+        return _nothing_came(exam)
+    step = "Does every status that comes bring the time up to date?"
+    return Seen(heard[-1].message.data is True, f"it says {heard[-1].message.data}", step)
+
+
+def _nothing_came(exam: Exam) -> Seen:
+    if raised := exam.errors():
+        raise raised[-1]
+    return Seen(False, f"nothing came on {ALIVE}", "Publish from the timer, so that silence is reported, too.")
+
+
+def _verdicts(exam: Exam) -> list[Heard]:
+    """What the watchdog says, from now on. Raises CannotLook where a status comes that is not the check's own."""
+    if others := exam.publishers(page_04.STATUS):
+        raise CannotLook(f"{others[0][0]} publishes {page_04.STATUS}, so there is no silence: stop it first")
+    return exam.listen(ALIVE, VERDICT_TYPE)
+
+
+def _speak(exam: Exam, heard: list[Heard]) -> None:
+    """A status every 0.4 s; `heard` keeps what is said meanwhile."""
+    exam.publish(page_04.STATUS, page_04.STATUS_TYPE, battery=50.0)
+    exam.wait(0.01)
+    heard.clear()
+    for _ in range(4):
+        exam.wait(0.39)
+        exam.publish(page_04.STATUS, page_04.STATUS_TYPE, battery=50.0)
+        exam.wait(0.01)
+
+
+def _hush(exam: Exam) -> list[Verdict]:
+    """What it says in two silences, with the last status so long before a tick that verdicts come shortly before and after
+    the limit."""
+    heard, found = _verdicts(exam), list[Verdict]()
+    for before_a_tick in (0.06, 0.14):
+        heard.clear()
+        if not exam.wait_for(lambda: heard, 1.0):
+            return found
+        exam.wait(heard[-1].at + 3 * TICK - before_a_tick - exam.now)
+        exam.publish(page_04.STATUS, page_04.STATUS_TYPE, battery=50.0)
+        last = exam.now
+        heard.clear()
+        exam.wait(1.2)
+        found += [Verdict(each.at - last, each.message.data) for each in heard]
+    return sorted(found, key=lambda each: each.age)
 
 
 # -- the whole system ----------------------------------------------------------------------------------------------------
 
 
-@check("system", page=PAGE, points=10, limit=420)
+@check(
+    "system",
+    page=PAGE,
+    points=10,
+    limit=420,
+    learnt="Your own system keeps its specification, and you can show it.",
+)
 def system() -> list[Expectation]:
-    """The whole system meets its specification, for five minutes."""
+    """Your whole system meets its specification, for five minutes."""
     return [
         *page_06.system_is_there(),
+        Expectation("all three programs are from your own package", _from_workspace),
         Expectation(f"every goal reached within {NEAR:g} m, for {MINUTES:g} minutes", _reached),
         Expectation("time_taken within 0.1 s of the moving time", _honest),
         Expectation("a near goal is answered within 2 s", _near_goal),
@@ -132,6 +236,26 @@ def system() -> list[Expectation]:
     ]
 
 
+PROGRAMS = ("navigator", "status_monitor", "obstacle_detector")
+
+
+def running(exam: Exam, program: str) -> list[str]:
+    """The words of the command that runs a program of this name. Raises CannotLook where none does."""
+    found = [words for words in exam.place.commands if Path(words[0]).name == program]
+    if not found:
+        raise CannotLook(f"no program {program} runs")
+    return found[-1]
+
+
+def _from_workspace(exam: Exam) -> Seen:
+    from ...workspace import workspace
+
+    mine = workspace().folder / "install"
+    others = [name for name in PROGRAMS if not Path(running(exam, name)[0]).is_relative_to(mine)]
+    step = 'Which package does this world know? lesson = start(seed=0, package="mine") knows yours.'
+    return Seen(not others, f"{listed(others)} came from elsewhere" if others else "they are", step)
+
+
 @dataclass
 class Shift:
     """Five minutes of work, goal after goal."""
@@ -139,6 +263,8 @@ class Shift:
     drives: list[Drive] = field(default_factory=list)
     statuses: list[Heard] = field(default_factory=list)
     scans: list[Heard] = field(default_factory=list)
+    whole: bool = True
+    """Whether it went on to its end; it does not where something was wrong after the first goals."""
 
 
 def shift(exam: Exam) -> Shift:
@@ -147,6 +273,7 @@ def shift(exam: Exam) -> Shift:
 
 
 def _work(exam: Exam) -> Shift:
+    exam.wait(SETTLING)
     done = Shift()
     for topic, kind, heard in (
         (page_04.STATUS, page_04.STATUS_TYPE, "statuses"),
@@ -155,26 +282,49 @@ def _work(exam: Exam) -> Shift:
         with suppress(CannotLook):
             setattr(done, heard, exam.listen(topic, kind))
     end = exam.now + 60 * MINUTES
-    while exam.now < end:
+    while done.whole and exam.now < end:
         goal = GOALS[len(done.drives) % len(GOALS)]
         done.drives.append(drive(exam, f"drive {len(done.drives)}", lambda pose, goal=goal: goal))
-        if done.drives[-1].answer.response is None:
-            break
+        a_round = len(done.drives) % len(GOALS) == 0
+        done.whole = not _missed(done.drives[-1]) and not (a_round and _uneven(done))
     return done
 
 
+def _missed(it: Drive) -> str:
+    """What was wrong with a drive; "" if nothing was."""
+    goal = point(*it.goal[:2])
+    if it.answer.response is None:
+        return f"goal {goal} was never answered"
+    if it.response.success and it.distance() <= NEAR:
+        return ""
+    after = number(it.answer.seconds, 1)
+    return f"goal {goal}: success is {it.response.success} after {after} s, {number(it.distance())} m away"
+
+
+def _uneven(done: Shift) -> bool:
+    return not (_status_rate(done).good and _scan_rate(done).good)
+
+
+def _status_rate(done: Shift) -> Seen:
+    return judge_rate(done.statuses, 10, 0.010)
+
+
+def _scan_rate(done: Shift) -> Seen:
+    return judge_rate(done.scans, 5, 0.020)
+
+
 def _reached(exam: Exam) -> Seen:
-    drives = shift(exam).drives
-    step = "Drive to that goal alone, and look at lesson.plot_path(goal=…) and at the navigator's log."
-    for it in drives:
-        goal = point(*it.goal[:2])
-        if it.answer.response is None:
-            return Seen(False, f"goal {goal} was never answered", step)
-        if not it.response.success or it.distance() > NEAR:
-            seen = f"goal {goal}: success is {it.response.success}, {number(it.distance())} m away"
-            return Seen(False, seen, step)
-    far = max(it.distance() for it in drives)
-    return Seen(True, f"{count(len(drives), 'goal')}, all of them, at most {number(far)} m off")
+    done = shift(exam)
+    step = Advice(
+        direction="Drive to that goal alone: what does the navigator's log say, and how long may a goal take?",
+        hint="Open Hint 1 under the exercise.",
+    )
+    if wrong := next(filter(None, map(_missed, done.drives)), ""):
+        return Seen(False, wrong, step)
+    if not done.whole:
+        raise CannotLook("the work was broken off when messages came too seldom or too often")
+    far = max(it.distance() for it in done.drives)
+    return Seen(True, f"{count(len(done.drives), 'goal')}, all of them, at most {number(far)} m off")
 
 
 def _honest(exam: Exam) -> Seen:
@@ -182,7 +332,9 @@ def _honest(exam: Exam) -> Seen:
     for it in shift(exam).drives:
         begin, end = it.moving()
         worst = max(worst, abs(it.response.time_taken - (end - begin)))
-    step = "Take the time from the first command to the one that stops the turtle, on the robot's own clock."
+    step = (
+        "Which two moments lie between the first command and the one that stops the turtle, on the robot's own clock?"
+    )
     return Seen(worst <= 0.1, f"at most {number(worst)} s off", step)
 
 
@@ -209,14 +361,14 @@ def _just_ahead(pose: Any) -> tuple[float, float, float]:
 
 
 def _statuses(exam: Exam) -> Seen:
-    return judge_rate(_all(shift(exam).statuses, page_04.STATUS), 10, 0.010)
+    done = shift(exam)
+    return _status_rate(done) if done.statuses else _silent(page_04.STATUS)
 
 
 def _scans(exam: Exam) -> Seen:
-    return judge_rate(_all(shift(exam).scans, page_05.SCAN), 5, 0.020)
+    done = shift(exam)
+    return _scan_rate(done) if done.scans else _silent(page_05.SCAN)
 
 
-def _all(heard: list[Heard], topic: str) -> list[Heard]:
-    if not heard:
-        raise CannotLook(f"nothing was heard on {topic}")
-    return heard
+def _silent(topic: str) -> Seen:
+    raise CannotLook(f"nothing was heard on {topic}")

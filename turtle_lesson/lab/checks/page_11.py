@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+import itertools
+import math
+from pathlib import Path
 from typing import Any
 
 from ..words import listed, number
-from . import page_04, page_05
-from .drives import COMMAND_TYPE, COMMANDS, NAVIGATE, NAVIGATE_TYPE
+from . import page_04, page_05, page_06, page_10
+from .drives import COMMAND_TYPE, COMMANDS
 from .exam import Exam
-from .parts import node, offers, parameter, publishes, subscribes
+from .functions import Example, returns
+from .parts import no_errors, node, parameter, publishes, subscribes
 from .registry import Expectation, check
-from .rows import CannotLook, Seen
+from .rows import Advice, CannotLook, Seen
 from .streams import rate
 
 PAGE = "11_to_a_real_robot"
-LAUNCH = "ros2 launch robot_controller start_system.launch.py NAME:=VALUE … (it starts all three nodes)"
 PLAYER = "rosbag2_player"
 WANTED = "/wanted_vel"
 SPEED = 0.5
@@ -22,52 +25,145 @@ BEAMS = 181
 
 # -- what a robot starts -------------------------------------------------------------------------------------------------
 
+SETTINGS: tuple[tuple[str, str, int | float], ...] = (
+    ("navigator", "goal_timeout", 8.0),
+    ("status_monitor", "publish_rate", 20),
+    ("obstacle_detector", "scan_rate", 10),
+)
+"""Each program with the setting that it is started with on site."""
 
-@check("on_site", page=PAGE, points=3, limit=20)
+
+@check(
+    "on_site",
+    page=PAGE,
+    points=3,
+    limit=30,
+    learnt="A package is built once, and set up where it is started.",
+)
 def on_site() -> list[Expectation]:
-    """The package is started with the settings of another place, and its files stay as they are."""
+    """Your exported package is started with the settings of another place, and its files stay as they are."""
     return [
-        node("/navigator", LAUNCH),
-        offers(NAVIGATE, NAVIGATE_TYPE, by="/navigator"),
-        publishes(COMMANDS, COMMAND_TYPE, by="/navigator"),
-        node("/status_monitor", LAUNCH),
-        publishes(page_04.STATUS, page_04.STATUS_TYPE, by="/status_monitor"),
-        node("/obstacle_detector", LAUNCH),
-        publishes(page_05.SCAN, page_05.SCAN_TYPE, by="/obstacle_detector"),
-        parameter("/navigator", "goal_timeout", 8.0),
-        parameter("/status_monitor", "publish_rate", 20),
-        parameter("/obstacle_detector", "source", "world"),
+        *page_06.system_is_there(),
+        Expectation("the programs are those of the exported package", _exported),
+        Expectation("they are the same as in your workspace", _unchanged),
+        *(parameter(f"/{program}", name, value) for program, name, value in SETTINGS),
+        Expectation("with these values from the start", _from_the_start),
         rate(page_04.STATUS, page_04.STATUS_TYPE, hz=20),
+        rate(page_05.SCAN, page_05.SCAN_TYPE, hz=10, within=0.020),
+        no_errors(),
     ]
+
+
+def _exported(exam: Exam) -> Seen:
+    from ...lesson import FINISHED
+    from ...workspace import workspace
+
+    elsewhere = {"your workspace": workspace().folder, "the finished package": FINISHED}
+    for program in page_10.PROGRAMS:
+        path = Path(page_10.running(exam, program)[0])
+        for name, folder in elsewhere.items():
+            if path.is_relative_to(folder):
+                step = Advice(
+                    direction="Which install/setup.bash was sourced last in this world?",
+                    hint="Run the cell that builds in robot_ws once more, then launch.",
+                )
+                return Seen(False, f"{program} runs from {name}", step)
+    return Seen(True, "they are")
+
+
+def _unchanged(exam: Exam) -> Seen:
+    """Whether each program has the text of the learner's own file, which is in the workspace."""
+    from ...workspace import workspace
+
+    for program in page_10.PROGRAMS:
+        runs = Path(page_10.running(exam, program)[0])
+        mine = workspace().package / workspace().package.name / f"{program}_node.py"
+        if not mine.is_file():
+            raise CannotLook(f"there is no {mine.name} in your workspace")
+        if runs.read_text(encoding="utf-8").split() != mine.read_text(encoding="utf-8").split():
+            step = "Was the package exported and built after the last change? No setting needs a change of a file."
+            return Seen(False, f"{program} differs from {mine.name}", step)
+    return Seen(True, "they are")
+
+
+def _from_the_start(exam: Exam) -> Seen:
+    for program, name, value in SETTINGS:
+        command = page_10.running(exam, program)
+        given = [word.rpartition(":=") for word in command if ":=" in word]
+        values = [text for key, _, text in given if key.rpartition(":")[2] == name]
+        if "--params-file" not in command and (not values or float(values[-1]) != value):
+            step = Advice(
+                direction="ros2 param set changes a node that runs. What gives a value to the launch file?",
+                hint="Open Hint 1 under the exercise.",
+            )
+            was = f"{name}:={values[-1]}" if values else f"no {name}"
+            return Seen(False, f"{program} was started with {was}", step)
+    return Seen(True, "they were given when the programs started")
 
 
 # -- a safety stop -------------------------------------------------------------------------------------------------------
 
+FREE: tuple[Example, ...] = (
+    ((2.0, 0.1), True),
+    ((0.55, 0.1), True),
+    ((0.5, 0.1), True),
+    ((2.0, 0.4), True),
+    ((2.0, 0.5), True),
+    ((2.0, 0.0), True),
+    ((math.inf, 0.1), True),
+)
+NEAR: tuple[Example, ...] = (((0.3, 0.1), False), ((0.45, 0.1), False), ((0.0, 0.1), False))
+OLD: tuple[Example, ...] = (((2.0, 3.0), False), ((2.0, 0.6), False), ((math.inf, 0.6), False))
+ODD: tuple[Example, ...] = (
+    ((math.nan, 0.1), False),
+    ((2.0, math.nan), False),
+    ((2.0, -0.1), False),
+    ((2.0, -3.0), False),
+)
 
-@check("safety_stop", page=PAGE, points=4, limit=20)
+
+@check(
+    "safety_stop",
+    page=PAGE,
+    points=4,
+    limit=20,
+    learnt="Safe is what was seen to be free a moment ago, and nothing else.",
+)
 def safety_stop() -> list[Expectation]:
     """Commands pass while the way is free; otherwise the turtle is told to stand."""
-    near = "is_safe should be False for a distance below 0.5 m."
-    late = "is_safe should be False for a scan that is older than 0.5 s: a silent sensor is no free way."
+    two = Advice(direction="Two conditions have to hold, both of them. What does the second one ask for?", hint=_ONE)
+    free = Advice(direction="Which of your conditions is too strict? 0.5 m and 0.5 s are still safe.", hint=_ONE)
+    near = Advice(direction="From which distance on is it safe?", hint=_ONE)
+    odd = Advice(direction="Each comparison with nan is false. Does your function say what is safe?", hint=_TWO)
     return [
         node("/safety_stop"),
         subscribes(WANTED, COMMAND_TYPE, by="/safety_stop"),
         publishes(COMMANDS, COMMAND_TYPE, by="/safety_stop"),
-        _lets_through("10 m are free: the command passes", "free", 10.0, SPEED, "is_safe should be True then."),
-        _lets_through("0.3 m are free: the turtle is stopped", "near", 0.3, 0.0, near),
-        _lets_through("free again: the command passes", "free again", 10.0, SPEED, "is_safe should be True again."),
-        _lets_through("no scan for a second: it is stopped", "silent", None, 0.0, late),
+        returns("is_safe", FREE, "is_safe: True while nothing is near, as just seen", free),
+        returns("is_safe", NEAR, "is_safe: False where something is near", near),
+        returns("is_safe", OLD, "is_safe: False for an old reading", two),
+        returns("is_safe", ODD, "is_safe: False for nan and for a negative age", odd),
+        _lets_through("0.55 m are free: the command passes", "free", 0.55, SPEED),
+        _lets_through("0.45 m are free: the turtle is stopped", "near", 0.45, 0.0),
+        _lets_through("free again: the command passes", "free again", 0.55, SPEED),
+        _lets_through("no scan for a second: it is stopped", "silent", None, 0.0),
+        no_errors(),
     ]
 
 
-def _lets_through(expected: str, name: str, distance: float | None, speed: float, step: str) -> Expectation:
+_ONE, _TWO = "Open Hint 1 under the exercise.", "Open Hint 2 under the exercise."
+
+
+def _lets_through(expected: str, name: str, distance: float | None, speed: float) -> Expectation:
     def look(exam: Exam) -> Seen:
-        others = exam.publishers(page_05.SCAN)
-        if others:
+        if others := exam.publishers(page_05.SCAN):
             raise CannotLook(f"{others[0][0]} publishes {page_05.SCAN}, too: stop it first")
         sent = exam.once(name, lambda: _last_speed(exam, distance))
         if sent is None:
+            if raised := exam.errors():
+                raise raised[-1]
             return Seen(False, f"nothing came on {COMMANDS}", "Publish something for each message that comes.")
+        step = "What does is_safe say for this distance, and for the age that the scan has then?"
         return Seen(sent == speed, f"it was sent {number(sent)} m/s", step)
 
     return Expectation(expected, look)
@@ -89,14 +185,26 @@ def _last_speed(exam: Exam, distance: float | None) -> Any:
 
 # -- a recorded robot ----------------------------------------------------------------------------------------------------
 
+LONG = 6.0
+"""Robot time, s, for which the bag is heard: the page's bag is shorter."""
 
-@check("replay", page=PAGE, points=3, limit=15)
+
+@check(
+    "replay",
+    page=PAGE,
+    points=3,
+    limit=30,
+    learnt="A recording can take the place of a part that is not there.",
+)
 def replay() -> list[Expectation]:
     """A bag speaks for a status monitor that does not run."""
     return [
         Expectation("no status monitor runs", _no_monitor),
         Expectation(f"{page_04.STATUS} comes from a bag", _from_a_bag),
-        rate(page_04.STATUS, page_04.STATUS_TYPE, hz=10, seconds=2.0),
+        Expectation("nothing else is played", _nothing_else),
+        Expectation("ten messages a second, while the bag is played once", _at_its_pace),
+        Expectation(f"it goes on and on: messages in each of {LONG:g} s", _again_and_again),
+        no_errors(),
     ]
 
 
@@ -105,7 +213,60 @@ def _no_monitor(exam: Exam) -> Seen:
     return Seen(not there, "it runs" if there else "none does", "Begin with start(), and launch nothing.")
 
 
+def _played(exam: Exam) -> list[str]:
+    """The topics that a player publishes, but for those that each node has."""
+    own = {"/rosout", "/parameter_events", "/clock"}
+    return [topic for topic in exam.topics() if topic not in own and any(map(_is_player, exam.publishers(topic)))]
+
+
+def _is_player(end: tuple[str, str]) -> bool:
+    return end[0].rpartition("/")[2].startswith(PLAYER)
+
+
 def _from_a_bag(exam: Exam) -> Seen:
-    who = sorted({owner for owner, _ in exam.publishers(page_04.STATUS)})
-    good = len(who) == 1 and who[0].rsplit("/", 1)[-1].startswith(PLAYER)
-    return Seen(good, listed(who) or "nobody publishes it", "ros2 bag play FOLDER --loop &")
+    exam.wait_for(lambda: exam.publishers(page_04.STATUS), 1.0)  # what runs in the background has just been started
+    ends = exam.publishers(page_04.STATUS)
+    owners = [owner for owner, _ in ends]
+    step = Advice(direction="Does the player still run when the cell is done, and does it play this topic?", hint=_TWO)
+    return Seen(len(ends) == 1 and _is_player(ends[0]), listed(owners) or "nobody publishes it", step)
+
+
+def _nothing_else(exam: Exam) -> Seen:
+    topics = _played(exam)
+    if not topics:
+        raise CannotLook("no bag is played")
+    others = [topic for topic in topics if topic != page_04.STATUS]
+    step = Advice(direction="A bag is played with all its topics, unless some are chosen.", hint=_ONE)
+    return Seen(not others, f"{listed(others)}, too" if others else "nothing else is", step)
+
+
+def _times(exam: Exam) -> list[float]:
+    """When messages came, in s since it began to listen."""
+    return exam.once("times", lambda: _listen(exam))
+
+
+def _listen(exam: Exam) -> list[float]:
+    began = exam.now
+    return [each.at - began for each in exam.hear(page_04.STATUS, page_04.STATUS_TYPE, LONG)]
+
+
+def _at_its_pace(exam: Exam) -> Seen:
+    """By the median gap: where the bag begins again, one gap is another."""
+    times = _times(exam)
+    gaps = sorted(after - before for before, after in itertools.pairwise(times))
+    if not gaps:
+        return Seen(False, "none came", "Does the player still run when the cell is done?")
+    middle = gaps[len(gaps) // 2]
+    seen = f"every {number(1000 * middle, 0)} ms ({number(1 / middle, 1) if middle else 'infinite'} Hz)"
+    return Seen(
+        abs(middle - 0.1) <= 0.010, seen, "A bag is played at the rate at which it was recorded, unless told otherwise."
+    )
+
+
+def _again_and_again(exam: Exam) -> Seen:
+    times = _times(exam)
+    seconds = {math.floor(each) for each in times}
+    missing = [second for second in range(int(LONG)) if second not in seconds]
+    step = Advice(direction="What does the player do when the bag is at its end?", hint=_ONE)
+    seen = f"none after {number(times[-1] if times else 0.0, 1)} s" if missing else "they come"
+    return Seen(not missing, seen, step)
