@@ -244,7 +244,7 @@ def test_a_callback_that_returns_no_result_ends_the_server_and_is_told_why(world
 @pytest.mark.parametrize(
     ("misdeed", "state", "event", "advice"),
     [
-        ("canceled", "EXECUTING", "CANCELED", "ask goal_handle.is_cancel_requested first"),
+        ("canceled", "EXECUTING", "CANCELED", "check goal_handle.is_cancel_requested first"),
         ("execute", "EXECUTING", "EXECUTE", "execute() has already been called for this goal"),
         ("succeed twice", "SUCCEEDED", "SUCCEED", "End a goal once, and return the result right after."),
         ("abort after it", "SUCCEEDED", "ABORT", "This goal has already ended (SUCCEEDED)"),

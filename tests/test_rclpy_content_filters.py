@@ -282,7 +282,7 @@ REFUSED = [
     (Pose, "5 > %0", ("3",), "no field of the message is compared in '5 > %0'"),
     (Pose, "x > %1", ("5",), "the expression uses %1, and expression_parameters holds 1"),
     (Pose, "x > %0", ("five",), "single quotes are values; write \"'five'\" for a text"),
-    (Pose, "x > %0", ("",), "the parameter '' is no value"),
+    (Pose, "x > %0", ("",), "the parameter '' is not a value"),
     (Pose, "lineal_velocity > 0", (), "has no field 'lineal_velocity'; did you mean 'linear_velocity'?"),
     (Pose, "z > 3", (), "turtlesim/msg/Pose has no field 'z'; it has x, y, theta"),
     (Pose, "x > 'a'", (), "'x' is a float32 and 'a' is a text: they cannot be compared"),
