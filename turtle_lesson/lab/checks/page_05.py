@@ -51,7 +51,7 @@ def scan() -> list[Expectation]:
         messages(SCAN, SCAN_TYPE, "a reading for every beam", _readings, 1.0),
         messages(SCAN, SCAN_TYPE, "readings from 0 to 10 m", _ranges, 1.0),
         _counts(
-            "how_many: steps of 0.5 rad, of 90°, of 1°",
+            "how_many: other angles, other steps",
             ((-1.0, 1.0, 0.5), (-math.pi, math.pi, math.pi / 2), (-1.5, 0.0, 0.5)),
         ),
         _counts("how_many: also where computers round", ((0.0, 0.3, 0.1), (-0.5, 0.5, 0.001), (-2.0, 2.0, 0.1))),
