@@ -2,4 +2,188 @@
 
 from __future__ import annotations
 
+import math
+
+from ..words import number, point
+from .drives import (
+    MIDDLE,
+    NAVIGATE,
+    NAVIGATE_TYPE,
+    NEAR,
+    POSE,
+    POSE_TYPE,
+    Goal,
+    Way,
+    answered,
+    arrived,
+    at_rest,
+    facing,
+    go,
+    honest_time,
+    put,
+    refuses,
+    steady_commands,
+    stopped,
+    where,
+)
+from .exam import Exam
+from .page_03 import A_GOAL, TO_THE_LEFT, navigator_is_there
+from .parts import no_errors
+from .questions import no_answer
+from .registry import Expectation, check
+from .rows import Advice, CannotLook, Seen
+
 PAGE = "03b_answer_on_arrival"
+NEAR_GOAL = Way("a near goal", MIDDLE, (6.0, 5.5, 0.0))
+WAITING = 2.0
+"""Robot time, s, within which a goal half a metre ahead is answered."""
+
+NONSENSE = ((20.0, 5.0, 0.0), (5.0, -1.0, 0.0), (math.nan, 5.0, 0.0), (6.0, 6.0, math.inf))
+HALFWAY = 0.6
+"""Robot time, s, after which a second goal comes."""
+
+
+@check(
+    "on_arrival",
+    page=PAGE,
+    points=4,
+    limit=600,
+    learnt="await lets a callback wait, and leaves the node free to steer.",
+)
+def on_arrival() -> list[Expectation]:
+    """A navigator that answers when the turtle has arrived, and works meanwhile."""
+    return [
+        *navigator_is_there(),
+        answered(A_GOAL),
+        arrived(A_GOAL),
+        facing(A_GOAL),
+        honest_time(A_GOAL),
+        steady_commands(A_GOAL),
+        stopped(A_GOAL),
+        arrived(TO_THE_LEFT),
+        honest_time(TO_THE_LEFT),
+        _soon(NEAR_GOAL),
+        _answers_meanwhile(),
+        refuses("what makes no sense, as before", *NONSENSE),
+        no_errors(),
+    ]
+
+
+def _soon(way: Way) -> Expectation:
+    def look(exam: Exam) -> Seen:
+        it = go(exam, way)
+        it.response  # noqa: B018
+        seen = f"after {number(it.answer.seconds)} s, {number(it.distance())} m from the goal"
+        step = "How long does the answer wait once the turtle is there?"
+        return Seen(it.answer.seconds <= WAITING and it.distance() <= NEAR, seen, step)
+
+    return Expectation(f"{way.name} is answered within {WAITING:g} s", look)
+
+
+def _answers_meanwhile() -> Expectation:
+    """Another request is answered while a goal is under way."""
+
+    def look(exam: Exam) -> Seen:
+        put(exam, (2.0, 2.0, 0.0))
+        first = exam.ask_soon(NAVIGATE, NAVIGATE_TYPE, x=8.0, y=8.0, theta=0.0)
+        exam.wait(HALFWAY)
+        if first() is not None:
+            exam.wait_for(lambda: at_rest(exam.listen(POSE, POSE_TYPE)), 15.0)
+            raise CannotLook("a goal 8 m away was answered at once")
+        answer = exam.ask("/navigator/list_parameters", "rcl_interfaces/srv/ListParameters", 1.0)
+        exam.wait_for(first, 30.0)
+        if answer.response is None:
+            return no_answer(exam, "its parameters were not told within 1 s")
+        return Seen(True, "its parameters were told while it drove")
+
+    return Expectation("it answers other questions meanwhile", look)
+
+
+@check(
+    "one_goal",
+    page=PAGE,
+    points=3,
+    limit=600,
+    learnt="A callback that pauses may be called again: what it shares has to be guarded.",
+)
+def one_goal() -> list[Expectation]:
+    """A navigator that goes on to its goal, and refuses another one meanwhile."""
+    return [
+        *navigator_is_there(),
+        Expectation("a second goal on the way is refused at once", _refused),
+        Expectation("so is a third", _refused_again),
+        Expectation("the turtle reaches the first goal", _first_reached),
+        Expectation("the first goal is answered: success is True", _first_answered),
+        Expectation("after that, a goal is accepted again", _accepted_again),
+        refuses("what makes no sense, as before", *NONSENSE),
+        no_errors(),
+    ]
+
+
+FIRST, OTHERS = (9.0, 3.0, 0.0), ((3.0, 9.0, 1.57), (2.0, 3.0, 0.0))
+GUARD = Advice(
+    direction="How does on_goal notice that another goal is under way, and when is that over?",
+    hint="Open Hint 1, then Hint 2, under the exercise.",
+)
+
+
+class _Crowd:
+    """A goal, and two others that come while it is under way."""
+
+    def __init__(self, exam: Exam) -> None:
+        put(exam, (3.0, 3.0, 0.0))
+        first = exam.ask_soon(NAVIGATE, NAVIGATE_TYPE, **_fields(FIRST))
+        exam.wait(HALFWAY)
+        if first() is not None:
+            raise CannotLook("the first goal, 6 m away, was answered at once")
+        self.others = [exam.ask(NAVIGATE, NAVIGATE_TYPE, 0.5, **_fields(each)) for each in OTHERS]
+        exam.wait_for(first, 15.0)
+        self.first = first()
+        exam.wait_for(lambda: at_rest(exam.listen(POSE, POSE_TYPE)), 15.0)
+        self.end = where(exam)
+
+
+def _fields(goal: Goal) -> dict[str, float]:
+    return dict(zip(("x", "y", "theta"), goal, strict=True))
+
+
+def _crowd(exam: Exam) -> _Crowd:
+    return exam.once("crowd", lambda: _Crowd(exam))
+
+
+def _refused(exam: Exam, number_of_it: int = 0) -> Seen:
+    answer = _crowd(exam).others[number_of_it]
+    if answer.response is None:
+        return no_answer(exam, f"no answer to {point(*OTHERS[number_of_it][:2])} within 0.5 s")
+    seen = f"success is {answer.response.success} after {number(answer.seconds)} s"
+    return Seen(not answer.response.success, seen, GUARD)
+
+
+def _refused_again(exam: Exam) -> Seen:
+    return _refused(exam, 1)
+
+
+def _first_reached(exam: Exam) -> Seen:
+    end = _crowd(exam).end
+    away = math.hypot(end.x - FIRST[0], end.y - FIRST[1])
+    return Seen(
+        away <= NEAR, f"it came to rest at {point(end.x, end.y)}, {number(away)} m from {point(*FIRST[:2])}", GUARD
+    )
+
+
+def _first_answered(exam: Exam) -> Seen:
+    first = _crowd(exam).first
+    if first is None:
+        return no_answer(exam, "no answer within 15 s")
+    seen = f"success is {first.response.success}, time_taken {number(first.response.time_taken)} s"
+    return Seen(bool(first.response.success), seen, GUARD)
+
+
+def _accepted_again(exam: Exam) -> Seen:
+    _crowd(exam)
+    answer = exam.ask(NAVIGATE, NAVIGATE_TYPE, 15.0, x=5.0, y=5.0, theta=0.0)
+    if answer.response is None:
+        return no_answer(exam, "no answer within 15 s")
+    end = where(exam)
+    seen = f"success is {answer.response.success}, with the turtle at {point(end.x, end.y)}"
+    return Seen(bool(answer.response.success) and math.hypot(end.x - 5, end.y - 5) <= NEAR, seen, GUARD)
