@@ -9,9 +9,10 @@ from typing import Any
 from ..words import number, point
 from .drives import NAVIGATE, NAVIGATE_TYPE, NEAR, where
 from .exam import Exam, Heard
-from .parts import get_parameter, no_errors, node, offers, publishes
+from .parts import get_parameter, no_errors, node, offers, publishes, set_parameter
+from .questions import no_answer
 from .registry import Expectation, check
-from .rows import CannotLook, Seen
+from .rows import Advice, CannotLook, Seen
 from .streams import rate
 
 PAGE = "08_executors"
@@ -22,8 +23,8 @@ OVEN, OVEN_TYPE = "/oven", "std_msgs/msg/Bool"
 HOME, HOME_TYPE = "/go_home", "std_srvs/srv/Trigger"
 MIDDLE, AWAY = (5.5, 5.5), (2.0, 8.0)
 
-LEAST = 1.0
-"""Robot time, s, that the work takes at least."""
+LEAST, MOST = 1.0, 1.2
+"""Robot time, s, that the work takes at least and at most."""
 
 LONGEST = 20.0
 """Robot time, s, within which it should be done."""
@@ -32,7 +33,13 @@ BAKING = 0.4
 """Robot time, s, for which the oven is on."""
 
 
-@check("steady", page=PAGE, points=3, limit=20)
+@check(
+    "steady",
+    page=PAGE,
+    points=3,
+    limit=20,
+    learnt="Two callbacks run side by side if there are two threads, and each is in a callback group of its own.",
+)
 def steady() -> list[Expectation]:
     """A baker whose bell rings on time, whatever the oven does."""
     return [
@@ -51,15 +58,21 @@ def _bakes(exam: Exam) -> Seen:
     lasted = [after.at - before.at for before, after in itertools.pairwise(heard) if before.message.data]
     again = [after - before for before, after in itertools.pairwise(on)]
     if not lasted or not again:
-        step = "on_bake publishes True, bakes with time.sleep(0.4), publishes False; is its node in the executor?"
+        step = "Is the baker in the executor, and is its oven's callback still as it was?"
         return Seen(False, f"it was switched on {len(on)} times in 4.2 s", step)
     odd = max(lasted, key=lambda each: abs(each - BAKING)), max(again, key=lambda each: abs(each - 1.0))
     seen = f"on for {number(odd[0])} s, every {number(odd[1])} s"
-    step = f"Leave create_timer(1.0, …) and time.sleep({BAKING:g}) as they are: the work shall take its time."
+    step = f"The baking takes {BAKING:g} s, once a second, as before. What else has changed?"
     return Seen(abs(odd[0] - BAKING) <= 0.011 and abs(odd[1] - 1.0) <= 0.011, seen, step)
 
 
-@check("awake", page=PAGE, points=5, limit=40)
+@check(
+    "awake",
+    page=PAGE,
+    points=5,
+    limit=40,
+    learnt="A callback that awaits, in a callback group of its own, holds nothing up.",
+)
 def awake() -> list[Expectation]:
     """A worker whose heart beats on while it works, and that still answers."""
     return [
@@ -67,16 +80,16 @@ def awake() -> list[Expectation]:
         offers(WORK, WORK_TYPE, by="/worker"),
         publishes(BEAT, BEAT_TYPE, by="/worker"),
         rate(BEAT, BEAT_TYPE, hz=10),
-        Expectation(f"{WORK} takes {LEAST:g} s or more, and is answered", _works),
+        Expectation(f"{WORK} is answered after {LEAST:g} s", _works),
         Expectation(f"{BEAT} goes on meanwhile", _beats),
         Expectation("a parameter call is answered meanwhile", _answers),
         no_errors(),
     ]
 
 
-_STEP = (
-    "One thread runs one callback at a time: await instead of sleeping, with the service in a callback group of its own; "
-    "or a MultiThreadedExecutor."
+_STEP = Advice(
+    direction="What does on_work hold while it works: the thread, or the group of the other callbacks?",
+    hint="Open Hint 2 under the exercise.",
 )
 
 
@@ -109,8 +122,16 @@ def _work(exam: Exam) -> tuple[float | None, list[Heard], bool]:
 def _works(exam: Exam) -> Seen:
     seconds, _, _ = _shift(exam)
     if seconds is None:
-        return Seen(False, f"no answer in {LONGEST:g} s", "Does the callback end with `return response`?")
-    return Seen(seconds >= LEAST - 0.01, f"answered after {number(seconds)} s", "The work should take its time.")
+        return _unanswered(exam)
+    step = "The work takes one second, as before: it is done when the pause is over."
+    return Seen(LEAST - 0.01 <= seconds <= MOST, f"after {number(seconds)} s", step)
+
+
+def _unanswered(exam: Exam) -> Seen:
+    """No answer came: the learner's error, the callback that has not returned, or else what may hold it up."""
+    seen = no_answer(exam, f"no answer in {LONGEST:g} s")
+    step = "What does the callback await, and is the group free in which that would come? Does it return the response?"
+    return seen._replace(advice=Advice(direction=step, hint="Open Hint 2 under the exercise."))
 
 
 def _beats(exam: Exam) -> Seen:
@@ -129,7 +150,13 @@ def _answers(exam: Exam) -> Seen:
     return Seen(responsive, "it was" if responsive else "only when the work was done", _STEP)
 
 
-@check("go_home", page=PAGE, points=5, limit=120)
+@check(
+    "go_home",
+    page=PAGE,
+    points=5,
+    limit=120,
+    learnt="A callback may ask another node and await the answer, if the client is not in the callback's own group.",
+)
 def go_home() -> list[Expectation]:
     """A service that asks another service, and does not hang."""
     return [
@@ -137,6 +164,7 @@ def go_home() -> list[Expectation]:
         offers(HOME, HOME_TYPE, by="/concierge"),
         Expectation(f"{HOME} is answered with success", _answers_from_home),
         Expectation("the turtle is in the middle by then", _is_home),
+        Expectation("if the navigator gives up, so says the answer", _passes_on_no),
         no_errors(),
     ]
 
@@ -148,28 +176,45 @@ def _trip(exam: Exam) -> tuple[Any, Any]:
 
 def _go_home(exam: Exam) -> tuple[Any, Any]:
     if not exam.servers(HOME):
-        raise CannotLook(f"nobody offers {HOME}{exam.like(HOME, exam.services())}")
+        raise CannotLook(f"no node offers {HOME}{exam.like(HOME, exam.services())}")
+    _drive_away(exam)
+    answer = exam.ask(HOME, HOME_TYPE, LONGEST)
+    return answer, where(exam)
+
+
+def _drive_away(exam: Exam) -> None:
     x, y = AWAY
     away = exam.ask(NAVIGATE, NAVIGATE_TYPE, LONGEST, x=x, y=y, theta=0.0)
     if away.response is None or not away.response.success:
         raise CannotLook("the navigator did not drive the turtle away from home first: is it running?")
-    answer = exam.ask(HOME, HOME_TYPE, LONGEST)
-    return answer, where(exam)
 
 
 def _answers_from_home(exam: Exam) -> Seen:
     answer, _ = _trip(exam)
     if answer.response is None:
-        step = "`await` the answer in an `async def`, with the client in a callback group of its own."
-        return Seen(False, f"no answer in {LONGEST:g} s", step)
-    good = answer.response.success is True
-    return Seen(
-        good, f"success is {answer.response.success} after {number(answer.seconds)} s", "Pass on what it answers."
-    )
+        return _unanswered(exam)
+    seen = f"success is {answer.response.success} after {number(answer.seconds)} s"
+    return Seen(answer.response.success is True, seen, f"What has {NAVIGATE} answered, and what becomes of it?")
+
+
+def _passes_on_no(exam: Exam) -> Seen:
+    """The navigator is given too little time for the way home."""
+    answer, _ = _trip(exam)
+    if answer.response is None:
+        raise CannotLook(f"{HOME} is not answered")
+    if get_parameter(exam, "/navigator", "goal_timeout") is None:
+        return Seen(True, "not tried: the navigator has no goal_timeout")
+    _drive_away(exam)
+    set_parameter(exam, "/navigator", "goal_timeout", 0.1)
+    answer = exam.ask(HOME, HOME_TYPE, LONGEST)
+    if answer.response is None:
+        return _unanswered(exam)
+    seen = f"success is {answer.response.success}"
+    return Seen(answer.response.success is False, seen, f"What has {NAVIGATE} answered, and what becomes of it?")
 
 
 def _is_home(exam: Exam) -> Seen:
     _, pose = _trip(exam)
     away = math.dist((pose.x, pose.y), MIDDLE)
-    step = f"Ask {NAVIGATE} for x=5.5, y=5.5, and wait for its answer before you give yours."
+    step = "Which goal was asked for, and does the answer wait until the turtle is there?"
     return Seen(away <= NEAR, f"it is at {point(pose.x, pose.y)}", step)
