@@ -740,3 +740,15 @@ def test_a_coroutine_that_looks_again_and_again_does_not_hold_time_up(run: Run) 
         rclpy.spin(node)
 
     assert run(program) == [(0.5, True)]
+
+
+@pytest.mark.parametrize(("patience", "told"), [(0.0, 1), (60.0, 0)])
+def test_a_cell_that_spins_for_long_says_once_how_to_stop_it(
+    world: World, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], patience: float, told: int
+) -> None:
+    monkeypatch.setattr(rclpy._blocking, "SAY_AFTER", patience)
+    executor, node = SingleThreadedExecutor(), start()
+    executor.add_node(node)
+    node.create_timer(0.1, executor.shutdown)
+    executor.spin()
+    assert capsys.readouterr().out.count("This cell spins until you stop it: the ■ button above") == told

@@ -14,6 +14,8 @@ from turtle_lesson.ros.world import current_world
 
 T = TypeVar("T")
 LIVE_STEP = 0.02
+SAY_AFTER = 5.0
+"""Real time, s, after which a cell that spins says how to stop it."""
 
 
 def in_a_plain_cell() -> bool:
@@ -46,9 +48,12 @@ def spin_live(function: Callable[[], None]) -> None:
     simulation.check_it_can_run()
     call = Call(simulation, world.notebook, function)
     try:
-        began, origin = real_monotonic(), simulation.now
+        began, origin, told = real_monotonic(), simulation.now, False
         while not call.done:
             elapsed = round((real_monotonic() - began) * NANOSECONDS)
+            if elapsed > SAY_AFTER * NANOSECONDS and not told:
+                told = True
+                print("This cell spins until you stop it: the ■ button above, or the key I twice.", flush=True)
             simulation.run_until(max(simulation.now, origin + elapsed))
             real_sleep(LIVE_STEP)
     except KeyboardInterrupt as interrupt:
