@@ -19,13 +19,11 @@ from test_real_colcon import pytestmark as with_colcon
 from turtle_lesson.lab.checks.registry import PAGES
 from turtle_lesson.teaching.learner import LearnersFolder
 
-EXAMINATION = """\
-%load_ext turtle_lesson
-from turtle_lesson import start
-lesson = start(seed=1, package="mine")
-ros2 launch robot_controller start_system.launch.py
-lesson.check("system")
-"""
+EXAMINATION = (
+    '%load_ext turtle_lesson\nfrom turtle_lesson import start\nlesson = start(seed=1, package="mine")',
+    "ros2 launch robot_controller start_system.launch.py",
+    'lesson.check("system")',
+)
 PLANTED = ("diary.txt", "workspace/diary.txt", "workspace/src/robot_controller/robot_controller/diary.py")
 """Files of the learner's own, which no page may touch."""
 
@@ -72,8 +70,8 @@ def _files(folder: Path) -> set[str]:
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
 def test_the_learners_own_three_nodes_pass_the_examination(folder: Path) -> None:
-    cell = run([nbformat.v4.new_code_cell(EXAMINATION)], folder)[0]
-    said = cell.outputs[-1].data["text/plain"]
+    *_, check = run([nbformat.v4.new_code_cell(source) for source in EXAMINATION], folder)
+    said = check.outputs[-1].data["text/plain"]
     assert said.startswith("✓"), said
     assert {"navigator_node.py", "status_monitor_node.py", "obstacle_detector_node.py", "start_system.launch.py"} <= {
         Path(name).name for name in _files(folder)

@@ -91,14 +91,11 @@ class Desk:
         turtle = self._recording.place() if on_map else None
         return predictions.ask(name, question, kind, guess, turtle=turtle, goal=next(iter(read_goals(goal)), None))
 
-    def outcome(self, name: str, value: Any, because: str = "") -> Outcome:
-        """What came of it: the reader's guess and the true value, side by side, and `because`, which explains the value.
-
-        An explanation that is given here is read after the guess, not beside the question.
-        """
+    def outcome(self, name: str, value: Any) -> Outcome:
+        """What came of it: the reader's guess and the true value, side by side."""
         from .lab import predictions
 
-        return predictions.tell(name, value, because)
+        return predictions.tell(name, value)
 
 
 @cache

@@ -229,8 +229,8 @@ def ask(
     return Asked(found)
 
 
-def tell(name: str, value: Any, because: str = "") -> Outcome:
-    """Say what came of it, and why. Raises ValueError for a name that was never asked, and for a value that is none."""
+def tell(name: str, value: Any) -> Outcome:
+    """Say what came of it. Raises ValueError for a name that was never asked, and for a value that is none."""
     if name not in _questions:
         from .widgets.typed_names import did_you_mean, enumerated
 
@@ -240,7 +240,7 @@ def tell(name: str, value: Any, because: str = "") -> Outcome:
         )
     found = _questions[name]
     found.outcome = found.kind.read(value)
-    return Outcome(found, because)
+    return Outcome(found)
 
 
 class Asked:
@@ -269,9 +269,8 @@ class Asked:
 class Outcome:
     """Guess and outcome side by side."""
 
-    def __init__(self, question: Question, because: str = "") -> None:
+    def __init__(self, question: Question) -> None:
         kind = question.kind
-        self.because = because
         self.title = question.question
         self.guess = kind.shown(question.guess) if question.guess is not None else NO_GUESS
         self.outcome = kind.shown(question.outcome)
@@ -289,7 +288,6 @@ class Outcome:
                     f"  your guess: {self.guess}",
                     f"  outcome:    {self.outcome}",
                     self.verdict and f"  {self.verdict}",
-                    self.because,
                 ],
             )
         )
@@ -300,5 +298,4 @@ class Outcome:
         return (
             f"<p>{html.escape(self.title)}</p><table><thead><tr><th {cell}>your guess</th><th {cell}>outcome</th></tr></thead>"
             f"<tbody><tr>{cells}</tr></tbody></table>{self._map}<p>{html.escape(self.verdict)}</p>"
-            + (f"<p>{html.escape(self.because)}</p>" if self.because else "")
         )
