@@ -46,8 +46,10 @@ class Place(Protocol):
     node: Any
     """A node with a hidden name, spun while time passes."""
 
-    recording: Recording
-    """What was heard of the turtle so far."""
+    @property
+    def recording(self) -> Recording:
+        """What was heard of the turtle so far."""
+        ...
 
     @property
     def now(self) -> float:
