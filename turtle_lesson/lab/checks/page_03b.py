@@ -60,6 +60,7 @@ def on_arrival() -> list[Expectation]:
         honest_time(A_GOAL),
         steady_commands(A_GOAL),
         stopped(A_GOAL),
+        answered(TO_THE_LEFT),
         arrived(TO_THE_LEFT),
         honest_time(TO_THE_LEFT),
         _soon(NEAR_GOAL),
