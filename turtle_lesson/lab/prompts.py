@@ -13,7 +13,7 @@ from .specification import SPECIFICATION
 KINDS = ("debugging", "code review")
 
 _OPENING = {
-    "debugging": "I am learning ROS 2 (Humble, rclpy) and my system does not do what it should. Please help me to find the "
+    "debugging": "I am learning ROS 2 (Humble, rclpy) and my system does not do what it should. Please help me find the "
     "cause.",
     "code review": "I am learning ROS 2 (Humble, rclpy). Please review my code against the specification below.",
 }
@@ -21,7 +21,7 @@ _QUESTIONS = {
     "debugging": (
         "Say in one or two sentences what you think is wrong, and which lines of the error, graph or log say so.",
         "Name the one command (ros2 …) or the one print that would prove or disprove it, and what I should see.",
-        "Only then propose a change, the smallest one. Keep to the specification; do not rewrite the whole.",
+        "Only then propose a change, the smallest one. Keep to the specification; do not rewrite everything.",
         "If what you need is not here, ask me for it.",
     ),
     "code review": (
@@ -64,7 +64,7 @@ class Prompt:
 def compose(kind: str, code: Mapping[str, str], error: str, graph: str, log: Sequence[str], now: float) -> Prompt:
     """Put a prompt together: specification, code (texts by name), error, graph, and the last lines of the log.
 
-    Raises ValueError for a kind that there is not.
+    Raises ValueError for an unknown kind.
     """
     if kind not in KINDS:
         raise ValueError(f'there are prompts for "debugging" and for "code review", got {kind!r}')
