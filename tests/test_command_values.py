@@ -37,7 +37,9 @@ def recorded_values() -> Iterator[tuple[str, str, str]]:
 def test_yaml_becomes_a_message(kind: str, text: str, expected: str, world: World) -> None:
     message = message_class(kind)()
     if "ParserError" in expected:
-        with pytest.raises(NoYaml, match=r"^The passed value is not valid YAML: while parsing a flow mapping, expected"):
+        with pytest.raises(
+            NoYaml, match=r"^The passed value is not valid YAML: while parsing a flow mapping, expected"
+        ):
             read_yaml(text)
         return
     if expected.startswith("!! "):

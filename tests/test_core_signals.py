@@ -159,9 +159,7 @@ def test_outside_of_programs_atexit_is_pythons(run: Run) -> None:
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no os.fork() on this system")
 def test_other_processes_of_the_computer_are_refused(run: Run) -> None:
     def program(found: list[Any]) -> None:
-        with pytest.raises(
-            NotImplementedError, match=r"os.fork\(\) is not possible here: .* Threads can be"
-        ):
+        with pytest.raises(NotImplementedError, match=r"os.fork\(\) is not possible here: .* Threads can be"):
             os.fork()
         with pytest.raises(NotImplementedError, match=r"signal.setitimer\(\) is not available here"):
             signal.setitimer(signal.ITIMER_REAL, 1)

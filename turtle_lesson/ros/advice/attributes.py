@@ -53,7 +53,9 @@ def _attribute(error: AttributeError) -> str:
         return f"Here it is: {OF_RCLPY[match[1]]}." if match[1] in OF_RCLPY else _case("rclpy", match[1])
     if match := re.match(r"(?:property '(\w+)' of '\w+' object has no setter|can't set attribute '(\w+)')", text):
         taken = match[1] or match[2]
-        return f"Every node already has {taken!r}, which cannot be replaced: choose another name, as in self.my_{taken}."
+        return (
+            f"Every node already has {taken!r}, which cannot be replaced: choose another name, as in self.my_{taken}."
+        )
     if not name and (match := re.match(r"'(\w+)' object has no attribute '(\w+)'", text)):
         owner, name = _message_of(match[1]), match[2]  # it was to be set
         return "" if owner is None else _field(owner, name)
