@@ -39,8 +39,8 @@ PATIENCE = 2.0
 """CPU time, s, after which a callback that lets no time pass is stopped: less than a learner is given, for the tests' sake."""
 
 
-WORK = 20.0
-"""CPU time, s, that a check may take here."""
+WORK = 12.0
+"""CPU time, s, that a check may take here: three times what the longest one needs."""
 
 
 class PageError(Exception):
