@@ -232,16 +232,6 @@ ANSWERS = {
                 changed(SHORT, ("    return math", "    print(wanted - heading)\n    return 0.0 * math")),
                 "is 0.0, not 0.5",
             ),
-            "adds whole turns for ever": (
-                changed(
-                    SHORT,
-                    (
-                        "    return math.remainder",
-                        "    while abs(wanted) > 2:\n        heading += math.tau\n    return math.remainder",
-                    ),
-                ),
-                "has not returned",
-            ),
         },
         right={
             "loops": changed(
