@@ -107,7 +107,7 @@ def test_big_endian_bytes_are_read_too():
 def test_bytes_cut_short_are_refused(data):
     whole = serialize(LaserScan(ranges=[1.0, 2.0]))
     cut = data.draw(st.integers(0, len(whole) - 1))
-    with pytest.raises(ValueError, match="are no sensor_msgs/msg/LaserScan"):
+    with pytest.raises(ValueError, match="are not a message of type sensor_msgs/msg/LaserScan"):
         deserialize(whole[:cut], LaserScan)
 
 
@@ -162,7 +162,7 @@ def test_wide_strings_travel_as_utf_16_in_four_bytes_a_unit():
 )
 def test_wide_strings_that_are_none_are_refused(tail, reason):
     wide = built_in.get("example_interfaces/msg/WString")
-    with pytest.raises(ValueError, match=f"are no example_interfaces/msg/WString.*({reason})"):
+    with pytest.raises(ValueError, match=f"are not a message of type example_interfaces/msg/WString.*({reason})"):
         deserialize(bytes.fromhex("00010000" + tail), wide)
 
 

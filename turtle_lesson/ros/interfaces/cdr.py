@@ -73,7 +73,7 @@ def deserialize(data: bytes | bytearray | memoryview, message_class: Any) -> Any
     except Exception as error:
         reason = str(error).replace(name, message_class._TYPE_NAME).rstrip(".")
         raise ValueError(
-            f"these {len(data)} bytes are not a {message_class._TYPE_NAME} (cut short, or written with another"
+            f"these {len(data)} bytes are not a message of type {message_class._TYPE_NAME} (cut short, or written with another"
             f" definition?): {reason}"
         ) from error
 
