@@ -475,7 +475,7 @@ def test_a_mistake_in_yaml_is_named_with_its_line(tmp_path: Path, text: str, sai
             "<launch>\n<log message=x/>\n</launch>",
             "ParseError: not well-formed (invalid token)",
             2,
-            "Values",
+            "Put values in quotation marks",
         ),
         ("a.launch.xml", "<launch>\n", "ParseError: no element found: line 2, column 0", 2, "The file ends too early"),
         ("a.launch.yaml", "launch:\n- log:\n\tmessage: x\n", "ScannerError: while scanning", 3, "YAML is indented"),

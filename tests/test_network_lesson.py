@@ -157,7 +157,7 @@ def test_a_topic_need_not_be_there_yet(lesson: Lesson) -> None:
         ({"topic": "scan", "loss": 0.1}, "the full name of a topic begins with a slash, got 'scan': try '/scan'"),
         ({"topic": "/my scan", "loss": 0.1}, "'/my scan' cannot be a topic: topic name must not contain characters"),
         ({"topic": 5, "loss": 0.1}, "the name of a topic is a text such as '/scan'"),
-        ({"loss": 0.1}, "these conditions are for which topic?"),
+        ({"loss": 0.1}, "name the topic of these conditions"),
     ],
 )
 def test_what_cannot_be_is_refused(lesson: Lesson, arguments: dict[str, Any], text: str) -> None:

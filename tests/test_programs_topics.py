@@ -154,4 +154,4 @@ def test_a_module_of_a_sourced_package_is_run_by_python(terminal: Terminal) -> N
         "publishing geometry_msgs.msg.Vector3(x=0.0, y=0.0, z=0.0)",
     ]
     assert terminal.interrupt() == ["publisher stopped cleanly"]
-    assert having(terminal.say("python3 -m first_steps.talk_no_type"), "runs a file that is there")
+    assert having(terminal.say("python3 -m first_steps.talk_no_type"), "python3 FILE runs a file")
