@@ -81,7 +81,7 @@ def test_words_before_the_verb(four: Path, world: World, word: str) -> None:
 
 def test_verbs_that_are_not_there_say_what_is(four: Path, world: World) -> None:
     assert "python -m pytest src/<package>/test" in colcon(world, "test").err
-    assert "colcon list shows what there is" in colcon(world, "info a").err
+    assert "colcon list shows the packages" in colcon(world, "info a").err
     for verb in ("test", "info", "test-result", "metadata", "version-check"):
         answer = colcon(world, verb)
         assert (answer.code, len(answer.err.splitlines())) == (1, 1)
