@@ -10,7 +10,8 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -25,8 +26,10 @@ TESTS = Path(__file__).resolve().parent
 PUBLISHED = [page for page in PAGES if (NOTEBOOKS / f"{page}.ipynb").is_file()]
 EXERCISES = [(page, cell["exercise"]) for page in PUBLISHED for cell in code_cells(page) if "exercise" in cell["tags"]]
 NAMES = [f"page_{page.partition('_')[0]}-{name}" for page, name in EXERCISES]
+AT_ONCE = 2
+"""How many pages are run side by side."""
 
-Ask = Callable[[str, Answer], dict[str, Any]]
+Verdict = dict[str, Any]
 
 
 def answers_to(page: str, exercise: str) -> Answers:
@@ -53,15 +56,15 @@ class Server:
             cwd=TESTS,
         )
 
-    def ask(self, exercise: str, given: Answer) -> dict[str, Any]:
-        """The verdict on an answer."""
+    def ask(self, exercise: str, given: Answer) -> Verdict:
+        """The verdict on an answer; where the page or the answer could not be run, what happened, as "broken"."""
         assert self.process.stdin is not None
         assert self.process.stdout is not None
         request = {"exercise": exercise, "sources": given.sources, "cells": dict(given.cells)}
         self.process.stdin.write(json.dumps(request) + "\n")
         self.process.stdin.flush()
-        reply: dict[str, Any] = json.loads(self.process.stdout.readline())
-        assert "broken" not in reply, reply["broken"] + reply.get("printed", "")
+        line = self.process.stdout.readline()
+        reply: Verdict = json.loads(line) if line else {"broken": "the process that runs the page has ended"}
         return reply
 
     def close(self) -> None:
@@ -69,46 +72,67 @@ class Server:
         self.process.communicate("")
 
 
-@pytest.fixture(scope="module")
-def servers() -> Iterator[Callable[[str], Server]]:
-    """Returns what gives the server of a page; one at a time is kept."""
-    running: list[Server] = []
-
-    def server(page: str) -> Server:
-        if not running or running[-1].page != page:
-            close()
-            running.append(Server(page))
-        return running[-1]
-
-    def close() -> None:
-        while running:
-            running.pop().close()
-
-    yield server
-    close()
-
-
-@pytest.mark.parametrize(("page", "exercise"), EXERCISES, ids=NAMES)
-def test_wrong_answers_fail_and_right_ones_pass(servers: Callable[[str], Server], page: str, exercise: str) -> None:
+def wanted(page: str, exercise: str) -> dict[str, tuple[Answer, str | None]]:
+    """All answers to an exercise, by their labels, each with what is to be said of it; None of a right one."""
     kept = answers_to(page, exercise)
-    wanted: dict[str, tuple[Answer, str | None]] = {
+    return {
         "(stub)": (Answer(stub(page, exercise)), ""),
         **{f"wrong: {label}": (answer(given), says) for label, (given, says) in kept.wrong.items()},
         "(solution)": (Answer(solution(page, exercise)), None),
         **{f"right: {label}": (answer(given), None) for label, given in kept.right.items()},
     }
+
+
+def run_page(page: str, exercises: dict[str, Future[dict[str, Verdict]]]) -> None:
+    """Run a page as far as these exercises want it, and give each the verdicts on its answers."""
+    server = Server(page)
+    try:
+        for exercise, future in exercises.items():
+            try:
+                given = wanted(page, exercise)
+                future.set_result({label: server.ask(exercise, each) for label, (each, _) in given.items()})
+            except Exception as error:
+                future.set_exception(error)
+    finally:
+        server.close()
+
+
+@pytest.fixture(scope="module")
+def verdicts(request: pytest.FixtureRequest) -> Iterator[dict[tuple[str, str], Future[dict[str, Verdict]]]]:
+    """The verdicts on the answers to each exercise that a selected test wants, from two pages at a time."""
+    by_page: dict[str, dict[str, Future[dict[str, Verdict]]]] = {}
+    for item in request.session.items:
+        if getattr(item, "originalname", "") == test_wrong_answers_fail_and_right_ones_pass.__name__:
+            values = item.callspec.params  # type: ignore[attr-defined]  # which each parametrized item has
+            by_page.setdefault(values["page"], {})[values["exercise"]] = Future()
+    with ThreadPoolExecutor(AT_ONCE) as pool:
+        for page, exercises in by_page.items():
+            pool.submit(run_page, page, exercises)
+        yield {(page, name): future for page, exercises in by_page.items() for name, future in exercises.items()}
+        pool.shutdown(cancel_futures=True)
+
+
+@pytest.mark.parametrize(("page", "exercise"), EXERCISES, ids=NAMES)
+def test_wrong_answers_fail_and_right_ones_pass(
+    verdicts: dict[tuple[str, str], Future[dict[str, Verdict]]], page: str, exercise: str
+) -> None:
+    found = verdicts[page, exercise].result()
     table, faults = [], []
-    for label, (given, says) in wanted.items():
-        verdict = servers(page).ask(exercise, given)
+    for label, (_, says) in wanted(page, exercise).items():
+        verdict = found[label]
         fault = fault_of(verdict, says)
-        table.append(f"{'ok   ' if not fault else 'FAULT'} {'passed' if verdict['passed'] else 'failed'}  {label}")
+        table.append(f"{'FAULT' if fault else 'ok   '} {'passed' if verdict.get('passed') else 'failed'}  {label}")
         if fault:
-            faults.append(f"--- {label}: {fault}\n{verdict['text']}\n{os.linesep.join(verdict['errors'])}")
+            faults.append(
+                f"--- {label}: {fault}\n{verdict.get('text', '')}\n{os.linesep.join(verdict.get('errors', []))}"
+            )
     assert not faults, "\n".join(["", *table, *faults])
 
 
-def fault_of(verdict: dict[str, Any], says: str | None) -> str:
+def fault_of(verdict: Verdict, says: str | None) -> str:
     """What is wrong with a verdict; "" if nothing is. `says`: what is to be said of a wrong answer, None of a right one."""
+    if "broken" in verdict:
+        return f"it could not be run: {verdict['broken']}{verdict.get('printed', '')}"
     if says is None:
         return "" if verdict["passed"] else "it should pass"
     if verdict["passed"]:
