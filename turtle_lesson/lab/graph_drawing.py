@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import statistics
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -121,15 +122,17 @@ def _arrange(columns: dict[str, list[Box]]) -> None:
             wanted = [wanted[at] for at in order]
             boxes[:] = [boxes[at] for at in order]
             _stack(boxes, wanted)
-    highest = min(box.middle - box.height / 2 for boxes in columns.values() for box in boxes)
-    for boxes in columns.values():
-        for box in boxes:
-            box.middle += TOP - highest
+    bottom, up = TOP - GAP, -math.inf  # what is connected with nothing else may lie far off: no empty band is left
+    everything = [box for boxes in columns.values() for box in boxes]
+    for box in sorted(everything, key=lambda box: box.middle - box.height / 2):
+        up = max(up, box.middle - box.height / 2 - bottom - GAP)
+        box.middle -= up
+        bottom = max(bottom, box.middle + box.height / 2)
 
 
 def _stack(boxes: list[Box], wanted: list[float]) -> None:
     """Put boxes below one another, none upon another, on average where they are wanted."""
-    bottom = -float("inf")
+    bottom = -math.inf
     for box, middle in zip(boxes, wanted, strict=True):
         box.middle = max(middle, bottom + GAP + box.height / 2)
         bottom = box.middle + box.height / 2
