@@ -88,7 +88,7 @@ def doubler() -> list[Expectation]:
 
 def _answers_each(exam: Exam) -> Seen:
     if not exam.subscriptions(COUNT):
-        raise CannotLook(f"nobody listens to {COUNT}")
+        raise CannotLook(f"no node listens to {COUNT}")
     answers = exam.listen(DOUBLED, NUMBER)
     before, given = len(answers), (1001, 1002, 1003)
     for each in given:

@@ -150,8 +150,8 @@ class CheckResult:
         return (
             f'<div style="border-left: 4px solid {_EDGES[self.mark]}; padding-left: 0.8em">'
             f'<p style="margin: 0.4em 0">{_html_mark(self.mark)} <strong>{html.escape(self._words)}</strong></p>'
-            f'<table style="border-collapse: collapse; max-width: 60rem"><thead><tr><td></td>'
-            f"<th {_CELL}>expected</th><th {_CELL}>seen</th></tr></thead>"
+            f'<table style="border-collapse: collapse; max-width: 60rem; color: inherit; font-size: inherit">'
+            f"<thead><tr><td></td><th {_CELL}>expected</th><th {_CELL}>seen</th></tr></thead>"
             f"<tbody>{rows}</tbody></table>{closing}<p><small>{self.footnote}</small></p></div>"
         )
 
@@ -165,7 +165,7 @@ class CheckResult:
         if row.trace:
             seen += f'<pre style="white-space: pre-wrap; margin: 0.3em 0">{html.escape(row.trace)}</pre>'
         if said := row.advice.after(self.failures):
-            seen += f"<br><em>→ {html.escape(said)}</em>"
+            seen += f"<div><em>→ {html.escape(said)}</em></div>"
         cells = (_html_mark(row.mark), html.escape(row.expected), seen)
         return f"<tr>{''.join(f'<td {_CELL}>{cell}</td>' for cell in cells)}</tr>"
 
@@ -174,7 +174,7 @@ class CheckResult:
         return {"text/plain": repr(self), "text/html": self._repr_html_()}, {METADATA: self.figures()}
 
 
-_CELL = 'style="text-align: left; vertical-align: top; white-space: normal"'
+_CELL = 'style="text-align: left; vertical-align: top; white-space: normal; padding: 0.2em 1em 0.2em 0"'
 _GREEN, _RED, _GREY, _BROWN = "#1a7f37", "#cf222e", "#6e7781", "#9a6700"
 _BADGES = {GOOD: _GREEN, BAD: _RED, OPEN: _GREY, STOPPED: _BROWN}
 """White on each of these has a contrast of 4.5 : 1 or more, and each stands out from a light and from a dark page."""
