@@ -103,5 +103,5 @@ def a_class(folder: Path) -> dict[str, tuple[int, str]]:
     hand_in("flood", 6, copy(RIGHT, DOUBLER, "while True:\n    print('x' * 1000)"))
     (folder / "no_notebook.ipynb").write_text("this is no JSON")
     (folder / "binary.ipynb").write_bytes(bytes(range(256)))
-    expected |= {"no_notebook": (0, "no notebook"), "binary": (0, "no notebook")}
+    expected |= {"no_notebook": (0, "not a notebook"), "binary": (0, "not a notebook")}
     return expected
