@@ -361,7 +361,7 @@ def test_only_messages_of_the_topics_type_can_be_published(node: Node) -> None:
 def test_bytes_are_published_if_they_are_a_message(node: Node) -> None:
     publisher = node.create_publisher(String, "pp", 10)
     publisher.publish(bytes.fromhex("0001000003000000686900"))
-    with pytest.raises(ValueError, match="these 1 bytes are not a std_msgs/msg/String"):
+    with pytest.raises(ValueError, match="these 1 bytes are not a message of type std_msgs/msg/String"):
         publisher.publish(b"x")  # the real one sends them, and every receiver stumbles
 
 

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import asyncio
 import os
-import warnings
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -12,6 +10,7 @@ from typing import Any
 import pytest
 from jupyter_client.kernelspec import KernelSpecManager
 from jupyter_client.manager import start_new_kernel
+from jupyter_core.utils import ensure_event_loop
 
 from turtle_lesson.teaching.server import JUPYTER
 
@@ -42,9 +41,7 @@ def ask(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Ask]:
     yield ask
     client.stop_channels()
     manager.shutdown_kernel(now=True)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", DeprecationWarning)
-        asyncio.get_event_loop().close()  # which jupyter_client leaves open
+    ensure_event_loop().close()  # jupyter_client's own, which it leaves open
 
 
 def test_it_takes_the_place_of_jupyters_own(monkeypatch: pytest.MonkeyPatch) -> None:

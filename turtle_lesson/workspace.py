@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from . import story
+from . import files, story
 from .lab.checks.registry import PAGES
 from .ros.command.shell import home
 from .ros.workspace import templates
@@ -62,10 +62,10 @@ class Workspace:
             file = self.package / path
             now = _text(file)
             if now is None or (now != text and (story.is_published(path, now, before=page) or _is_template(path, now))):
-                _write(file, text)
+                files.write(file, text)
                 memory["files"][path] = [_hash(text), ""]
             elif path == "CMakeLists.txt" and (merged := _with_installs(now, text)) != now:
-                _write(file, merged)
+                files.write(file, merged)
         self._remember(memory)
         return self
 
@@ -89,11 +89,11 @@ class Workspace:
 
     def state(self) -> str:
         """Which files the package has, and whether each was filled in or is the learner's own work; as a text."""
-        files = [path.relative_to(self.package).as_posix() for path in sorted(_sources(self.package))]
-        if not files:
+        have = [path.relative_to(self.package).as_posix() for path in sorted(_sources(self.package))]
+        if not have:
             return f"There is no package in {self._shown(self.package)} yet."
-        wide = max(map(len, files))
-        rows = [f"  {path.ljust(wide)}  {self._origin(path)}" for path in files]
+        wide = max(map(len, have))
+        rows = [f"  {path.ljust(wide)}  {self._origin(path)}" for path in have]
         return "\n".join([f"Your package {self._shown(self.package)}:", *rows])
 
     def _origin(self, path: str) -> str:
@@ -155,12 +155,12 @@ class Workspace:
                     "a copy will be kept."
                 )
             kept = self._kept()
-            _write(kept / path, now)
+            files.write(kept / path, now)
         memory = self._memory()
         memory["files"][path] = [_hash(text), memory["page"]]
         memory["parts"] = memory.get("parts", {}) | {path: parts}
         memory.pop("asked", None)
-        _write(file, text)
+        files.write(file, text)
         self._remember(memory)
         return f"{'Appending to' if append else 'Writing' if now is None else 'Overwriting'} {shown}"
 
@@ -197,7 +197,7 @@ class Workspace:
         number = 1
         while (folder := self.folder / "kept" / str(number)).exists():
             number += 1
-        _write(folder.parent / "COLCON_IGNORE", "")  # or the build would find the package twice
+        files.write(folder.parent / "COLCON_IGNORE", "")  # or the build would find the package twice
         return folder
 
     def _shown(self, path: Path) -> str:
@@ -211,7 +211,7 @@ class Workspace:
         return {"page": PAGES[0], "files": {}} | (memory if isinstance(memory, dict) else {})
 
     def _remember(self, memory: dict[str, Any]) -> None:
-        _write(self.folder / ".pages.json", json.dumps(memory, indent=1) + "\n")
+        files.write(self.folder / ".pages.json", json.dumps(memory, indent=1) + "\n")
 
 
 def _sources(package: Path) -> list[Path]:
@@ -227,11 +227,6 @@ def _is_template(path: str, text: str) -> bool:
 
 def _text(file: Path) -> str | None:
     return file.read_text(encoding="utf-8", errors="replace") if file.is_file() else None
-
-
-def _write(file: Path, text: str) -> None:
-    file.parent.mkdir(parents=True, exist_ok=True)
-    file.write_text(text, encoding="utf-8")
 
 
 def _hash(text: str) -> str:

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from .. import files
 from .checks.registry import Check
 from .checks.result import CheckResult
 from .words import count
@@ -91,12 +92,9 @@ class ProgressFile:
             "format": FORMAT,
             **{key: {k: v for k, v in sorted(each.items()) if v} for key, each in kept.items()},
         }
-        beside = self.path.with_name(f"{self.path.name}.{os.getpid()}")
         try:
-            beside.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
-            beside.replace(self.path)
+            files.write(self.path, json.dumps(content, indent=1) + "\n")
         except OSError as error:
-            beside.unlink(missing_ok=True)
             self.remark = (
                 f"{self.path.name} cannot be written ({error.strerror}); points are only kept until the kernel ends."
             )

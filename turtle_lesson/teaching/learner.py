@@ -13,6 +13,7 @@ from typing import Any
 
 import nbformat
 
+from .. import files
 from ..lab import progress
 from ..lab.checks.registry import PAGES
 from . import pages
@@ -52,7 +53,7 @@ class LearnersFolder:
         return content if isinstance(content, dict) else {}
 
     def _remember(self) -> None:
-        self._memory.write_text(json.dumps(self._versions, indent=1) + "\n", encoding="utf-8")
+        files.write(self._memory, json.dumps(self._versions, indent=1) + "\n")
 
     def update(self, source: Path | None = None) -> list[str]:
         """Fill in pages that are missing and bring untouched ones up to date.
