@@ -70,7 +70,8 @@ def test_bytes_that_are_no_text_are_kept_aside_too(tmp_path: Path) -> None:
 
 
 def test_where_nothing_can_be_written_points_live_on_in_memory(tmp_path: Path) -> None:
-    file = ProgressFile(tmp_path / "not there" / FILE)
+    (tmp_path / "no folder").touch()
+    file = ProgressFile(tmp_path / "no folder" / FILE)
     file.note(result("counter"))
     assert file.points() == {"counter": 3}
     assert "cannot be written" in file.remark
