@@ -14,7 +14,7 @@ from .recording import Obstacle
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-SHELL, RIM, SKIN, OUTLINE = style.GREEN, "#00785a", "#8fd0b5", "#0b4636"
+SHELL, RIM, SKIN, OUTLINE = style.GREEN, style.DARK_GREEN, "#8fd0b5", "#0b4636"
 
 # The turtle looks along +x, its length is 1, its middle (0, 0). Ellipses: x, y, width, height, degrees.
 LEGS = ((0.23, 0.27, 0.30, 0.15, 55.0), (-0.25, 0.25, 0.24, 0.13, 128.0))
@@ -79,7 +79,12 @@ def draw_obstacles(axes: Axes, obstacles: Iterable[Obstacle]) -> None:
     """Draw the obstacles where they stand."""
     from matplotlib.patches import Ellipse, Rectangle
 
-    look: dict[str, Any] = {"facecolor": style.ORANGE + "66", "edgecolor": "#b57b00", "linewidth": 1.0, "zorder": 2}
+    look: dict[str, Any] = {
+        "facecolor": style.ORANGE + "66",
+        "edgecolor": style.DARK_ORANGE,
+        "linewidth": 1.0,
+        "zorder": 2,
+    }
     for each in obstacles:
         if each.shape == "box":
             corner = (each.x - each.width / 2, each.y - each.height / 2)

@@ -49,7 +49,7 @@ class Box:
 
 @dataclass(eq=False)
 class Arrow:
-    """Between a node and what it uses; `inward` if it ends at the node."""
+    """Between a node and what it uses, a service if it is `dashed`, or else a topic; `inward` if it ends at the node."""
 
     node: Box
     used: Box
@@ -73,8 +73,7 @@ def draw_graph(nodes: list[NodeView], title: str, description: str) -> str:
         left += widths[name] + LANE
     everything = [box for boxes in columns.values() for box in boxes]
     parts = [svg.text(lefts[name] + widths[name] / 2, 18, name) for name in columns]
-    for arrow in arrows:
-        parts.append(_draw_arrow(arrow, columns, lefts, widths))
+    parts += [_draw_arrow(arrow, lefts, widths) for arrow in arrows]
     for name, boxes in columns.items():
         parts += [_draw_box(box, lefts[name], widths[name], name) for box in boxes]
     height = max(box.middle + box.height / 2 for box in everything) + 6
@@ -160,13 +159,12 @@ def _draw_box(box: Box, left: float, width: float, column: str) -> str:
     return "".join(parts)
 
 
-def _draw_arrow(arrow: Arrow, columns: dict[str, list[Box]], lefts: dict[str, float], widths: dict[str, float]) -> str:
+def _draw_arrow(arrow: Arrow, lefts: dict[str, float], widths: dict[str, float]) -> str:
     """A curve between the sides of two boxes that face each other, with a head at the end to which the data goes."""
-    right = arrow.used in columns.get("topics", [])
-    column = "topics" if right else "services"
-    near, far = lefts["nodes"] + widths["nodes"], lefts["topics"] if right else 0.0
-    if not right:
-        near, far = lefts["nodes"], lefts[column] + widths[column]
+    if arrow.dashed:
+        near, far = lefts["nodes"], lefts["services"] + widths["services"]
+    else:
+        near, far = lefts["nodes"] + widths["nodes"], lefts["topics"]
     begin, end = (near, _port(arrow.node, arrow)), (far, _port(arrow.used, arrow))
     if arrow.inward:
         begin, end = end, begin

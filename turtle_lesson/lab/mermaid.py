@@ -26,7 +26,7 @@ COLOURS = (
 
 
 def flowchart(nodes: list[NodeView], title: str, description: str) -> str:
-    """Return the Mermaid text for these nodes; `title` and `description` are for who cannot see it."""
+    """Return the Mermaid text for these nodes; `title` and `description` are for readers who cannot see it."""
     lines = [SETTINGS, "flowchart TD", f"accTitle: {_plain(title)}", f"accDescr: {_plain(description)}"]
     lines += [f'n{number}(["{_label(_counted(node))}"]):::rosnode' for number, node in enumerate(nodes)]
     topics = topics_of(nodes)

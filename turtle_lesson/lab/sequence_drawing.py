@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from . import style, svg
 from .call_steps import Step
+from .graph_drawing import LOOKS
 from .sequence_text import Event, events_of, programs_of
 from .words import number
 
@@ -22,7 +23,8 @@ def draw_sequence(steps: Sequence[Step], title: str, description: str) -> str:
     """Return the drawing of these calls as SVG; its title and description are for readers who cannot see it."""
     programs = programs_of(steps)
     places = {name: EDGE + APART * at for at, name in enumerate(programs)}
-    y, parts, busy, bars = TOP, [], dict[str, list[float]](), list[str]()
+    busy: dict[str, list[float]] = {}
+    parts, bars, y = [], [], TOP
     for event in events_of(steps):
         x = places[event.of]
         if event.kind == "activate":
@@ -38,7 +40,7 @@ def draw_sequence(steps: Sequence[Step], title: str, description: str) -> str:
     columns = [
         f'<path d="M{x:g},30V{number(y, 1)}" stroke="{style.EDGE}" stroke-width="1.2"/>' for x in places.values()
     ]
-    heads = [_box(x, 6, svg.text_width(name, 12.5) + 24, 24, name, "#cfe6f5", "#0072b2") for name, x in places.items()]
+    heads = [_box(x, 6, svg.text_width(name, 12.5) + 24, 24, [name], "nodes") for name, x in places.items()]
     width = 2 * EDGE + APART * (len(programs) - 1)
     return svg.document(round(width), round(y + 4), title, description, [*columns, *bars, *parts, *heads])
 
@@ -48,7 +50,7 @@ def _draw(event: Event, x: float, to: float, y: float, lines: list[str]) -> str:
     if event.kind == "note":
         width = max(svg.text_width(line, SIZE) for line in lines) + 16
         top = y - LINE * len(lines) - 4
-        return _box(x, top, width, LINE * len(lines) + 8, lines, "#fbe6bd", "#a86f00")
+        return _box(x, top, width, LINE * len(lines) + 8, lines, "services")
     if event.kind == "lost":
         end = x + APART / 2
         cross = f"M{end - 5:g},{number(y - 5, 1)}l10,10m0,-10l-10,10"
@@ -73,11 +75,13 @@ def _bar(x: float, begin: float, end: float) -> str:
     return f'<rect x="{x - 4:g}" {size} fill="{style.GREEN}" opacity="0.7"/>'
 
 
-def _box(x: float, top: float, width: float, height: float, words: str | list[str], fill: str, edge: str) -> str:
-    lines = [words] if isinstance(words, str) else words
+def _box(x: float, top: float, width: float, height: float, lines: list[str], kind: str) -> str:
+    """Lines of text in a box that looks like those of this kind in the graph, with the same dark text in both kinds."""
+    fill, edge, _ = LOOKS[kind]
+    ink = LOOKS["nodes"][2]
     frame = (
         f'x="{number(x - width / 2, 1)}" y="{number(top, 1)}" width="{number(width, 1)}" height="{number(height, 1)}"'
     )
     first = top + height / 2 + 4.5 - LINE * (len(lines) - 1) / 2
-    written = "".join(svg.text(x, first + LINE * at, line, SIZE, fill="#10222e") for at, line in enumerate(lines))
+    written = "".join(svg.text(x, first + LINE * at, line, SIZE, fill=ink) for at, line in enumerate(lines))
     return f'<rect {frame} rx="4" fill="{fill}" stroke="{edge}"/>{written}'

@@ -22,7 +22,10 @@ ARROWS = {"call": "{0}->>{1}: {2}", "answer": "{0}-->>{1}: {2}", "lost": "{0}-x{
 
 
 class Event(NamedTuple):
-    """One line of the diagram, "call", "answer", "lost", "note", "activate" or "deactivate"; lines of `text` end in <br/>."""
+    """One line of the diagram. `kind` is "call", "answer", "lost", "note", "activate" or "deactivate".
+
+    <br/> separates the lines of `text`.
+    """
 
     kind: str
     of: str
@@ -31,7 +34,9 @@ class Event(NamedTuple):
 
 
 def sequence_diagram(steps: Sequence[Step], title: str, description: str) -> str:
-    """Return the Mermaid text: a lifeline a program, an arrow a message; `title` and `description` for who cannot see."""
+    """Return the Mermaid text: a lifeline for each program, an arrow for each message. `title` and `description` are for
+    readers who cannot see it.
+    """
     letters = {name: f"p{number}" for number, name in enumerate(programs_of(steps))}
     lines = [SETTINGS, "sequenceDiagram", f"accTitle: {_plain(title)}", f"accDescr: {_plain(description)}"]
     lines += [f"participant {letters[name]} as {_escaped(name)}" for name in letters]
@@ -42,12 +47,12 @@ def sequence_diagram(steps: Sequence[Step], title: str, description: str) -> str
 
 
 def programs_of(steps: Sequence[Step]) -> list[str]:
-    """The names of all that takes part, in the order in which it does."""
+    """The names of the programs that take part, in the order in which they first do."""
     return list(dict.fromkeys(name for step in steps for name in (step.call.caller, step.call.server) if name))
 
 
 def events_of(steps: Sequence[Step]) -> list[Event]:
-    """All events in the order of their times; of one time, nothing of a later call comes in between."""
+    """All events in the order of their times; those of one call at the same time stay together."""
     timed = [each for step in steps for each in _events(step)]
     return [event for _, event in sorted(timed, key=lambda each: each[0])]
 

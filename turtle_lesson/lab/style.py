@@ -24,6 +24,8 @@ VERMILLION, PURPLE, YELLOW = "#D55E00", "#CC79A7", "#F0E442"
 
 INK = "#767b82"
 """Text and outlines: 4.3 : 1 on white, 4.4 : 1 on the dark page of JupyterLab; no grey does better on both."""
+DARK_ORANGE, DARK_GREEN = "#b57b00", "#00785a"
+"""The edges of what is filled with ORANGE or GREEN."""
 LINE = "#80808033"
 """Grid lines and quiet areas."""
 EDGE = "#80808066"

@@ -24,7 +24,7 @@ LANE, TOP, BOTTOM = 0.40, 0.70, 0.78
 MOST = 24
 """More lanes than that are no picture any more."""
 
-DARK_ORANGE, PALE_ORANGE = "#b57b00", style.ORANGE + "40"
+PALE_ORANGE = style.ORANGE + "40"
 
 
 def plot_timeline(trace: Any, node: Any, *rows: str, since: float | None = None, until: float | None = None) -> Picture:
@@ -91,9 +91,9 @@ def _draw_lane(axes: Axes, place: int, lane: Lane) -> None:
 
 def _draw_bars(axes: Axes, place: int, lane: Lane) -> None:
     spans = [(begin, end - begin) for begin, end in lane.bars / NANOSECONDS]
-    look: dict[str, Any] = {"facecolors": style.GREEN, "edgecolors": "#00785a"}
+    look: dict[str, Any] = {"facecolors": style.GREEN, "edgecolors": style.DARK_GREEN}
     if lane.awaits:
-        look = {"facecolors": PALE_ORANGE, "edgecolors": DARK_ORANGE, "hatch": "////"}
+        look = {"facecolors": PALE_ORANGE, "edgecolors": style.DARK_ORANGE, "hatch": "////"}
     axes.broken_barh(spans, (place - 0.27, 0.54), linewidth=0.8, zorder=2.5, **look)
 
 
@@ -132,9 +132,11 @@ def _legend(figure: Figure, lanes: list[Lane]) -> None:
     if any(len(lane.marks) for lane in calls):
         signs.append(Line2D([], [], color=style.GREEN, label="a short call", **tick))
     if any(len(lane.bars) for lane in calls if not lane.awaits):
-        signs.append(Patch(facecolor=style.GREEN, edgecolor="#00785a", label="holds its thread"))
+        signs.append(Patch(facecolor=style.GREEN, edgecolor=style.DARK_GREEN, label="holds its thread"))
     if any(len(lane.bars) for lane in calls if lane.awaits):
-        signs.append(Patch(facecolor=PALE_ORANGE, edgecolor=DARK_ORANGE, hatch="////", label="awaits, thread free"))
+        signs.append(
+            Patch(facecolor=PALE_ORANGE, edgecolor=style.DARK_ORANGE, hatch="////", label="awaits, thread free")
+        )
     if any(len(lane.waits) for lane in lanes):
         signs.append(Line2D([], [], color=style.VERMILLION, label="ready, had to wait", **wait))
     if signs:

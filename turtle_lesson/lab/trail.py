@@ -13,7 +13,6 @@ from .track import WORLD, thinned
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-NEW = style.BLUE
 BANDS = 12
 """The trail is drawn in so many parts, the older the paler."""
 
@@ -30,7 +29,7 @@ def draw_trail(axes: Axes, poses: np.ndarray, jumps: np.ndarray, taken: np.ndarr
     for jump in jumps:
         axes.plot(*places[jump - 1 : jump + 1].T, color=style.INK, linestyle=":", linewidth=1.0, zorder=3)
     chosen = thinned(poses, jumps)
-    look: dict[str, Any] = {"color": NEW, "linewidth": 2.2, "solid_capstyle": "butt", "zorder": 3}
+    look: dict[str, Any] = {"color": style.BLUE, "linewidth": 2.2, "solid_capstyle": "butt", "zorder": 3}
     for band, part in enumerate(np.array_split(np.arange(len(chosen) - 1), BANDS)):
         if len(part):
             rows = chosen[part[0] : part[-1] + 2]
@@ -56,7 +55,7 @@ def _draw_heads(axes: Axes, pieces: np.ndarray, size: float = 0.15) -> None:
         across = 0.8 * np.array([-along[1], along[0]])
         tip = pieces[mark, 1] + along / 2
         heads.append([tip - along + across, tip, tip - along - across])
-    look: dict[str, Any] = {"colors": NEW, "linewidths": 1.6, "capstyle": "round", "zorder": 3.2}
+    look: dict[str, Any] = {"colors": style.BLUE, "linewidths": 1.6, "capstyle": "round", "zorder": 3.2}
     axes.add_collection(LineCollection(heads, **look), autolim=False)
 
 
@@ -65,7 +64,7 @@ def _draw_start(axes: Axes, places: np.ndarray, taken: np.ndarray) -> None:
     x, y = places[0]
     away = places[np.hypot(*(places - places[0]).T) > 0.5]
     behind = math.atan2(*(places[0] - away[0])[::-1]) if len(away) else -math.pi / 2
-    ring: dict[str, Any] = {"markerfacecolor": "#d3e6f3", "markeredgecolor": NEW, "markeredgewidth": 1.6}
+    ring: dict[str, Any] = {"markerfacecolor": "#d3e6f3", "markeredgecolor": style.BLUE, "markeredgewidth": 1.6}
     axes.plot([x], [y], marker="o", markersize=6.5, zorder=3.5, **ring)
     label: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 8.5, "color": style.INK}
     axes.text(*_free_place(x, y, behind, taken), "start", zorder=3.5, **label)
