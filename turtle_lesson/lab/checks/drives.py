@@ -261,7 +261,7 @@ def stopped(way: Way) -> Expectation:
             seen = f"it was {number(last.linear.x)} m/s and {number(last.angular.z)} rad/s"
             return Seen(False, seen, "What is the last command that is published, however the drive ends?")
         still = not is_moving(it.poses[-1].message)
-        return Seen(still, "it was, and the turtle stands" if still else "it was, and the turtle moves on")
+        return Seen(still, "it was, and the turtle stands" if still else "it was, but the turtle still moves")
 
     return Expectation("the last command is zero", look)
 
@@ -313,7 +313,7 @@ def _fault(exam: Exam, goal: Goal) -> str:
     elif answer.response.success:
         fault = "success is True"
     elif answer.seconds > 1.0:
-        fault = f"answered after {number(answer.seconds)} s only"
+        fault = f"answered only after {number(answer.seconds)} s"
     else:
         fault = "the turtle moved" if math.hypot(end.x - begin.x, end.y - begin.y) > 0.05 else ""
     if fault:

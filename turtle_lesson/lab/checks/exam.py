@@ -1,4 +1,4 @@
-"""An exam: looks at a running system through a node, lets robot time pass, and cleans up behind itself.
+"""An exam: looks at a running system through a node, lets robot time pass, and cleans up after itself.
 
 It listens, asks, publishes and reads the graph as any node may, and reaches into nothing. What it has seen once it
 remembers (`once`), so that several expectations can be about the same drive.
@@ -37,7 +37,7 @@ SLACK = 2.0
 """CPU time, s, in which the line of a callback that computes too much is found; after it the check ends without."""
 
 MOST_HEARD = 500_000
-"""Messages that one ear keeps at most."""
+"""Messages of one topic that are kept at most."""
 
 
 class Place(Protocol):
@@ -309,7 +309,7 @@ class Exam(GraphView):
     def _publisher(self, topic: str, type_name: str) -> Any:
         publisher = self.node.create_publisher(interface(type_name), topic, 10)
         self._clean_up.append(lambda: self.node.destroy_publisher(publisher))
-        self.wait(0.05)  # so that those who listen have found it
+        self.wait(0.05)  # so that the subscriptions have found it
         return publisher
 
     @contextmanager

@@ -71,6 +71,6 @@ class GraphView:
         )
 
     def like(self, name: str, known: list[str]) -> str:
-        """ ", but somebody does /robot/staus": a name that is nearly the one that was looked for."""
+        """ ", but there is /robot/staus": a known name that is nearly the one that was looked for; "" if there is none."""
         found = nearest(name, [each for each in known if each != name], cutoff=0.75)
         return f", but there is {found}" if found else ""

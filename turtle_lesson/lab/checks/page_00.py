@@ -17,9 +17,6 @@ from .rows import Advice, Seen
 PAGE = "00_welcome"
 CORNER = (2.0, 2.0)
 UP = math.pi / 2
-MIDDLE = 5.544445
-"""Where the turtle starts, m."""
-
 LITTLE = 0.1
 """What does not matter: radians of a heading, metres of a way."""
 

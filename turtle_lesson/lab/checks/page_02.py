@@ -109,7 +109,7 @@ def _in_words(fields: dict[str, str]) -> str:
     return ", ".join(f"{_AS_TYPED.get(kind, kind)} {name}" for name, kind in fields.items()) or "no field"
 
 
-# -- a service of an own type --------------------------------------------------------------------------------------------
+# -- a service of a type of its own --------------------------------------------------------------------------------------
 
 MIDDLE = 5.544445
 """Where the turtle starts, m: the middle of its world."""

@@ -342,7 +342,7 @@ def _answers(exam: Exam) -> list[Heard]:
     if others:
         raise CannotLook(f"{others[0][0]} publishes {STATUS}: stop it first")
     if not exam.subscriptions(STATUS):
-        raise CannotLook(f"nobody listens to {STATUS}")
+        raise CannotLook(f"no node listens to {STATUS}")
     return exam.listen(LOW, LOW_TYPE)
 
 

@@ -253,7 +253,7 @@ def _keeps_quiet() -> Expectation:
         seen = (
             f"{number(during)} m, although one is {number(distance)} m away at the side; without it {number(before)} m"
         )
-        return Seen(abs(during - before) <= CLOSE, seen, "Leave out the beams that point further aside than 30°.")
+        return Seen(abs(during - before) <= CLOSE, seen, "Leave out the beams that point more than 30° to a side.")
 
     return Expectation("one at the side is not", look)
 

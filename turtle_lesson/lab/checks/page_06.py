@@ -173,7 +173,7 @@ def side_by_side() -> list[Expectation]:
         *(Expectation(f"one node /{side}/status_monitor", _is_there(side)) for side in SIDES),
         only({"/slow/status_monitor", "/fast/status_monitor", "/turtlesim"}),
         *(publishes(f"/{side}{STATUS}", STATUS_TYPE, by=f"/{side}/status_monitor") for side in SIDES),
-        Expectation(f"no node publishes {STATUS}", _nobody),
+        Expectation(f"no node publishes {STATUS}", _none_does),
         *(parameter(f"/{side}/status_monitor", "publish_rate", hz) for side, hz in SIDES.items()),
         *(Expectation(f"/{side}{STATUS} comes at {hz} Hz", _keeps(side, hz)) for side, hz in SIDES.items()),
         no_errors(),
@@ -194,7 +194,7 @@ def _is_there(side: str) -> Callable[[Exam], Seen]:
     return look
 
 
-def _nobody(exam: Exam) -> Seen:
+def _none_does(exam: Exam) -> Seen:
     owners = [owner for owner, _ in exam.publishers(STATUS)]
     advice = Advice(
         direction=f"{STATUS} is an absolute name, which a namespace does not change. What replaces a name at the start?",

@@ -58,7 +58,7 @@ def _twin_is_there(exam: Exam) -> Seen:
     there = bool(exam.publishers(f"{TWIN}/pose"))
     others = [topic for topic in exam.topics() if topic.endswith("/pose") and topic != POSE]
     seen = "it is" if there else f"there is {others[0]}" if others else "there is one turtle"
-    return Seen(there, seen, Advice(direction="Which field of the request says how the turtle is called?"))
+    return Seen(there, seen, Advice(direction="Which field of the request says what the turtle is called?"))
 
 
 def _twin_in_place(exam: Exam) -> Seen:
@@ -109,7 +109,7 @@ def _measured(exam: Exam) -> tuple[float, float]:
     ahead = math.copysign(min(each.linear_velocity for each in poses), commands[-1].linear.x)
     turn = min((each.angular_velocity for each in poses), key=abs)
     if not math.isfinite(ahead + turn):
-        raise CannotLook("the pose is no number")
+        raise CannotLook("the pose is not a number")
     return ahead, turn
 
 

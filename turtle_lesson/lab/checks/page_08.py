@@ -130,7 +130,7 @@ def _works(exam: Exam) -> Seen:
 def _unanswered(exam: Exam) -> Seen:
     """No answer came: the learner's error, the callback that has not returned, or else what may hold it up."""
     seen = no_answer(exam, f"no answer in {LONGEST:g} s")
-    step = "What does the callback await, and is the group free in which that would come? Does it return the response?"
+    step = "What does the callback await, and is the callback group free in which it would come? Does it return the response?"
     return seen._replace(advice=Advice(direction=step, hint="Open Hint 2 under the exercise."))
 
 

@@ -322,7 +322,7 @@ def _reached(exam: Exam) -> Seen:
     if wrong := next(filter(None, map(_missed, done.drives)), ""):
         return Seen(False, wrong, step)
     if not done.whole:
-        raise CannotLook("the work was broken off when messages came too seldom or too often")
+        raise CannotLook("the work was cut short, because messages came too rarely or too often")
     far = max(it.distance() for it in done.drives)
     return Seen(True, f"{count(len(done.drives), 'goal')}, all of them, at most {number(far)} m off")
 

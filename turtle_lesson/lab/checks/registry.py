@@ -1,4 +1,4 @@
-"""The checks that there are, by name."""
+"""All checks, by name."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ PAGES = (
 """The lesson's pages, in their order."""
 
 MODULES = tuple(f"page_{page.partition('_')[0]}" for page in PAGES)
-"""The modules beside this one that define checks; a page's own is read when a check is first asked for."""
+"""The modules beside this one that define checks, one a page; they are imported when a check is first asked for."""
 
 
 @dataclass(frozen=True)
