@@ -39,7 +39,7 @@ a plain text is), from the third on a pointer to the hint, too. It says where to
 | module | expectations |
 |---|---|
 | `parts` | `node`, `publishes`, `subscribes`, `offers`, `parameter`, `no_errors` |
-| `streams` | `rate`, `steps`, `in_range`, `relays`, and `messages` for whatever a function judges |
+| `streams` | `rate`, `relays`, and `messages` for whatever a function judges |
 | `questions` | `answers`, `rate_follows`, `gives_up`; `no_answer` for an expectation of one's own |
 | `functions` | `returns` |
 | `drives` | a drive of the navigator: `answered`, `arrived`, `facing`, `honest_time`, `stopped`, `steady_commands`, `refuses` |

@@ -272,7 +272,7 @@ def _discharge(exam: Exam) -> list[Heard]:
     return heard
 
 
-def battery_ends_at_zero(hint: str = "") -> Expectation:
+def battery_ends_at_zero(hint: str) -> Expectation:
     """However much time passes, the battery stays from 0 to 100, and at the end it is 0."""
 
     def look(exam: Exam) -> Seen:
@@ -283,7 +283,7 @@ def battery_ends_at_zero(hint: str = "") -> Expectation:
             direction="What should 0.0 minus 0.1 become?"
             if min(charges) < 0
             else "It should run down to 0.0, and stay there.",
-            hint=f"Open {hint} under the exercise." if hint else "",
+            hint=f"Open {hint} under the exercise.",
         )
         return Seen(good, seen, advice)
 

@@ -34,34 +34,31 @@ def node(name: str, start: str = "") -> Expectation:
     return Expectation(f"one node {name}", look)
 
 
-def publishes(topic: str, type_name: str, by: str = "") -> Expectation:
-    """A topic that is published as this type: by this node, where one is named, and by no other node."""
-    who = f"{by} publishes" if by else "somebody publishes"
+def publishes(topic: str, type_name: str, by: str) -> Expectation:
+    """A topic that is published as this type: by this node, and by no other."""
     step = f"Which line makes the publisher, when is it run, and is the name {topic} the same in every letter?"
     return Expectation(
-        f"{who} {topic}",
+        f"{by} publishes {topic}",
         lambda exam: _ends(exam, topic, type_name, by, exam.publishers(topic), exam.topics(), step),
     )
 
 
-def subscribes(topic: str, type_name: str, by: str = "") -> Expectation:
-    """A topic that is subscribed to as this type, by this node where one is named."""
-    who = f"{by} listens to" if by else "a node listens to"
+def subscribes(topic: str, type_name: str, by: str) -> Expectation:
+    """A topic that is subscribed to as this type by this node; others may listen, too."""
     step = f"Which line makes the subscription, when is it run, and is the name {topic} the same in every letter?"
 
     def look(exam: Exam) -> Seen:
-        ends = [end for end in exam.subscriptions(topic) if not by or end[0] == by]
-        return _ends(exam, topic, type_name, by, ends, exam.subscribed(by) if by else [], step)
+        ends = [end for end in exam.subscriptions(topic) if end[0] == by]
+        return _ends(exam, topic, type_name, by, ends, exam.subscribed(by), step)
 
-    return Expectation(f"{who} {topic}", look)
+    return Expectation(f"{by} listens to {topic}", look)
 
 
-def offers(service: str, type_name: str, by: str = "") -> Expectation:
-    """A service of this type: offered once, by this node where one is named."""
-    who = f"{by} offers" if by else "somebody offers"
+def offers(service: str, type_name: str, by: str) -> Expectation:
+    """A service of this type: offered once, by this node."""
     step = f"Which line makes the service, when is it run, and is the name {service} the same in every letter?"
     return Expectation(
-        f"{who} {service}",
+        f"{by} offers {service}",
         lambda exam: _ends(exam, service, type_name, by, exam.servers(service), exam.services(), step),
     )
 
@@ -69,7 +66,7 @@ def offers(service: str, type_name: str, by: str = "") -> Expectation:
 def _ends(
     exam: Exam, name: str, type_name: str, by: str, ends: list[tuple[str, str]], known: list[str], step: str
 ) -> Seen:
-    if not ends and by and by not in exam.nodes():
+    if not ends and by not in exam.nodes():
         raise CannotLook(f"there is no node {by}")
     if not ends:
         return Seen(False, f"nobody does{exam.like(name, known)}", step)
@@ -79,7 +76,7 @@ def _ends(
         return Seen(False, f"{listed(sorted(set(who)))} does, as {listed(types)}", f"The type should be {type_name}.")
     if len(ends) > 1:
         return Seen(False, f"{len(ends)} do: {listed(who)}", TOO_MANY)
-    if by and who != [by]:
+    if who != [by]:
         return Seen(False, f"{who[0]} does", f"The node should be {by}: super().__init__({by.split('/')[-1]!r}).")
     return Seen(True, f"as {type_name}")
 
@@ -87,21 +84,19 @@ def _ends(
 # -- parameters --------------------------------------------------------------------------------------------------------
 
 
-def parameter(owner: str, name: str, value: Any = None) -> Expectation:
-    """A parameter that a node has declared; with this value, where one is given (and then of its type, too)."""
-    wanted = f"{owner} has a parameter {name}" + ("" if value is None else f" = {value!r}")
+def parameter(owner: str, name: str, value: Any) -> Expectation:
+    """A parameter that a node has declared, with this value and of its type."""
 
     def look(exam: Exam) -> Seen:
         found = get_parameter(exam, owner, name)
         if found is None:
-            step = f"declare_parameter({name!r}, {value!r}) in the node's __init__."
-            return Seen(False, "it is not declared", step if value is not None else f"declare_parameter({name!r}, …).")
-        if value is not None and (type(found) is not type(value) or found != value):
+            return Seen(False, "it is not declared", f"declare_parameter({name!r}, {value!r}) in the node's __init__.")
+        if type(found) is not type(value) or found != value:
             step = f"It should be {value!r}: ros2 param set changes it now, the launch file from the start."
             return Seen(False, f"it is {found!r}", step)
         return Seen(True, f"it is {found!r}")
 
-    return Expectation(wanted, look)
+    return Expectation(f"{owner} has a parameter {name} = {value!r}", look)
 
 
 def get_parameter(exam: Exam, owner: str, name: str) -> Any:
@@ -158,6 +153,9 @@ def _answer(exam: Exam, owner: str, answer: Answer) -> Any:
 
 # -- the log -----------------------------------------------------------------------------------------------------------
 
+NO_ERROR = "no error meanwhile"
+"""What is expected of every learner's code, whatever else a check expects."""
+
 A_WHILE = 1.0
 """Robot time, s, in which something may go wrong, where the other expectations took less."""
 
@@ -184,7 +182,7 @@ def no_errors() -> Expectation:
         more = f" (and {count(len(wrong) - 1, 'more', 'more')})" if len(wrong) > 1 else ""
         return Seen(False, _short(wrong[0]) + more, "Read the log: which callback logs it, and when?")
 
-    return Expectation("no error meanwhile", look)
+    return Expectation(NO_ERROR, look)
 
 
 def _short(text: str) -> str:

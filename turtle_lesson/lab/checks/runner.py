@@ -5,12 +5,10 @@ from __future__ import annotations
 from ...ros.core.tracebacks import learners_frames
 from .exam import Exam, Place
 from .failures import STOP_ADVICE, in_words, row_of
+from .parts import NO_ERROR
 from .registry import Check, Expectation
 from .result import CheckResult
 from .rows import BAD, GOOD, OPEN, STOPPED, Advice, CannotLook, Row, Seen, Stopped
-
-NO_ERROR = "no error meanwhile"
-"""What is expected of every learner's code, whatever else a check expects."""
 
 ENDS = "every callback returns"
 

@@ -9,7 +9,6 @@ from typing import Any
 
 from ..words import count, number
 from .exam import Exam, Heard
-from .fields import field
 from .registry import Expectation
 from .rows import Advice, CannotLook, Seen
 
@@ -85,40 +84,6 @@ def some(exam: Exam, topic: str, type_name: str, seconds: float) -> list[Heard]:
     if not heard:
         raise CannotLook(f"no message came on {topic} in {number(seconds, 1)} s")
     return heard
-
-
-def in_range(
-    topic: str, type_name: str, path: str, low: float, high: float, seconds: float = 2.0, next_step: str | Advice = ""
-) -> Expectation:
-    """A field such as "battery" stays within limits, both included, in every message."""
-
-    def judge(heard: list[Heard]) -> Seen:
-        values = [field(each.message, path) for each in heard]
-        bad = [value for value in values if not low <= value <= high]
-        if bad:
-            return Seen(False, f"{number(float(bad[0]), 3)}", next_step)
-        return Seen(True, f"from {number(float(min(values)))} to {number(float(max(values)))}")
-
-    return messages(topic, type_name, f"{topic}: {path} from {low:g} to {high:g}", judge, seconds)
-
-
-def steps(
-    topic: str, type_name: str, path: str, step: float, seconds: float = 3.0, within: float = 1e-4
-) -> Expectation:
-    """A field changes by the same amount from each message to the next."""
-
-    def judge(heard: list[Heard]) -> Seen:
-        values = [float(field(each.message, path)) for each in heard]
-        changes = [after - before for before, after in itertools.pairwise(values)]
-        if not changes:
-            raise CannotLook(f"one message of {topic} shows no change")
-        wrong = [change for change in changes if abs(change - step) > within]
-        if not wrong:
-            return Seen(True, f"from {values[0]:g} to {values[-1]:g} in {count(len(values), 'message')}")
-        seen = f"a change of {wrong[0]:g}"
-        return Seen(False, seen, f"Change it by {step:g} in the timer's callback, once for each message.")
-
-    return messages(topic, type_name, f"{topic}: {path} changes by {step:g} a message", judge, seconds)
 
 
 def relays(
