@@ -29,7 +29,8 @@ def page_named(name: str) -> str:
     if matches:
         return matches[0]
     hint = did_you_mean(name, PAGES) if isinstance(name, str) else ""
-    raise ValueError(f"there is no page {name!r}. {hint or 'There are ' + ', '.join(PAGES)}.".replace("?.", "?"))
+    known = f"There are {', '.join(PAGES)}."
+    raise ValueError(f"there is no page {name!r}. {hint or known}")
 
 
 def files_before(page: str) -> dict[str, str]:
@@ -47,7 +48,7 @@ def parts_before(page: str) -> dict[str, tuple[str, ...]]:
 
 
 def is_published(path: str, text: str, before: str) -> bool:
-    """Whether a page before this one writes exactly this text into a file, as a last or a passing state."""
+    """Whether a page before this one writes exactly this text into a file, as its final or an intermediate text."""
     return any((path, text) in versions(earlier) for earlier in PAGES[: PAGES.index(before)])
 
 

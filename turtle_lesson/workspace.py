@@ -1,7 +1,7 @@
 """The learner's own workspace: one package that grows from page to page, and that no page deletes or overwrites unasked.
 
-A small file, `workspace/.pages.json`, remembers what pages wrote: per file of the package its hash and the page. What has
-another hash now was changed by the learner.
+A small file, `workspace/.pages.json`, remembers what pages wrote: per file of the package its hash and the page. A file that
+has another hash now was changed by the learner.
 """
 
 from __future__ import annotations
@@ -93,11 +93,12 @@ class Workspace:
         if not have:
             return f"There is no package in {self._shown(self.package)} yet."
         wide = max(map(len, have))
-        rows = [f"  {path.ljust(wide)}  {self._origin(path)}" for path in have]
+        memory = self._memory()
+        rows = [f"  {path.ljust(wide)}  {self._origin(path, memory)}" for path in have]
         return "\n".join([f"Your package {self._shown(self.package)}:", *rows])
 
-    def _origin(self, path: str) -> str:
-        written, page = self._memory()["files"].get(path, ["", "?"])
+    def _origin(self, path: str, memory: dict[str, Any]) -> str:
+        written, page = memory["files"].get(path, ["", "?"])
         return FILLED_IN if page == "" and written == _hash(_text(self.package / path) or "") else YOURS
 
     # -- building ----------------------------------------------------------------------------------------------------
@@ -140,55 +141,29 @@ class Workspace:
         already changes nothing; a changed one takes the place of the part that begins by defining the same name.
         """
         path = file.relative_to(self.package).as_posix()
-        now, shown = _text(file), self._shown(file)
+        now, shown, memory = _text(file), self._shown(file), self._memory()
         if now is not None and append:
             if text in now:
                 return f"Appending to {shown}: this text is there already"
-            parts = story.with_part(self._parts(path, now), text)
+            parts = story.with_part(_parts(path, now, memory), text)
             text = "".join(parts)
         else:
             parts = [text]
-        if now is not None and not self._may_replace(path, now, text):
-            if self._asked(path, now, text):
+        if now is not None and not _may_replace(path, now, text, memory):
+            question = [path, _hash(now), _hash(text)]
+            if memory.get("asked") != question:
+                self._remember(memory | {"asked": question})
                 return (
                     f"{shown} holds changes of your own, so it was left as it is. Run this cell once more to replace it; "
                     "a copy will be kept."
                 )
-            kept = self._kept()
-            files.write(kept / path, now)
-        memory = self._memory()
+            files.write(self._kept() / path, now)
         memory["files"][path] = [_hash(text), memory["page"]]
         memory["parts"] = memory.get("parts", {}) | {path: parts}
         memory.pop("asked", None)
         files.write(file, text)
         self._remember(memory)
         return f"{'Appending to' if append else 'Writing' if now is None else 'Overwriting'} {shown}"
-
-    def _may_replace(self, path: str, now: str, text: str) -> bool:
-        memory = self._memory()
-        here = memory["page"]
-        published = story.is_published(path, now, before=here) or (path, now) in story.versions(here)
-        if now == text or published or _is_template(path, now):
-            return True
-        written, page = memory["files"].get(path, ["", ""])
-        earlier = page == "" or PAGES.index(page) <= PAGES.index(here)
-        return written == _hash(now) and earlier
-
-    def _parts(self, path: str, now: str) -> list[str]:
-        """The parts in which cells wrote a file, on this page or an earlier one, with what was changed by hand since then."""
-        memory = self._memory()
-        known = (memory.get("parts", {}).get(path, []), story.parts_before(memory["page"]).get(path, ()))
-        same = [list(parts) for parts in known if "".join(parts) == now]
-        return same[0] if same else max((story.divided(now, parts) for parts in known), key=len)
-
-    def _asked(self, path: str, now: str, text: str) -> bool:
-        """Ask, by remembering it: whether this is the first time that exactly this is to be replaced by exactly that."""
-        memory = self._memory()
-        question = [path, _hash(now), _hash(text)]
-        if memory.get("asked") == question:
-            return False
-        self._remember(memory | {"asked": question})
-        return True
 
     # -- small things ------------------------------------------------------------------------------------------------
 
@@ -212,6 +187,24 @@ class Workspace:
 
     def _remember(self, memory: dict[str, Any]) -> None:
         files.write(self.folder / ".pages.json", json.dumps(memory, indent=1) + "\n")
+
+
+def _may_replace(path: str, now: str, text: str, memory: dict[str, Any]) -> bool:
+    """Whether a file may get this text unasked: its own text is the same, published, or as a cell wrote it."""
+    here = memory["page"]
+    published = story.is_published(path, now, before=here) or (path, now) in story.versions(here)
+    if now == text or published or _is_template(path, now):
+        return True
+    written, page = memory["files"].get(path, ["", ""])
+    earlier = page == "" or PAGES.index(page) <= PAGES.index(here)
+    return written == _hash(now) and earlier
+
+
+def _parts(path: str, now: str, memory: dict[str, Any]) -> list[str]:
+    """The parts in which cells wrote a file, on this page or an earlier one, with what was changed by hand since then."""
+    known = (memory.get("parts", {}).get(path, []), story.parts_before(memory["page"]).get(path, ()))
+    same = [list(parts) for parts in known if "".join(parts) == now]
+    return same[0] if same else max((story.divided(now, parts) for parts in known), key=len)
 
 
 def _sources(package: Path) -> list[Path]:
