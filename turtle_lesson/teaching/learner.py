@@ -65,10 +65,11 @@ class LearnersFolder:
             content = pages.find_published(name, source)
             if content is not None:
                 newer = pages.clear(pages.parse(content, Path(name)))
-                if not self._put(name, newer, version(newer)) and self._versions.get(name) != version(newer):
+                newest = version(newer)
+                if not self._put(name, newer, newest) and self._versions.get(name) != newest:
                     beside = pages.unused(self.path / name, "new")
                     nbformat.write(newer, beside)
-                    self._versions[name] = version(newer)
+                    self._versions[name] = newest
                     said.append(
                         f"{name} holds your work, and the lesson has a newer version of the page: it is beside yours, "
                         f"as {beside.name}."
@@ -146,7 +147,7 @@ def begun() -> list[str]:
 
 
 def version(notebook: Any) -> str:
-    """What a notebook's cells say, in short: a copy with outputs or changes has another version."""
+    """A short hash of a notebook's cells: a copy with outputs or changes has another one."""
     cells = [[cell.cell_type, cell.source, cell.get("outputs", [])] for cell in notebook.cells]
     return hashlib.sha256(json.dumps(cells).encode()).hexdigest()[:16]
 

@@ -153,9 +153,9 @@ def _tell(done: int, amount: int, name: str) -> None:
 
 
 def _open(options: argparse.Namespace) -> int:
-    here = Path(".") if learner.is_learners(Path(".")) else Path(learner.FOLDER)
-    new = not learner.is_learners(options.folder or here)
-    folder = learner.LearnersFolder(options.folder or here)
+    path = options.folder or Path("." if learner.is_learners(Path(".")) else learner.FOLDER)
+    new = not learner.is_learners(path)
+    folder = learner.LearnersFolder(path)
     said = folder.update(options.source)
     if options.take_along:
         said += folder.take_along()

@@ -53,7 +53,7 @@ def read(path: Path) -> Any:
 
 
 def parse(text: str | bytes, path: Path) -> Any:
-    """The notebook that a text is. Raises PageError, which says why it is none."""
+    """The notebook in a text. Raises PageError, which says why the text is not a notebook."""
     try:
         notebook = nbformat.reads(text, as_version=4)
         nbformat.validate(notebook)
@@ -115,7 +115,7 @@ def published(path: Path, source: Path | None = None) -> bytes:
     """
     if path.suffix != ".ipynb":
         raise PageError(f"{path} is not a notebook: its name should end in .ipynb")
-    name = published_name(path)
+    name = _published_name(path)
     content = find_published(name, source)
     file = PUBLISHED / name
     if source is not None and content is None:
@@ -142,7 +142,7 @@ def find_published(name: str, source: Path | None = None) -> bytes | None:
     return file.read_bytes() if file.is_file() else None
 
 
-def published_name(path: Path) -> str:
+def _published_name(path: Path) -> str:
     """The page's own file name: that of the copy, or of the page whose name is a part of it."""
     if (PUBLISHED / path.name).is_file():
         return path.name
