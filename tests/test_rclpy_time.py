@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from collections.abc import Callable
 from typing import Any
@@ -418,6 +419,16 @@ def test_a_sleep_in_the_only_thread_that_could_hear_the_clock_is_explained(run: 
     assert "Use a timer; or a MultiThreadedExecutor, with this callback in a group of its own." in text
 
 
+@pytest.mark.parametrize("kind", list(ClockType)[1:], ids=lambda kind: kind.name)
+def test_a_negative_duration_is_over_at_once(run: Run, kind: ClockType) -> None:
+    def program(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        found.append(Clock(clock_type=kind).sleep_for(Duration(seconds=-1)))
+        found.append(round(time.monotonic(), 3))
+
+    assert run(program) == [True, 0.0]
+
+
 def test_sleeping_wants_a_context_that_is_up_and_a_time_of_the_same_clock(run: Run) -> None:
     def program(found: list[Any]) -> None:
         with pytest.raises(NotInitializedException):
@@ -504,6 +515,49 @@ def test_a_rate_goes_by_the_clock_topic_too(run: Run) -> None:
         executor.spin()
 
     assert run(program, clock_at((0.1, 10.0), (0.2, 10.6), (0.3, 11.2), (0.4, 11.9), (0.5, 12.1))) == [11.2, 12.1]
+
+
+def test_a_rate_may_follow_spin_once_in_one_loop_if_its_timer_is_what_was_called(run: Run) -> None:
+    def program(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        node = rclpy.create_node("n")
+        rate = node.create_rate(1)
+        begun = time.monotonic()
+        for _ in range(3):
+            rclpy.spin_once(node)
+            rate.sleep()
+            found.append(round(time.monotonic() - begun, 2))
+        node.create_timer(0.5, lambda: found.append("another callback"))
+        with pytest.raises(NeverWakes, match="this rate would sleep forever"):
+            while True:
+                rclpy.spin_once(node)
+                rate.sleep()
+
+    assert run(program) == [1.0, 2.0, 3.0, "another callback"]
+
+
+def test_a_rate_that_is_destroyed_wakes_the_thread_that_sleeps(run: Run) -> None:
+    def program(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        node = rclpy.create_node("n")
+        rate = node.create_rate(1e-7)
+        sleeper = threading.Thread(target=rate.sleep)
+        sleeper.start()
+        time.sleep(1)
+        found.append(node.destroy_rate(rate))
+        sleeper.join()
+
+    assert run(program) == [True]
+
+
+def test_a_rate_follows_spin_once_in_a_cell_as_well(world: World) -> None:
+    rclpy.init(args=[])
+    node = rclpy.create_node("n")
+    rate = node.create_rate(4)
+    for _ in range(3):
+        rclpy.spin_once(node)
+        rate.sleep()
+    assert world.now == 750_000_000
 
 
 def test_a_cell_may_sleep_at_a_rate_without_spinning(world: World) -> None:

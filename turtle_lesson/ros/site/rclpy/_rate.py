@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 class Rate:
     """Made by `Node.create_rate`: `sleep()` returns when its timer ticks. Another thread must be spinning the node.
 
-    A tick that came while nobody slept is not lost: the next `sleep` returns at once, once (rclpy's timer.py).
+    A tick that came while nobody slept is not lost: the next `sleep` returns at once, once (rclpy's timer.py). That is why
+    a loop of `rclpy.spin_once(node)` and `rate.sleep()` works if the timer is all that the node has.
     """
 
     __module__ = "rclpy.timer"
@@ -67,6 +68,9 @@ class Rate:
             raise ROSInterruptException()
 
     def _wait(self, strand: Strand) -> None:
+        if self._ticked:
+            self._ticked = bool(self._sleepers)  # the last one who leaves clears the tick
+            return
         executor = self._timer._executor
         if is_notebook(strand.process) and (executor is None or not executor._spun_by_another(strand)):
             self._wait_alone()
@@ -79,8 +83,7 @@ class Rate:
         alarm = Alarm(self._context)
         self._sleepers.append(alarm)
         try:
-            if not self._ticked:
-                alarm.wait(None)
+            alarm.wait(None)
         finally:
             self._sleepers.remove(alarm)
             if not self._sleepers:

@@ -121,8 +121,13 @@ class Clock:
 
     @drives_the_simulation
     def sleep_for(self, rel_time: Duration, context: Context | None = None) -> bool:
-        """Hold up the caller for a duration on this clock; True when it is over, False as for `sleep_until`."""
-        return self.sleep_until(Time(nanoseconds=self._now(), clock_type=self._clock_type) + rel_time, context)
+        """Hold up the caller for a duration on this clock; True when it is over, False as for `sleep_until`.
+
+        A negative duration is over at once.
+        """
+        now = Time(nanoseconds=self._now(), clock_type=self._clock_type)
+        rel_time = max(rel_time, Duration(nanoseconds=-now.nanoseconds))  # steady time is small, and never negative
+        return self.sleep_until(now + rel_time, context)
 
 
 class _Followed:
