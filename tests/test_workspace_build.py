@@ -11,7 +11,7 @@ import pytest
 from command_cases import cases
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from workspace_cases import change, colcon, make_package, timeless
+from workspace_cases import change, colcon, make_package, source_in, timeless
 
 from turtle_lesson.ros.workspace.colcon import run
 from turtle_lesson.ros.world import World
@@ -246,6 +246,15 @@ def test_a_python_package_of_the_interfaces_name_is_refused(package: Path, world
     answer = colcon(world)
     assert 'cannot create target "ament_cmake_python_copy_robot_controller"' in " ".join(answer.err.split())
     assert "install the nodes as programs instead" in answer.err
+
+
+def test_an_action_needs_no_word_in_package_xml(package: Path, world: World) -> None:
+    """CMake looks for action_msgs quietly, and every ROS 2 has it."""
+    (package / "action").mkdir()
+    (package / "action/Drive.action").write_text("float32 far\n---\nfloat32 driven\n---\nfloat32 left\n")
+    change(package / CMAKE, '"srv/NavigateTo.srv"', '"srv/NavigateTo.srv"\n  "action/Drive.action"')
+    answer = colcon(world)
+    assert (answer.code, answer.err) == (0, "")
 
 
 def test_dependencies_that_are_named_are_found(package: Path, world: World) -> None:
@@ -484,7 +493,9 @@ def test_a_python_package(python_package: Path, world: World, tmp_path: Path) ->
         ("setup.py", "find_packages(exclude=['test'])", "['nope']", 1, "package directory 'nope' does not exist"),
         ("setup.cfg", "install_scripts", "install_script", 0, "setup.cfg puts programs into bin/"),
         ("setup.py", "import find_packages, setup", "import find_package, setup", 1, "ImportError: cannot import name"),
-        ("package.xml", "</package>", "", 1, "The manifest contains invalid XML"),
+        ("package.xml", "</package>", "", 0, "package.xml: no element found: line"),
+        ("package.xml", "<license>", "<licence>", 0, "colcon takes the folder for a Python package without ROS"),
+        ("package.xml", "0.0.0", "1", 0, "version conventions. A version is three numbers, such as <version>0.1.0"),
     ],
 )
 def test_a_wrong_python_package(
@@ -493,6 +504,40 @@ def test_a_wrong_python_package(
     change(python_package / file, old, new)
     answer = colcon(world)
     assert (answer.code, said in answer.err) == (code, True), answer.err
+
+
+@pytest.mark.parametrize(
+    ("lines", "hint"),
+    [
+        ("from distutils import log\nlog.set_verbosity(log.INFO)\nlog.info('building %s', 'py_demo')\n", ""),
+        ("import distutils.log\ndistutils.log.warn('x')\n", ""),
+        ("from setuptools.command.install import install\nclass Mine(install):\n    pass\n", "(cmdclass=…)"),
+        ("from setuptools import Command\nclass Mine(Command):\n    user_options = []\n", "(cmdclass=…)"),
+    ],
+)
+def test_a_setup_py_may_use_what_setuptools_brings(python_package: Path, world: World, lines: str, hint: str) -> None:
+    given = "package_name, cmdclass={'install': Mine}," if hint else "package_name,"
+    change(python_package / "setup.py", "name=package_name,", f"name={given}")
+    file = python_package / "setup.py"
+    file.write_text(lines + file.read_text())
+    answer = colcon(world)
+    assert answer.code == 0 and "1 package finished" in answer.out, answer.err
+    assert (answer.err == "") if not hint else (hint in answer.err)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"), [("</package>", ""), ("<maintainer", "<maintainr"), ("<name>py_demo", "<name>")]
+)
+def test_a_package_xml_that_is_refused_leaves_a_plain_python_package(
+    python_package: Path, world: World, old: str, new: str
+) -> None:
+    change(python_package / "package.xml", old, new)
+    python_package = python_package.rename(python_package.with_name("folder"))
+    assert colcon(world, "list").out == "py_demo\tsrc/folder\t(python)\n"
+    assert colcon(world).code == 0 and source_in(world).code == 0
+    assert list(world.packages.get("py_demo").executables) == ["my_node"]
+    change(python_package / "setup.py", "('share/ament_index/resource_index/packages',", "('share/nowhere',")
+    assert "ros2 does not find py_demo on a robot" in colcon(world).err
 
 
 def test_without_setup_py(python_package: Path, world: World) -> None:

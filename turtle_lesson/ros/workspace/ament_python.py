@@ -58,6 +58,8 @@ class _Build:
             self.hints.append(
                 f"setup.py says name='{name}', but package.xml says '{self.found.name}': write the same name in both."
             )
+        if self.setup.get("cmdclass"):
+            self.hints.append("setup.py has commands of its own (cmdclass=…), which are not carried out here.")
         items = [*self._modules(), *self._data(), *self._programs()]
         check_targets(items)
         seconds = 1.7 if self.environment.symlink else 1.3
@@ -65,14 +67,10 @@ class _Build:
         return Outcome(0, text, [], seconds, items, self.found.runtime_dependencies(), [SITE])
 
     def _check(self) -> None:
-        file = shown_path(str(self.found.path / "package.xml"))
-        faults = [f"The manifest contains invalid XML:\n{self.found.xml_error}"] if self.found.xml_error else []
-        if self.found.root is not None:
-            faults = manifest_check.faults(self.found.root)
-        if faults:
-            said = "\n".join(faults)
-            text = f"catkin_pkg.package.InvalidPackage: Error(s) in package '{file}':\n{said}\n"
-            raise BuildFailure(text, " ".join(filter(None, map(manifest_check.hint, faults))), seconds=0.3)
+        if self.found.xml_error:
+            file = shown_path(str(self.found.path / "package.xml"))
+            hint = f"{file}: {self.found.xml_error}. {manifest_check.hint(self.found.xml_error)}".strip()
+            self.hints.append(f"{hint} Until it is mended, colcon takes the folder for a Python package without ROS.")
         if not (self.found.path / "setup.py").is_file():
             where = shown_path(str(self.found.path))
             hint = "An ament_python package is built from its setup.py."
@@ -192,11 +190,17 @@ class _Build:
         return Item((parts / source.name).as_posix(), source, program=can_run)
 
     def _with_markers(self, items: list[Item]) -> list[Item]:
+        """The items and what ROS 2 finds the package by, which colcon adds where setup.py does not name it."""
         name = self.found.name
         targets = {item.target for item in items}
         marker = f"share/ament_index/resource_index/packages/{name}"
         start = f"WARNING:colcon.colcon_ros.task.ament_python.build:Package '{name}' doesn't explicitly install"
         end = "(colcon-ros currently does it implicitly but that fallback will be removed in the future)\n"
+        if self.found.kind == "python":
+            if marker not in targets:
+                entry = f"('{marker.rpartition('/')[0]}', ['resource/{name}'])"
+                self.hints.append(f"ros2 does not find {name} on a robot: add {entry} to data_files in setup.py.")
+            return items
         if marker not in targets:
             self.warnings.append(f"{start} a marker in the package index {end}")
             items.append(Item(marker))

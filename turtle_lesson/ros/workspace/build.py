@@ -117,8 +117,7 @@ class _Builder:
         if missing := self._missing(found):
             return Outcome(1, seconds=0.01, colcon_error=missing)
         environment = self._environment(found)
-        python = found.kind in {"ros.ament_python", "python"}
-        return (build_ament_python if python else build_ament_cmake)(found, environment)
+        return (build_ament_python if found.is_python else build_ament_cmake)(found, environment)
 
     def _missing(self, found: Found) -> str:
         """What colcon says where packages of this workspace are needed and neither built nor sourced."""
@@ -142,7 +141,7 @@ class _Builder:
         self.log[found.name] = outcome
         self.code = self.code or outcome.code
         if outcome.colcon_error:
-            task = "cmake" if found.kind != "ros.ament_python" else "python"
+            task = "python" if found.is_python else "cmake"
             where = f"colcon.colcon_{'cmake' if task == 'cmake' else 'core'}.task.{task}.build"
             self.console.error(f"[{self.now + _BEGIN:.3f}s] ERROR:{where}:{outcome.colcon_error}")
         self.console.finished(found.name, outcome.seconds, outcome.code, outcome.stdout, outcome.stderr)

@@ -60,7 +60,6 @@ class InterfaceCheck:
             self._exists(name)
         for name in self.files:
             self._parses(name)
-        self._actions()
         for name in dependencies_of(self._command):
             if name not in self._seen:
                 reason = f"rosidl_generate_interfaces() the passed dependency '{name}' has not been found before"
@@ -142,15 +141,6 @@ class InterfaceCheck:
         whole = f"execute_process(/usr/bin/python3 -m rosidl_adapter) returned error code 1:\n\n{text}\n"
         stack = [f"{_GENERATE}:130 (rosidl_adapt_interfaces)", self._own]
         return BuildFailure(cmake_message(whole, _ADAPT, stack), hint, seconds=0.3)
-
-    def _actions(self) -> None:
-        actions = [name for name in self.files if name.endswith(".action")]
-        if actions and "action_msgs" not in self._found.dependencies:
-            text = (
-                f"Unable to generate action interface for '{actions[0]}'. In order to generate action interfaces you "
-                "must add a depend tag for 'action_msgs' in your package.xml."
-            )
-            raise self._refused(149, text, "Add <depend>action_msgs</depend> to package.xml.")
 
     def _no_type(self, name: str, error: UnknownMessageType) -> BuildFailure:
         file = shown_path(str(self._found.path / name))

@@ -9,8 +9,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from xml.etree import ElementTree
 
+from . import manifest_check
 from .errors import did_you_mean
 from .manifest import BUILD_TYPES
+from .setup_script import SetupError, read_setup
 
 IGNORE_MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
 _ORDERING = {"depend", "build_depend", "build_export_depend", "buildtool_depend", "buildtool_export_depend",
@@ -33,7 +35,7 @@ class Found:
         build_type: as package.xml says, empty if it says nothing.
         dependencies: all packages that it names.
         root: the parsed package.xml, or None.
-        xml_error: why package.xml cannot be read, empty if it can.
+        xml_error: why package.xml cannot be read, empty if it can; beside a setup.py also what is refused in it.
     """
 
     name: str
@@ -50,6 +52,11 @@ class Found:
         if self.root is None:
             return "python" if (self.path / "setup.py").is_file() else "cmake"
         return f"ros.{self.build_type or 'catkin'}"
+
+    @property
+    def is_python(self) -> bool:
+        """Whether it is built by its setup.py."""
+        return self.kind in {"ros.ament_python", "python"}
 
     @property
     def buildable(self) -> bool:
@@ -85,16 +92,26 @@ def discover(folder: Path, base: Path | None = None) -> list[Found]:
 
 
 def read_found(path: Path, base: Path) -> Found:
-    """What one package's folder says about itself."""
+    """What one package's folder says about itself.
+
+    A folder whose package.xml is refused and that has a setup.py is a plain Python package for colcon, which has its name
+    from setup.py and knows of no dependencies (colcon_ros's package_identification/ros.py, colcon_python_setup_py).
+    """
     shown = path.relative_to(base).as_posix() if path.is_relative_to(base) else str(path)
     try:
         root = ElementTree.fromstring((path / "package.xml").read_bytes())
     except (ElementTree.ParseError, OSError, ValueError, LookupError) as error:
-        return Found(_name_of_project(path) or path.name, path, shown, xml_error=str(error))
+        return Found(_name_of_project(path) or _name_in_setup(path) or path.name, path, shown, xml_error=str(error))
     name = " ".join((root.findtext("name") or "").split())
     if not _ACCEPTED.fullmatch(name):  # colcon takes it for a package without package.xml then
         name = _name_of_project(path) or path.name
     build_type = (root.findtext("export/build_type") or "").strip()
+    if (
+        build_type != "ament_cmake"
+        and (faults := manifest_check.faults(root))
+        and (name_in_setup := _name_in_setup(path))
+    ):
+        return Found(name_in_setup, path, shown, xml_error=faults[0])
     dependencies = [(child.text or "").strip() for child in root if child.tag in _ORDERING]
     return Found(name, path, shown, build_type, list(dict.fromkeys(filter(None, dependencies))), root)
 
@@ -104,6 +121,16 @@ def _name_of_project(path: Path) -> str:
     text = file.read_text(encoding="utf-8", errors="replace") if file.is_file() else ""
     match = re.search(r"^\s*project\s*\(\s*([\w-]+)", text, re.MULTILINE | re.IGNORECASE)
     return match[1] if match else ""
+
+
+def _name_in_setup(path: Path) -> str:
+    """The name that setup.py gives; nothing without one that can be run."""
+    if not (path / "setup.py").is_file():
+        return ""
+    try:
+        return str(read_setup(path).get("name", ""))
+    except SetupError:
+        return ""
 
 
 def in_order(packages: Iterable[Found]) -> list[Found]:

@@ -123,8 +123,7 @@ def _checked(found: Found) -> Outcome:
         folder = Path(scratch)
         types = types_for(found, {})
         environment = Environment(folder / "install", folder / "build", frozenset(registry.packages()), types)
-        python = found.kind == "ros.ament_python"
-        outcome = (build_ament_python if python else build_ament_cmake)(found, environment)
+        outcome = (build_ament_python if found.is_python else build_ament_cmake)(found, environment)
     if outcome.code:
         raise PackageError(f"a real build would refuse {found.name}:\n{outcome.stderr.strip()}")
     return outcome

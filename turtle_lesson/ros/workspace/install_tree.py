@@ -112,7 +112,7 @@ def _index(found: Found, outcome: Outcome) -> Iterator[Item]:
     name = found.name
     index = "share/ament_index/resource_index"
     targets = {item.target for item in outcome.items}
-    if found.kind != "ros.ament_python":
+    if not found.is_python:
         yield Item(f"{index}/packages/{name}")
         yield Item(f"{index}/package_run_dependencies/{name}", text=";".join(outcome.dependencies))
         yield Item(f"{index}/parent_prefix_path/{name}", text="/opt/ros/humble")
@@ -131,7 +131,7 @@ def _environment(found: Found, outcome: Outcome) -> Iterator[Item]:
     hooks = {"ament_prefix_path": "prepend-non-duplicate;AMENT_PREFIX_PATH;"}
     for folder in outcome.paths or _python_folders(outcome):
         hooks["pythonpath"] = f"prepend-non-duplicate;PYTHONPATH;{folder}"
-    place = "hook" if found.kind == "ros.ament_python" else "environment"
+    place = "hook" if found.is_python else "environment"
     for name, line in hooks.items():
         yield Item(f"{share}/{place}/{name}.dsv", text=line)
     sources = [f"source;{share}/{place}/{name}.dsv\n" for name in hooks]
@@ -157,7 +157,7 @@ def _shell_lines(name: str, hooks: dict[str, str], prefix: str) -> str:
 def _note_build(found: Found, environment: Environment) -> None:
     """The build folder, which remembers where the source is and that it went well.
 
-    There is no CMakeCache.txt in it: a real colcon, to which somebody may take this folder, runs CMake where there is none.
+    There is no CMakeCache.txt in it: a real colcon, to which this folder may be taken, runs CMake where there is none.
     """
     folder = environment.build / found.name
     folder.mkdir(parents=True, exist_ok=True)

@@ -7,13 +7,14 @@ changes Python's modules does no harm; it imports nothing of this library.
 from __future__ import annotations
 
 import json
+import logging
 import os
 import sys
 import traceback
 from fnmatch import fnmatchcase
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import Any, ClassVar
 
 
 def main(folder: str, answer: str) -> None:
@@ -40,17 +41,41 @@ def _plain(value: Any) -> Any:
 
 
 def _put_stand_ins(given: list[dict[str, Any]]) -> None:
-    """Have `import setuptools` and `from distutils.core import setup` find the stand-in."""
+    """Have `import setuptools` and `distutils`, which setuptools brings, find the stand-ins."""
 
     def setup(**options: Any) -> None:
         given.append(options)
 
     setup.__qualname__ = "setup"
+    finders = {"find_packages": find_packages, "find_namespace_packages": find_packages}
     for name in ("setuptools", "distutils", "distutils.core"):
-        module = ModuleType(name)
-        module.__dict__.update(setup=setup, find_packages=find_packages, find_namespace_packages=find_packages)
-        module.__path__ = []
-        sys.modules[name] = module
+        _put(name, setup=setup, Command=Command, **finders)
+    # distutils.log is a thin layer above logging (setuptools' _distutils/log.py); what it logs is seen nowhere here.
+    words = ("debug", "info", "warning", "error", "fatal", "DEBUG", "INFO", "WARN", "ERROR", "FATAL")
+    set_level = logging.getLogger().setLevel
+    levels = {word: getattr(logging, word) for word in words} | {"warn": logging.warning}
+    _put("distutils.log", set_threshold=set_level, set_verbosity=set_level, **levels)
+    for package in ("setuptools", "distutils"):
+        _put(f"{package}.command")
+        for name in ("build_ext", "build_py", "develop", "egg_info", "install", "sdist", "test"):
+            _put(f"{package}.command.{name}", **{name: type(name, (Command,), {})})
+
+
+class Command:
+    """What a setup.py's own commands are derived from; it is not carried out, as only `setup(…)` is looked at."""
+
+    user_options: ClassVar[list[Any]] = []
+
+
+def _put(name: str, **content: Any) -> None:
+    """Make a module that can be imported, and is an attribute of the one above it."""
+    module = ModuleType(name)
+    module.__dict__.update(content)
+    module.__path__ = []
+    sys.modules[name] = module
+    above, _, own = name.rpartition(".")
+    if above:
+        setattr(sys.modules[above], own, module)
 
 
 def find_packages(where: str = ".", exclude: Any = (), include: Any = ("*",)) -> list[str]:
