@@ -224,6 +224,8 @@ def test_a_python_file_can_be_started_without_a_package(tmp_path: Path) -> None:
         ("LaunchConfiguration('flag')", "true"),
         ("LaunchConfiguration('word')", "fast"),
         ("LaunchConfiguration('list')", "[1, 2]"),
+        ("LaunchConfiguration('nothing')", "''"),
+        ("['', LaunchConfiguration('nothing')]", "''"),
         ("[LaunchConfiguration('word'), '_one']", "fast_one"),
         ("[[LaunchConfiguration('word')], ['slow']]", "[fast, slow]"),
         ("ParameterValue(LaunchConfiguration('count'), value_type=str)", "'10'"),
@@ -233,7 +235,7 @@ def test_a_python_file_can_be_started_without_a_package(tmp_path: Path) -> None:
     ],
 )
 def test_values_keep_their_type_and_substitutions_are_read_as_yaml(tmp_path: Path, given: str, argument: str) -> None:
-    arguments = {"value": 5.0, "count": 10, "flag": True, "word": "fast", "list": "[1, 2]"}
+    arguments = {"value": 5.0, "count": 10, "flag": True, "word": "fast", "list": "[1, 2]", "nothing": ""}
     world, _ = launch(tmp_path, node(parameters=f"[{{'p': {given}}}]"), **arguments)
     assert world.argv() == ["--ros-args", "-p", f"p:={argument}"]
 

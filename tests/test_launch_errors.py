@@ -226,7 +226,7 @@ def test_imports_of_what_is_not_here(tmp_path: Path, line: str, said: str) -> No
         (node(parameters="[{'p': []}]"), "Expected a non-empty sequence, with items of uniform type."),
         (node(parameters="[{'p': [1, 'a']}]"), "Expected a non-empty sequence, with items of uniform type."),
         (node(parameters="[{'p': None}]"), "Unexpected type for parameter value None"),
-        (node(parameters="[{'p': TextSubstitution(text='')}]"), "Allowed value types are bytes, bool, int"),
+        (node(parameters="[{'p': TextSubstitution(text='null')}]"), "Allowed value types are bytes, bool, int"),
         (node(namespace="'two words'"), "Invalid namespace: namespace must not contain characters"),
         (
             node(condition="IfCondition('maybe')"),
@@ -250,6 +250,22 @@ def test_mistakes_that_show_when_the_description_is_walked_through(tmp_path: Pat
     error = failure(write_launch_file(tmp_path, node() + action), mode="c")
     assert error.reason.startswith(reason)
     assert action.startswith("None") or (error.file, error.line) == (str(tmp_path / "test.launch.py"), 15)
+
+
+@pytest.mark.parametrize(
+    ("action", "said"),
+    [
+        ("choices=['a', 'b']", "Argument \"mode\" provided value \"c\" is not valid. Valid options are: ['a', 'b']"),
+        ("default_value='d', choices=['a']", 'Provided default_value "d" is not in provided choices "[\'a\']".'),
+    ],
+)
+def test_a_wrong_choice_is_logged_by_the_argument_before_the_launch_ends(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], action: str, said: str
+) -> None:
+    error = failure(write_launch_file(tmp_path, f"DeclareLaunchArgument('mode', {action}),"), mode="c")
+    last = capsys.readouterr().out.splitlines()[-1]
+    assert last == f"[ERROR] [launch.actions.declare_launch_argument]: {said}"
+    assert said in error.reason
 
 
 def test_an_error_in_an_included_file_names_that_file(tmp_path: Path) -> None:

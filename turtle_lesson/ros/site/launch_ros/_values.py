@@ -66,9 +66,11 @@ def value_of(context: LaunchContext, value: Any) -> Any:
 
 
 def _from_text(text: str) -> Any:
-    """What YAML makes of a substitution's text."""
+    """What YAML makes of a substitution's text; an empty text stays one (launch_ros, pull request 300)."""
     import yaml
 
+    if not text:
+        return ""
     value = yaml.safe_load(text)
     if isinstance(value, PLAIN):
         return value

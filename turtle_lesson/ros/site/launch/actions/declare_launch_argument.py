@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from .. import logging
 from ..action import Action
 from ..frontend import Entity, Parser, expose_action
 from ..launch_context import LaunchContext
@@ -82,21 +83,34 @@ class DeclareLaunchArgument(Action):
         configurations = context.launch_configurations
         if self.name not in configurations:
             if self.default_value is None:
+                what = f'"{self.name}" (description: "{self.description}")'
+                _say(f"Required launch argument {what} was not provided")
                 raise RuntimeError(f'Required launch argument "{self.name}" was not provided.')
             configurations[self.name] = perform_substitutions(context, self.default_value)
         if self.choices is not None and configurations[self.name] not in self.choices:
-            raise RuntimeError(
+            text = (
                 f'Argument "{self.name}" provided value "{configurations[self.name]}" is not valid. '
                 f"Valid options are: {self.choices}"
             )
+            _say(text)
+            raise RuntimeError(text)
         return None
 
 
 def _check_choices(choices: list[str], default_value: object) -> None:
+    text = ""
     if not choices:
-        raise RuntimeError("Provided choices arg is empty. Use None to ignore the choice list.")
-    if isinstance(default_value, str) and default_value not in choices:
-        raise RuntimeError(f'Provided default_value "{default_value}" is not in provided choices "{choices}".')
+        text = "Provided choices arg is empty. Use None to ignore the choice list."
+    elif isinstance(default_value, str) and default_value not in choices:
+        text = f'Provided default_value "{default_value}" is not in provided choices "{choices}".'
+    if text:
+        _say(text)
+        raise RuntimeError(text)
+
+
+def _say(text: str) -> None:
+    """Print an error before it is raised, as the real action does (launch's declare_launch_argument.py)."""
+    logging.get_logger("launch.actions.declare_launch_argument").error(text)
 
 
 def _describe(description: str | None, choices: list[str] | None) -> str:
