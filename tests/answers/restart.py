@@ -16,10 +16,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-from turtle_lesson.ros.core import interrupts
-
 from . import NOTEBOOKS
-from .server import Page
+from .server import Page, forked
 
 IMPORTS = (
     "import launch_ros.actions, matplotlib.figure, rclpy, turtle_lesson.lab.widgets.dashboard, turtle_lesson.lesson"
@@ -51,23 +49,9 @@ def problem(page: Page, cells: list[tuple[str, bool]]) -> str:
     return errors.getvalue() if "Traceback" in errors.getvalue() else ""
 
 
-def in_a_child(page: Page, cells: list[tuple[str, bool]]) -> str:
+def problem_in_a_child(page: Page, cells: list[tuple[str, bool]]) -> str:
     """The problem of these cells, run in a fork of this process."""
-    reading, writing = os.pipe()
-    child = os.fork()
-    if child == 0:
-        interrupts._watchdog = interrupts._Watchdog()  # the thread of the old one is not in this process
-        try:
-            said = problem(page, cells)
-        except BaseException as error:
-            said = repr(error)
-        with os.fdopen(writing, "w", encoding="utf-8") as stream:
-            stream.write(said)
-        os._exit(0)
-    os.close(writing)
-    with os.fdopen(reading, encoding="utf-8") as stream:
-        said = stream.read()
-    _, status = os.waitpid(child, 0)
+    said, status = forked(lambda: problem(page, cells))
     return said or (f"the process ended with status {status}" if status else "")
 
 
@@ -79,8 +63,8 @@ def main() -> None:
         page = Page(sys.argv[1], Path(folder))
         page.run(IMPORTS)
         (title, opening), *later = sections(sys.argv[1])
-        found = {title: in_a_child(page, opening)}
-        found |= {name: in_a_child(page, [opening[0], *cells]) for name, cells in later}
+        found = {title: problem_in_a_child(page, opening)}
+        found |= {name: problem_in_a_child(page, [opening[0], *cells]) for name, cells in later}
         print(json.dumps({name: text for name, text in found.items() if text}))
         os.chdir("/")
 

@@ -19,6 +19,7 @@ import shutil
 import sys
 import tempfile
 import traceback
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -37,7 +38,6 @@ MOST_WORK = 300
 
 PATIENCE = 2.0
 """CPU time, s, after which a callback that lets no time pass is stopped: less than a learner is given, for the tests' sake."""
-
 
 WORK = 12.0
 """CPU time, s, that a check may take here: three times what the longest one needs."""
@@ -138,15 +138,7 @@ def in_a_child(page: Page, exercise: str, sources: list[str], replaced: dict[str
         copy = Path(kept) / "folder"
         shutil.copytree(page.folder, copy, symlinks=True)
         before = _state(page.folder)
-        reading, writing = os.pipe()
-        child = os.fork()
-        if child == 0:
-            os.close(reading)
-            _be_the_child(page, exercise, sources, replaced, writing)
-        os.close(writing)
-        with os.fdopen(reading, encoding="utf-8") as stream:
-            said = stream.read()
-        _, status = os.waitpid(child, 0)
+        said, status = forked(lambda: _reply(page, exercise, sources, replaced))
         if _state(page.folder) != before:
             _put_back(page.folder, copy)
     if not said:
@@ -155,20 +147,38 @@ def in_a_child(page: Page, exercise: str, sources: list[str], replaced: dict[str
     return found
 
 
-def _be_the_child(page: Page, exercise: str, sources: list[str], replaced: dict[str, str], pipe: int) -> None:
-    """Never returns."""
+def _reply(page: Page, exercise: str, sources: list[str], replaced: dict[str, str]) -> str:
+    """The verdict on an answer, or why there is none, as JSON."""
+    resource.setrlimit(resource.RLIMIT_CPU, (MOST_WORK, MOST_WORK + 5))
     printed = io.StringIO()
     try:
-        resource.setrlimit(resource.RLIMIT_CPU, (MOST_WORK, MOST_WORK + 5))
-        interrupts._watchdog = interrupts._Watchdog()  # the thread of the old one is not in this process
         with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):
             reply = page.verdict(exercise, sources, replaced)
     except BaseException:
         reply = {"broken": traceback.format_exc()}
-    reply["printed"] = printed.getvalue()[-4000:]
-    with os.fdopen(pipe, "w", encoding="utf-8") as stream:
-        stream.write(json.dumps(reply))
-    os._exit(0)
+    return json.dumps({**reply, "printed": printed.getvalue()[-4000:]})
+
+
+def forked(job: Callable[[], str]) -> tuple[str, int]:
+    """What a function returns in a fork of this process ("" if it raises), and the status with which the fork ended."""
+    reading, writing = os.pipe()
+    child = os.fork()
+    if child == 0:
+        try:
+            os.close(reading)
+            interrupts._watchdog = interrupts._Watchdog()  # the thread of the old one is not in this process
+            said = job()
+            with os.fdopen(writing, "w", encoding="utf-8") as stream:
+                stream.write(said)
+        except BaseException:
+            traceback.print_exc()
+            os._exit(1)
+        os._exit(0)
+    os.close(writing)
+    with os.fdopen(reading, encoding="utf-8") as stream:
+        said = stream.read()
+    _, status = os.waitpid(child, 0)
+    return said, status
 
 
 def _state(folder: Path) -> dict[str, tuple[int, int]]:
