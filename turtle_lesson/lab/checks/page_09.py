@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ..troubles import current_expectations, expectations_of
 from .registry import Expectation, check
 
 PAGE = "09_debugging_lab"
@@ -11,8 +12,6 @@ LIMIT = 600
 @check("trouble", page=PAGE, points=1, limit=LIMIT)
 def trouble() -> list[Expectation]:
     """A system that works again as specified."""
-    from ..troubles import current_expectations
-
     return current_expectations()
 
 
@@ -25,8 +24,6 @@ def trouble() -> list[Expectation]:
 )
 def topic_case() -> list[Expectation]:
     """A dashboard that gets ten messages a second."""
-    from ..troubles import expectations_of
-
     return expectations_of(9, "topic silent")
 
 
@@ -39,8 +36,6 @@ def topic_case() -> list[Expectation]:
 )
 def service_case() -> list[Expectation]:
     """A navigator that answers its calls."""
-    from ..troubles import expectations_of
-
     return expectations_of(9, "service times out")
 
 
@@ -53,8 +48,6 @@ def service_case() -> list[Expectation]:
 )
 def message_case() -> list[Expectation]:
     """A message type that programs can use."""
-    from ..troubles import expectations_of
-
     return expectations_of(12, "message not found")
 
 
@@ -67,6 +60,4 @@ def message_case() -> list[Expectation]:
 )
 def turtle_case() -> list[Expectation]:
     """A turtle that gets where it is sent."""
-    from ..troubles import expectations_of
-
     return expectations_of(1, "turtle stands still")
