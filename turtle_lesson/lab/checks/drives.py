@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -116,6 +117,20 @@ def put(exam: Exam, place: Goal) -> None:
     exam.wait(3 * TICK)
 
 
+def ask_for(exam: Exam, goal: Goal, timeout: float) -> Answer:
+    """Ask the navigator for a goal, and let robot time pass until it answers or the timeout (s) is over."""
+    return exam.ask(NAVIGATE, NAVIGATE_TYPE, timeout, **_fields(goal))
+
+
+def ask_soon_for(exam: Exam, goal: Goal) -> Callable[[], Answer | None]:
+    """Ask the navigator for a goal without waiting; returns a function that gives the answer once it has come."""
+    return exam.ask_soon(NAVIGATE, NAVIGATE_TYPE, **_fields(goal))
+
+
+def _fields(goal: Goal) -> dict[str, float]:
+    return dict(zip(("x", "y", "theta"), goal, strict=True))
+
+
 def drive(exam: Exam, name: str, choose: Any) -> Drive:
     """Drive to the goal that `choose(pose)` gives; the first time it is done, from then on remembered by its name.
 
@@ -129,6 +144,13 @@ def go(exam: Exam, way: Way) -> Drive:
     return drive(exam, way.name, way)
 
 
+def driven(exam: Exam, way: Way) -> Drive:
+    """The drive on a way, whose goal was answered. Raises CannotLook where it was not."""
+    it = go(exam, way)
+    it.response  # noqa: B018  (raises where there is none)
+    return it
+
+
 def _drive(exam: Exam, choose: Any) -> Drive:
     if isinstance(choose, Way):
         put(exam, choose.begin)
@@ -140,17 +162,21 @@ def _drive(exam: Exam, choose: Any) -> Drive:
     except CannotLook:
         commands = []
     first_pose, first_command = len(poses), len(commands)
-    x, y, theta = goal
-    answer = exam.ask(NAVIGATE, NAVIGATE_TYPE, LONGEST, x=x, y=y, theta=theta)
+    answer = ask_for(exam, goal, LONGEST)
     exam.wait(1.0)
     if isinstance(choose, Way) and answer.response is not None:
-        exam.wait_for(lambda: at_rest(poses), LONGEST)
+        come_to_rest(exam, LONGEST)
     return Drive(goal, begin, answer, commands[first_command:], poses[first_pose:])
 
 
 def at_rest(poses: list[Heard]) -> bool:
     """Whether the turtle has not moved for a while, by the newest poses."""
     return not any(is_moving(each.message) for each in poses[-round(AT_REST / TICK) :])
+
+
+def come_to_rest(exam: Exam, timeout: float) -> None:
+    """Let robot time pass until the turtle has come to rest, or the timeout (s) is over."""
+    exam.wait_for(lambda: at_rest(exam.listen(POSE, POSE_TYPE)), timeout)
 
 
 # -- goals -------------------------------------------------------------------------------------------------------------
@@ -183,8 +209,7 @@ def arrived(way: Way, at_rest: bool = False) -> Expectation:
     """The turtle is near the goal when the answer comes, or when it has come to rest."""
 
     def look(exam: Exam) -> Seen:
-        it = go(exam, way)
-        it.response  # noqa: B018  (raises where there is none)
+        it = driven(exam, way)
         end, distance = it.end(at_rest), it.distance(at_rest)
         seen = f"at {point(end.x, end.y)}, {number(distance)} m from {point(*it.goal[:2])}"
         if at_rest and is_moving(end):
@@ -200,8 +225,7 @@ def facing(way: Way, at_rest: bool = False, near: float = 0.2) -> Expectation:
     """The turtle has the goal's heading, within an angle (rad), when the answer comes or when it has come to rest."""
 
     def look(exam: Exam) -> Seen:
-        it = go(exam, way)
-        it.response  # noqa: B018
+        it = driven(exam, way)
         error = turned(it.goal[2] - it.end(at_rest).theta)
         return Seen(abs(error) <= near, f"{angle(error)} off", "At the goal the turtle turns to the goal's theta.")
 
@@ -212,8 +236,7 @@ def turns_little(way: Way, most: float) -> Expectation:
     """The turtle comes to the goal, and all its turns, to and fro, are an angle (in degrees) at most."""
 
     def look(exam: Exam) -> Seen:
-        it = go(exam, way)
-        it.response  # noqa: B018
+        it = driven(exam, way)
         degrees = math.degrees(turning([it.begin, *(each.message for each in it.poses)]))
         seen = f"it came within {number(it.distance(at_rest=True))} m and turned by {number(degrees, 0)}° in all"
         step = Advice(
@@ -251,8 +274,7 @@ def stopped(way: Way) -> Expectation:
     """The last command is all zero, and the turtle stands when it should have come to rest."""
 
     def look(exam: Exam) -> Seen:
-        it = go(exam, way)
-        it.response  # noqa: B018
+        it = driven(exam, way)
         if not it.commands:
             raise CannotLook(f"no command came on {COMMANDS}")
         last = it.commands[-1].message
@@ -305,7 +327,7 @@ def _typed(goal: Goal) -> str:
 def _fault(exam: Exam, goal: Goal) -> str:
     """What happened when a goal that makes no sense was not refused, or ""; then the turtle is led back to the middle."""
     begin = where(exam)
-    answer = exam.ask(NAVIGATE, NAVIGATE_TYPE, 5.0, **dict(zip(("x", "y", "theta"), goal, strict=True)))
+    answer = ask_for(exam, goal, 5.0)
     exam.wait(0.3)
     end = where(exam)
     if answer.response is None:
@@ -317,8 +339,8 @@ def _fault(exam: Exam, goal: Goal) -> str:
     else:
         fault = "the turtle moved" if math.hypot(end.x - begin.x, end.y - begin.y) > 0.05 else ""
     if fault:
-        exam.ask(NAVIGATE, NAVIGATE_TYPE, 5.0, x=MIDDLE[0], y=MIDDLE[1], theta=MIDDLE[2])
-        exam.wait_for(lambda: at_rest(exam.listen(POSE, POSE_TYPE)), 10.0)
+        ask_for(exam, MIDDLE, 5.0)
+        come_to_rest(exam, 10.0)
     return fault
 
 

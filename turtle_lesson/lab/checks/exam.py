@@ -285,6 +285,11 @@ class Exam(GraphView):
         """What the learner's code has raised since the exam began: in a callback of a cell's node, or in a program."""
         return [error for _, error in self.place.errors if all(error is not old for old in self._errors_before)]
 
+    def raise_error(self) -> None:
+        """Raise the newest error of the learner's code since the exam began, if there is any."""
+        if raised := self.errors():
+            raise raised[-1]
+
     def fallen(self) -> list[str]:
         """The programs that an error had ended before the exam began, each with its error in words: the newest of a name."""
         ended = {name: error for name, error in self.place.errors if name and error in self._errors_before}

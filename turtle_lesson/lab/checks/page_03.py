@@ -21,7 +21,10 @@ from .drives import (
     accepts,
     answered,
     arrived,
+    ask_for,
+    ask_soon_for,
     at_rest,
+    driven,
     facing,
     go,
     put,
@@ -61,10 +64,10 @@ ANYWHERE = (0.0, 7.0, -7.0)
 """Headings that are numbers, and so make sense."""
 
 
-def navigator_is_there() -> list[Expectation]:
-    """The node, its service and its commands."""
+def navigator_is_there(start: str = RUN) -> list[Expectation]:
+    """The node, its service and its commands; `start` is the command that starts it."""
     return [
-        node("/navigator", RUN),
+        node("/navigator", start),
         offers(NAVIGATE, NAVIGATE_TYPE, by="/navigator"),
         publishes(COMMANDS, COMMAND_TYPE, by="/navigator"),
     ]
@@ -253,7 +256,7 @@ def _logged(way: Way) -> Expectation:
     """A line of the navigator's log has both numbers of the goal."""
 
     def look(exam: Exam) -> Seen:
-        go(exam, way).response  # noqa: B018
+        driven(exam, way)
         lines = [text for _, name, text in exam.log if name == "navigator"]
         x, y = (rf"(?<![\d.]){each:g}(\.0+)?(?!\.?\d)" for each in way.goal[:2])
         found = [text for text in lines if re.search(x, text) and re.search(y, text)]
@@ -269,9 +272,9 @@ def _keeps_its_goal() -> Expectation:
 
     def look(exam: Exam) -> Seen:
         put(exam, (3.0, 3.0, 0.0))
-        first = exam.ask_soon(NAVIGATE, NAVIGATE_TYPE, x=9.0, y=3.0, theta=0.0)
+        first = ask_soon_for(exam, (9.0, 3.0, 0.0))
         exam.wait(0.5)
-        refused = exam.ask(NAVIGATE, NAVIGATE_TYPE, 1.0, x=20.0, y=5.0, theta=0.0).response
+        refused = ask_for(exam, (20.0, 5.0, 0.0), 1.0).response
         if refused is None or refused.success:
             raise CannotLook("the goal (20, 5, 0) was not refused on the way")
         exam.wait_for(lambda: first() and at_rest(exam.listen(POSE, POSE_TYPE)), 20.0)

@@ -7,18 +7,15 @@ import math
 from ..words import number, point
 from .drives import (
     MIDDLE,
-    NAVIGATE,
-    NAVIGATE_TYPE,
     NEAR,
-    POSE,
-    POSE_TYPE,
-    Goal,
     Way,
     answered,
     arrived,
-    at_rest,
+    ask_for,
+    ask_soon_for,
+    come_to_rest,
+    driven,
     facing,
-    go,
     honest_time,
     put,
     refuses,
@@ -72,8 +69,7 @@ def on_arrival() -> list[Expectation]:
 
 def _soon(way: Way) -> Expectation:
     def look(exam: Exam) -> Seen:
-        it = go(exam, way)
-        it.response  # noqa: B018
+        it = driven(exam, way)
         seen = f"after {number(it.answer.seconds)} s, {number(it.distance())} m from the goal"
         step = "How long does the answer wait once the turtle is there?"
         return Seen(it.answer.seconds <= WAITING and it.distance() <= NEAR, seen, step)
@@ -86,10 +82,10 @@ def _answers_meanwhile() -> Expectation:
 
     def look(exam: Exam) -> Seen:
         put(exam, (2.0, 2.0, 0.0))
-        first = exam.ask_soon(NAVIGATE, NAVIGATE_TYPE, x=8.0, y=8.0, theta=0.0)
+        first = ask_soon_for(exam, (8.0, 8.0, 0.0))
         exam.wait(HALFWAY)
         if first() is not None:
-            exam.wait_for(lambda: at_rest(exam.listen(POSE, POSE_TYPE)), 15.0)
+            come_to_rest(exam, 15.0)
             raise CannotLook("a goal 8 m away was answered at once")
         answer = exam.ask("/navigator/list_parameters", "rcl_interfaces/srv/ListParameters", 1.0)
         exam.wait_for(first, 30.0)
@@ -133,19 +129,15 @@ class _Crowd:
 
     def __init__(self, exam: Exam) -> None:
         put(exam, (3.0, 3.0, 0.0))
-        first = exam.ask_soon(NAVIGATE, NAVIGATE_TYPE, **_fields(FIRST))
+        first = ask_soon_for(exam, FIRST)
         exam.wait(HALFWAY)
         if first() is not None:
             raise CannotLook("the first goal, 6 m away, was answered at once")
-        self.others = [exam.ask(NAVIGATE, NAVIGATE_TYPE, 0.5, **_fields(each)) for each in OTHERS]
+        self.others = [ask_for(exam, each, 0.5) for each in OTHERS]
         exam.wait_for(first, 15.0)
         self.first = first()
-        exam.wait_for(lambda: at_rest(exam.listen(POSE, POSE_TYPE)), 15.0)
+        come_to_rest(exam, 15.0)
         self.end = where(exam)
-
-
-def _fields(goal: Goal) -> dict[str, float]:
-    return dict(zip(("x", "y", "theta"), goal, strict=True))
 
 
 def _crowd(exam: Exam) -> _Crowd:
@@ -182,7 +174,7 @@ def _first_answered(exam: Exam) -> Seen:
 
 def _accepted_again(exam: Exam) -> Seen:
     _crowd(exam)
-    answer = exam.ask(NAVIGATE, NAVIGATE_TYPE, 15.0, x=5.0, y=5.0, theta=0.0)
+    answer = ask_for(exam, (5.0, 5.0, 0.0), 15.0)
     if answer.response is None:
         return no_answer(exam, "no answer within 15 s")
     end = where(exam)

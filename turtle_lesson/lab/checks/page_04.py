@@ -305,8 +305,7 @@ def says_low(expected: str, charges: tuple[float, ...]) -> Expectation:
             exam.wait(0.05)
             said = [each.message.data for each in answers[before:]]
             if not said:
-                if raised := exam.errors():
-                    raise raised[-1]
+                exam.raise_error()
                 step = Advice(direction="on_status must publish, whatever the charge is.", hint="Open Hint 2.")
                 return Seen(False, f"{charge:g} %: nothing came within 1 s", step)
             if len(said) > 1:

@@ -6,14 +6,14 @@ from collections.abc import Callable
 from typing import Any
 
 from ..words import listed
-from . import page_04, page_05
-from .drives import COMMAND_TYPE, COMMANDS, NAVIGATE, NAVIGATE_TYPE, far_away, where
+from . import page_03, page_04, page_05
+from .drives import COMMANDS, NAVIGATE, ask_for, far_away, where
 from .exam import Answer, Exam
-from .parts import get_parameter, no_errors, node, offers, parameter, publishes
+from .parts import get_parameter, no_errors, node, parameter, publishes
 from .questions import gives_up, rate_follows
 from .registry import Expectation, check
 from .rows import Advice, CannotLook, Seen
-from .streams import judge_rate, rate
+from .streams import rate
 
 PAGE = "06_parameters_and_launch"
 STATUS, STATUS_TYPE = page_04.STATUS, page_04.STATUS_TYPE
@@ -44,19 +44,10 @@ def parameters() -> list[Expectation]:
 # -- the system ----------------------------------------------------------------------------------------------------------
 
 
-def navigator_is_there(run: str) -> list[Expectation]:
-    """The navigator, its service and its commands; `run` is the command that starts it."""
-    return [
-        node("/navigator", run),
-        offers(NAVIGATE, NAVIGATE_TYPE, by="/navigator"),
-        publishes(COMMANDS, COMMAND_TYPE, by="/navigator"),
-    ]
-
-
 def system_is_there() -> list[Expectation]:
     """The three nodes, and what each of them is for."""
     return [
-        *navigator_is_there(LAUNCH),
+        *page_03.navigator_is_there(LAUNCH),
         node("/status_monitor", LAUNCH),
         publishes(STATUS, STATUS_TYPE, by="/status_monitor"),
         node("/obstacle_detector", LAUNCH),
@@ -100,8 +91,7 @@ ARGUMENTS: tuple[tuple[str, str, int | float], ...] = (
 
 
 def _far_goal(exam: Exam) -> Answer:
-    x, y, theta = far_away(where(exam))
-    return exam.ask(NAVIGATE, NAVIGATE_TYPE, 25.0, x=x, y=y, theta=theta)
+    return ask_for(exam, far_away(where(exam)), 25.0)
 
 
 def only(wanted: set[str]) -> Expectation:
@@ -175,7 +165,7 @@ def side_by_side() -> list[Expectation]:
         *(publishes(f"/{side}{STATUS}", STATUS_TYPE, by=f"/{side}/status_monitor") for side in SIDES),
         Expectation(f"no node publishes {STATUS}", _none_does),
         *(parameter(f"/{side}/status_monitor", "publish_rate", hz) for side, hz in SIDES.items()),
-        *(Expectation(f"/{side}{STATUS} comes at {hz} Hz", _keeps(side, hz)) for side, hz in SIDES.items()),
+        *(_comes_at(f"/{side}{STATUS}", hz) for side, hz in SIDES.items()),
         no_errors(),
     ]
 
@@ -205,11 +195,5 @@ def _none_does(exam: Exam) -> Seen:
     )
 
 
-def _keeps(side: str, hz: int) -> Callable[[Exam], Seen]:
-    topic = f"/{side}{STATUS}"
-
-    def look(exam: Exam) -> Seen:
-        heard = exam.hear(topic, STATUS_TYPE, 2.0)
-        return judge_rate(heard, hz, 0.1 / hz, len(exam.publishers(topic)))
-
-    return look
+def _comes_at(topic: str, hz: int) -> Expectation:
+    return Expectation(f"{topic} comes at {hz} Hz", rate(topic, STATUS_TYPE, hz, within=0.1 / hz, seconds=2.0).look)

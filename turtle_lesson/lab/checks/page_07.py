@@ -11,7 +11,7 @@ from .exam import Exam
 from .parts import no_errors, node, parameter
 from .registry import Expectation, check
 from .rows import Advice, CannotLook, Seen
-from .streams import judge_rate, some
+from .streams import rate, some
 
 PAGE = "07_command_line"
 TWIN, TWIN_PLACE = "/turtle2", (2.0, 9.0, 1.57)
@@ -28,17 +28,10 @@ def tuned() -> list[Expectation]:
     return [
         node("/status_monitor", "ros2 launch robot_controller start_system.launch.py"),
         parameter("/status_monitor", "publish_rate", 20),
-        Expectation(f"{page_04.STATUS}: a message every 50 ms ± 5 ms", _twenty_a_second),
+        rate(page_04.STATUS, page_04.STATUS_TYPE, hz=20, within=0.005, seconds=2.0, after=SOON),
         parameter("/obstacle_detector", "scan_rate", 5),
         no_errors(),
     ]
-
-
-def _twenty_a_second(exam: Exam) -> Seen:
-    exam.listen(page_04.STATUS, page_04.STATUS_TYPE)
-    exam.wait(SOON)
-    heard = exam.hear(page_04.STATUS, page_04.STATUS_TYPE, 2.0)
-    return judge_rate(heard, 20, 0.005, len(exam.publishers(page_04.STATUS)))
 
 
 @check(

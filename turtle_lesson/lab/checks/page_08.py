@@ -7,7 +7,7 @@ import math
 from typing import Any
 
 from ..words import number, point
-from .drives import NAVIGATE, NAVIGATE_TYPE, NEAR, where
+from .drives import NAVIGATE, NEAR, ask_for, where
 from .exam import Exam, Heard
 from .parts import get_parameter, no_errors, node, offers, publishes, set_parameter
 from .questions import no_answer
@@ -21,7 +21,7 @@ BEAT, BEAT_TYPE = "/heartbeat", "std_msgs/msg/Int32"
 BELL, BELL_TYPE = "/bell", "std_msgs/msg/Int32"
 OVEN, OVEN_TYPE = "/oven", "std_msgs/msg/Bool"
 HOME, HOME_TYPE = "/go_home", "std_srvs/srv/Trigger"
-MIDDLE, AWAY = (5.5, 5.5), (2.0, 8.0)
+MIDDLE, AWAY = (5.5, 5.5), (2.0, 8.0, 0.0)
 
 LEAST, MOST = 1.0, 1.2
 """Robot time, s, that the work takes at least and at most."""
@@ -134,19 +134,23 @@ def _unanswered(exam: Exam) -> Seen:
     return seen._replace(advice=Advice(direction=step, hint="Open Hint 2 under the exercise."))
 
 
-def _beats(exam: Exam) -> Seen:
-    seconds, beats, _ = _shift(exam)
+def _meanwhile(exam: Exam) -> tuple[list[Heard], bool]:
+    """The beats while it worked, and whether it answered. Raises CannotLook where the work took next to no time."""
+    seconds, beats, responsive = _shift(exam)
     if seconds is not None and seconds < LEAST - 0.01:
         raise CannotLook("the work is over at once")
+    return beats, responsive
+
+
+def _beats(exam: Exam) -> Seen:
+    beats, _ = _meanwhile(exam)
     gaps = [after.at - before.at for before, after in itertools.pairwise(beats)]
     silent = max(gaps, default=LONGEST)
     return Seen(silent <= 0.15, f"the longest pause was {number(silent)} s", _STEP)
 
 
 def _answers(exam: Exam) -> Seen:
-    seconds, _, responsive = _shift(exam)
-    if seconds is not None and seconds < LEAST - 0.01:
-        raise CannotLook("the work is over at once")
+    _, responsive = _meanwhile(exam)
     return Seen(responsive, "it was" if responsive else "only when the work was done", _STEP)
 
 
@@ -183,8 +187,7 @@ def _go_home(exam: Exam) -> tuple[Any, Any]:
 
 
 def _drive_away(exam: Exam) -> None:
-    x, y = AWAY
-    away = exam.ask(NAVIGATE, NAVIGATE_TYPE, LONGEST, x=x, y=y, theta=0.0)
+    away = ask_for(exam, AWAY, LONGEST)
     if away.response is None or not away.response.success:
         raise CannotLook("the navigator did not drive the turtle away from home first: is it running?")
 
@@ -205,7 +208,8 @@ def _passes_on_no(exam: Exam) -> Seen:
     if get_parameter(exam, "/navigator", "goal_timeout") is None:
         return Seen(True, "not tried: the navigator has no goal_timeout")
     _drive_away(exam)
-    set_parameter(exam, "/navigator", "goal_timeout", 0.1)
+    if reason := set_parameter(exam, "/navigator", "goal_timeout", 0.1):
+        raise CannotLook(f"the navigator refused a goal_timeout of 0.1 s: {reason}")
     answer = exam.ask(HOME, HOME_TYPE, LONGEST)
     if answer.response is None:
         return _unanswered(exam)

@@ -13,7 +13,7 @@ from typing import Any
 from ..track import WORLD
 from ..words import count, listed, number, point
 from . import page_04, page_05, page_06
-from .drives import NAVIGATE, NAVIGATE_TYPE, NEAR, Drive, drive, where
+from .drives import NEAR, Drive, Goal, ask_for, drive, where
 from .exam import Exam, Heard
 from .fields import interface
 from .functions import learner_function
@@ -171,8 +171,7 @@ def _when_it_comes_again(exam: Exam) -> Seen:
 
 
 def _nothing_came(exam: Exam) -> Seen:
-    if raised := exam.errors():
-        raise raised[-1]
+    exam.raise_error()
     return Seen(False, f"nothing came on {ALIVE}", "Publish from the timer, so that silence is reported, too.")
 
 
@@ -339,18 +338,18 @@ def _honest(exam: Exam) -> Seen:
 
 
 def _near_goal(exam: Exam) -> Seen:
-    x, y, theta = _just_ahead(where(exam))
-    answer = exam.ask(NAVIGATE, NAVIGATE_TYPE, 30.0, x=x, y=y, theta=theta)
+    goal = _just_ahead(where(exam))
+    answer = ask_for(exam, goal, 30.0)
     if answer.response is None:
         return Seen(False, "no answer in 30 s", "Ask for that goal alone, and read the navigator's log.")
     end = where(exam)
-    away = math.hypot(x - end.x, y - end.y)
+    away = math.dist(goal[:2], (end.x, end.y))
     seen = f"0.5 m: success is {answer.response.success} after {number(answer.seconds)} s"
     good = bool(answer.response.success) and answer.seconds <= 2.0 and away <= NEAR
     return Seen(good, seen, "Is the speed high enough, and does it go on waiting when it is there?")
 
 
-def _just_ahead(pose: Any) -> tuple[float, float, float]:
+def _just_ahead(pose: Any) -> Goal:
     """A place half a metre ahead, or as little to the side as the walls leave room for; and the heading there."""
     for turn in (0.0, 0.8, -0.8, 1.6, -1.6, 2.4, -2.4):
         theta = pose.theta + turn

@@ -160,8 +160,7 @@ def _lets_through(expected: str, name: str, distance: float | None, speed: float
             raise CannotLook(f"{others[0][0]} publishes {page_05.SCAN}, too: stop it first")
         sent = exam.once(name, lambda: _last_speed(exam, distance))
         if sent is None:
-            if raised := exam.errors():
-                raise raised[-1]
+            exam.raise_error()
             return Seen(False, f"nothing came on {COMMANDS}", "Publish something for each message that comes.")
         step = "What does is_safe say for this distance, and for the age that the scan has then?"
         return Seen(sent == speed, f"it was sent {number(sent)} m/s", step)

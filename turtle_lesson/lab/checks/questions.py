@@ -35,8 +35,7 @@ def answers(
 
 def no_answer(exam: Exam, words: str) -> Seen:
     """What is said where a request was not answered: the learner's error comes first, or where its callback still is."""
-    if raised := exam.errors():
-        raise raised[-1]
+    exam.raise_error()
     waiting = exam.unreturned()
     direction = "Does the callback end with `return response`?" if not waiting else "What does the callback wait for?"
     return Seen(False, f"{words}; {waiting}" if waiting else words, direction)
@@ -50,8 +49,7 @@ def rate_follows(owner: str, parameter: str, value: int | float, topic: str, typ
         reason = set_parameter(exam, owner, parameter, value)
         if reason:
             return Seen(False, f"it refused: {reason}", f"{value!r} should be allowed for {parameter}.")
-        if raised := exam.errors():
-            raise raised[-1]
+        exam.raise_error()
         if len(exam.hear(topic, type_name, 0.1)) > FLOOD:
             return Seen(False, f"then more than {FLOOD / 0.1:g} Hz", NANOSECONDS)
         exam.wait(0.9)  # one interval may still be of the old rate

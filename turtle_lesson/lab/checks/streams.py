@@ -18,12 +18,17 @@ CATCH_UP = 0.001
 """Robot time, s, before a rate is measured: a timer whose node was not spun for a while ticks once, late, then in step."""
 
 
-def rate(topic: str, type_name: str, hz: float, within: float = 0.010, seconds: float = 3.0) -> Expectation:
-    """Messages at a rate: every interval (s) between two of them is 1/hz, give or take `within`."""
+def rate(
+    topic: str, type_name: str, hz: float, within: float = 0.010, seconds: float = 3.0, after: float = CATCH_UP
+) -> Expectation:
+    """Messages at a rate: every interval (s) between two of them is 1/hz, give or take `within`.
+
+    Robot time, s: they are heard for `seconds`, which begin `after` the expectation does.
+    """
 
     def look(exam: Exam) -> Seen:
         exam.listen(topic, type_name)
-        exam.wait(CATCH_UP)
+        exam.wait(after)
         return judge_rate(exam.hear(topic, type_name, seconds), hz, within, len(exam.publishers(topic)))
 
     milliseconds = f"{number(1000 / hz, 0)} ms ± {number(1000 * within, 0)} ms"
@@ -116,8 +121,7 @@ def relays(
 
 def _instead(exam: Exam, words: str, came: list[Any], timeout: float, advice: str | Advice) -> Seen:
     """What is said where the right message did not come: the learner's error, or what came instead."""
-    if raised := exam.errors():
-        raise raised[-1]
+    exam.raise_error()
     if came:
         return Seen(False, f"{words}: {brief(came[-1])} came", advice)
     waiting = exam.unreturned()
