@@ -177,6 +177,22 @@ def test_only_some_parameters_are_listed(demo: World) -> None:
     assert type_in(demo, "ros2 param list --filter '['").code == 1
 
 
+def test_a_prefix_may_end_within_a_name_and_a_filter_begins_where_a_name_begins(demo: World) -> None:
+    assert type_in(demo, "ros2 param list /param_demo --param-prefixes f na").stdout == "  fixed\n  flags\n  name\n"
+    assert type_in(demo, "ros2 param list /param_demo --filter lags").stdout == ""
+
+
+def test_a_node_of_which_nothing_is_listed_has_no_heading(demo: World) -> None:
+    assert type_in(demo, "ros2 param list --filter speed").stdout == "/param_demo:\n  speed\n"
+    assert type_in(demo, "ros2 param list --param-prefixes spe").stdout == "/param_demo:\n  speed\n"
+
+
+def test_a_dump_goes_only_into_a_folder_that_is_there(demo: World, tmp_path: Path) -> None:
+    answer = type_in(demo, f"ros2 param dump /param_demo --output-dir {tmp_path}/none")
+    assert (answer.stdout, answer.stderr) == ("", f"'{tmp_path}/none' is not a valid directory.\n")
+    assert answer.code == 1
+
+
 def test_names_with_dots_are_nested() -> None:
     pairs = [("a.b", 1), ("a.c.d", 2), ("e", 3)]
     assert nested(pairs) == {"a": {"b": 1, "c": {"d": 2}}, "e": 3}

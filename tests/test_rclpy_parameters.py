@@ -578,6 +578,7 @@ def test_names_are_listed_over_the_wire(ask: Callable[..., Any]) -> None:
     assert list(ask(ListParameters, depth=1).result.names) == [name for name in names if "." not in name]
     assert list(ask(ListParameters, prefixes=["gains"]).result.names) == ["gains.p", "gains.deep.d"]
     assert list(ask(ListParameters, prefixes=["gains", "name"], depth=1).result.names) == ["name", "gains.p"]
+    assert list(ask(ListParameters, prefixes=["gai", "ty"]).result.names) == ["typed"]
 
 
 def test_values_are_set_over_the_wire(ask: Callable[..., Any]) -> None:

@@ -28,13 +28,13 @@ def _hint(node: Node, node_name: str, parameter: str) -> str:
 
 def _list_arguments(parser: ArgumentParser) -> None:
     arguments_of_all(parser, optional_node=True)
-    parser.add_argument("--param-prefixes", nargs="+", default=[], help="Only parameters below these names")
+    parser.add_argument("--param-prefixes", nargs="+", default=[], help="Only parameters that begin with these")
     parser.add_argument("--param-type", action="store_true", help="Show each parameter's type beside it")
-    parser.add_argument("--filter", metavar="FILTER", help="Only parameters whose name this regular expression matches")
+    parser.add_argument("--filter", metavar="FILTER", help="Only names whose beginning this regular expression matches")
 
 
 def list_parameters(args: Namespace) -> None:
-    """`ros2 param list`."""
+    """`ros2 param list`. A node of which nothing is listed is left out (ros2param/verb/list.py)."""
     wanted = _name_filter(args.filter)
     with direct_node(args) as node:
         every = dict.fromkeys(node_names(node, args.include_hidden_nodes))
@@ -43,9 +43,9 @@ def list_parameters(args: Namespace) -> None:
             if response is None:
                 print(f"Exception while calling service of node '{name}': None", file=sys.stderr)
                 continue
-            if not args.node_name:
-                print(f"{name}:")
             names = [each for each in sorted(response.result.names) if wanted(each)]
+            if names and not args.node_name:
+                print(f"{name}:")
             _print_names(node, name, names, args.param_type)
 
 
@@ -53,7 +53,7 @@ def _name_filter(pattern: str | None) -> Any:
     import re
 
     try:
-        return re.compile(pattern or "").search
+        return re.compile(pattern or "").match
     except (re.error, OverflowError, RecursionError) as error:
         raise CommandError(f"'{pattern}' is not a regular expression: {error}") from None
 

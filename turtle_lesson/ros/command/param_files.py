@@ -24,6 +24,8 @@ def dump(args: Namespace) -> None:
     """`ros2 param dump`."""
     import yaml
 
+    if args.output_dir is not None and not Path(args.output_dir).is_dir():
+        raise CommandError(f"'{args.output_dir}' is not a valid directory.")
     with direct_node(args) as node:
         name = find_node(node, args)
         names = listed(node, name)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from .exceptions import ParameterNotDeclaredException, ParameterUninitializedException
-from .parameter import Parameter
+from .parameter import PARAMETER_SEPARATOR_STRING, Parameter
 from .qos import qos_profile_parameters
 
 if TYPE_CHECKING:
@@ -50,7 +50,16 @@ class ParameterService:
         return response
 
     def _list(self, request: Any, response: Any) -> Any:
-        response.result = self._node.list_parameters(list(request.prefixes), request.depth)
+        """List names below prefixes. In Humble (parameter_service.py) a name without dots need only begin with one."""
+        prefixes = list(request.prefixes)
+        result = self._node.list_parameters(prefixes, request.depth)
+        below = set(result.names)
+        result.names = [
+            name
+            for name in self._node._ros_parameters
+            if name in below or (PARAMETER_SEPARATOR_STRING not in name and name.startswith(tuple(prefixes)))
+        ]
+        response.result = result
         return response
 
     def _set(self, request: Any, response: Any) -> Any:
