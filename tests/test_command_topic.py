@@ -80,6 +80,34 @@ def test_echo_prints_arrays_of_messages_and_fixed_arrays_by_their_type(world: Wo
     assert "<array type: double[9]>" in type_in(world, "ros2 topic echo --once --no-arr /f/imu").stdout
 
 
+def test_a_field_as_csv_is_a_line_without_separator(lesson: World) -> None:
+    text = type_in(lesson, "ros2 topic echo /robot/status --csv --field battery --for 1").stdout
+    assert len(text.split()) == 10 and all(float(line) < 90 for line in text.split())
+    assert type_in(lesson, "ros2 topic echo --once --csv --field header /obstacles").stdout.endswith(",base_link\n")
+
+
+def test_an_index_is_no_field(lesson: World) -> None:
+    answer = type_in(lesson, "ros2 topic echo --once --field ranges.3 /obstacles")
+    assert answer.stderr == "Invalid field 'ranges.3': 'array.array' object has no attribute '3'\n"
+
+
+@pytest.mark.parametrize(
+    ("words", "error"),
+    [
+        ("hz -w 0 /a", "argument --window/-w: value must be a positive integer"),
+        ("hz -w x /a", "argument --window/-w: value must be a positive integer"),
+        ("bw -w -1 /a", "argument --window/-w: value must be a positive integer"),
+        ("pub -r 0 /a std_msgs/msg/Empty", "argument -r/--rate: invalid positive_float value: '0'"),
+        ("pub -r fast /a std_msgs/msg/Empty", "argument -r/--rate: invalid positive_float value: 'fast'"),
+        ("echo --qos-depth x /a", "argument --qos-depth: invalid int value: 'x'"),
+    ],
+)
+def test_numbers_that_make_no_sense_are_refused_in_the_real_words(world: World, words: str, error: str) -> None:
+    answer = type_in(world, f"ros2 topic {words}")
+    assert answer.code == 2
+    assert f"ros2 topic {words.partition(' ')[0]}: error: {error}" in answer.stderr.splitlines()
+
+
 def test_echo_raw_prints_the_bytes(lesson: World) -> None:
     text = type_in(lesson, "ros2 topic echo --once --raw /robot/status").stdout
     assert text.startswith("b'\\x00\\x01\\x00\\x00\\x00") and text.endswith("'\n---\n")

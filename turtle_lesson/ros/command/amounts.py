@@ -26,8 +26,14 @@ def positive_float(text: str) -> float:
 
 
 def frequency(text: str) -> float:
-    """An argument that says how often a second; more often than `FASTEST` no robot could."""
-    value = positive_float(text)
+    """An argument that says how often a second; more often than `FASTEST` no robot could.
+
+    Anything but a number above 0 is refused in the words that argparse has for ros2topic's `positive_float`.
+    """
+    try:
+        value = positive_float(text)
+    except ArgumentTypeError as error:
+        raise ArgumentTypeError(f"invalid positive_float value: '{text}'\n{error}") from None
     if value > FASTEST:
         raise ArgumentTypeError(f"'{text}' times a second is too often; at most {FASTEST:g}")
     if value < 1 / LONGEST:
@@ -56,7 +62,7 @@ def stretch(text: str) -> float:
 
 def positive_int(text: str) -> int:
     """An argument that is a whole number above 0."""
-    if unsigned_int(text) == 0:
+    if not text.isdigit() or not text.strip("0"):
         raise ArgumentTypeError("value must be a positive integer")
     return unsigned_int(text)
 

@@ -54,7 +54,7 @@ def _print_ends(title: str, what: str, found: dict[str, list[str]], counts: dict
 def _info_arguments(parser: ArgumentParser) -> None:
     add_node_arguments(parser)
     parser.add_argument("topic_name", help="Full name of the topic, such as /turtle1/pose")
-    parser.add_argument("-v", "--verbose", action="store_true", help="Show every publisher and subscription, with QoS")
+    parser.add_argument("--verbose", "-v", action="store_true", help="Show every publisher and subscription, with QoS")
 
 
 def info(args: Namespace) -> None:

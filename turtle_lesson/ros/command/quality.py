@@ -56,7 +56,7 @@ def _depth(text: str) -> int:
     try:
         depth = int(text)
     except ValueError:
-        raise ArgumentTypeError(f"'{text}' is not a whole number") from None
+        raise ArgumentTypeError(f"invalid int value: '{text}'") from None
     if depth > MOST:
         raise ArgumentTypeError(f"value must be at most {MOST}")
     return depth

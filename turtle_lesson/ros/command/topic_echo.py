@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from argparse import ArgumentParser, Namespace
+from array import array
 from collections.abc import Callable
 from typing import Any
 
@@ -102,10 +103,15 @@ def part_of(message: Any, path: list[str]) -> Any:
     for name in path:
         fields = list(getattr(part, "get_fields_and_field_types", dict)())
         if name not in fields:
-            error = f"'{type(part).__name__}' object has no attribute '{name}'"
+            error = f"'{_type_name(part)}' object has no attribute '{name}'"
             raise CommandError(f"Invalid field '{'.'.join(path)}': {error}", suggest(name, fields))
         part = getattr(part, name)
     return part
+
+
+def _type_name(part: Any) -> str:
+    """The name of a value's type as in Python's own errors, which name the module of `array.array`."""
+    return "array.array" if isinstance(part, array) else type(part).__name__
 
 
 def filter_of(expression: str | None) -> Callable[[Any], bool]:
@@ -136,10 +142,11 @@ def _printer(args: Namespace) -> Callable[[Any], None]:
     style = {"truncate_length": length, "no_arr": args.no_arr, "no_str": args.no_str}
 
     def show(part: Any) -> None:
-        if not hasattr(part, "get_fields_and_field_types"):
+        is_message = hasattr(part, "get_fields_and_field_types")
+        if args.csv:
+            print(message_to_csv(part, **style) if is_message else part)
+        elif not is_message:
             print(part, end="\n---\n")
-        elif args.csv:
-            print(message_to_csv(part, **style))
         else:
             print(message_to_yaml(part, **style, flow_style=args.flow_style), end="---\n")
 

@@ -37,7 +37,6 @@ def _now() -> int:
 
 def hz_arguments(parser: ArgumentParser) -> None:
     """The arguments of hz."""
-    add_node_arguments(parser)
     parser.add_argument("topic_name", help="Name of the topic, such as /turtle1/pose")
     parser.add_argument(
         "--window",
@@ -54,6 +53,7 @@ def hz_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--wall-time", dest="use_wtime", action="store_true", help="Accepted; there is only one clock here"
     )
+    add_node_arguments(parser, daemon=False)
     add_duration(parser)
 
 
@@ -103,7 +103,6 @@ def hz(args: Namespace) -> None:
 
 def bw_arguments(parser: ArgumentParser) -> None:
     """The arguments of bw."""
-    add_node_arguments(parser)
     parser.add_argument("topic", help="Name of the topic, such as /turtle1/pose")
     parser.add_argument(
         "--window",
@@ -113,6 +112,7 @@ def bw_arguments(parser: ArgumentParser) -> None:
         default=BW_WINDOW,
         help="How many messages to average over (default: %(default)s)",
     )
+    add_node_arguments(parser, daemon=False)
     add_duration(parser)
 
 
@@ -159,15 +159,16 @@ def bw(args: Namespace) -> None:
 
 def delay_arguments(parser: ArgumentParser) -> None:
     """The arguments of delay."""
-    add_node_arguments(parser)
     parser.add_argument("topic", help="Name of the topic, whose messages have a header")
     parser.add_argument(
         "--window",
         "-w",
+        metavar="WINDOW",
         type=positive_int,
         default=DELAY_WINDOW,
         help="How many messages to average over (default: %(default)s)",
     )
+    add_node_arguments(parser, daemon=False)
     add_duration(parser)
 
 
