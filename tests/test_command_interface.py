@@ -100,9 +100,13 @@ def test_comments_inside_can_be_shown_too(world: World, odd: Path) -> None:
 
 
 def test_a_prototype_without_quotes_can_go_into_a_file(world: World) -> None:
-    assert (
-        type_in(world, "ros2 interface proto geometry_msgs/msg/Point --no-quotes").stdout == "x: 0.0\ny: 0.0\nz: 0.0\n"
-    )
+    answer = type_in(world, "ros2 interface proto geometry_msgs/msg/Point --no-quotes")
+    assert answer.stdout == "x: 0.0\ny: 0.0\nz: 0.0\n\n"
+
+
+def test_all_comments_or_none_but_not_both_can_be_asked_for(world: World) -> None:
+    answer = type_in(world, "ros2 interface show geometry_msgs/msg/Point --all-comments --no-comments")
+    assert answer.stderr.endswith("error: argument --no-comments: not allowed with argument --all-comments\n")
 
 
 def test_a_prototype_of_nothing(world: World) -> None:

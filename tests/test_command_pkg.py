@@ -52,7 +52,13 @@ def test_a_name_that_is_nearly_right_is_recognised(world: World, workspace: Path
 
 
 def test_an_unknown_element_of_package_xml_is_said(world: World, workspace: Path) -> None:
-    assert "Did you mean 'version'?" in type_in(world, "ros2 pkg xml robot_controller -t versoin").stderr
+    answer = type_in(world, "ros2 pkg xml robot_controller -t versoin")
+    assert (answer.stderr, answer.code) == ("XML tag not found\nDid you mean 'version'?\n", 1)
+
+
+def test_a_manifest_is_missing_with_its_package_or_because_the_package_is_simulated(world: World) -> None:
+    assert type_in(world, "ros2 pkg xml nope").stderr.startswith("Package not found\n")
+    assert "is a part of the simulation" in type_in(world, "ros2 pkg xml geometry_msgs").stderr
 
 
 def test_a_new_package_goes_where_it_was_asked_for(world: World, workspace: Path) -> None:

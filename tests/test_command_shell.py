@@ -249,6 +249,13 @@ def test_usage_lines_are_the_real_ones(world: World) -> None:
         assert shown == usage.rstrip(), command
 
 
+def test_a_wrong_name_is_noticed_before_help_is_printed(world: World) -> None:
+    for command in ("ros2 -h topc", "ros2 topic -h ech"):
+        answer = type_in(world, command)
+        assert (answer.stdout, answer.code) == ("", 2)
+        assert "invalid choice" in answer.stderr
+
+
 def test_help_lists_the_commands_and_the_verbs(world: World) -> None:
     for command in ("ros2", "ros2 -h", "ros2 --help"):
         answer = type_in(world, command)

@@ -102,8 +102,9 @@ def _where_is(base: str) -> str:
 
 def _show_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("type", help="full name of the interface, such as geometry_msgs/msg/Twist")
-    parser.add_argument("--all-comments", action="store_true", help="also show the comments of nested types")
-    parser.add_argument("--no-comments", action="store_true", help="show neither comments nor empty lines")
+    comments = parser.add_mutually_exclusive_group()
+    comments.add_argument("--all-comments", action="store_true", help="also show the comments of nested types")
+    comments.add_argument("--no-comments", action="store_true", help="show neither comments nor empty lines")
 
 
 def _show(args: Namespace) -> None:
@@ -173,7 +174,7 @@ def _proto(args: Namespace) -> None:
     for part in ("Request", "Goal"):
         made = getattr(made, part, made)
     text = message_to_yaml(made())
-    print(text if args.no_quotes else f'"{text}"', end="" if args.no_quotes else "\n")
+    print(text if args.no_quotes else f'"{text}"')
 
 
 VERBS = {

@@ -89,10 +89,10 @@ def _xml(args: Namespace) -> None:
     from xml.etree import ElementTree
 
     packages = current_packages()
-    if args.package_name not in packages:
-        raise not_found(args.package_name)
-    path = packages.get(args.package_name).share / "package.xml"
-    if not path.is_file():
+    path = packages.get(args.package_name).share / "package.xml" if args.package_name in packages else None
+    if path is None and find_prefix(args.package_name) is None:
+        raise CommandError("Package not found", hint_for_package(args.package_name))
+    if path is None or not path.is_file():
         raise CommandError(f"the package '{args.package_name}' has no package.xml here: it is a part of the simulation")
     text = path.read_text(encoding="utf-8")
     root = ElementTree.fromstring(text)
@@ -101,7 +101,7 @@ def _xml(args: Namespace) -> None:
         return
     elements = [each for each in root.iter() if each.tag == args.tag]
     if not elements:
-        raise CommandError(f"No such tag '{args.tag}'", did_you_mean(args.tag, {each.tag for each in root.iter()}))
+        raise CommandError("XML tag not found", did_you_mean(args.tag, {each.tag for each in root.iter()}))
     for element in elements:
         print((element.text or "").strip())
 

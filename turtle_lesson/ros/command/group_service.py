@@ -59,7 +59,6 @@ def list_services(args: Namespace) -> None:
 
 
 def _type_arguments(parser: ArgumentParser) -> None:
-    add_node_arguments(parser)
     parser.add_argument("service_name", help="Full name of the service, such as /spawn")
 
 
@@ -71,7 +70,6 @@ def type_of(args: Namespace) -> None:
 
 
 def _find_arguments(parser: ArgumentParser) -> None:
-    add_node_arguments(parser)
     parser.add_argument("service_type", help="Name of the type, such as std_srvs/srv/Empty")
     parser.add_argument("-c", "--count-services", action="store_true", help="Print only how many there are")
     parser.add_argument("--include-hidden-services", action="store_true", help="Also find services with a hidden name")

@@ -113,6 +113,8 @@ def parse(words: Sequence[str]) -> Call:
     while rest and rest[0].startswith("-"):
         option = rest.pop(0)
         if option in {"-h", "--help"}:
+            if rest and not rest[0].startswith("-"):
+                _group(rest[0])  # as in ros2cli/command/__init__.py, a wrong name is noticed before help is printed
             raise Stop(top_help(), 0)
         if option != "--use-python-default-buffering":
             raise _unrecognized([option], ["-h", "--help", "--use-python-default-buffering"])
@@ -140,20 +142,25 @@ def _parse_group(group: Group, rest: list[str]) -> Call:
     while rest and rest[0].startswith("-"):
         option = rest.pop(0)
         if option in {"-h", "--help"}:
+            if rest and not rest[0].startswith("-"):
+                _check_verb(group, rest[0])
             raise Stop(group_help(group), 0)
         if group.flag is None or option != group.flag[0]:
             raise _unrecognized([option], ["-h", "--help", *(group.flag or ())[:1]])
         flags.add(option.lstrip("-").replace("-", "_"))
     if not rest:
         raise Stop(group_help(group), 0)
-    verbs = group.verbs
-    if rest[0] not in verbs:
-        raise _invalid_choice(prog, group_usage(group), "command", rest[0], verbs)
-    call = _parse_verb(verbs[rest[0]], f"{prog} {rest[0]}", rest[1:])
+    _check_verb(group, rest[0])
+    call = _parse_verb(group.verbs[rest[0]], f"{prog} {rest[0]}", rest[1:])
     if group.flag is not None:
         name = group.flag[0].lstrip("-").replace("-", "_")
         setattr(call.arguments, name, name in flags or getattr(call.arguments, name, False))
     return call
+
+
+def _check_verb(group: Group, name: str) -> None:
+    if name not in group.verbs:
+        raise _invalid_choice(f"ros2 {group.name}", group_usage(group), "command", name, group.verbs)
 
 
 def verb_parser(verb: Verb, prog: str) -> Parser:

@@ -8,9 +8,13 @@ WIDTH = 78
 
 
 def _usage(prog: str, options: str) -> str:
-    """A usage text as argparse of Python 3.11 breaks it: the long placeholder on a line of its own."""
+    """A usage text as argparse of Python 3.11 breaks it: a placeholder that is too long on a line of its own."""
     indent = " " * len(f"usage: {prog} ")
-    words = [*f"Call `{prog} <command> -h` for more detailed usage.".split(), "..."]
+    placeholder = f"Call `{prog} <command> -h` for more detailed usage. ..."
+    whole = f"usage: {prog} {options} {placeholder}"
+    if len(whole) <= WIDTH:
+        return whole
+    words = placeholder.split()
     lines, line = [f"usage: {prog} {options}"], indent[:-1]
     for word in words:
         if len(line) + 1 + len(word) > WIDTH:
