@@ -36,7 +36,7 @@ class Dashboard(LogPanel, LightsPanel, RatesPanel, ScanPanel, StatusPanel, LabVi
         """Path and status side by side."""
         from .dashboard_picture import dashboard_picture
 
-        kept = [goal for goal in self.desk.goals if goal.state in ("on its way", "reached", "not reached")]
+        kept = [goal for goal in self.desk.goals if goal.was_taken]
         return dashboard_picture(self.station.recorder, self.text(), kept[-1] if kept else None)
 
     def _place(self) -> str:

@@ -1,4 +1,4 @@
-"""The dashboard as a picture that stays, for those who read a page without a kernel."""
+"""The dashboard as a picture that stays, for readers of a page without a kernel."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ GAP = 12
 """Pixels shown between two cards."""
 
 
-def dashboard_picture(recording: Recording, text: str, goal: Goal | None = None) -> Picture:
+def dashboard_picture(recording: Recording, text: str, goal: Goal | None) -> Picture:
     """Path, with the newest goal, and status side by side, as far as there is anything to draw."""
     place = None if goal is None else (goal.x, goal.y, goal.theta)
     cards = [plot_path(recording, goal=place), plot_status(recording)]

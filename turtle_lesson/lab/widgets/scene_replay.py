@@ -47,7 +47,7 @@ def replay_page(scene: Scene, since: float | None, until: float | None) -> Scene
         f"Replay of {recorder.turtle} from {number(begin)} s to {number(end)} s of robot time: {number(driven)} m driven, "
         f"from {point(poses[0]['x'], poses[0]['y'])} m to {point(poses[-1]['x'], poses[-1]['y'])} m."
     )
-    goals = [goal for goal in goals_from(scene.station) if goal.state in ("on its way", "reached", "not reached")]
+    goals = [goal for goal in goals_from(scene.station) if goal.was_taken]
     trail, growth = _trail(poses, times, jumps, driven)
     flags, appear = _flags(goals, begin, end)
     tracks = {parts.TURTLE: _drive(poses, times, jumps), **appear}
