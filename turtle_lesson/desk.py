@@ -82,7 +82,7 @@ class Desk:
             goal: a goal that the map is to show, (x, y) in metres or (x, y, theta).
             guess: the guess, unless it is given on the widget that is shown.
 
-        Nothing has to be guessed: a page that is run without goes on. Asked again after the outcome, it begins anew.
+        No guess is needed: the page runs without one as well. Asked again after the outcome, the question begins anew.
         """
         from .lab import predictions
         from .lab.goals import read_goals

@@ -53,7 +53,7 @@ class ExamPlace:
 
     @property
     def strands(self) -> list[Strand]:
-        """The lines of execution of all processes that wait somewhere."""
+        """The strands of all processes that wait somewhere."""
         processes = [*self._world.processes, self._world.notebook]
         return [each for process in processes if process.alive for each in process.strands if each.parked]
 
@@ -67,7 +67,7 @@ class ExamPlace:
         self._board.put(obstacles)
 
     def limit_work(self, seconds: float | None) -> None:
-        """Have learner's code stopped after so much more CPU time (s); None: no more."""
+        """Stop the learner's code once it has used this much more CPU time (s); None lifts that limit."""
         self._world.sim.suspect = None
         self._world.sim.work_until = None if seconds is None else work_done() + seconds
 

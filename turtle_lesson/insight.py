@@ -1,4 +1,4 @@
-"""Insight into a running lesson: what happened when, who called whom, what is wrong, and what to ask an assistant."""
+"""Insight into a running lesson: what happened when, which node called which, what is wrong, and what to ask an assistant."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class Insight(Desk):
         return plot_timeline(self._trace, self._recording.node, *rows, since=since, until=until)
 
     def plot_sequence(self, *services: str, since: float | None = None, until: float | None = None) -> GraphPicture:
-        """Who called a service, when it was received and answered, and what had to wait meanwhile: as a sequence diagram.
+        """Which node called a service, when it was received and answered, and what had to wait meanwhile: a sequence diagram.
 
         Args:
             services: such as "/navigate_to"; without any, all but those of parameters. The newest eight calls are shown.

@@ -1,4 +1,4 @@
-"""Where troubles are put on: what can be done to a world by public means, as somebody at its terminals could."""
+"""Where troubles are put on: what can be done to a world by public means, as from its terminals."""
 
 from __future__ import annotations
 
@@ -108,7 +108,7 @@ class WorldStage:
         self._world.sim.settle()
 
     def make_workspace(self, fault: str) -> None:
-        """A copy of the package's source in the workspace `trouble_ws`; nowhere else is it found from now on.
+        """Copy the package's source into the workspace `trouble_ws`; from now on the package is found nowhere else.
 
         Raises FileExistsError for a `trouble_ws` that was not made here, ValueError for a package without the message.
         """

@@ -153,7 +153,7 @@ UNITS: dict[str, dict[str, float]] = {
 
 
 def _factor(written: str, unit: str) -> float | None:
-    """By what a number with a written unit is multiplied to be in the asked one; None for a unit that is another."""
+    """The factor that turns a number in the written unit into the unit asked for; None for a unit that does not fit."""
     known = {"": 1.0, unit.casefold(): 1.0} | UNITS.get(unit.casefold(), {})
     name = written.casefold().rstrip(".")
     singular = {each.removesuffix("s"): factor for each, factor in known.items() if len(each) > 2}
@@ -230,7 +230,7 @@ def ask(
 
 
 def tell(name: str, value: Any) -> Outcome:
-    """Say what came of it. Raises ValueError for a name that was never asked, and for a value that is none."""
+    """Say what came of it. Raises ValueError for a name that was never asked, and for a value that the question cannot have."""
     if name not in _questions:
         from .widgets.typed_names import did_you_mean, enumerated
 

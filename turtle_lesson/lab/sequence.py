@@ -1,4 +1,4 @@
-"""A service call as a sequence diagram, from what really happened: who asked, when it was received, when answered."""
+"""A service call as a sequence diagram, from what really happened: which node asked, when it was received, when answered."""
 
 from __future__ import annotations
 

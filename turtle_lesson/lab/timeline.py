@@ -22,7 +22,7 @@ WIDTH, LEFT, RIGHT = 6.4, 1.95, 0.25
 LANE, TOP, BOTTOM = 0.40, 0.70, 0.78
 
 MOST = 24
-"""More lanes than that are no picture any more."""
+"""A picture with more lanes than that cannot be read."""
 
 PALE_ORANGE = style.ORANGE + "40"
 

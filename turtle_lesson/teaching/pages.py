@@ -38,7 +38,7 @@ def _hidden(path: Path) -> bool:
 
 
 def read(path: Path) -> Any:
-    """A notebook. Raises PageError, which says why it is none."""
+    """The notebook in a file. Raises PageError, which says why it cannot be read."""
     try:
         text = path.read_text(encoding="utf-8-sig")
     except FileNotFoundError:

@@ -85,7 +85,7 @@ def open_case(stage: Stage, seed: int | None, name: str | None, check: Callable[
         name: the trouble's name.
         check: looks at the system and says whether it is mended.
 
-    Raises ValueError for a name that does not exist, with the one that may be meant, and for a seed that is no number.
+    Raises ValueError for a name that does not exist, with the one that may be meant, and for a seed that is not a number.
     """
     global _current
     number = 0 if seed is None else seed

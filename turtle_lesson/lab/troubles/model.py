@@ -77,7 +77,7 @@ class Stage(Protocol):
         """Ctrl-C for the turtle simulator."""
 
     def make_workspace(self, fault: str) -> None:
-        """A copy of the package's source in the workspace `trouble_ws`; nowhere else is it found from now on."""
+        """Copy the package's source into the workspace `trouble_ws`; from now on the package is found nowhere else."""
 
     @property
     def ended(self) -> bool:

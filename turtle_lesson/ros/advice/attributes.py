@@ -86,7 +86,7 @@ def _of_none(error: BaseException, name: str) -> str:
 
 
 def _may_be_none(words: str, frame: FrameType) -> bool:
-    """Whether names and attributes such as "self.pose" are None in a frame; of what has to be called nobody knows."""
+    """Whether names and attributes such as "self.pose" are None in a frame; True where only a call would tell."""
     first, *rest = words.split(".")
     if not all(each.isidentifier() for each in (first, *rest)):
         return True

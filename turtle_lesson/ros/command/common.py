@@ -150,7 +150,7 @@ def stretch_of(args: Namespace) -> float | None:
 
 
 def end_of_stretch(seconds: float) -> Interrupted:
-    """What an endless verb raises when its stretch is over: says so in a last line."""
+    """What an endless verb raises when its stretch of robot time is over; its text is the verb's last line."""
     return Interrupted(f"(stopped after {seconds:g} s of robot time; --for SECONDS makes it longer or shorter)")
 
 

@@ -62,7 +62,7 @@ def drive(simulation: Simulation, process: Process, function: Callable[..., T], 
 
 
 def drive_within(limit: int, simulation: Simulation, process: Process, function: Callable[[], T]) -> T:
-    """The same, with another limit of robot time (ns). Raises DriveTimeout in the call when it is over."""
+    """The same for a function without arguments, with another limit of robot time (ns), after which DriveTimeout is raised."""
     with Guard(simulation) as guard:  # from here on an interrupt is noted, and raised as the very last act
         simulation.check_it_can_run()
         call = Call(simulation, process, function)
@@ -86,7 +86,7 @@ def waiting_for(strand: Strand) -> str:
 
 
 def why_not_done(simulation: Simulation, strand: Strand, limit: int) -> SimulationError:
-    """What to tell somebody whose call did not end: that nothing is left that could end it, or that it took too long."""
+    """The error for a call that did not end: nothing is left that could end it, or it took longer than the limit (ns)."""
     what = strand.activity or waiting_for(strand)
     if not simulation.busy:
         return NeverWakes(

@@ -29,7 +29,7 @@ START_UP = 300_000_000
 """How long, in ns, a Python program takes from its process's start to its first line. Those of a launch take turns."""
 
 RESPAWN_PAUSE = 0.25
-"""How long, in s, a process stays away that respawns without a delay and is no Python program, so that robot time passes."""
+"""How long, in s, a program that is not Python stays away when it respawns without a delay, so that robot time passes."""
 
 
 class Processes:

@@ -1,4 +1,4 @@
-"""A speed limiter, as robots have one before their motors: what is wanted on /wanted_vel goes on to /turtle1/cmd_vel."""
+"""A speed limiter, such as a robot has before its motors: it passes commands from /wanted_vel on to /turtle1/cmd_vel."""
 
 import rclpy
 from geometry_msgs.msg import Twist
@@ -7,7 +7,7 @@ from rclpy.node import Node
 
 
 class SpeedLimiter(Node):
-    """Passes a command on each `command_period` seconds, no faster ahead than `max_speed` m/s; a stop at once."""
+    """Passes a command on every `command_period` seconds, at most `max_speed` m/s ahead; a stop is passed on at once."""
 
     def __init__(self) -> None:
         super().__init__("speed_limiter")

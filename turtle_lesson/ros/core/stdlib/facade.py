@@ -1,7 +1,7 @@
 """A class of the standard library of which there are two now: Python's own, and one that waits in virtual time.
 
 A caller of the class gets an object of one or the other, depending on whose it is to be. A subclass derives from
-that one. Objects of both are its instances, so that nobody has to know.
+that one. Objects of both are its instances, so that callers need not know the difference.
 """
 
 from __future__ import annotations

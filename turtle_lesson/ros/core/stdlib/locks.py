@@ -1,8 +1,8 @@
 """Locks that hold up a strand in virtual time. All else in `threading` and `queue` is built on them.
 
 Such a lock is a real one inside. So it may be used from everywhere: another thread of the real computer waits for it in
-real time, and in a plain notebook cell waiting for it runs the simulation. Of those who wait, the one who came first
-is woken; but a thread that asks while the lock is free gets it, as in Python.
+real time, and in a plain notebook cell waiting for it runs the simulation. Of the threads that wait, the first one is
+woken; but a thread that asks while the lock is free gets it, as in Python.
 """
 
 from __future__ import annotations

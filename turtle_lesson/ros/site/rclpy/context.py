@@ -134,7 +134,7 @@ class Context:
         self._leave()
 
     def _leave(self) -> None:
-        """Take the nodes out of the graph, for they could do nothing any more, and call those who registered for the end."""
+        """Take the nodes out of the graph, since they can do nothing any more, and call what was registered for the end."""
         contexts = contexts_of(self._process)
         if self in contexts:
             contexts.remove(self)

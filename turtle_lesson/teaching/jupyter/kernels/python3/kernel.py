@@ -20,7 +20,7 @@ HINT = (
 )
 SET_UP = re.compile(r"(?m)^[ \t]*%load_ext[ \t]+turtle_lesson\b")
 COMMAND = re.compile(r"[ \t]*(?:ros2|colcon|source|cd|mkdir|ls|cat|touch)[ \t]+[\w~./$\"'-]")
-"""A line that is no Python, and surely meant for the lesson's terminal."""
+"""A line that is not Python, and surely meant for the lesson's terminal."""
 
 NAMES = ("lesson", "start", "rclpy", "ros2", "colcon")
 """What a set-up cell makes known."""
@@ -64,7 +64,7 @@ def explain(
     trace: TracebackType,
     tb_offset: int | None = None,
 ) -> None:
-    """Show an error as ever, with the hint if it is about something of the lesson."""
+    """Show an error as usual, with the hint if it is about something of the lesson."""
     if isinstance(error, SyntaxError):
         if COMMAND.match(error.text or ""):
             shell._showtraceback(kind, error, [HINT])
