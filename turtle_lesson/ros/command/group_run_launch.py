@@ -1,4 +1,4 @@
-"""`ros2 run` and `ros2 launch`: they start what they are asked for, return when it is up, and it goes on while the world runs.
+"""`ros2 run` and `ros2 launch`: they start programs and return once these are up; the programs run while the world runs.
 
 In a terminal both go on until Ctrl-C. Here a last line says how to end them, and `--for SECONDS` lets robot time pass first.
 """
@@ -183,11 +183,13 @@ def leave(what: Process | LaunchHandle, words: str, seconds: float | None) -> in
     world = current_world()
     job = jobs(world).add(Job(words.strip(), what))
     simulators = len(world.graph.servers("/spawn"))
-    if seconds is None and not isinstance(what, Process):
-        what.wait_until_up()
-    else:
+    if seconds is not None:
         world.sim.settle()
-        run_for(world, seconds or 0.0)
+        run_for(world, seconds)
+    elif isinstance(what, Process):
+        world.sim.settle()
+    else:
+        what.wait_until_up()
     sys.stdout.flush()
     if job.running:
         print(
