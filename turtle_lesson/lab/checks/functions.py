@@ -57,14 +57,15 @@ def returns(
         for arguments, wanted in examples:
             came = exam.call(function, *arguments)
             said = f"{name}({', '.join(map(_shown, arguments))}) is {_shown(came)}"
-            if not _is(came, wanted, within):
+            if not agrees(came, wanted, within):
                 return Seen(False, f"{said}, not {_shown(wanted)}", advice)
         return Seen(True, said)
 
     return Expectation(expected, look)
 
 
-def _is(came: Any, wanted: Any, within: float) -> bool:
+def agrees(came: Any, wanted: Any, within: float) -> bool:
+    """Whether a value is the wanted one, of its type; a number may be of either type of numbers, and off by `within`."""
     if isinstance(wanted, bool) or not isinstance(wanted, int | float):
         return bool(type(came) is type(wanted) and came == wanted)
     return isinstance(came, int | float) and not isinstance(came, bool) and abs(came - wanted) <= within

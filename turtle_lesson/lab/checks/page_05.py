@@ -13,7 +13,7 @@ from ..words import angle, count, number
 from .drives import where
 from .exam import Exam, Heard
 from .fields import field, interface
-from .functions import learner_function, returns
+from .functions import agrees, learner_function, returns
 from .parts import no_errors, node, publishes
 from .registry import Expectation, check
 from .rows import Advice, CannotLook, Seen
@@ -212,7 +212,7 @@ def _nearest(expected: str, examples: Iterable[tuple[Fan, dict[int, float], floa
             things = " and ".join(f"{reading:g} m at {at}°" for at, reading in near.items()) or "nothing near"
             others = "" if fan == (-90, 90, 1) else f" (beams from {fan[0]}° to {fan[1]}°, each {fan[2]}°)"
             words = f"{things}{others}: {came!r}"
-            if isinstance(came, bool) or not isinstance(came, int | float) or not abs(came - wanted) <= 1e-6:
+            if not agrees(came, wanted, 1e-6):
                 advice = Advice(
                     direction="At which angle does each of these beams point, and is that at most 30° to a side?",
                     hint="Open Hint 2 and Hint 3 under the exercise.",
