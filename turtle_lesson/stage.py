@@ -124,7 +124,9 @@ class WorldStage:
         if fault == "not in CMakeLists.txt":
             text = (source / "CMakeLists.txt").read_text(encoding="utf-8")
             if not MESSAGE_FILE.search(text):
-                raise ValueError('your CMakeLists.txt does not name "msg/TurtleStatus.msg", so that cannot be broken')
+                raise ValueError(
+                    'your CMakeLists.txt does not name "msg/TurtleStatus.msg", so this case cannot be made from it'
+                )
             (source / "CMakeLists.txt").write_text(MESSAGE_FILE.sub("", text), encoding="utf-8")
         if fault != "not built":
             self._build(folder)

@@ -61,7 +61,7 @@ class ProgressFile:
         self._write()
 
     def _read(self) -> tuple[dict[str, int], dict[str, int]]:
-        """Points and failures in a row that the file tells."""
+        """The points, and the failures in a row, that the file holds."""
         if self.path is None or not self.path.is_file():
             return {}, {}
         try:

@@ -71,7 +71,7 @@ def no_answer(chance: Random) -> Fault:
         ),
         Fault(
             "A callback of the navigator waited for a message that only another of its callbacks could have brought: "
-            "its one thread was taken for ever.",
+            "its one thread was taken forever.",
             'lesson.plot_timeline("/navigator"): which callback never ends?',
             (Program("navigator_waiting", DRAFT, "navigator"), *OTHERS),
         ),
@@ -207,7 +207,7 @@ def goal_in_the_west(chance: Random) -> Fault:
     """An angle difference that is not wrapped."""
     return Fault(
         "The navigator subtracted two angles and did not bring the difference into -180° to 180°: where the heading jumps "
-        "from 180° to -180°, it turned the long way round, for ever.",
+        "from 180° to -180°, it turned the long way round, forever.",
         "Call it for a goal due west and look at lesson.plot_path(). ros2 param list /navigator",
         (Program("navigator_draft", DRAFT, "navigator"), *chance.sample(OTHERS, 2)),
     )

@@ -37,7 +37,7 @@ def frequency(text: str) -> float:
     if value > FASTEST:
         raise ArgumentTypeError(f"'{text}' times a second is too often; at most {FASTEST:g}")
     if value < 1 / LONGEST:
-        raise ArgumentTypeError(f"'{text}' times a second is too rarely; at least once a day")
+        raise ArgumentTypeError(f"'{text}' times a second is too rare; at least once a day")
     return value
 
 
