@@ -621,13 +621,20 @@ def test_a_waiting_spin_hears_of_a_shutdown_from_elsewhere(run: Run, world: Worl
     def program(found: list[Any]) -> None:
         node = start()
         contexts.append(rclpy.get_default_context())
-        try:
-            rclpy.spin(node)
-        except ExternalShutdownException:
-            found.append("external shutdown")
+        rclpy.spin(node)
+        found.append("the spin function returns")
 
-    world.sim.call_later(500_000_000, lambda: contexts[0].try_shutdown())
-    assert run(program) == ["external shutdown"]
+    def other_program(found: list[Any]) -> None:
+        executor = SingleThreadedExecutor()
+        executor.add_node(start())
+        contexts.append(rclpy.get_default_context())
+        try:
+            executor.spin()
+        except ExternalShutdownException:
+            found.append("the executor raises")
+
+    world.sim.call_later(500_000_000, lambda: [context.try_shutdown() for context in contexts])
+    assert run(program, other_program) == ["the spin function returns", "the executor raises"]
 
 
 def test_an_executor_that_is_shut_down_spins_no_more_and_says_so_only_to_those_who_wait_themselves(run: Run) -> None:

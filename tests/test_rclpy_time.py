@@ -400,8 +400,7 @@ def test_a_sleep_ends_with_false_when_time_has_another_source_or_ros_is_shut_dow
         timer = node.create_timer(0.1, nap, callback_group=rclpy.callback_groups.MutuallyExclusiveCallbackGroup())
         executor = MultiThreadedExecutor(2)
         executor.add_node(node)
-        with pytest.raises(rclpy.executors.ExternalShutdownException):
-            executor.spin()
+        executor.spin()
         time.sleep(1.0)
 
     assert run(program) == [(False, 1.0), (False, 3.0)]
@@ -489,8 +488,7 @@ def test_a_rate_ends_with_the_shutdown(run: Run) -> None:
         node.create_timer(1.0, rclpy.shutdown, callback_group=rclpy.callback_groups.ReentrantCallbackGroup())
         executor = MultiThreadedExecutor(2)
         executor.add_node(node)
-        with pytest.raises(rclpy.executors.ExternalShutdownException):
-            executor.spin()
+        executor.spin()
         time.sleep(0.1)
 
     assert run(program) == [1.0, 1.0]

@@ -268,8 +268,7 @@ def test_a_shutdown_ends_the_waiting(run: Run) -> None:
         timer = other.create_timer(0.1, wait, callback_group=MutuallyExclusiveCallbackGroup())
         executor = MultiThreadedExecutor(3)
         executor.add_node(other)
-        with pytest.raises(rclpy.executors.ExternalShutdownException):
-            executor.spin()
+        executor.spin()
         time.sleep(0.1)
 
     assert run(program) == [(False, None)]

@@ -89,13 +89,18 @@ def init(
 
 
 def get_global_executor() -> Executor:
-    """The executor that this process's `spin` functions use unless they are given another one."""
+    """The executor that this process's `spin` functions use unless they are given another one.
+
+    `rclpy.shutdown()` shuts it down, too: so `rclpy.spin` in another thread returns in silence (rclpy's __init__.py).
+    """
     shelf = current_process().locals
     executor = shelf.get("rclpy.executor")
     if executor is None or not executor.context.ok():
         from .executors import SingleThreadedExecutor
 
         executor = shelf["rclpy.executor"] = SingleThreadedExecutor()
+        if executor.context.ok():
+            executor.context.on_shutdown(executor.shutdown)
     return executor
 
 

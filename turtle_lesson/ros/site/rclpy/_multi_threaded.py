@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from contextlib import suppress
 
 from turtle_lesson.ros.core import NeverWakes, Strand, running_strand
 from turtle_lesson.ros.core.stdlib.hopeless import IDLE, look_after, wait_in_vain
@@ -12,6 +13,7 @@ from turtle_lesson.ros.core.tracebacks import print_error
 
 from ._deadlock import executor_of_worker, know_worker
 from ._executor import Condition, Executor, Job
+from ._executor_errors import ExternalShutdownException
 from ._notebook import is_notebook
 from .context import Context
 
@@ -65,7 +67,10 @@ class MultiThreadedExecutor(Executor):
         return job
 
     def _spin_once(self, strand: Strand, deadline: int | None, condition: Condition) -> None:
-        super()._spin_once(strand, deadline, condition)
+        with suppress(
+            ExternalShutdownException
+        ):  # as the real one does (executors.py); a single-threaded one raises it
+            super()._spin_once(strand, deadline, condition)
         if is_notebook(strand.process):
             self._let_workers_go_on(strand)
 
