@@ -13,6 +13,7 @@ from .ros.command.driving import set_player
 from .ros.command.shell import open_terminal
 from .ros.console import CellOutput
 from .ros.core import EPOCH, NANOSECONDS
+from .ros.distro import chosen_release
 from .ros.interfaces.registry import registry
 from .ros.workspace.package import read_source_package
 from .ros.workspace.source import make_importable
@@ -40,7 +41,12 @@ LONGEST_RUN = 1e9
 
 
 def start(
-    seed: int = 0, package: str | Path | None = "finished", simulator: bool = True, *, page: str | None = None
+    seed: int = 0,
+    package: str | Path | None = "finished",
+    simulator: bool = True,
+    *,
+    page: str | None = None,
+    distro: str | None = None,
 ) -> Lesson:
     """Make a fresh world, in which nothing of an earlier one goes on, and return the `Lesson` that runs it.
 
@@ -54,17 +60,20 @@ def start(
         simulator: whether the turtle simulator runs from the beginning.
         page: a page of the lesson, such as "04_status_monitor": what the pages before it would have left in the learner's
             package is brought where it is missing, and listed; the package that results is "mine" unless another is asked for.
+        distro: the release of ROS 2 that the world behaves as where releases differ: "humble", "iron", "jazzy" or "kilted".
+            None is what the environment variable ROS_DISTRO says, or else "humble".
 
-    Raises RuntimeError where a real ROS 2 is sourced, ValueError for anything else as `package` or `page`.
+    Raises RuntimeError where a real ROS 2 is sourced, ValueError for anything else as `package`, `page` or `distro`.
     """
     _check_no_real_ros()
     _check_seed(seed)
+    chosen_release(distro)
     if page is not None:
         print(workspace().prepare(page_named(page)).state())
         package = "mine" if package == "finished" else package
-    mine = _built(seed, workspace()) if package == "mine" else None
+    mine = _built(seed, distro, workspace()) if package == "mine" else None
     source = _package_folder(None if mine else package)
-    world = open_world(seed)
+    world = open_world(seed, distro)
     open_terminal()
     if "robot_controller" in registry.packages():
         registry.remove("robot_controller")
@@ -77,10 +86,10 @@ def start(
     return Lesson(world, simulator=simulator)
 
 
-def _built(seed: int, mine: Workspace) -> Workspace:
+def _built(seed: int, distro: str | None, mine: Workspace) -> Workspace:
     """The learner's workspace, built if its sources have changed. Prints what the build says where it fails."""
     if (mine.package / "package.xml").exists() and not mine.is_built:
-        world = open_world(seed)  # one of its own: building takes robot time, and the lesson's world begins at 0 s
+        world = open_world(seed, distro)  # one of its own: building takes robot time, and the lesson's world begins at 0 s
         for each in underlay_packages():
             world.packages.add(each)
         if said := mine.build(world):
@@ -159,12 +168,17 @@ class Lesson(Shelf, Insight):
         """The robot time: seconds since this world began."""
         return self._world.now / NANOSECONDS
 
-    def run(self, seconds: float) -> None:
+    def run(self, seconds: float, *, input: Iterable[str] = ()) -> None:
         """Let `seconds` of robot time pass, as fast as the computer can.
 
-        An interrupt (the stop button) pauses the world; the next run goes on from there.
+        `input` holds lines for the programs that call `input()`, in the order in which they ask; when there is none left,
+        the cell itself asks. An interrupt (the stop button) pauses the world; the next run goes on from there.
         """
         _check_seconds("run", seconds)
+        lines = input.splitlines() if isinstance(input, str) else list(input)
+        if not all(isinstance(line, str) for line in lines):
+            raise TypeError(f'input must be lines of text, got {lines!r}: try lesson.run(5, input=["3", "yes"])')
+        self._world.sim.keyboard.lines.extend(lines)
         self._world.sim.run_until(self._world.now + round(seconds * NANOSECONDS))
 
     def spin(self, seconds: float, *nodes: Any) -> None:

@@ -163,9 +163,13 @@ class Player:
         Returns whether it got there.
         """
         simulation = self._simulation
+        simulation.keyboard.live = True
         deadline = real_monotonic() + LONGEST_WORK
-        while simulation.now < until and real_monotonic() < deadline:
-            self._cells.run_until(min(until, simulation.now + PIECE))
+        try:
+            while simulation.now < until and real_monotonic() < deadline:
+                self._cells.run_until(min(until, simulation.now + PIECE))
+        finally:
+            simulation.keyboard.live = False
         return simulation.now >= until
 
 

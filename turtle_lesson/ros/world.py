@@ -18,7 +18,9 @@ from .core.program import run_program
 from .core.stdlib import home, lend
 from .core.stdlib.environment import encoded
 from .core.tracebacks import is_library
+from .distro import UNCHECKED_FIELDS, VARIABLE, chosen_release
 from .graph import Graph
+from .interfaces import checks
 from .trace import Trace
 from .workspace.index import PackageIndex
 
@@ -26,9 +28,14 @@ FIRST_PID = 1001
 
 
 class World:
-    """One simulated computer with ROS 2 on it. `seed` decides about every random number in it."""
+    """One simulated computer with ROS 2 on it.
 
-    def __init__(self, seed: int = 0) -> None:
+    `seed` decides about every random number in it, `distro` which release it behaves as (see `distro.py`).
+    """
+
+    def __init__(self, seed: int = 0, distro: str | None = None) -> None:
+        self.release = chosen_release(distro)
+        checks.when_assigned = not self.release.has(UNCHECKED_FIELDS)
         virtual_time.install()
         virtual_random.install()
         virtual_random.install_for_numpy()
@@ -70,6 +77,7 @@ class World:
         argv: Sequence[str] = (),
         stdout: Output | None = None,
         stderr: Output | None = None,
+        stdin: Any = None,
         on_exit: Callable[[Process], None] | None = None,
         environ: Mapping[str, str] | None = None,
         start_up: int = 0,
@@ -77,12 +85,14 @@ class World:
         """Start a process at this instant: a Python file, run as `__main__`, or a callable.
 
         Does not wait for it. The file's errors are the process's: they are shown, and its exit code is 1. Without
-        `environ` it has the environment variables of the caller that starts it. Its main program begins `start_up` ns later.
+        `environ` it has the environment variables of the caller that starts it; it reads `stdin`, a file or pipe, or else
+        the keyboard. Its main program begins `start_up` ns later.
         """
         arguments = list(argv) or [str(target) if isinstance(target, Path) else name]
-        process = self._make_process(name, argv=arguments, stdout=stdout, stderr=stderr, on_exit=on_exit)
+        process = self._make_process(name, argv=arguments, stdout=stdout, stderr=stderr, stdin=stdin, on_exit=on_exit)
         self.processes.append(process)
         process.environ = encoded(environ)
+        process.environ.setdefault(*encoded({VARIABLE: self.release.name}).popitem())
         process.start(_program(target) if isinstance(target, Path) else target, start_up)
         return process
 
@@ -135,12 +145,12 @@ def current_world() -> World:
     return _current
 
 
-def open_world(seed: int = 0) -> World:
+def open_world(seed: int = 0, distro: str | None = None) -> World:
     """Close the current world, if there is one, and make a fresh one the current one."""
     global _current
     if _current is not None:
         _current.close()
-    _current = World(seed)
+    _current = World(seed, distro)
     return _current
 
 

@@ -10,7 +10,10 @@ SCREEN = (
     "A program here has no screen for a window of its own. lesson.dashboard() may show the same; the "
     "program's nodes can do their work without the window."
 )
-ANSWER = "input() cannot be answered here: give the values as arguments (sys.argv) or as parameters (-p name:=value)."
+ANSWER = (
+    "Nobody is here to answer input(). Give the lines beforehand (lesson.run(5, input=['3']), `ros2 run … < FILE` or "
+    "`echo 3 | ros2 run …`), or the values as arguments (sys.argv) or parameters (-p name:=value)."
+)
 
 _BY_KIND = {
     "termios.error": KEYS, "_curses.error": KEYS, "tty.error": KEYS, "builtins.EOFError": ANSWER,

@@ -36,6 +36,7 @@ def run(
     world: World,
     words: Sequence[str],
     *,
+    stdin: str | None = None,
     stdout: Output | None = None,
     stderr: Output | None = None,
     cwd: Path | None = None,
@@ -46,6 +47,7 @@ def run(
     Args:
         world: where it runs.
         words: the program's name and its arguments.
+        stdin: what a program of `ros2 run` reads as its input; the keyboard if not given.
         stdout, stderr: where it prints to; the running cell if not given.
         cwd: the folder that it works in; the current one if not given.
         background: whether to return at once and let it go on while the world runs (`&`).
@@ -64,6 +66,7 @@ def run(
             print(stop.text, file=error_to if stop.code else out_to)
             return stop.code
         if getattr(call.verb, "in_cell", False):
+            call.arguments.stdin = stdin
             return _run_in_cell(call, out_to, error_to)
         if background:
             return _start_in_background(world, call, words)

@@ -31,6 +31,7 @@ UNSURE = ELSEWHERE | {
     "head",
     "mv",
     "printenv",
+    "printf",
     "rm",
     "sort",
     "tail",

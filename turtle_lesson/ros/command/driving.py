@@ -103,9 +103,9 @@ class Waiter:
 
     def _play(self, process: Process, rate: float) -> None:
         simulation = self._world.sim
-        began, origin = real_monotonic(), simulation.now
+        began, origin = _real_time(self._world), simulation.now
         while process.alive:
-            elapsed = round((real_monotonic() - began) * rate * NANOSECONDS)
+            elapsed = round((_real_time(self._world) - began) * rate * NANOSECONDS)
             simulation.run_until(max(simulation.now, origin + elapsed))
             if process.alive:
                 real_sleep(LIVE_STEP)
@@ -118,9 +118,14 @@ def run_for(world: World, seconds: float) -> None:
     if rate is None:
         world.sim.run_until(end)
         return
-    began, origin = real_monotonic(), world.now
+    began, origin = _real_time(world), world.now
     while world.now < end:
-        elapsed = round((real_monotonic() - began) * rate * NANOSECONDS)
+        elapsed = round((_real_time(world) - began) * rate * NANOSECONDS)
         world.sim.run_until(min(end, max(world.now, origin + elapsed)))
         if world.now < end:
             real_sleep(LIVE_STEP)
+
+
+def _real_time(world: World) -> float:
+    """A real clock (s) that stands still while a program waits for an answer of the user."""
+    return real_monotonic() - world.sim.keyboard.seconds_asked

@@ -8,6 +8,7 @@ from __future__ import annotations
 import sys
 from argparse import REMAINDER, ArgumentParser, Namespace
 from collections.abc import Sequence
+from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -49,6 +50,7 @@ def _add_for(parser: ArgumentParser, what: str) -> None:
 def _run_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("--prefix", help="a program to run it with: accepted, but without effect here")
     _add_for(parser, "ros2 run")
+    parser.set_defaults(stdin=None)
     parser.add_argument("package_name", help="package that the program belongs to")
     parser.add_argument("executable_name", help="name of the program")
     words = parser.add_argument(
@@ -79,11 +81,17 @@ def _run(args: Namespace) -> int:
         target,
         name=name,
         argv=[str(path_of(package, name)), *args.argv],
+        stdin=reader_of(args.stdin),
         stdout=output,
         stderr=output,
         on_exit=_say_how_it_ended,
     )
     return leave(process, " ".join(["ros2 run", args.package_name, name, *args.argv]), args.seconds)
+
+
+def reader_of(text: str | None) -> StringIO | None:
+    """What a program reads that is given a text as its input; None if it is given none."""
+    return None if text is None else StringIO(text)
 
 
 def _say_how_it_ended(process: Process) -> None:

@@ -55,9 +55,12 @@ def _module(name: str) -> Path | None:
     return next((place for place in places if place.is_file()), None)
 
 
-def run_script(world: World, words: Sequence[str]) -> int:
-    """Start the program, let it begin, and leave it running; the exit code of one that has ended at once."""
-    from .group_run_launch import leave
+def run_script(world: World, words: Sequence[str], stdin: str | None = None) -> int:
+    """Start the program, let it begin, and leave it running; the exit code of one that has ended at once.
+
+    It reads `stdin` as its input, or the keyboard if there is none.
+    """
+    from .group_run_launch import leave, reader_of
 
     path, output = _script(words[1:]), CellOutput(world.sim)
     assert path is not None
@@ -66,5 +69,5 @@ def run_script(world: World, words: Sequence[str]) -> int:
     if arguments[0] == "-m":
         name, arguments = arguments[1].rpartition(".")[2], [str(path), *arguments[2:]]
         target = PythonProgram(path, (Path.cwd(),), _AS_MODULE.format(name=words[2]))
-    process = world.spawn(target, name=name, argv=arguments, stdout=output, stderr=output)
+    process = world.spawn(target, name=name, argv=arguments, stdin=reader_of(stdin), stdout=output, stderr=output)
     return leave(process, " ".join(words), None)

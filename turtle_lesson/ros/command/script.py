@@ -23,6 +23,7 @@ class Command:
 
     words: list[Word] = field(default_factory=list)
     given: str | None = None
+    stdin: str | None = None
     stdout: tuple[str, str] | None = None
     stderr: str | None = None
     background: bool = False
@@ -60,8 +61,8 @@ _WANTED = "\0wanted"
 
 def _expect_file(command: Command, sign: str) -> None:
     if sign == "<":
-        raise ShellSyntaxError("this simulated terminal has no '<': name the file as an argument instead")
-    if sign == "2>":
+        command.stdin = _WANTED
+    elif sign == "2>":
         command.stderr = _WANTED
     else:
         command.stdout = (sign, _WANTED)
@@ -69,8 +70,10 @@ def _expect_file(command: Command, sign: str) -> None:
 
 
 def _take(command: Command, word: Word) -> None:
-    """A word is the file that a `>` waits for, or one more word of the command."""
-    if command.stdout is not None and command.stdout[1] == _WANTED:
+    """A word is the file that a `<` or `>` waits for, or one more word of the command."""
+    if command.stdin == _WANTED:
+        command.stdin = word.text
+    elif command.stdout is not None and command.stdout[1] == _WANTED:
         command.stdout = (command.stdout[0], word.text)
     elif command.stderr == _WANTED:
         command.stderr = word.text
@@ -83,6 +86,8 @@ def _check(command: Command, sign: str) -> None:
         raise ShellSyntaxError(
             f"there is no command before {sign!r}" if sign != "\n" else "there is no command after '|'"
         )
+    if command.stdin == _WANTED:
+        raise ShellSyntaxError("'<' needs the name of a file")
     if _WANTED in (command.stderr, (command.stdout or ("", ""))[1]):
         raise ShellSyntaxError("'>' needs the name of a file")
 

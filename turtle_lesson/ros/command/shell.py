@@ -1,7 +1,7 @@
 """A small terminal: a line or a script becomes commands, which run one after the other.
 
-Quotes, `\\` at a line's end, comments, `&&`, `||`, `;`, a trailing `&`, `| grep`, `> file` and patterns such as `*.msg` work
-as in bash. The current folder is the notebook's; `~` is the folder in which the notebook began.
+Quotes, `\\` at a line's end, comments, `&&`, `||`, `;`, a trailing `&`, `| grep`, `< file`, `> file` and patterns such as
+`*.msg` work as in bash. The current folder is the notebook's; `~` is the folder in which the notebook began.
 """
 
 from __future__ import annotations
@@ -99,6 +99,8 @@ class Shell:
     def _one(self, command: Command, given: str | None, out: Any, error: Any) -> int:
         words = [text for word in command.words for text in expand(word, home=_home, exit_code=self.exit_code)]
         try:
+            if command.stdin is not None:
+                given = Path(command.stdin).read_text(encoding="utf-8")
             with _redirected(command, out, error) as (to, error_to):
                 return self._guarded(words, given, to, error_to, command.background)
         except (OSError, ValueError) as mistake:
@@ -121,14 +123,14 @@ class Shell:
                 return self._call(rest, given, out, error, background)
         name = words[0]
         if name == "ros2":
-            return run_ros2(self.world, words, stdout=out, stderr=error, background=background)
+            return run_ros2(self.world, words, stdin=given, stdout=out, stderr=error, background=background)
         if name in {"colcon", "source", "."}:
             return _workspace(self.world, words, out, error)
         if "/" in name and (program := self.world.packages.program_at(name)):
             words = ["ros2", "run", *program, *words[1:]]
-            return run_ros2(self.world, words, stdout=out, stderr=error, background=background)
+            return run_ros2(self.world, words, stdin=given, stdout=out, stderr=error, background=background)
         if names_a_script(words):
-            return run_script(self.world, words)
+            return run_script(self.world, words, given)
         if name in BUILTINS:
             return BUILTINS[name](Terminal(self.world, out, error, given), list(words[1:]))
         print(_not_found(words), file=error)

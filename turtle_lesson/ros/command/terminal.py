@@ -6,7 +6,7 @@ from .terminal_changes import cp, mv, rm
 from .terminal_files import cd, chmod, ls, mkdir, pwd, touch
 from .terminal_io import Builtin
 from .terminal_jobs import kill, list_jobs
-from .terminal_text import cat, echo, grep, head, sort, tail, wc
+from .terminal_text import cat, echo, grep, head, printf, sort, tail, wc
 from .terminal_variables import export, printenv, unset
 
 BUILTINS: dict[str, Builtin] = {
@@ -24,6 +24,7 @@ BUILTINS: dict[str, Builtin] = {
     "mkdir": mkdir,
     "mv": mv,
     "printenv": printenv,
+    "printf": printf,
     "pwd": pwd,
     "rm": rm,
     "sort": sort,

@@ -1,4 +1,4 @@
-"""The terminal's words for texts: cat, echo, and what a pipe leads to: grep, head, tail, sort, wc."""
+"""The terminal's words for texts: cat, echo, printf, and what a pipe leads to: grep, head, tail, sort, wc."""
 
 from __future__ import annotations
 
@@ -24,8 +24,30 @@ def _texts(terminal: Terminal, names: Iterable[str]) -> list[str]:
 
 
 def echo(terminal: Terminal, words: list[str]) -> int:
-    """`echo words`: print words."""
-    return terminal.say(" ".join(words))
+    """`echo [-n] [-e] words`: print words; -n without a line end, -e with `\\n` and its kin as what they stand for."""
+    signs = ""
+    while words and re.fullmatch("-[neE]+", words[0]):
+        signs, words = signs + words[0], words[1:]
+    text = " ".join(words)
+    terminal.stdout.write((_unescaped(text) if "e" in signs else text) + ("" if "n" in signs else "\n"))
+    return 0
+
+
+def printf(terminal: Terminal, words: list[str]) -> int:
+    """`printf FORMAT words`: print a text in which `\\n` is a line end and %s a word; further words use it once more."""
+    if not words:
+        return terminal.fail("printf: usage: printf format [arguments]", 2)
+    shape, rest = _unescaped(words[0]), iter(words[1:])
+    places = len(re.findall("%[sdi]", shape.replace("%%", "")))
+    left = max(1, -(-len(words[1:]) // places)) if places else 1
+    for _ in range(left):
+        filled = re.sub("%([sdi%])", lambda found: "%" if found[1] == "%" else next(rest, ""), shape)
+        terminal.stdout.write(filled)
+    return 0
+
+
+def _unescaped(text: str) -> str:
+    return re.sub(r"\\([ntr\\])", lambda found: {"n": "\n", "t": "\t", "r": "\r"}.get(found[1], found[1]), text)
 
 
 def grep(terminal: Terminal, words: list[str]) -> int:

@@ -12,6 +12,7 @@ import signal
 import sys
 import threading
 import time
+from collections.abc import Callable
 from types import FrameType, TracebackType
 from typing import TYPE_CHECKING, Any
 
@@ -82,6 +83,8 @@ class Guard:
         elif tripped is None:
             self.interrupted = True
             self.simulation.halt()
+            if _asks_the_user(frame):  # as Ctrl-C at a terminal's prompt: nothing else would end the question
+                raise KeyboardInterrupt
         elif tripped == self.simulation.now and not _jupyter_is_at_work(frame):  # else time has passed since it looked
             strand = running_strand()
             if self.interrupted:
@@ -166,7 +169,9 @@ class _Watchdog:
                 waited, work = _monotonic() - since, work_done() - computed
                 if state != seen:
                     seen, since, computed = state, _monotonic(), work_done()
-                elif _is_too_much(waited, work, guard.interrupted) and not _being_debugged():
+                elif _being_debugged():
+                    since, computed = _monotonic(), work_done()
+                elif _is_too_much(waited, work, guard.interrupted):
                     since, computed = _monotonic(), work_done()
                     guard.tripped_at = guard.simulation.now
                     _interrupt_main_thread()
@@ -207,10 +212,21 @@ _watchdog = _Watchdog()
 def _being_debugged() -> bool:
     """Whether the main thread waits for its user: in a debugger, or in input()."""
     frame = sys._current_frames().get(threading.main_thread().ident or 0)
+    return _asks_the_user(frame) or _is_within(frame, lambda each: each.f_globals.get("__name__") in _DEBUGGERS)
+
+
+def _asks_the_user(frame: FrameType | None) -> bool:
+    """Whether this is within Jupyter's input(), or within the one of a program in a script."""
+    return _is_within(frame, lambda each: each.f_code.co_name in _ASKING)
+
+
+def _is_within(frame: FrameType | None, is_it: Callable[[FrameType], bool]) -> bool:
     while frame is not None:
-        if frame.f_globals.get("__name__") in {"bdb", "pdb", "IPython.core.debugger"}:
-            return True
-        if frame.f_code.co_name in {"raw_input", "_input_request"}:
+        if is_it(frame):
             return True
         frame = frame.f_back
     return False
+
+
+_DEBUGGERS = {"bdb", "pdb", "IPython.core.debugger"}
+_ASKING = {"raw_input", "_input_request", "_answer_of_the_cell"}

@@ -51,6 +51,7 @@ class Process:
 
     Attributes:
         is_notebook: whether it stands for a notebook, whose cells drive the simulation.
+        stdin: the file or pipe that it reads as its standard input; None: the world's keyboard.
         environ: the environment variables of its own, as the system encodes them; None: Python's own.
         strands: its lines of execution, in the order of their making; dead ones may be among them.
         modules: the Python modules of its own that a program has which was read from a file.
@@ -73,6 +74,7 @@ class Process:
         argv: Sequence[str] = (),
         stdout: Output | None = None,
         stderr: Output | None = None,
+        stdin: Any = None,
         on_exit: Callable[[Process], None] | None = None,
     ) -> None:
         self.simulation = simulation
@@ -83,6 +85,7 @@ class Process:
         self.seed = seed
         self.stdout: Any = stdout
         self.stderr: Any = stderr
+        self.stdin: Any = stdin
         self.exit_code: int | None = None
         self.locals: dict[str, Any] = {}
         self.followers: list[Process] = []

@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Any
 
 from .busy_loops import NAME, another_look
 from .program_code import ProgramLoader, code_of
+from .program_input import ProgramInput
 from .program_sys import ProgramSys
 
 if TYPE_CHECKING:
@@ -36,8 +37,10 @@ class ProgramModules:
     def __init__(self, process: Process, folders: Iterable[str]) -> None:
         self._process = process
         self._folders = list(folders)
-        self.sys = ProgramSys(process, [*self._folders, *sys.path], self.show)
-        self.builtins = {**vars(builtins), "__import__": self._import, "exit": _exit, "quit": _exit, NAME: another_look}
+        stdin = ProgramInput(process)
+        self.sys = ProgramSys(process, [*self._folders, *sys.path], stdin, self.show)
+        own = {"__import__": self._import, "input": stdin.ask, "exit": _exit, "quit": _exit, NAME: another_look}
+        self.builtins = {**vars(builtins), **own}
         self._modules: dict[str, ModuleType] = {}
         self._own = {"__main__": True}
         self._looked_in: list[str] = []

@@ -12,16 +12,18 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .process import Process
+    from .program_input import ProgramInput
 
 _OF_THE_PROCESS = ("argv", "stderr", "stdout")
+_OF_THE_PROGRAM = ("excepthook", "path", "stdin")
 
 
 class ProgramSys(ModuleType):
     """What `import sys` gives a program. `show` puts its modules into `sys.modules`."""
 
-    def __init__(self, process: Process, path: list[str], show: Callable[[], None]) -> None:
+    def __init__(self, process: Process, path: list[str], stdin: ProgramInput, show: Callable[[], None]) -> None:
         super().__init__("sys", sys.__doc__)
-        self.__dict__.update(path=path, _process=process, _show=show)
+        self.__dict__.update(path=path, stdin=stdin, __stdin__=stdin, _process=process, _show=show)
 
     def __getattr__(self, name: str) -> Any:
         if name == "modules":
@@ -29,7 +31,7 @@ class ProgramSys(ModuleType):
         return getattr(sys, name)
 
     def __setattr__(self, name: str, value: Any) -> None:
-        if name in ("excepthook", "path"):
+        if name in _OF_THE_PROGRAM:
             self.__dict__[name] = value
             return
         if name in _OF_THE_PROCESS:

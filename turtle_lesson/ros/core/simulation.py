@@ -21,6 +21,7 @@ from .cell_context import Cell
 from .errors import SimulationError, WorldClosed
 from .face import Face
 from .interrupts import Guard
+from .keyboard import Keyboard
 from .strand import GreenletExit, Strand, running_greenlet, running_strand
 
 if TYPE_CHECKING:
@@ -66,6 +67,7 @@ class Simulation(Face):
         self._for_the_hub: deque[tuple[Callable[..., object], tuple[Any, ...]]] = deque()
         self._strands: weakref.WeakSet[Strand] = weakref.WeakSet()
         self._forgotten: list[Strand] = []
+        self.keyboard = Keyboard(self)
 
     # -- asking for things to happen -------------------------------------------------------------------------
 
@@ -219,6 +221,11 @@ class Simulation(Face):
     def scheduled(self) -> list[tuple[int, int, Callable[[Any], object], Any]]:
         """What `at` was asked for and has not happened yet, in its order: time (ns), a number, action, argument."""
         return sorted(self._heap, key=lambda event: event[:2])
+
+    @property
+    def events(self) -> int:
+        """How many events were ever asked for."""
+        return self._count
 
     @property
     def busy(self) -> bool:
