@@ -158,26 +158,6 @@ def test_a_log_folder_is_named_and_nothing_is_written(tmp_path: Path, capsys: py
     ]
 
 
-@pytest.mark.parametrize(
-    ("action", "reason"),
-    [
-        (
-            "ComposableNodeContainer(name='c', namespace='', package='rclcpp_components', executable='component_container',"
-            " composable_node_descriptions=[ComposableNode(package='composition', plugin='composition::Talker')]),",
-            "ComposableNodeContainer: composable nodes are C++ libraries, and only Python nodes run here",
-        ),
-        (
-            "LoadComposableNodes(target_container='c', composable_node_descriptions=[]),",
-            "LoadComposableNodes: composable nodes are C++ libraries, and only Python nodes run here",
-        ),
-    ],
-)
-def test_composition_is_refused_with_a_sentence(tmp_path: Path, action: str, reason: str) -> None:
-    with pytest.raises(LaunchError) as caught:
-        launch(tmp_path, action)
-    assert caught.value.reason == reason and "Node(package=" in caught.value.hint
-
-
 def test_a_description_can_be_emitted_as_an_event(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = write(
         tmp_path,
@@ -320,22 +300,3 @@ def test_mistakes_are_told_with_their_line(tmp_path: Path, action: str, reason: 
         launch(tmp_path, action)
     assert reason in caught.value.reason and hint in caught.value.hint
     assert caught.value.line == 14
-
-
-@pytest.mark.parametrize(
-    ("prefix", "terminal"),
-    [
-        ("'xterm -e'", "xterm"),
-        ("['gnome-terminal ', '-- ']", "gnome-terminal"),
-        ("[LaunchConfiguration('t', default='/usr/bin/konsole'), ' -e']", "konsole"),
-        ("''", ""),
-    ],
-)
-def test_a_node_that_is_to_have_a_terminal_runs_without_one(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], prefix: str, terminal: str
-) -> None:
-    launch(tmp_path, node(prefix=prefix))
-    lines = screen(capsys)
-    warning = f"[WARNING] [launch]: there is no {terminal} here: navigator-1 runs without a terminal of its own"
-    assert lines[: len(lines) - 1] == ([warning] if terminal else [])
-    assert lines[-1].startswith("[INFO] [navigator-1]: process started")

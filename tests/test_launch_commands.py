@@ -168,21 +168,16 @@ def test_a_wrong_command_says_so_where_it_prints(
 @pytest.mark.parametrize(
     ("cmd", "reason", "hint"),
     [
-        ("['ls', '-l']", "ExecuteProcess(cmd='ls -l') would run a program of the operating system", ""),
-        ("['rviz2']", "ExecuteProcess(cmd='rviz2') would run a program of the operating system", "no windows here"),
         (
             "['ros2 topic list']",
             "ExecuteProcess(cmd='ros2 topic list'): there is no program called",
             "cmd is a list",
         ),
-        ("['ros2', 'launch', 'a', 'b']", "ExecuteProcess(cmd='ros2 launch a b'): a launch file is", "Write Include"),
         ("['python3', 'nope.py']", "ExecuteProcess(cmd='python3 nope.py'): there is no file nope.py", ""),
-        ("['bash', '-c', 'echo a | grep b']", "the command 'echo a | grep b' uses '|'", "Only one command, or several"),
         ("['bash', '-c', 'echo \"a']", "syntax error in the command 'echo \"a'", ""),
         ("['bash', '-c', '']", "there is no command in cmd=[…]", ""),
         ("['ros2', 'run', 'demo', 'listner']", "No executable found", "Did you mean 'listener'?"),
         ("['ros2', 'run', 'demmo', 'x']", "\"package 'demmo' not found", "Did you mean 'demo'?"),
-        ("['']", "ExecuteProcess(cmd='') would run a program of the operating system", ""),
         ("[]", "ExecuteProcess expected a command in 'cmd', got none", "cmd=['ros2', 'topic', 'list']"),
         ("'ros2 topic list'", "ExecuteProcess expected a list for 'cmd', got 'ros2 topic list'", "shell=True"),
     ],

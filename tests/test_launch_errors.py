@@ -221,8 +221,6 @@ def test_imports_of_what_is_not_here(tmp_path: Path, line: str, said: str) -> No
             node(output="'scren'"),
             'scren is not a valid standard output config i.e. "screen", "log" or "both"',
         ),
-        (node(prefix="'gdb -ex run --args'"), "prefix= puts another program (gdb) before the node"),
-        (node(prefix="['/usr/bin/', 'nice -n 5']"), "prefix= puts another program (nice) before the node"),
         (node(parameters="[{'p': []}]"), "Expected a non-empty sequence, with items of uniform type."),
         (node(parameters="[{'p': [1, 'a']}]"), "Expected a non-empty sequence, with items of uniform type."),
         (node(parameters="[{'p': None}]"), "Unexpected type for parameter value None"),
@@ -237,7 +235,6 @@ def test_imports_of_what_is_not_here(tmp_path: Path, line: str, said: str) -> No
             "the Python expression 'fast == 1' failed",
         ),
         ("LogInfo(msg=EnvironmentVariable('NO_SUCH')),", "environment variable 'NO_SUCH' does not exist"),
-        ("ExecuteProcess(cmd=['rviz2']),", "ExecuteProcess(cmd='rviz2') would run a program"),
         ("None,", "'NoneType' object has no attribute 'describe_sub_entities'"),
         (
             "DeclareLaunchArgument('mode', default_value='a', choices=['a', 'b']),",
@@ -349,6 +346,39 @@ def test_an_included_file_that_is_not_there(tmp_path: Path, path: str, hint: str
         assert error.line == 14
 
 
-def test_a_package_that_shows_windows(tmp_path: Path) -> None:
-    error = failure(write_launch_file(tmp_path, "Node(package='rviz2', executable='rviz2'),"))
-    assert error.hint.startswith("There are no windows here, so rviz2 is not available")
+def test_a_missing_package_is_the_only_thing_said_of_a_python_file(tmp_path: Path) -> None:
+    """The real text goes on: "… may have a syntax error", which the file has not."""
+    text = """\
+        from ament_index_python import get_package_share_directory
+
+        def generate_launch_description():
+            share = get_package_share_directory('robot_controler')
+        """
+    path = write(tmp_path, text)
+    error = failure(path)
+    said = "package 'robot_controler' not found, searching: ['install/robot_controller']"
+    assert error.reason == f'Caught exception when trying to load file of format [py]: "{said}"'
+    assert str(error).splitlines()[1:] == [
+        f"  in {path}, line 4: share = get_package_share_directory('robot_controler')",
+        "  Did you mean 'robot_controller'?",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("name", "hint"),
+    [
+        ("cartographer_ros", "cartographer_ros is not available here: it is not part of this simulation."),
+        ("lifecycle", "lifecycle is not available here: it is not part of this simulation."),
+        ("arm_cpp", "Is it built, and is its setup file sourced?"),
+        ("arm", "Is it built, and is its setup file sourced?"),
+        ("turtle_bot3_cartographer", "Did you mean 'turtlebot3_cartographer'?"),
+        ("turtlebot3_cartografer", "Did you mean 'turtlebot3_cartographer'?"),
+    ],
+)
+def test_a_package_is_suggested_only_if_its_name_is_close(name: str, hint: str) -> None:
+    world = FakeWorld()
+    for other in ("turtlebot3_cartographer", "lifecycle_py", "arm_py"):
+        world.packages.add(Package(other, Path(other)))
+    with pytest.raises(LaunchError) as caught:
+        find_launch_file(world, name, "x.launch.py")
+    assert caught.value.hint == hint

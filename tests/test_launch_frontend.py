@@ -399,11 +399,6 @@ NODE = '<node pkg="robot_controller" exec="navigator"'
             "SubstitutionSyntaxError: Unexpected end-of-input, at line 1 col 8 of '$(var x'",
             "Is the bracket of '$(var x' closed?",
         ),
-        (
-            '<node_container pkg="rclcpp_components" exec="component_container" name="c" namespace=""/>',
-            "CompositionNotHere: node_container: composable nodes are C++ libraries, and only Python nodes run here",
-            "Start the same node by itself, with Node(package=…, executable=…), if it has an executable in Python.",
-        ),
     ],
 )
 def test_a_mistake_in_xml_is_named_with_its_line(tmp_path: Path, line: str, said: str, hint: str) -> None:

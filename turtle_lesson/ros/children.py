@@ -201,6 +201,7 @@ def _piped(first: str, rest: str) -> None:
 def _refusal(line: str, error: Exception) -> str:
     hint = getattr(error, "hint", "")
     said = f"{error}" if not str(error).startswith("ExecuteProcess(") else "it is a program of the operating system"
+    said = getattr(error, "why", said)
     return (
         f"{line!r} cannot be started by a program here ({said}): ros2 commands, Python files, echo and "
         f"sleep can. {hint}".strip()

@@ -12,6 +12,7 @@ from ..workspace.create import add_arguments as add_create_arguments
 from ..workspace.create import create_package
 from ..workspace.current import current_packages
 from ..workspace.errors import did_you_mean
+from ..workspace.index import package_hint
 from ..workspace.package import Package
 from .in_cell import CellCommand, CommandError
 from .parser import cut
@@ -47,7 +48,7 @@ def not_found(name: str) -> CommandError:
 
 def hint_for_package(name: str) -> str:
     """What to try if there is no package of a name."""
-    return did_you_mean(name[:100], package_names()) or "Is it built (colcon build), and is its setup file sourced?"
+    return package_hint(name[:100], package_names()) or "Is it built (colcon build), and is its setup file sourced?"
 
 
 def _nothing(parser: ArgumentParser) -> None:

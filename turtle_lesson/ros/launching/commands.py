@@ -15,8 +15,9 @@ from launch.actions.execute_local import Program
 
 from ..core.process import INTERRUPTED
 from ..core.tracebacks import shown_path
+from ..workspace.absent import why_not_here
 from ..workspace.current import current_packages
-from ..workspace.errors import ExecutableNotFoundError, PackageNotFoundError
+from ..workspace.errors import ExecutableNotFoundError, NotHereError, PackageNotFoundError
 
 SHELLS = {"bash", "sh", "dash", "zsh"}
 Main = Callable[[], int | None]
@@ -28,6 +29,13 @@ class UnknownCommand(NotImplementedError):
     def __init__(self, message: str, hint: str = "") -> None:
         super().__init__(message)
         self.hint = hint
+
+
+class ForeignCommand(UnknownCommand, NotHereError):
+    """A command that a robot's computer would run."""
+
+    def __init__(self, what: str, why: str, hint: str = "") -> None:
+        NotHereError.__init__(self, what, why, hint)
 
 
 def program(words: Sequence[str], *, shell: bool = False) -> Program:
@@ -95,8 +103,9 @@ def _taken_apart(text: str) -> list[tuple[str, list[str]]]:
     for sign, pipeline in plan:
         command = pipeline[0]
         if len(pipeline) > 1 or command.stdout or command.stderr or command.given or command.background:
-            raise UnknownCommand(
-                f"the command {text!r} uses '|', '>' or '&', which launched commands cannot use here",
+            raise ForeignCommand(
+                f"the command {text!r}",
+                "it uses '|', '>' or '&', which launched commands cannot use here",
                 "Only one command, or several with '&&' or ';' between them, can be run.",
             )
         found.append((sign, [part for word in command.words for part in expand(word, home=Path.home(), exit_code=0)]))
@@ -159,14 +168,22 @@ def _main(words: list[str]) -> Main:
     name = PurePath(words[0]).name
     if name == "ros2":
         if words[1:2] == ["launch"]:
-            raise UnknownCommand(
-                f"ExecuteProcess(cmd='{' '.join(words)}'): a launch file is included with IncludeLaunchDescription",
-                "Write IncludeLaunchDescription(path_of_the_launch_file).",
+            raise ForeignCommand(
+                " ".join(words),
+                "a launch file is included with IncludeLaunchDescription(path_of_the_launch_file)",
             )
         return lambda: _ros2(words)
     if name in _SMALL:
         return lambda: _SMALL[name](words[1:])
-    raise UnknownCommand(*_refusal(words))
+    if " " in words[0]:
+        raise UnknownCommand(
+            f"ExecuteProcess(cmd='{' '.join(words)}'): there is no program called '{words[0]}'",
+            "cmd is a list of single words, ['ros2', 'topic', 'list']; a single string needs shell=True.",
+        )
+    from ..command.elsewhere import advice
+
+    why = why_not_here(name) or advice([name, *words[1:]]) or "it is a program of the operating system"
+    raise ForeignCommand(name or "a command without a name", why)
 
 
 def _ros2(words: list[str]) -> int:
@@ -205,20 +222,3 @@ _SMALL: dict[str, Callable[[Sequence[str]], Any]] = {
     "sleep": _sleep,
     "true": lambda words: 0,
 }
-
-
-def _refusal(words: Sequence[str]) -> tuple[str, str]:
-    """What to say of a command that is of the computer, and what to do instead."""
-    from ..command.elsewhere import advice
-
-    command = " ".join(words)
-    if " " in words[0]:
-        return (
-            f"ExecuteProcess(cmd='{command}'): there is no program called '{words[0]}'",
-            "cmd is a list of single words, ['ros2', 'topic', 'list']; a single string needs shell=True.",
-        )
-    return (
-        f"ExecuteProcess(cmd='{command}') would run a program of the operating system; here it runs "
-        "ros2 commands, Python files, echo and sleep. For a ROS node use Node(package=…, executable=…)",
-        advice(words) or "",
-    )

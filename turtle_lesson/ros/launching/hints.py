@@ -8,7 +8,8 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from ..core.tracebacks import shown_path
-from ..workspace.errors import PackageNotFoundError, did_you_mean
+from ..workspace import absent
+from ..workspace.errors import did_you_mean
 from ..workspace.index import is_launch_file
 
 Hint = Callable[[re.Match[str]], str]
@@ -29,23 +30,7 @@ def hint_for(error: BaseException, given: Iterable[str] = ()) -> str:
     return ""
 
 
-_WINDOWS = (
-    "rviz2",
-    "rqt",
-    "rqt_graph",
-    "rqt_plot",
-    "rqt_console",
-    "gazebo_ros",
-    "ros_gz_sim",
-    "joint_state_publisher_gui",
-)
-
-
 def _own_hint(error: BaseException) -> str:
-    if isinstance(error, PackageNotFoundError):
-        shown = next((name for name in _WINDOWS if f"package '{name}' not found" in error.text), None)
-        if shown is not None:
-            return f"There are no windows here, so {shown} is not available: leave it out, or put a condition on it."
     notes = " ".join(getattr(error, "__notes__", []))
     return str(getattr(error, "hint", "") or notes)
 
@@ -69,6 +54,8 @@ def _known(error: BaseException, given: list[str]) -> str:
 
 def _missing_file(path: Path) -> str:
     """What there is instead of a file that is not there."""
+    if package := absent.package_of(path):
+        return f"{package} is not available here: {absent.why_not_here(package)}."
     if path.is_dir():
         return "That is a folder; name the launch file in it."
     if not path.parent.is_dir():

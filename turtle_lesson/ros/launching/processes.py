@@ -39,7 +39,6 @@ class Processes:
         self._service = service
         self._all: list[RunningProcess] = []
         self._ending: list[RunningProcess] | None = None
-        self._warned_of_folder = False
         self.up_at = 0
         """The robot time, in ns, at which the last of the programs that have been started is up."""
 
@@ -57,8 +56,10 @@ class Processes:
         """Start an action's process."""
         if self._service.context.is_shutdown:
             return
-        self._warn_of_folder(action)
-        self._warn_of_terminal(action)
+        if action.process_description.cwd:
+            self._service.warn_once("here all programs work in the notebook's folder, whatever cwd= says")
+        if action.prefix_left_out:
+            self._service.warn_once(f"{action.prefix_left_out} is left out: programs run here without a prefix")
         process = RunningProcess(self, self._service.screen, action)
         self._all.append(process)
         self._start(process)
@@ -75,21 +76,6 @@ class Processes:
         now = self._service.world.sim.now
         self.up_at = max(self.up_at, now) + START_UP
         return self.up_at - now
-
-    def _warn_of_folder(self, action: ExecuteLocal) -> None:
-        """Say once that all processes have the notebook's working folder."""
-        if self._warned_of_folder or not action.process_description.cwd:
-            return
-        self._warned_of_folder = True
-        what = "all programs work in the notebook's folder, whatever cwd= says"
-        self._service.screen.say("WARNING", "launch", f"here {what}")
-
-    def _warn_of_terminal(self, action: ExecuteLocal) -> None:
-        """Say that a program has no window of its own to run in."""
-        if action.terminal:
-            name = action.process_description.final_name
-            text = f"there is no {action.terminal} here: {name} runs without a terminal of its own"
-            self._service.screen.say("WARNING", "launch", text)
 
     # -- what processes tell ------------------------------------------------------------------------------
 

@@ -16,6 +16,8 @@ from launch.event_handler import as_entities
 from launch.events import IncludeLaunchDescription, Shutdown
 
 from ..workspace.current import seeing
+from ..workspace.errors import NotHereError
+from ..workspace.index import LaunchedPackages
 from .errors import LaunchError, place_of, reason_of
 from .hints import hint_for
 from .output import Screen
@@ -49,6 +51,7 @@ class LaunchService:
         self._coroutines = 0
         self._coroutine_processes: list[Process] = []
         self._said_level = False
+        self._warnings: set[str] = set()
         self.failed = False
         """Whether an error has ended it."""
 
@@ -113,6 +116,12 @@ class LaunchService:
         if not self._settling:
             self.world.sim.call_later(0, self.carry_on, lambda: None)
 
+    def warn_once(self, text: str) -> None:
+        """Print a warning of launch's own, unless this launch has printed it before."""
+        if text not in self._warnings:
+            self._warnings.add(text)
+            self.screen.say("WARNING", "launch", text)
+
     # -- running ------------------------------------------------------------------------------------------
 
     def begin(self, entity: LaunchDescriptionEntity) -> None:
@@ -156,7 +165,7 @@ class LaunchService:
         """While something of this launch is done: its packages are seen, its prints go to the cell."""
         self._settling = True
         try:
-            with seeing(self.world.packages), redirect_stdout(self.world.sim.cell_stdout):
+            with seeing(LaunchedPackages(self.world.packages)), redirect_stdout(self.world.sim.cell_stdout):
                 yield
         finally:
             self._settling = False
@@ -177,7 +186,7 @@ class LaunchService:
                 self._handle(self.context._event_queue.popleft())
 
     def visit(self, entity: LaunchDescriptionEntity) -> None:
-        """Carry out an entity and all that it gives, in order.
+        """Carry out an entity and all that it gives, in order; what only a robot can start is named and left out.
 
         Raises:
             LaunchError: with the place in the launch file.
@@ -187,6 +196,8 @@ class LaunchService:
                 self.visit(inner)
         except LaunchError:
             raise
+        except NotHereError as error:
+            self.warn_once(f"{error.what} is left out: {error.why}")
         except Exception as error:
             place = entity._written_at if isinstance(entity, Action) else None
             raise as_launch_error(error, place, self.given) from error

@@ -12,7 +12,7 @@ from launch.launch_description_sources import AnyLaunchDescriptionSource
 
 from ..core.tracebacks import shown_path
 from ..workspace.current import seeing
-from ..workspace.index import is_launch_file
+from ..workspace.index import LaunchedPackages, is_launch_file
 from ..world import World
 from .arguments import LaunchArgument, as_text, declared_in, unknown_warnings
 from .errors import LaunchError, learners_cause
@@ -48,7 +48,7 @@ def _looked_at(world: World, path: Path, look: Callable[[LaunchDescription], T])
     """What a function makes of the description in a file, which is not carried out."""
     source = AnyLaunchDescriptionSource(_existing(path))
     try:
-        with seeing(world.packages):
+        with seeing(LaunchedPackages(world.packages)):
             return look(source._get_launch_description(str(path)))
     except Exception as error:
         raise as_launch_error(error, None, {}) from learners_cause(error)

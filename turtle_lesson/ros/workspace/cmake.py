@@ -33,6 +33,10 @@ INTERFACE_WORDS = {
 }  # fmt: skip
 
 
+COMPILES = {"add_executable", "add_library", "ament_auto_add_executable", "ament_auto_add_library"}
+"""The commands by which a package builds something in C++, which is left out here."""
+
+
 @dataclass(frozen=True)
 class Command:
     """One command that takes effect: its name in lower case, its expanded arguments, its line."""
@@ -89,6 +93,16 @@ class CMakeFile:
     def found_packages(self) -> list[str]:
         """What `find_package` asks for."""
         return [command.args[0] for command in self.named("find_package") if command.args]
+
+    def compiled(self) -> dict[str, int]:
+        """The C++ programs and libraries that it builds, each with its line."""
+        found = {}
+        for command in self.commands:
+            if command.name in COMPILES and command.args:
+                found[command.args[0]] = command.line
+            if "EXECUTABLE" in command.args[:-1] and command.name.startswith("rclcpp_components_register_node"):
+                found[command.args[command.args.index("EXECUTABLE") + 1]] = command.line
+        return found
 
     def interfaces(self) -> list[tuple[str, int]]:
         """The files in `rosidl_generate_interfaces`, such as `msg/TurtleStatus.msg`, each with its line."""
@@ -168,6 +182,14 @@ def read_cmake(path: Path) -> CMakeFile:
         CMakeError: where it is not understood, with the file and the line.
     """
     return evaluate(path.read_text(encoding="utf-8"), str(path), path.parent)
+
+
+def compiled_programs(folder: Path) -> dict[str, int]:
+    """What the CMakeLists.txt in a folder builds in C++, each with its line; nothing without a readable one."""
+    try:
+        return read_cmake(folder / "CMakeLists.txt").compiled()
+    except (CMakeError, OSError, UnicodeDecodeError):
+        return {}
 
 
 def evaluate(text: str, file: str = "CMakeLists.txt", folder: Path | None = None) -> CMakeFile:

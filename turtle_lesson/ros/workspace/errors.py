@@ -2,17 +2,10 @@
 
 from __future__ import annotations
 
-import difflib
-from collections.abc import Iterable
 from pathlib import Path
 
 from ..core.tracebacks import shown_path
-
-
-def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """`Did you mean 'navigator'?`, or nothing where no known name is close."""
-    close = difflib.get_close_matches(name, list(known), n=1)
-    return f"Did you mean '{close[0]}'?" if close else ""
+from ..interfaces.names import did_you_mean as did_you_mean
 
 
 class PackageError(ValueError):
@@ -73,3 +66,27 @@ class ExecutableNotFoundError(_NotInPackageError):
 
 class LaunchFileNotFoundError(_NotInPackageError):
     """A package has installed no launch file of this name, or several."""
+
+
+class NotHereError(NotImplementedError):
+    """A robot would start this, and the simulation cannot. A launch names it, and goes on without it.
+
+    Attributes:
+        what: what it is.
+        why: why it cannot be started.
+        hint: what to do instead, or an empty string.
+    """
+
+    def __init__(self, what: str, why: str, hint: str = "") -> None:
+        super().__init__(f"{what} cannot be started: {why}")
+        self.what = what
+        self.why = why
+        self.hint = hint
+
+
+class CompiledProgramError(ExecutableNotFoundError):
+    """A package's executable is a C++ program, which is not built here. `why` says so in half a sentence."""
+
+    def __init__(self, text: str, executable: str, line: int) -> None:
+        self.why = f"a C++ program (CMakeLists.txt, line {line}), and only Python programs run here"
+        super().__init__(text, f"{executable} is {self.why}.")

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from difflib import SequenceMatcher
 from pathlib import Path
 
 from ..core.tracebacks import shown_path
+from . import absent
+from .cmake import compiled_programs
 from .errors import (
+    CompiledProgramError,
     ExecutableNotFoundError,
     LaunchFileNotFoundError,
+    NotHereError,
     PackageNotFoundError,
     did_you_mean,
 )
@@ -69,8 +74,9 @@ class PackageIndex:
         if name in self._layers:
             return self._layers[name][-1]
         text = f"package '{name}' not found, searching: {self.search_path()}"
-        hint = did_you_mean(name, self._layers)
-        raise PackageNotFoundError(text, hint or "Is it built, and is its setup file sourced?")
+        raise PackageNotFoundError(
+            text, package_hint(name, self._layers) or "Is it built, and is its setup file sourced?"
+        )
 
     def search_path(self) -> list[str]:
         """Where packages are looked for, the uppermost first, each place once."""
@@ -98,8 +104,59 @@ class PackageIndex:
         return package.name, place.name
 
 
+class LaunchedPackages(PackageIndex):
+    """The packages as a launch file sees them: what a robot has and the simulation has not is left out of the launch.
+
+    The folder of such a package can be asked for, as launch files do when they are loaded; there is nothing in it.
+    """
+
+    def __init__(self, packages: PackageIndex) -> None:
+        super().__init__()
+        self._layers = packages._layers
+
+    def get(self, name: str) -> Package:
+        """The package of this name, an absent one included."""
+        if name not in self and absent.why_not_here(name):
+            return Package(name, absent.place_of(name))
+        return super().get(name)
+
+    def executable(self, package: str, executable: str) -> Target:
+        """What runs as `executable` of a package.
+
+        Raises:
+            NotHereError: if only a robot can start it.
+            PackageNotFoundError, ExecutableNotFoundError: as otherwise.
+        """
+        if package not in self and absent.why_not_here(package):
+            raise absent.left_out(package if package == executable else f"{executable} of {package}", package)
+        try:
+            return super().executable(package, executable)
+        except CompiledProgramError as error:
+            raise NotHereError(f"{executable} of {package}", f"it is {error.why}") from None
+
+
+def package_hint(name: str, known: Iterable[str]) -> str:
+    """What is known about a package that is not there: that only robots have it, or which one was perhaps meant."""
+    if name not in known and (why := absent.why_not_here(name)):
+        return f"{name} is not available here: {why}."
+    return did_you_mean(name, [each for each in known if _close_in_all_words(name, each)])
+
+
+def _close_in_all_words(one: str, other: str) -> bool:
+    """Whether two names may be one package's: `lifecycle_py` is another than `lifecycle`, and `a_cpp` another than `a_py`."""
+    if one.replace("_", "") == other.replace("_", ""):
+        return True
+    words, others = one.split("_"), other.split("_")
+    close = (SequenceMatcher(None, *pair).ratio() > 0.6 for pair in zip(words, others, strict=False))
+    return len(words) == len(others) and all(close)
+
+
 def _no_executable(package: Package, executable: str) -> ExecutableNotFoundError:
     libexec = shown_path(str(package.libexec))
+    compiled = compiled_programs(package.source) if package.source else {}
+    if executable in compiled:
+        text = f"executable '{executable}' not found on the libexec directory '{libexec}'"
+        return CompiledProgramError(text, executable, compiled[executable])
     lying = sorted(path.name for path in package.libexec.iterdir()) if package.libexec.is_dir() else []
     if executable in lying:
         file = shown_path(str((package.libexec / executable).resolve()))
@@ -109,8 +166,12 @@ def _no_executable(package: Package, executable: str) -> ExecutableNotFoundError
         )
     if not package.executables:
         prefix = shown_path(str(package.prefix or package.share))
+        text = f"package '{package.name}' found at '{prefix}', but libexec directory '{libexec}' does not exist"
+        if compiled:
+            hint = f"{package.name} has C++ programs alone, which are not built here: {', '.join(compiled)}."
+            return ExecutableNotFoundError(text, f"{did_you_mean(executable, compiled)} {hint}".strip())
         return ExecutableNotFoundError(
-            f"package '{package.name}' found at '{prefix}', but libexec directory '{libexec}' does not exist",
+            text,
             "The package installs no program; write in its CMakeLists.txt install(PROGRAMS <file> DESTINATION "
             f"lib/${{PROJECT_NAME}} RENAME {executable}).",
         )

@@ -31,12 +31,6 @@ SCREEN = {
 }
 """What of a process's output reaches the screen, for each value of `output`."""
 
-TERMINALS = {
-    "xterm", "uxterm", "gnome-terminal", "konsole", "x-terminal-emulator", "xfce4-terminal", "lxterminal", "terminator",
-    "mate-terminal", "kitty", "alacritty", "tilix", "urxvt", "st", "wezterm",
-}  # fmt: skip
-"""What launch files put before a node that is to have a window of its own. A node runs as well without one."""
-
 
 @dataclass(frozen=True)
 class Program:
@@ -84,7 +78,7 @@ class ExecuteLocal(Action):
         self.respawn_max_retries = respawn_max_retries
         self.process_details: dict[str, Any] | None = None
         self.return_code: int | None = None
-        self.terminal = ""
+        self.prefix_left_out = ""
         self._program: Program | None = None
         self._respawns = False
         self._on_screen: set[str] = set()
@@ -106,7 +100,7 @@ class ExecuteLocal(Action):
 
     def prepare(self, context: LaunchContext) -> None:
         """Make everything text that was not yet."""
-        self.terminal = self._terminal_before_it(context)
+        self.prefix_left_out = self._program_before_it(context)
         self.process_description.prepare(context, self)
         self._program = self._find_program(context)
         self._respawns = evaluate_condition_expression(context, self.__respawn)
@@ -124,22 +118,12 @@ class ExecuteLocal(Action):
         override = context._output_override or context.environment.get("OVERRIDE_LAUNCH_PROCESS_OUTPUT")
         return [TextSubstitution(text=override)] if override else self.__output
 
-    def _terminal_before_it(self, context: LaunchContext) -> str:
-        """The name of the program that `prefix` opens a terminal with, '' if there is no prefix.
-
-        Raises:
-            NotImplementedError: for every other prefix, such as gdb.
-        """
+    def _program_before_it(self, context: LaunchContext) -> str:
+        """The name of the program that `prefix` puts before it, such as a terminal or a debugger; '' without one."""
         if not self.process_description.prefix:
             return ""
         words = perform_substitutions(context, self.process_description.prefix).split()
-        name = PurePath(words[0]).name if words else ""
-        if words and name not in TERMINALS:
-            raise NotImplementedError(
-                f"prefix= puts another program ({name}) before the node; here nodes run inside the "
-                "notebook, so there is no command to put anything before. Leave prefix out"
-            )
-        return name
+        return PurePath(words[0]).name if words else ""
 
     def _find_program(self, context: LaunchContext) -> Program:
         """What to run: a command of the simulation, unless a subclass knows better.

@@ -6,6 +6,8 @@ import os
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from turtle_lesson.ros.workspace import absent
+
 from ..action import Action
 from ..frontend import Entity, Parser, expose_action
 from ..launch_context import LaunchContext
@@ -86,9 +88,18 @@ class IncludeLaunchDescription(Action):
         return [description] if description is not None else []
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Load the description, check its arguments, and give it."""
+        """Load the description, check its arguments, and give it.
+
+        Raises:
+            NotHereError: if it is one of a package that only robots have.
+        """
         self._remember_places(context)
-        description = self.__source.get_launch_description(context)
+        try:
+            description = self.__source.get_launch_description(context)
+        except FileNotFoundError:
+            if package := absent.package_of(self.__source.location):
+                raise absent.left_out(f"{os.path.basename(self.__source.location)} of {package}", package) from None
+            raise
         self._check_depth(context)
         context.extend_locals(
             {

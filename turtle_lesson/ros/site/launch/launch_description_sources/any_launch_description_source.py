@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 
+from turtle_lesson.ros.workspace.errors import PackageNotFoundError
+
 from ..frontend import Parser
 from ..invalid_launch_file_error import InvalidFrontendLaunchFileError, InvalidLaunchFileError
 from ..launch_description import LaunchDescription
@@ -62,5 +64,9 @@ def _from_python(path: str, extension: str) -> LaunchDescription:
 
 
 def _invalid(extension: str, error: Exception) -> InvalidLaunchFileError:
+    """The error about a Python file. The real one goes on to say that the file may have a syntax error, which misleads
+    where a package is missing, so that this is said alone."""
+    if isinstance(error, PackageNotFoundError):
+        return InvalidLaunchFileError(extension, likely_errors=[error])
     no_frontend = InvalidFrontendLaunchFileError()
     return InvalidLaunchFileError(extension, likely_errors=[error, no_frontend])

@@ -132,7 +132,13 @@ class Node(ExecuteProcess):
         return f"{self.expanded_node_namespace.rstrip('/')}/{self.expanded_node_name}"
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Have the node started."""
+        """Have the node started.
+
+        Raises:
+            NotHereError: if only a robot can start it; that is said before its parameters are looked at.
+        """
+        if self.__in_package is not None:
+            self.__in_package.target(context)
         self._ros_words = [
             *self._name_words(context),
             *self._parameter_words(context),
