@@ -237,7 +237,7 @@ def test_mistakes(terminal: Terminal, line: str, error: str) -> None:
         ),
         ("play bag -r 1e-30", "argument -r/--rate: 1e-30 is too slow to wait for"),
         ("play bag --delay 1e300", "argument -d/--delay: 1e300 is too much: at most 1e+09"),
-        ("play bag --clock 0", "argument --clock: '0' is not a number above 0"),
+        ("play bag --clock 0", "argument --clock: invalid positive_float value: '0'"),
         (
             "play bag -p",
             "argument -p/--start-paused: not available in this simulation: there is no key to press to continue. A real",

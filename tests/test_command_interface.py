@@ -9,6 +9,7 @@ import pytest
 from command_cases import cases, check, type_in
 from workspace_on_disk import install_robot_controller
 
+from turtle_lesson.ros.interfaces.names import did_you_mean
 from turtle_lesson.ros.interfaces.registry import registry
 from turtle_lesson.ros.world import World
 
@@ -119,3 +120,23 @@ def test_every_interface_can_be_shown_and_has_a_prototype(world: World) -> None:
             for verb in ("show", "proto"):
                 answer = type_in(world, f"ros2 interface {verb} {line.strip()}")
                 assert (answer.stderr, answer.code) == ("", 0), line
+
+
+@pytest.mark.parametrize(
+    ("name", "known", "meant"),
+    [
+        ("/robot/status", "/robot_status", True),
+        ("/cmd_vel", "/turtle1/cmd_vel", True),
+        ("vra", "var", True),
+        ("turtle_teleop", "turtle_teleop_key", True),
+        ("geometry_msgs/msg/Pose3D", "geometry_msgs/msg/Pose2D", True),
+        ("std_msgs/msg/Nope", "std_msgs/msg/Int8", False),
+        ("nope.launch.py", "start_system.launch.py", False),
+        ("cartographer_ros", "turtlebot3_cartographer", False),
+        ("--timeout", "--spin-time", False),
+        ("/battery", "/chatter", False),
+        ("trace", "interface", False),
+    ],
+)
+def test_only_what_may_be_a_slip_is_suggested(name: str, known: str, meant: bool) -> None:
+    assert did_you_mean(name, [known]) == (f"Did you mean '{known}'?" if meant else "")

@@ -76,7 +76,7 @@ def suggest_type(name: str, folder: str) -> str:
     ]
     package, _, last = name.replace(".", "/").rpartition("/")
     same_name = [each for each in known if each.rpartition("/")[2].lower() == last.lower() and each != name]
-    if not package and same_name:
+    if same_name and not registry.knows(package.partition("/")[0]):
         return f"Did you mean '{sorted(same_name, key=lambda each: not each.startswith('std_'))[0]}'?"
     full = f"{package}/{folder}/{last}" if package and "/" not in package else name
     return did_you_mean(full, [each for each in known if each != name])

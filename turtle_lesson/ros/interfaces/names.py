@@ -72,10 +72,39 @@ def check_constant(name: str) -> None:
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """`Did you mean 'Twist'?`, or an empty string where nothing is near."""
+    """`Did you mean 'Twist'?`, or an empty string where no known name is close.
+
+    Names are alike as a whole, and in the parts that differ: `std_msgs/msg/Int8` is not close to `std_msgs/msg/Nope`.
+    """
     by_lower_case = {each.lower(): each for each in known}
-    close = get_close_matches(name.lower(), by_lower_case, n=1, cutoff=0.6)
-    return f"Did you mean '{by_lower_case[close[0]]}'?" if close else ""
+    for near in get_close_matches(name.lower(), by_lower_case, n=5, cutoff=0.6):
+        if _is_close(name.lower(), near):
+            return f"Did you mean '{by_lower_case[near]}'?"
+    return ""
+
+
+def _is_close(name: str, known: str) -> bool:
+    """Whether one name is the other with some slips, without the leading and trailing parts that both have."""
+    mine, other = (re.split(r"[/.]", each.lstrip("-")) for each in (name, known))
+    for end in (0, -1):
+        while mine and other and mine[end] == other[end]:
+            mine.pop(end)
+            other.pop(end)
+    short, long = sorted(("/".join(mine), "/".join(other)), key=len)
+    return long.startswith(short) or long.endswith(short) or 3 * _slips(short, long) <= len(long)
+
+
+def _slips(one: str, two: str) -> int:
+    """How many letters were left out, added, replaced or swapped with their neighbour (optimal string alignment)."""
+    before, row = [0], list(range(len(two) + 1))
+    for i, letter in enumerate(one, 1):
+        before, last, row = row, before, [i]
+        for j, other in enumerate(two, 1):
+            least = min(before[j] + 1, row[j - 1] + 1, before[j - 1] + (letter != other))
+            if i > 1 and j > 1 and (letter, one[i - 2]) == (two[j - 2], other):
+                least = min(least, last[j - 2] + 1)
+            row.append(least)
+    return row[-1]
 
 
 def _broken(name: str, what: str, pattern: re.Pattern[str]) -> str:
