@@ -222,7 +222,7 @@ ANSWERS = {
                 changed(ESTIMATOR, ("response.success = ", "good = "), ("if response.success", "if good")),
                 "3 m ahead take 15 s",
             ),
-            "another service": (changed(ESTIMATOR, ('"/estimate"', '"/navigate_to"')), "nobody does"),
+            "another service": (changed(ESTIMATOR, ('"/estimate"', '"/navigate_to"')), "no node does"),
             "no return": (
                 changed(ESTIMATOR, ("        return response\n", "")),
                 "the callback of /estimate returned None",

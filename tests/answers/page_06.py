@@ -305,7 +305,7 @@ SIDE_BY_SIDE = Answers(
         ),
         "another topic": (
             changed(SIDES, ('"robot/status")', '"status")')),
-            "nobody does",
+            "no node does",
         ),
         "slow alone, twice": (
             changed(SIDES, (BOTH, '[monitor("slow", 5), monitor("slow", 5)]')),

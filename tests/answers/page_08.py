@@ -32,7 +32,7 @@ ANSWERS = {
             "ten seconds": (changed(AWAKE, ("pause(1.0)", "pause(10.0)")), "after 10.0"),
             "no return": (changed(AWAKE, ("        return response\n", "")), "the callback of /work returned None"),
             "no await": (changed(AWAKE, ("await self.pause", "self.pause")), "after 0.00 s"),
-            "another service": (changed(AWAKE, ('"/work"', '"/job"')), "nobody does"),
+            "another service": (changed(AWAKE, ('"/work"', '"/job"')), "no node does"),
             "another node": (changed(AWAKE, ('"worker"', '"heart"')), "there is /heart"),
             "asyncio.sleep": (
                 "import asyncio\n" + changed(AWAKE, ("self.pause(1.0)", "asyncio.sleep(1.0)")),
@@ -113,7 +113,7 @@ ANSWERS = {
                 "no answer in 20 s",
             ),
             "no await": (changed(HOME, ("await ", "")), "success"),
-            "another service": (changed(HOME, ('"/go_home"', '"/home"')), "nobody does"),
+            "another service": (changed(HOME, ('"/go_home"', '"/home"')), "no node does"),
         },
         right={
             "a reentrant group": REENTRANT + changed(HOME, IN_A_GROUP),

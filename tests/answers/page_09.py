@@ -78,7 +78,7 @@ ANSWERS = {
             ),
             "at the right rate on another topic": (
                 f"kill -INT 1004 && {MONITOR} --ros-args -r /robot/status:=/status",
-                "nobody does",
+                "no node does",
             ),
             "under another name": (
                 f"kill -INT 1004 && {MONITOR} --ros-args -r __node:=monitor",

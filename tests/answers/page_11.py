@@ -126,9 +126,9 @@ ANSWERS = {
             "played once": (changed(REPLAY, (" --loop", "")), "none after"),
             "half the speed": (changed(REPLAY, ("--loop", "--loop --rate 0.5")), "5.0 Hz"),
             "twice the speed": (changed(REPLAY, ("--loop", "--loop --rate 2")), "20.0 Hz"),
-            "in the foreground": (changed(REPLAY, (" &", "")), "nobody publishes it"),
-            "another topic": (changed(REPLAY, ("/robot/status", "/turtle1/pose")), "nobody publishes it"),
-            "without its slash": (changed(REPLAY, ("/robot/status", "/robot_status")), "nobody publishes it"),
+            "in the foreground": (changed(REPLAY, (" &", "")), "no node publishes it"),
+            "another topic": (changed(REPLAY, ("/robot/status", "/turtle1/pose")), "no node publishes it"),
+            "without its slash": (changed(REPLAY, ("/robot/status", "/robot_status")), "no node publishes it"),
             "the real monitor": (
                 'lesson = start(seed=0, package="mine")\nros2 run robot_controller status_monitor',
                 "/status_monitor",

@@ -227,7 +227,7 @@ def _from_a_bag(exam: Exam) -> Seen:
     ends = exam.publishers(page_04.STATUS)
     owners = [owner for owner, _ in ends]
     step = Advice(direction="Does the player still run when the cell is done, and does it play this topic?", hint=_TWO)
-    return Seen(len(ends) == 1 and _is_player(ends[0]), listed(owners) or "nobody publishes it", step)
+    return Seen(len(ends) == 1 and _is_player(ends[0]), listed(owners) or "no node publishes it", step)
 
 
 def _nothing_else(exam: Exam) -> Seen:

@@ -69,7 +69,7 @@ def _ends(
     if not ends and by not in exam.nodes():
         raise CannotLook(f"there is no node {by}")
     if not ends:
-        return Seen(False, f"nobody does{exam.like(name, known)}", step)
+        return Seen(False, f"no node does{exam.like(name, known)}", step)
     types = sorted({kind for _, kind in ends})
     who = [owner for owner, _ in ends]
     if types != [type_name]:
