@@ -234,23 +234,6 @@ def test_a_node_hears_itself_but_only_when_it_is_spun(run: Run) -> None:
     assert run(program) == [("right after publish", []), ("after spin", ["3"])]
 
 
-def test_done_callbacks_and_tasks_run_in_the_order_in_which_they_were_made(run: Run) -> None:
-    def program(found: list[str]) -> None:
-        node = start()
-        executor = SingleThreadedExecutor()
-        executor.add_node(node)
-        future = Future(executor=executor)
-        for name in ("first", "second", "third"):
-            future.add_done_callback(lambda _, name=name: found.append(name))
-        future.set_result(None)
-        future.add_done_callback(lambda _: found.append("late"))
-        task = executor.create_task(lambda a, b: found.append(a + b) or "result", "ta", b="sk")
-        executor.spin_until_future_complete(task)
-        found.append(task.result())
-
-    assert run(program) == ["first", "second", "third", "late", "task", "result"]
-
-
 def test_a_done_callback_that_fails_is_told_of_and_the_others_are_called(world: World) -> None:
     called: list[str] = []
     future = Future()

@@ -275,7 +275,6 @@ def test_states_are_asked_for_and_changed_by_services(ask: Callable[..., Any]) -
     assert ask(ChangeState, "change_state", transition=transition(label="activate")).success
     assert state() == (3, "active")
     assert not ask(ChangeState, "change_state", transition=transition(label="configure")).success
-    assert not ask(ChangeState, "change_state", transition=transition(1)).success
     assert state() == (3, "active")
 
 
@@ -302,11 +301,21 @@ def test_services_list_the_transitions_that_are_possible_now_and_all(ask: Callab
     assert graph[-1] == "transition_error errorprocessing finalized"
 
 
-def test_a_wrong_transition_is_logged_by_the_node(ask: Callable[..., Any], capsys: Capture) -> None:
-    ask(ChangeState, "change_state", transition=transition(2))
-    warning, error = (line.partition("] ")[2].partition("] ")[2] for line in capsys.readouterr().err.splitlines())
-    assert warning == "[rcl_lifecycle]: No transition matching 2 found for current state unconfigured"
-    assert error == "[stubborn]: Unable to start transition 2 from current state (1, 'unconfigured')"
+def test_a_wrong_transition_ends_the_nodes_spin(world: World, capsys: Capture) -> None:
+    def program() -> None:
+        rclpy.init(args=[])
+        node = LifecycleNode("managed")
+        node.create_client(ChangeState, "~/change_state").call_async(ChangeState.Request(transition=transition(2)))
+        rclpy.spin(node)
+
+    process = world.spawn(program, name="program")
+    world.sim.run_until(1_000_000_000)
+    told = capsys.readouterr().err.splitlines()
+    assert told[0].endswith("[rcl_lifecycle]: No transition matching 2 found for current state unconfigured")
+    assert process.exit_code == 1 and told[-2:] == [
+        "rclpy._rclpy_pybind11.RCLError: Failed to trigger lifecycle state machine transition: Transition is not registered.",
+        "The node is unconfigured; possible from there: configure [1], shutdown [5].",
+    ]
 
 
 def test_every_step_is_told_on_a_topic(run: Run) -> None:

@@ -4,10 +4,14 @@ Each function here makes the check of one field: a function that takes a value a
 raises AssertionError. Generated classes test the common case themselves (a float for a float field) and call
 these only for the rest. What would help beyond ROS's words is added as a note to the exception
 (`BaseException.add_note`), which a traceback shows below the text.
+
+Since Iron a value is stored unchecked unless ROS_PYTHON_CHECK_FIELDS is 1 (rosidl_python, pull request 194). A world that
+behaves as such a release sets `when_assigned`; `sendable` then checks a message before it is sent.
 """
 
 from __future__ import annotations
 
+import os
 from array import array
 from collections import UserList, UserString
 from collections.abc import Callable, Collection, Sequence, Set
@@ -19,6 +23,9 @@ from turtle_lesson.ros.interfaces.model import FieldType
 from turtle_lesson.ros.interfaces.values import integer_bounds
 
 Check = Callable[[Any], Any]
+
+when_assigned = True
+"""Whether values are checked when they are assigned; a world sets it when it opens."""
 
 FLOAT_BOUNDS = {"float32": 3.402823466e38, "float64": 1.7976931348623157e308}
 FLOAT_WORDS = {"float32": "float", "float64": "double"}
@@ -45,6 +52,48 @@ def refusal(text: str, note: str = "") -> AssertionError:
     if note:
         error.add_note(note)
     return error
+
+
+def are_on() -> bool:
+    """Whether the running program has values checked when they are assigned."""
+    return when_assigned or os.environ.get("ROS_PYTHON_CHECK_FIELDS") == "1"
+
+
+def assigned(check: Check, store: Check | None = None) -> Check:
+    """What a generated class does with a value: check it, or only store it, perhaps made into something by `store`."""
+
+    def check_or_store(value: Any) -> Any:
+        if when_assigned or are_on():
+            return check(value)
+        return value if store is None else store(value)
+
+    check_or_store.__wrapped__ = check  # type: ignore[attr-defined]
+    return check_or_store
+
+
+def sendable(message: Any) -> Any:
+    """A copy of a message whose fields were not checked when they were assigned, with whole numbers made floats.
+
+    Raises TypeError for a value that cannot be sent.
+    """
+    new = type(message)._FRESH()
+    for member, kind in zip(type(message)._DEFINITION.fields, type(message)._KINDS, strict=True):
+        value = getattr(message, f"_{member.name}")
+        if not member.type.is_array and member.type.base in FLOAT_BOUNDS and isinstance(value, int):
+            value = float(value)
+        try:
+            value = kind.objects[kind.check].__wrapped__(value)
+        except AssertionError as error:
+            refused = TypeError(str(error))
+            for note in (*getattr(error, "__notes__", ()), "Since ROS 2 Iron this is found when the message is sent."):
+                refused.add_note(note)
+            raise refused from None
+        if kind.message_class is not None:
+            value = sendable(value)
+        elif kind.element_class is not None:
+            value = [sendable(each) for each in value]
+        setattr(new, f"_{member.name}", value)
+    return new
 
 
 def shown(value: object) -> str:

@@ -6,8 +6,10 @@ globals of the generated module; no field can have such a name.
 
 from __future__ import annotations
 
+from array import array
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from functools import partial
 from math import isfinite
 from typing import Any
 
@@ -111,7 +113,7 @@ def _plain_kind(member: Field, key: str) -> Kind:
         copy=copy,
         shares=True,
         is_float32=base == "float32",
-        objects={name: check},
+        objects={name: checks.assigned(check)},
     )
 
 
@@ -147,7 +149,7 @@ def _message_kind(member: Field, key: str, message_class: type) -> Kind:
         message_class=message_class,
         element_class=message_class,
         objects={
-            check: checks.message_check(member.name, message_class),
+            check: checks.assigned(checks.message_check(member.name, message_class)),
             fresh: message_class._FRESH,  # type: ignore[attr-defined]
             variable: message_class,
         },
@@ -169,7 +171,7 @@ def _sequence_kind(member: Field, key: str) -> Kind:
         test=f"_type({{value}}) is _array and {{value}}.typecode == '{code}'{limits}",
         copy="{value}[:]",
         construct=f"{check}({made})" if type_.is_bounded else made,
-        objects={check: checks.sequence_check(member.name, type_)},
+        objects={check: checks.assigned(checks.sequence_check(member.name, type_), partial(array, code))},
     )
 
 
@@ -178,6 +180,7 @@ def _numpy_kind(member: Field, key: str) -> Kind:
 
     type_, check, construct = member.type, f"_check_{key}", f"_construct_{key}"
     dtype = f"'{checks.numpy_name(type_.base)}'"
+    store = partial(numpy.array, dtype=checks.numpy_name(type_.base))
     given = isinstance(member.default, tuple) and _finite(repr(list(member.default)))
     return Kind(
         name=member.name,
@@ -187,8 +190,8 @@ def _numpy_kind(member: Field, key: str) -> Kind:
         construct=f"{construct}({{value}})",
         same="_same_array({value}, {other})",
         objects={
-            check: checks.numpy_check(member.name, type_),
-            construct: checks.numpy_constructor(member.name, type_),
+            check: checks.assigned(checks.numpy_check(member.name, type_), store),
+            construct: checks.assigned(checks.numpy_constructor(member.name, type_), store),
             "_numpy": numpy,
         },
         weight=type_.size or 0,
@@ -204,7 +207,7 @@ def _list_kind(member: Field, key: str, message_class: type | None) -> Kind:
         copier = message.copy_messages
     elif element_class is str:
         copier = message.copy_texts
-    objects: dict[str, Any] = {check: check_function, copy: copier(check_function)}
+    objects: dict[str, Any] = {check: checks.assigned(check_function), copy: copier(check_function)}
     if message_class:
         objects[class_variable(message_class)] = message_class
     return Kind(

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from turtle_lesson.ros.interfaces.checks import refusal
+from turtle_lesson.ros.interfaces.checks import are_on, refusal
 from turtle_lesson.ros.interfaces.names import did_you_mean
 
 plain_text = str.__str__  # a plain str, even of an instance of a subclass
@@ -73,12 +73,12 @@ class EventClass:
 
 
 def refuse_arguments(message_class: type, unknown: Iterable[str]) -> None:
-    """Refuse constructor arguments that are no fields.
+    """Refuse constructor arguments that are no fields, where values are checked.
 
-    `check_fields`, with which newer releases switch the checks on, is taken: here they are always on.
+    `check_fields`, with which newer releases switch the checks on for one message, is taken, and has no other effect.
     """
     names = sorted(set(unknown) - {"check_fields"})
-    if not names:
+    if not names or not are_on():
         return
     fields = [slot[1:] for slot in message_class.__slots__]  # type: ignore[attr-defined]
     hints = [hint for hint in (did_you_mean(name, fields) for name in names) if hint]

@@ -6,6 +6,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from turtle_lesson.ros.core import NANOSECONDS, NeverWakes, Strand, getcurrent, running_strand
+from turtle_lesson.ros.distro import EXECUTOR_AS_CONTEXT
+from turtle_lesson.ros.world import current_world
 
 from ._blocking import drive, drives_the_simulation, in_a_plain_cell, spin_live
 from ._deadlock import others_may_act, why_never_done
@@ -224,6 +226,7 @@ class Executor(ExecutorBase):
         return True
 
     def __enter__(self) -> Executor:
+        current_world().release.note_use(EXECUTOR_AS_CONTEXT)
         return self
 
     def __exit__(self, *error: object) -> None:

@@ -12,6 +12,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from turtle_lesson.ros.core import Strand
+from turtle_lesson.ros.distro import TASKS_IN_ORDER
 from turtle_lesson.ros.world import current_process, current_world
 
 from ._entity import NO_TURN, SERVICE, WAITABLE, Entity
@@ -51,6 +52,8 @@ class ExecutorBase:
         self._waiter: Strand | None = None  # whom a signal wakes: the last of those who wait
         self._waiters: list[Strand] = []
         self._make_ready = self._simulation.make_ready
+        self._tasks_in_order = current_world().release.has(TASKS_IN_ORDER)
+        self._tasks_made = 0
         self._spinning: list[Strand] = []
         self._spins_to_the_end: list[Strand] = []  # who is in `spin`, and does nothing else before the shutdown
         self._calls: list[Future] = []  # for what strands wait, without a timeout, in Client.call
@@ -115,8 +118,13 @@ class ExecutorBase:
 
     def create_task(self, callback: Any, *args: Any, **kwargs: Any) -> Task:
         """Have a function called, or a coroutine run, by this executor; the task is a future of its result."""
-        task = Task(callback, args, kwargs, executor=self)  # type: ignore[arg-type]
+        task = self._number(Task(callback, args, kwargs, executor=self))  # type: ignore[arg-type]
         self._resume_task(task)
+        return task
+
+    def _number(self, task: Task) -> Task:
+        self._tasks_made += 1
+        task._number = self._tasks_made
         return task
 
     def create_future(self) -> Future:
@@ -175,9 +183,8 @@ class ExecutorBase:
             entity._listed_in = None
         self._signalled.clear()
         if self._resumed or self._polled:
-            batch += reversed(
-                [*self._polled, *self._resumed]
-            )  # in order, as since Kilted; before, the newest came first
+            tasks = [*self._polled, *self._resumed]
+            batch += reversed(tasks) if self._tasks_in_order else sorted(tasks, key=_age)
             self._polled, self._resumed = [], []
         self._batch = batch
 
@@ -250,7 +257,7 @@ class ExecutorBase:
     def _as_task(self, entity: Any) -> Task:
         traced = entity._traced
         begun = None if traced is None else begin_task(entity, traced, self._simulation.now)
-        task = Task(_call_and_await, (entity, entity._take()), executor=self)  # type: ignore[arg-type]
+        task = self._number(Task(_call_and_await, (entity, entity._take()), executor=self))  # type: ignore[arg-type]
         task._entity, task._node = entity, entity._node
         task._finally = lambda: self._free(entity)
         if traced is not None and begun is not None:
@@ -274,6 +281,10 @@ async def _call_and_await(entity: Any, arguments: tuple[Any, ...] | None) -> Non
             result = await result
         if entity._kind == SERVICE:
             entity._done_with(arguments, result)
+
+
+def _age(task: Task) -> int:
+    return task._number
 
 
 def _turn(entity: Entity) -> tuple[int, int, int]:

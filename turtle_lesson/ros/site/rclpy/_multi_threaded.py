@@ -10,7 +10,10 @@ from turtle_lesson.ros.core.stdlib.hopeless import IDLE, look_after, wait_in_vai
 from turtle_lesson.ros.core.stdlib.pools import number_of_pool
 from turtle_lesson.ros.core.strand import GreenletExit
 from turtle_lesson.ros.core.tracebacks import print_error
+from turtle_lesson.ros.distro import SHUTDOWN_WAITS_FOR_THREADS
+from turtle_lesson.ros.world import current_world
 
+from ._blocking import drive
 from ._deadlock import executor_of_worker, know_worker
 from ._executor import Condition, Executor, Job
 from ._executor_errors import ExternalShutdownException
@@ -98,8 +101,17 @@ class MultiThreadedExecutor(Executor):
     def _execute_here(self, job: Job) -> None:
         super()._execute(job)
 
+    def shutdown(self, timeout_sec: float | None = None, *, wait_for_threads: bool = True) -> bool:
+        """Stop: no more callbacks are run. Since Kilted, wait until those that have begun are done, unless told not to."""
+        done = super().shutdown(timeout_sec)
+        strand = running_strand()
+        own = strand is not None and self._is_worker(strand)  # a callback cannot wait for its own end
+        if wait_for_threads and not own and current_world().release.has(SHUTDOWN_WAITS_FOR_THREADS):
+            drive(self._let_callbacks_end) if strand is None else self._let_callbacks_end()
+        return done
+
     def _let_callbacks_end(self) -> None:
-        """The main program has ended: callbacks that are in their middle go on to their end, as in Python's pools."""
+        """The program ends, or the executor: callbacks that are in their middle go on to their end, as in Python's pools."""
         strand = running_strand()
         assert strand is not None
         self._begin_waiting(strand)

@@ -9,6 +9,7 @@ from turtle_lesson.ros.core import NANOSECONDS, NeverWakes, running_strand
 from turtle_lesson.ros.core.stdlib.hopeless import wait_in_vain
 from turtle_lesson.ros.core.stdlib.looking import looked_in_vain
 from turtle_lesson.ros.graph import ClientEnd
+from turtle_lesson.ros.interfaces import checks
 
 from ._blocking import drives_the_simulation
 from ._borrowed import borrowed
@@ -108,6 +109,8 @@ class Client(Entity):
             return self._ask_nobody()
         future = Future(executor=self._executor)
         future._answered_by = self
+        if not checks.when_assigned:
+            request = checks.sendable(request)
         future._request_number = number = self._end.ask(self._servers(), request)
         self._waiting[number] = future
         return future

@@ -4,13 +4,19 @@ from __future__ import annotations
 
 from typing import Any
 
+from turtle_lesson.ros.distro import DURATION_ARITHMETIC, TIMES_EQUAL_NO_OTHER_THING
+from turtle_lesson.ros.world import current_world
+
 from .constants import S_TO_NS
 
 _LIMIT = 2**63
 
 
 class Duration:
-    """`Duration(seconds=…, nanoseconds=…)`; raises OverflowError beyond 63 bits, as ROS does."""
+    """`Duration(seconds=…, nanoseconds=…)`; raises OverflowError beyond 63 bits, as ROS does.
+
+    Durations can be added, subtracted and multiplied since Kilted.
+    """
 
     def __init__(self, *, seconds: float = 0, nanoseconds: int = 0) -> None:
         total = int(seconds * S_TO_NS) + int(nanoseconds)
@@ -46,9 +52,10 @@ class Duration:
         return f"{self._nanoseconds} nanoseconds" if self._nanoseconds < 2**63 - 1 else "Infinite"
 
     def __eq__(self, other: object) -> bool:
+        """Whether it is as long. Raises TypeError until Iron for what is no duration."""
         if isinstance(other, Duration):
             return self._nanoseconds == other._nanoseconds
-        return NotImplemented
+        return equals_no_other_thing("duration", other)
 
     __hash__ = None  # type: ignore[assignment]
 
@@ -67,17 +74,31 @@ class Duration:
     def __add__(self, other: object) -> Duration:
         if not isinstance(other, (Duration, int, float)):
             return NotImplemented  # a Time knows how to add a duration
+        current_world().release.note_use(DURATION_ARITHMETIC)
         return Duration(nanoseconds=self._nanoseconds + _ns(other))
 
     def __sub__(self, other: object) -> Duration:
         if not isinstance(other, (Duration, int, float)):
             return NotImplemented
+        current_world().release.note_use(DURATION_ARITHMETIC)
         return Duration(nanoseconds=self._nanoseconds - _ns(other))
 
     def __mul__(self, factor: object) -> Duration:
         if not isinstance(factor, (int, float)):
             return NotImplemented
+        current_world().release.note_use(DURATION_ARITHMETIC)
         return Duration(nanoseconds=int(self._nanoseconds * factor))
+
+
+def equals_no_other_thing(what: str, other: object) -> Any:
+    """What `==` of a time or duration says to anything else: the same as rclpy's time.py of the world's release."""
+    if current_world().release.has(TIMES_EQUAL_NO_OTHER_THING):
+        return NotImplemented
+    error = TypeError(f"Can't compare {what} with object of type: ", type(other))
+    error.add_note(
+        "Compare like with like, such as time.nanoseconds == 5. To ask whether there is one, write `is None`."
+    )
+    raise error
 
 
 def _ns(other: object) -> int:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from types import GenericAlias
 from typing import Any, NoReturn
 
 from turtle_lesson.ros.core.stdlib.looking import looked_in_vain
 from turtle_lesson.ros.graph import Writer
+from turtle_lesson.ros.interfaces import checks
 
 from ._blocking import drives_the_simulation
 from ._borrowed import borrowed
@@ -36,7 +38,9 @@ class Publisher:
         callback_group: CallbackGroup,
     ) -> None:
         self._writer: Writer | None = publisher_impl
-        self._write = publisher_impl.write
+        self._write: Callable[[Any], object] = publisher_impl.write
+        if not checks.when_assigned:
+            self._write = lambda message: publisher_impl.write(checks.sendable(message))
         self._simulation = publisher_impl.topic.simulation
         self._topic_name = publisher_impl.topic.name
         self._outlived = False

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from turtle_lesson.ros.interfaces import cdr
+from turtle_lesson.ros.interfaces import cdr, checks
 
 from ._rclpy_pybind11 import RMWError
 from .type_support import check_for_type_support
@@ -11,7 +11,7 @@ from .type_support import check_for_type_support
 def serialize_message(message: Any) -> bytes:
     """The message's CDR bytes, little endian, with their four-byte header. Raises AttributeError for no message."""
     check_for_type_support(type(message))
-    return cdr.serialize(message)
+    return cdr.serialize(message if checks.when_assigned else checks.sendable(message))
 
 
 def deserialize_message(serialized_message: bytes, message_type: type) -> Any:

@@ -7,6 +7,7 @@ from types import GenericAlias
 from typing import Any
 
 from turtle_lesson.ros.graph import ServerEnd
+from turtle_lesson.ros.interfaces import checks
 
 from ._borrowed import borrowed
 from ._entity import SERVICE, Entity
@@ -78,7 +79,7 @@ class Service(Entity):
                 f"the callback of {self.service_name} returned {response!r}, where {self.srv_type.__name__}.Response is "
                 "expected: end it with `return response`"
             )
-        header.answer(response)
+        header.answer(response if checks.when_assigned else checks.sendable(response))
 
     def destroy(self) -> None:
         """Stop offering the service."""

@@ -9,7 +9,9 @@ from types import GenericAlias
 from typing import Any
 
 from turtle_lesson.ros.core import EPOCH
+from turtle_lesson.ros.distro import MESSAGE_INFO
 from turtle_lesson.ros.graph import Reader
+from turtle_lesson.ros.world import current_world
 
 from ._borrowed import borrowed
 from ._entity import SUBSCRIPTION, Entity
@@ -57,6 +59,7 @@ class Subscription(Entity):
         self._filter: ContentFilterOptions | None = None
         self._logger_name = subscription_impl.node.logger_name
         if _wants_info(callback):
+            current_world().release.note_use(MESSAGE_INFO)
             subscription_impl.keep_times()
         self.event_handlers: list[EventHandler] = event_callbacks.create_event_handlers(callback_group, self, topic)
 

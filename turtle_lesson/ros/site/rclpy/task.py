@@ -189,6 +189,8 @@ class Task(Future):
     """A function or coroutine to be run by an executor, step by step; calling the task does one step."""
 
     _traced = None
+    _number = 0
+    """The how manieth task of its executor this is."""
 
     def __init__(
         self,

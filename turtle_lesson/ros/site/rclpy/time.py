@@ -7,7 +7,7 @@ from typing import Any
 
 from .clock_type import ClockType
 from .constants import S_TO_NS
-from .duration import Duration
+from .duration import Duration, equals_no_other_thing
 
 _LIMIT = 2**63
 
@@ -94,8 +94,9 @@ class Time:
             raise TypeError(complaint)
 
     def __eq__(self, other: object) -> bool:
+        """Whether it is the same time. Raises TypeError for another clock's and, until Iron, for what is no time."""
         if not isinstance(other, Time):
-            return NotImplemented
+            return equals_no_other_thing("time", other)
         self._check(other)
         return self._nanoseconds == other._nanoseconds
 

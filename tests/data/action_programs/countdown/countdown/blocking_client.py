@@ -4,15 +4,12 @@ import threading
 
 import rclpy
 from rclpy.action import ActionClient
-from rclpy.executors import ExternalShutdownException
 from workshop_interfaces.action import Countdown
 
 
 def spin(node):
-    try:
-        rclpy.spin(node)
-    except ExternalShutdownException:
-        print("shut down")
+    rclpy.spin(node)
+    print("shut down")
 
 
 def main(args=None):

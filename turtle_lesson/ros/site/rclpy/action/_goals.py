@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Iterator
+from heapq import heappop, heappush
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -24,14 +24,16 @@ class Goals:
     asks: nobody can tell the difference, and nothing keeps a world awake in which nothing happens any more.
     """
 
-    def __init__(self, simulation: Simulation, timeout: int) -> None:
+    def __init__(self, simulation: Simulation, timeout: int, *, after_their_end: bool) -> None:
         self._simulation = simulation
         self._timeout = timeout
+        self._after_their_end = after_their_end
+        self._accepted: dict[bytes, int] = {}
         self._handles: dict[bytes, ServerGoalHandle] = {}
         self._results: dict[bytes, Any] = {}
         self._asked: dict[bytes, list[Any]] = {}
         self._executing: set[bytes] = set()
-        self._ended: deque[tuple[int, bytes]] = deque()
+        self._ended: list[tuple[int, bytes]] = []  # when (ns) they expire: a heap
 
     def __iter__(self) -> Iterator[ServerGoalHandle]:
         return iter(list(self._handles.values()))
@@ -42,7 +44,9 @@ class Goals:
 
     def add(self, handle: ServerGoalHandle) -> None:
         """A goal was accepted."""
-        self._handles[key_of(handle.goal_id)] = handle
+        key = key_of(handle.goal_id)
+        self._handles[key] = handle
+        self._accepted[key] = self._simulation.now
 
     def begin(self, handle: ServerGoalHandle) -> None:
         """A goal's execute callback is to be called: it is not forgotten before that has returned."""
@@ -50,7 +54,9 @@ class Goals:
 
     def end(self, handle: ServerGoalHandle) -> None:
         """A goal has come to its end, and will be forgotten."""
-        self._ended.append((self._simulation.now + self._timeout, key_of(handle.goal_id)))
+        key = key_of(handle.goal_id)
+        began = self._accepted.pop(key, self._simulation.now)
+        heappush(self._ended, ((self._simulation.now if self._after_their_end else began) + self._timeout, key))
 
     def ask(self, goal_id: Any, request: Any) -> Any | None:
         """The result of a goal; None if it is not known yet: then this request will be among those to be answered."""
@@ -69,10 +75,10 @@ class Goals:
         return self._asked.pop(key, [])
 
     def forget_expired(self) -> None:
-        """Let go of those that ended long enough ago."""
+        """Let go of those that have ended and expired."""
         ended, now = self._ended, self._simulation.now
         while ended and ended[0][0] < now and ended[0][1] not in self._executing:
-            key = ended.popleft()[1]
+            key = heappop(ended)[1]
             self._results.pop(key, None)
             handle = self._handles.pop(key, None)
             if handle is not None:

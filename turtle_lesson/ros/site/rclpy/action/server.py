@@ -14,6 +14,8 @@ from action_msgs.msg import GoalStatusArray
 
 from turtle_lesson.ros.core import NANOSECONDS
 from turtle_lesson.ros.core.tracebacks import print_error
+from turtle_lesson.ros.distro import GOALS_EXPIRE_AFTER_THEIR_END
+from turtle_lesson.ros.world import current_world
 
 from .._borrowed import borrowed
 from ..callback_groups import CallbackGroup
@@ -72,7 +74,8 @@ class ActionServer(Requests, Waitable):
         goal_callback: called with the goal's message; returns a GoalResponse.
         handle_accepted_callback: called with the ServerGoalHandle of a new goal; calls its `execute()`, now or later.
         cancel_callback: called with the ServerGoalHandle of a goal that is to be cancelled; returns a CancelResponse.
-        result_timeout: how long, in s, a goal that has ended is remembered, so that its result can be asked for.
+        result_timeout: how long, in s, a goal that has ended is remembered, so that its result can be asked for. Until
+            Iron this time begins when the goal is accepted.
     """
 
     def __init__(
@@ -101,7 +104,8 @@ class ActionServer(Requests, Waitable):
         self.register_execute_callback(execute_callback)
         self._node = node
         self._action_type = action_type
-        self._goals = Goals(node._ros_simulation, round(result_timeout * NANOSECONDS))
+        after = current_world().release.has(GOALS_EXPIRE_AFTER_THEIR_END)
+        self._goals = Goals(node._ros_simulation, round(result_timeout * NANOSECONDS), after_their_end=after)
         self._traced: dict[str, Callback] = {}
         profiles = {
             "send_goal": goal_service_qos_profile,

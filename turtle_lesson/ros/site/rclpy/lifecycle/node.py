@@ -6,6 +6,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from turtle_lesson.ros.core.tracebacks import shown_path
+from turtle_lesson.ros.distro import FORBIDDEN_TRANSITIONS_ARE_LOGGED
+from turtle_lesson.ros.world import current_world
 
 from ..callback_groups import CallbackGroup
 from ..exceptions import RCLError
@@ -117,11 +119,16 @@ class LifecycleNodeMixin(ManagedEntity):
             return TransitionCallbackReturn.ERROR
 
     def _ros_change_state_asked(self, transition_id: int) -> bool:
-        """Do what the service change_state is asked for; whether that went well."""
+        """Do what the service change_state is asked for; whether that went well.
+
+        Raises RCLError for a transition that is not possible now; since Kilted that is only logged.
+        """
         current = self._state_machine.current_state
         try:
             return self._ros_change_state(transition_id) == TransitionCallbackReturn.SUCCESS
         except RCLError:
+            if not current_world().release.has(FORBIDDEN_TRANSITIONS_ARE_LOGGED):
+                raise
             self.get_logger().error(f"Unable to start transition {transition_id} from current state {tuple(current)}")
             return False
 
