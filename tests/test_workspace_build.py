@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from workspace_cases import change, colcon, make_package, source_in, timeless
 
 from turtle_lesson.ros.workspace.colcon import run
+from turtle_lesson.ros.workspace.errors import CompiledProgramError
 from turtle_lesson.ros.world import World
 
 
@@ -172,7 +173,7 @@ def test_symlink_install(package: Path, world: World, tmp_path: Path) -> None:
         ),
         (CMAKE, "# line 10", "find_package(launch REQUIRED)", 1, "launch is a Python package, which CMake cannot find"),
         (CMAKE, "# line 10", "find_package(sensor_mgs REQUIRED)", 1, "Did you mean 'sensor_msgs'?"),
-        (CMAKE, "# line 10", "add_executable(x x.cpp)", 1, "only Python is built and run here"),
+        (CMAKE, "# line 10", "install(TARGETS x DESTINATION lib)", 1, 'given target "x" which does not exist.'),
         (CMAKE, "# line 10", "find_package(nope_msgs)", 0, "CMake Warning at CMakeLists.txt:10 (find_package)"),
         (
             CMAKE,
@@ -607,9 +608,110 @@ def test_a_python_package_brings_what_ament_cmake_core_has(package: Path, world:
     assert answer.code == 0, answer.err
 
 
-def test_who_has_a_package_in_cpp_is_told_how_to_build_the_others(package: Path, world: World) -> None:
-    change(package / CMAKE, "# line 10", "add_executable(fast src/fast.cpp)")
+# -- C++ -------------------------------------------------------------------------------------------------------------------
+
+CPP = {
+    "plain": """
+        find_package(rclcpp REQUIRED)
+        add_executable(fast src/fast.cpp)
+        ament_target_dependencies(fast rclcpp)
+        add_library(arm SHARED src/arm.cpp)
+        target_include_directories(arm PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>)
+        install(TARGETS fast arm EXPORT export_arm DESTINATION lib/${PROJECT_NAME})
+        """,
+    "of packages that are not here": """
+        find_package(OpenCV REQUIRED)
+        find_package(odd_vendor REQUIRED)
+        add_library(arm src/arm.cpp)
+        odd_vendor_library(arm)
+        add_executable(fast src/fast.cpp)
+        include(odd_vendor_macros)
+        """,
+    "in functions and loops": """
+        function(program name)
+          add_executable(${name} ${ARGN})
+          install(TARGETS ${name} DESTINATION lib/${PROJECT_NAME})
+        endfunction()
+        program(fast src/fast.cpp src/more.cpp)
+        foreach(name arm)
+          add_library(${name} src/${name}.cpp)
+        endforeach()
+        file(GLOB sources LIST_DIRECTORIES false src/*.cpp)
+        """,
+    "in a folder": "add_subdirectory(src)",
+}
+
+
+@pytest.mark.parametrize("name", CPP)
+def test_cpp_is_left_out_and_all_else_is_built(package: Path, world: World, name: str) -> None:
+    change(package / CMAKE, "# line 10", CPP[name])
+    (package / "src").mkdir()
+    (package / "src" / CMAKE).write_text("add_executable(fast fast.cpp)\nadd_library(arm arm.cpp)\n")
+    add(package, "bringup", "robot_controller")
     answer = colcon(world)
-    assert answer.code == 1
-    assert "colcon build --packages-skip robot_controller" in answer.err
-    assert colcon(world, "build --packages-skip robot_controller").code == 0
+    assert answer.code == 0 and "2 packages finished" in answer.out
+    head, line = answer.err.splitlines()
+    assert head.startswith("Warning: C++ is not compiled here. All else of these packages was built")
+    assert line.startswith("  robot_controller: without ") and line.endswith("; needed by bringup")
+    assert set(re.findall(r"fast|arm", line)) == {"fast", "arm"}
+    assert ("needs OpenCV, odd_vendor, not here" in line) == (name == "of packages that are not here")
+    source_in(world)
+    found = world.packages.get("robot_controller")
+    assert list(found.executables) == ["navigator"]
+    assert found.interfaces == ["msg/TurtleStatus.msg", "srv/NavigateTo.srv"]
+    assert found.shared_files("start_system.launch.py")
+    with pytest.raises(CompiledProgramError) as caught:
+        world.packages.executable("robot_controller", "fast")
+    assert re.match(r"fast is a C\+\+ program \(CMakeLists.txt, line \d+\)", caught.value.hint)
+
+
+def test_several_packages_in_cpp_are_named_in_one_warning(package: Path, world: World) -> None:
+    many = "\n".join(f"add_executable(p{number} p.cpp)" for number in range(11))
+    for name, text in {"one": "add_executable(a a.cpp)", "two": many}.items():
+        add(package, name, text=OTHER.format(name=name, find=text))
+    assert colcon(world).err.splitlines()[1:] == [
+        "  one: without a",
+        "  two: without p0, p1, p2, p3, p4, p5, p6, p7 and 3 more",
+    ]
+
+
+def test_mistakes_beside_cpp_are_still_found(package: Path, world: World) -> None:
+    change(package / CMAKE, "# line 10", "find_package(OpenCV REQUIRED)\nadd_executable(fast src/fast.cpp)")
+    change(package / CMAKE, "ament_package()", "ament_pakage()")
+    assert 'Unknown CMake command "ament_pakage"' in colcon(world).err
+    change(package / CMAKE, "ament_pakage()", "find_package(sensor_mgs REQUIRED)\nament_package()")
+    assert "Did you mean 'sensor_msgs'?" in colcon(world).err
+
+
+def test_a_package_of_files_may_ask_for_what_only_robots_have(package: Path, world: World) -> None:
+    change(package / CMAKE, "# line 10", "find_package(gazebo_ros REQUIRED)\nfind_package(urdf REQUIRED)")
+    answer = colcon(world)
+    assert (answer.code, answer.err.splitlines()[1:]) == (0, ["  robot_controller: needs gazebo_ros, urdf, not here"])
+
+
+def test_a_script_that_is_not_python_is_left_out(package: Path, world: World) -> None:
+    (package / "run.sh").write_text("#!/bin/bash\necho hello\n")
+    change(
+        package / CMAKE, "ament_package()", "install(PROGRAMS run.sh DESTINATION lib/${PROJECT_NAME})\nament_package()"
+    )
+    assert colcon(world).err.splitlines()[1:] == ["  robot_controller: without run.sh"]
+    source_in(world)
+    assert list(world.packages.get("robot_controller").executables) == ["navigator"]
+
+
+def test_ament_cmake_auto_installs_what_it_is_to_share(package: Path, world: World, tmp_path: Path) -> None:
+    text = """\
+        cmake_minimum_required(VERSION 3.8)
+        project(auto)
+        find_package(ament_cmake_auto REQUIRED)
+        ament_auto_find_build_dependencies()
+        ament_auto_add_executable(fast src/fast.cpp)
+        ament_auto_package(INSTALL_TO_SHARE config launch)
+        """
+    folder = add(package, "auto", "robot_controller", text)
+    for name in ("config", "launch"):
+        (folder / name).mkdir()
+        (folder / name / f"{name}.yaml").touch()
+    assert colcon(world).err.splitlines()[1:] == ["  auto: without fast"]
+    share = tmp_path / "install/auto/share/auto"
+    assert (share / "config/config.yaml").is_file() and (share / "launch/launch.yaml").is_file()

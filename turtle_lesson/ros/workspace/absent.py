@@ -24,7 +24,7 @@ _NAMES = {
     _OTHER: _words(
         """
         action_tutorials_cpp ament_index_cpp apriltag_ros async_web_server_cpp camera_ros class_loader composition
-        controller_manager cv_bridge depth_image_proc diagnostic_aggregator diff_drive_controller
+        controller_manager depth_image_proc diagnostic_aggregator diff_drive_controller
         dynamixel_workbench filters foxglove_bridge generate_parameter_library gripper_controllers
         hardware_interface hls_lfcd_lds_driver image_geometry image_pipeline image_proc image_publisher image_tools
         image_transport interactive_markers intra_process_demo joint_state_broadcaster joint_state_publisher
@@ -34,7 +34,7 @@ _NAMES = {
         rosbridge_server rosapi rplidar_ros rtabmap_ros rtabmap_slam slam_gmapping slam_toolbox
         spatio_temporal_voxel_layer stereo_image_proc teleop_twist_joy tf2_bullet tf2_eigen topic_tools tracetools_launch
         turtle_tf2_cpp turtlebot3_node twist_mux urdf urdf_tutorial urdfdom usb_cam v4l2_camera velodyne
-        velodyne_driver velodyne_pointcloud vision_opencv web_video_server xacro zed_wrapper
+        velodyne_driver velodyne_pointcloud vision_opencv web_video_server zed_wrapper
         Boost CURL Eigen OpenCV PCL OpenMP PkgConfig Qt5 Qt5Widgets SDL2 SDL Protobuf yaml-cpp yaml_cpp_vendor
         eigen3_cmake_module backward_ros behaviortree_cpp behaviortree_cpp_v3
         """

@@ -8,18 +8,21 @@ from __future__ import annotations
 
 import os
 import re
+from difflib import get_close_matches
 from pathlib import Path
 
 from ..core.tracebacks import shown_path
 from ..interfaces.registry import Registry
 from . import manifest_check
-from .cmake import CMakeError, CMakeFile, Command, evaluate
-from .cmake_install import install_entries, install_items, refused, unreadable
+from .absent import why_not_here
+from .cmake import CMakeError, CMakeFile, Command, Program, evaluate
+from .cmake_install import asks_for_python, install_entries, install_items, refused, unreadable
 from .cmake_interfaces import InterfaceCheck, not_found
-from .cmake_refusals import refusal
+from .cmake_refusals import refusal, serves_cpp
 from .cmake_text import SHARE, cmake_message
 from .discover import Found
 from .errors import did_you_mean
+from .index import package_hint
 from .installed import prefix_of
 from .interface_files import definitions, interface_items
 from .known import CMAKE_COMMANDS, CMAKE_PACKAGES, COMMANDS_OF, brought_by
@@ -79,10 +82,14 @@ class _Build:
         self.hints: list[str] = []
         self.python: list[tuple[str, str]] = []
         self.modules: list[Item] = []
+        self.compiled = False
+        self.left_out: list[str] = []
+        self.lacking: list[str] = []
         self.project, self.project_line = "Project", 1  # as CMake pretends where there is no project()
 
     def run(self) -> Outcome:
         cmake = self._read()
+        self.compiled = bool(cmake.compiled())
         self._warn_of_catkin()
         for command in cmake.commands:
             self._configure(command)
@@ -126,7 +133,11 @@ class _Build:
     def _configure(self, command: Command) -> None:
         where = f"CMakeLists.txt:{command.line} ({command.name})"
         if command.name not in self.commands:
+            if self.lacking and not get_close_matches(command.name, self.commands, cutoff=0.85):
+                return  # a command of a package that is not here, and no slip of the pen
             raise self._unknown(command, where)
+        if self.compiled and serves_cpp(command):
+            return
         if wrong := refusal(command, self.found.path):
             raise refused(wrong[0], where, wrong[1])
         special = getattr(self, f"_on_{command.name}", None)
@@ -158,6 +169,10 @@ class _Build:
             self.commands |= COMMANDS_OF.get(name, frozenset())
             return
         if "QUIET" in command.args and not required:
+            return
+        if why_not_here(name) or (self.compiled and not package_hint(name, known)):
+            self.lacking.append(name)
+            self.commands |= COMMANDS_OF.get(name, frozenset())
             return
         text, hint = not_found(name, command.line, required, known)
         if required:
@@ -193,15 +208,13 @@ class _Build:
             raise refused(_OLD, f"{_EXTENSIONS}:41 (if)", hint, (_HOOKS[3], where))
         self.finished = True
 
-    def _on_add_executable(self, command: Command, where: str) -> None:
-        what = f"{command.name}({' '.join(command.args[:1])} …)"
-        hint = (
-            "Write the node in Python and install it: install(PROGRAMS … DESTINATION lib/${PROJECT_NAME}). The other "
-            f"packages are built by: colcon build --packages-skip {self.found.name}"
-        )
-        raise refused(f"{what} builds a C++ program; only Python is built and run here", where, hint)
+    _on_ament_auto_package = _on_ament_package
 
-    _on_add_library = _on_add_executable
+    def _on_ament_auto_find_build_dependencies(self, command: Command, where: str) -> None:
+        for name in self.found.dependencies:
+            if name in self.environment.findable or name in self.environment.types.packages() or name in CMAKE_PACKAGES:
+                self.seen.add(name)
+                self.commands |= COMMANDS_OF.get(name, frozenset())
 
     def _on_ament_python_install_package(self, command: Command, where: str) -> None:
         name = command.args[0] if command.args else ""
@@ -283,7 +296,11 @@ class _Build:
     # -- install ---------------------------------------------------------------------------------------------------
 
     def _items(self, cmake: CMakeFile) -> list[Item]:
-        items = [item for entry in install_entries(cmake) for item in install_items(self.found, entry, self.hints)]
+        entries = install_entries(cmake)
+        foreign = [entry for entry in entries if isinstance(entry, Program) and not asks_for_python(self.found, entry)]
+        self.left_out = [*cmake.compiled(), *(entry.name for entry in foreign)]
+        wanted = [entry for entry in entries if entry not in foreign]
+        items = [item for entry in wanted for item in install_items(self.found, entry, self.hints)]
         for folder, name in self.python:
             items.append(Item(f"{_PYTHON_PLACE}/{name}", self.found.path / folder))
         items += self.modules
@@ -360,7 +377,9 @@ class _Build:
         stdout += ["-- Configuring done", "-- Generating done"]
         text = with_hint("".join(self.warnings), self.hints)
         paths = [_PYTHON_PLACE] if self.python or self.modules else []
-        return Outcome(0, text, stdout, seconds, items, self.found.runtime_dependencies(), paths)
+        outcome = Outcome(0, text, stdout, seconds, items, self.found.runtime_dependencies(), paths)
+        outcome.left_out, outcome.lacking = self.left_out, self.lacking
+        return outcome
 
 
 def _same(one: Path, other: Path) -> bool:

@@ -96,6 +96,7 @@ class _Builder:
         write_setup_files(self.plan.install, installed_names(self.plan.install))
         self._pass(_END)
         self.console.summary(self.now, queued)
+        self._warn_of_cpp()
         self._write_log()
         return self.code
 
@@ -157,6 +158,22 @@ class _Builder:
         self.done.add(found.name)
         resource(self.world, self.plan.install, found.name)
 
+    def _warn_of_cpp(self) -> None:
+        """Name in one warning all that was left out because it is C++, and the packages that depend on it."""
+        lines = []
+        for name, outcome in sorted(self.log.items()):
+            if outcome.left_out or outcome.lacking:
+                needing = [found.name for found in self.plan.workspace if name in found.dependencies]
+                parts = [
+                    _listed("without", outcome.left_out),
+                    _listed("needs", outcome.lacking) + (", not here" if outcome.lacking else ""),
+                    _listed("needed by", needing if outcome.left_out else []),
+                ]
+                lines.append(f"  {name}: {'; '.join(filter(None, parts))}")
+        if lines:
+            head = "Warning: C++ is not compiled here. All else of these packages was built"
+            self.console.error("\n".join([f"{head} (interfaces, launch files, parameters, Python programs):", *lines]))
+
     def _abort(self) -> None:
         for job in self.running:
             self.console.aborted(job.found.name, self.now - job.began + 0.05)
@@ -191,6 +208,12 @@ class _Builder:
         (folder / "logger_all.log").write_text(summary, encoding="utf-8")
         for name in ("latest", "latest_build"):
             _point(self.plan.log / name, folder.name)
+
+
+def _listed(word: str, names: list[str]) -> str:
+    """`without talker, listener`, of many names the first ones; nothing without names."""
+    more = f" and {len(names) - 8} more" if len(names) > 8 else ""
+    return f"{word} {', '.join(names[:8])}{more}" if names else ""
 
 
 def _point(link: Path, target: str) -> None:

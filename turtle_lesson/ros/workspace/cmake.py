@@ -7,7 +7,7 @@ so where a file needs more of CMake. Nothing is built or run.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -77,6 +77,8 @@ class CMakeFile:
 
     commands: list[Command] = field(default_factory=list)
     file: str = "CMakeLists.txt"
+    folders: dict[int, CMakeFile] = field(default_factory=dict)
+    """The files of the folders that `add_subdirectory` names, by its line."""
 
     def named(self, name: str) -> list[Command]:
         """All commands of a name."""
@@ -95,8 +97,10 @@ class CMakeFile:
         return [command.args[0] for command in self.named("find_package") if command.args]
 
     def compiled(self) -> dict[str, int]:
-        """The C++ programs and libraries that it builds, each with its line."""
-        found = {}
+        """The C++ programs and libraries that it builds, each with its line; those of inner folders with that of the folder."""
+        found: dict[str, int] = {}
+        for line, inner in self.folders.items():
+            found |= dict.fromkeys(inner.compiled(), line)
         for command in self.commands:
             if command.name in COMPILES and command.args:
                 found[command.args[0]] = command.line
@@ -128,8 +132,15 @@ class CMakeFile:
         return found
 
     def directories(self) -> list[Installed]:
-        """What `install(DIRECTORY …)` installs."""
-        return self._installed("DIRECTORY")
+        """What `install(DIRECTORY …)` installs, and `ament_auto_package(INSTALL_TO_SHARE …)`."""
+        found = self._installed("DIRECTORY")
+        for command in self.named("ament_auto_package"):
+            place = f"share/{self.project().args[0]}"
+            names = (
+                command.args[command.args.index("INSTALL_TO_SHARE") + 1 :] if "INSTALL_TO_SHARE" in command.args else ()
+            )
+            found += [Installed(name, place, command.line) for name in names]
+        return found
 
     def files(self) -> list[Installed]:
         """What `install(FILES …)` installs."""
@@ -192,26 +203,52 @@ def compiled_programs(folder: Path) -> dict[str, int]:
         return {}
 
 
-def evaluate(text: str, file: str = "CMakeLists.txt", folder: Path | None = None) -> CMakeFile:
-    """The commands of the text that take effect, with their variables put in."""
+def builds_cpp(calls: Iterable[Call]) -> bool:
+    """Whether C++ is built by any of the calls."""
+    return any(call.name in COMPILES for call in calls)
+
+
+def evaluate(
+    text: str, file: str = "CMakeLists.txt", folder: Path | None = None, variables: dict[str, str] | None = None
+) -> CMakeFile:
+    """The commands of the text that take effect, with their variables put in, and those of its inner folders.
+
+    Where a file builds C++, what is not understood in it is passed over: most of it serves the C++.
+    """
     where = (folder or Path(".")).as_posix()
-    variables = dict.fromkeys(("CMAKE_CURRENT_SOURCE_DIR", "CMAKE_SOURCE_DIR", "PROJECT_SOURCE_DIR"), where)
-    variables |= {"CMAKE_CURRENT_LIST_DIR": where, "BUILD_TESTING": "ON", "UNIX": "1"}
-    evaluator = _Evaluator(variables, file)
+    known = variables or dict.fromkeys(("CMAKE_SOURCE_DIR", "PROJECT_SOURCE_DIR"), where)
+    known |= {"CMAKE_CURRENT_SOURCE_DIR": where, "CMAKE_CURRENT_LIST_DIR": where, "BUILD_TESTING": "ON", "UNIX": "1"}
     calls = read_calls(text, file)
     check_blocks(calls, file)
-    return CMakeFile(list(evaluator.run(calls)), file)
+    evaluator = _Evaluator(known, file, lenient=builds_cpp(calls))
+    read = CMakeFile(list(evaluator.run(calls)), file)
+    for command in read.named("add_subdirectory"):
+        inner = Path(where, "".join(command.args[:1])).resolve()
+        if Path(where).resolve() in inner.parents:
+            read.folders[command.line] = _inner(inner, known)
+    return read
+
+
+def _inner(folder: Path, variables: dict[str, str]) -> CMakeFile:
+    """What the CMakeLists.txt of an inner folder says; nothing if it cannot be read."""
+    file = folder / "CMakeLists.txt"
+    try:
+        return evaluate(file.read_text(encoding="utf-8"), str(file), folder, dict(variables))
+    except (CMakeError, OSError, UnicodeDecodeError):
+        return CMakeFile(file=str(file))
 
 
 class _Evaluator:
     """Goes through the calls once, keeping the variables and which `if` branch is taken."""
 
-    def __init__(self, variables: dict[str, str], file: str) -> None:
+    def __init__(self, variables: dict[str, str], file: str, *, lenient: bool = False) -> None:
         self.variables = variables
         self.file = file
+        self._lenient = lenient
         self._branches: list[str] = []  # one per open if: "taken", "waiting" for its branch, or "done"
         self._loops: list[str] = []
         self._rounds = 0
+        self._functions: dict[str, tuple[list[str], list[Call]]] = {}
 
     def run(self, calls: list[Call]) -> Iterator[Command]:
         """The commands that take effect."""
@@ -224,11 +261,29 @@ class _Evaluator:
             elif not self._conditional(call) and self._active:
                 if call.name == "return":
                     return
-                if call.name == "foreach" and can_be_unrolled(call, body := body_of(calls, place)):
+                if call.name in {"function", "macro"} and builds_cpp(body := body_of(calls, place, call.name)):
+                    name, *parameters = [argument.text for argument in call.args] or [""]
+                    self._functions[name.lower()] = (parameters, body)
+                    place += len(body) + 1
+                elif call.name in self._functions:
+                    yield from self._called(call)
+                elif call.name == "foreach" and can_be_unrolled(call, body := body_of(calls, place)):
                     yield from self._rounds_of(call, body)
                     place += len(body) + 1
                 else:
                     yield from self._effect(call)
+
+    def _called(self, call: Call) -> Iterator[Command]:
+        """The commands of a function or macro that builds C++, for one call of it."""
+        names, body = self._functions[call.name]
+        self._rounds += 1
+        if self._rounds > MOST_ROUNDS:
+            raise CMakeError(f"{call.name}() calls itself endlessly", call.line, self.file)
+        given = self._arguments(call)
+        before = dict(self.variables)
+        self.variables |= {**dict(zip(names, given, strict=False)), "ARGN": ";".join(given[len(names) :])}
+        yield from (Command(each.name, each.args, call.line) for each in self.run(body))
+        self.variables = before
 
     def _rounds_of(self, call: Call, body: list[Call]) -> Iterator[Command]:
         """The commands of a loop's body, once for each value."""
@@ -254,7 +309,7 @@ class _Evaluator:
             self._loops.pop()
         elif call.name in _LOOPS:
             self._loops.append(call.name)
-        elif call.name in _MATTERS:
+        elif call.name in _MATTERS and not self._lenient:
             reason = f"{call.name}() inside {self._loops[-1]}() is not understood here; write it out"
             raise CMakeError(reason, call.line, self.file)
 
@@ -298,10 +353,11 @@ class _Evaluator:
             self.variables |= INSTALL_FOLDERS
         elif call.name == "file" and args[:1] in {("GLOB",), ("GLOB_RECURSE",)}:
             found = globbed(args, self.variables["CMAKE_CURRENT_SOURCE_DIR"])
-            if found is None:
+            if found is None and not self._lenient:
                 reason = f"file({args[0]} …) with these arguments is not understood here; name the files one by one"
                 raise CMakeError(reason, call.line, self.file)
-            self.variables[args[1]] = ";".join(found)
+            if len(args) > 1:
+                self.variables[args[1]] = ";".join(found or ())
         yield Command(call.name, args, call.line)
 
     def _arguments(self, call: Call) -> tuple[str, ...]:

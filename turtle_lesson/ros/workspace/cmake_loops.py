@@ -11,11 +11,11 @@ _LEAVES = {"break", "continue", "return"}
 _NOT_READ = {"RANGE", "ZIP_LISTS"}
 
 
-def body_of(calls: Sequence[Call], start: int) -> list[Call]:
-    """The calls from `start` up to the endforeach() that belongs to the foreach() before it."""
+def body_of(calls: Sequence[Call], start: int, kind: str = "foreach") -> list[Call]:
+    """The calls from `start` up to the endforeach() that belongs to the foreach() before it, or another kind's end."""
     depth = 1
     for place in range(start, len(calls)):
-        depth += {"foreach": 1, "endforeach": -1}.get(calls[place].name, 0)
+        depth += {kind: 1, f"end{kind}": -1}.get(calls[place].name, 0)
         if not depth:
             return list(calls[start:place])
     return list(calls[start:])

@@ -1,7 +1,7 @@
 """What CMake's own commands refuse, in the words of CMake 3.25: each function looks at one command of a CMakeLists.txt.
 
-Only what a package of Python files runs into is here. No program and no library can be built here, so that
-every target that a command names is one that does not exist.
+Only what a package of Python files runs into is here. In one that also builds C++, which is left out, the commands that
+serve C++ (`serves_cpp`) are not looked at.
 """
 
 from __future__ import annotations
@@ -31,6 +31,17 @@ def refusal(command: Command, folder: Path) -> Refusal | None:
     """What is wrong with a command, or None."""
     look = _LOOKS.get(command.name)
     return look(command, folder) if look else None
+
+
+def serves_cpp(command: Command) -> bool:
+    """Whether a command of a package with C++ in it is about that C++, and about nothing that is built here."""
+    about_targets = command.name == "install" and command.args[:1] in {
+        ("TARGETS",),
+        ("EXPORT",),
+        ("CODE",),
+        ("SCRIPT",),
+    }
+    return about_targets or command.name in {"add_subdirectory", "include"}
 
 
 def _install(command: Command, folder: Path) -> Refusal | None:

@@ -17,7 +17,7 @@ CMAKE_PACKAGES = _words(
     rosidl_typesupport_cpp rosidl_runtime_c rosidl_runtime_cpp
     rclpy rclcpp rclcpp_action rclcpp_components rclcpp_lifecycle rcl rcutils rmw class_loader pluginlib
     tf2 tf2_py tf2_ros tf2_geometry_msgs tf2_sensor_msgs tf2_tools message_filters rosbag2_cpp launch_testing_ament_cmake
-    Python3 PythonInterp Threads Eigen3
+    cv_bridge xacro Python3 PythonInterp Threads Eigen3
     """
 )
 """What `find_package` finds, besides packages of interfaces."""

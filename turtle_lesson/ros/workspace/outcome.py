@@ -44,6 +44,8 @@ class Outcome:
         dependencies: the packages that are needed when it runs.
         paths: folders below the prefix that hold Python packages of the learner's.
         colcon_error: what colcon itself says where it does not even begin.
+        left_out: the C++ programs and libraries that are not built here, and scripts that are not Python.
+        lacking: the packages that these need and that are not here.
     """
 
     code: int = 0
@@ -54,6 +56,8 @@ class Outcome:
     dependencies: list[str] = field(default_factory=list)
     paths: list[str] = field(default_factory=list)
     colcon_error: str = ""
+    left_out: list[str] = field(default_factory=list)
+    lacking: list[str] = field(default_factory=list)
 
 
 @dataclass
