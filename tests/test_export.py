@@ -120,6 +120,22 @@ def test_what_to_look_at_is_said(lesson: Lesson, tmp_path: Path) -> None:
     ]
 
 
+def test_what_the_release_lacks_is_named_if_a_program_has_used_it(lesson: Lesson, tmp_path: Path) -> None:
+    node = make_package(tmp_path) / "robot_controller/navigator_node.py"
+    node.write_text("#!/usr/bin/env python3\nfrom rclpy.duration import Duration\n\nprint(Duration(seconds=1) * 2)\n")
+    there = tmp_path.parent / f"{tmp_path.name}_robot"
+    assert lesson.export("robot_controller", to=there).notes == []
+    installed = tmp_path / "install/lib/robot_controller/navigator_node.py"  # a build's copy is what runs
+    installed.parent.mkdir(parents=True)
+    installed.write_text(node.read_text())
+    lesson._world.spawn(installed, name="navigator_node")
+    lesson.run(1)
+    (note,) = lesson.export("robot_controller", to=there, overwrite=True).notes
+    assert note.startswith(
+        "robot_controller/navigator_node.py, line 4, uses what Humble lacks. Since Kilted durations can be added"
+    )
+
+
 def test_nothing_is_overwritten_unasked(lesson: Lesson) -> None:
     lesson.export("robot_controller", to="robot")
     with pytest.raises(PackageError, match=r"robot/src/robot_controller already exists\. Choose another folder"):

@@ -118,8 +118,8 @@ class Release:
             raise ValueError(f"distro must be one of the releases {known}, got {name!r}")
         self.name = name
         self._changes = frozenset(each for each in changes() if RELEASES.index(each.since) <= RELEASES.index(name))
-        self.lacked: dict[Change, tuple[str, int]] = {}
-        """What programs have used that this release lacks, each with the file and line of its first use."""
+        self.lacked: dict[tuple[Change, str], int] = {}
+        """What programs have used that this release lacks, and in which file; the line of the first use."""
 
     def __repr__(self) -> str:
         return f"<ROS 2 {self.title}>"
@@ -143,13 +143,13 @@ class Release:
         return change in self._changes
 
     def note_use(self, change: Change) -> None:
-        """A program uses an addition. If this release lacks it, remember where it was used first."""
-        if change in self._changes or change in self.lacked:
+        """A program uses an addition. If this release lacks it, remember where."""
+        if change in self._changes:
             return
         frame = sys._getframe(1)
         while frame.f_back is not None and is_library(frame.f_code.co_filename):
             frame = frame.f_back
-        self.lacked[change] = (frame.f_code.co_filename, frame.f_lineno)
+        self.lacked.setdefault((change, frame.f_code.co_filename), frame.f_lineno)
 
 
 def chosen_release(distro: str | None) -> Release:

@@ -21,6 +21,7 @@ from .known import CMAKE_PACKAGES, PYTHON_PACKAGES
 from .outcome import Environment, Item, Outcome
 
 if TYPE_CHECKING:
+    from ..distro import Release
     from ..world import World
 
 _LEFT_OUT = (
@@ -80,7 +81,7 @@ def export_package(world: World, package: str | Path, to: str | Path, *, overwri
         shutil.rmtree(target)
     shutil.copytree(found.path, target, ignore=shutil.ignore_patterns(*_LEFT_OUT))
     _make_fit(found, target, outcome)
-    result = _describe(found, target, outcome)
+    result = _describe(found, target, outcome, world.release)
     (target.parent.parent / "README.md").write_text(_readme(result, found), encoding="utf-8", newline="\n")
     return result
 
@@ -164,11 +165,12 @@ def _make_fit(found: Found, target: Path, outcome: Outcome) -> None:
             (target / item.source.relative_to(found.path)).chmod(0o755)
 
 
-def _describe(found: Found, target: Path, outcome: Outcome) -> Exported:
+def _describe(found: Found, target: Path, outcome: Outcome, release: Release) -> Exported:
     programs = [item.target.rpartition("/")[2] for item in outcome.items if item.program]
     interfaces = [file for item in outcome.items if (file := _interface(item, found))]
     notes = [line.removeprefix("Hint: ") for line in outcome.stderr.splitlines() if line.startswith("Hint: ")]
     notes += _missing_dependencies(found)
+    notes += _newer_than(release, found)
     if (Path.cwd() / "src").is_dir() and Path.cwd() in target.parents:
         notes.append(
             f"{shown_path(str(target))} lies in this workspace, where colcon build now finds {found.name} twice"
@@ -200,6 +202,16 @@ def _missing_dependencies(found: Found) -> list[str]:
                 place = f"{file.relative_to(found.path).as_posix()}, line {line}"
                 notes.setdefault(name, f"{place}, imports {name}: add <exec_depend>{name}</exec_depend> to package.xml")
     return list(notes.values())
+
+
+def _newer_than(release: Release, found: Found) -> Iterator[str]:
+    """What the package's programs have used in this world, although the world's release lacks it."""
+    for (change, place), line in release.lacked.items():
+        for file in found.path.rglob(Path(place).name):
+            if file.parts[-2:] == Path(place).parts[-2:]:  # programs may run from a copy that a build has made
+                used = f"{file.relative_to(found.path).as_posix()}, line {line}, uses what {release.title} lacks"
+                yield f"{used}. Since {change.since.capitalize()} {change.what}; before, {change.before}"
+                break
 
 
 def _launch_files(package: Path) -> list[str]:
