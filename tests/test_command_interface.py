@@ -105,6 +105,37 @@ def test_a_prototype_without_quotes_can_go_into_a_file(world: World) -> None:
     assert answer.stdout == "x: 0.0\ny: 0.0\nz: 0.0\n\n"
 
 
+TWIST = """\
+# How fast a body moves and turns.
+
+Vector3 linear   # m/s along the x, y and z axes
+	float64 x
+	float64 y
+	float64 z
+Vector3 angular  # rad/s about the x, y and z axes; z > 0 turns to the left
+	float64 x
+	float64 y
+	float64 z
+"""
+
+
+def test_standard_types_say_what_their_fields_mean(world: World) -> None:
+    assert type_in(world, "ros2 interface show geometry_msgs/msg/Twist").stdout == TWIST
+    shown = type_in(world, "ros2 interface show geometry_msgs/msg/PoseStamped --all-comments").stdout.splitlines()
+    assert "\t# Where something is, and which way it faces." in shown and "" in shown
+    assert "\tPoint position          # m" in shown
+    assert type_in(world, "ros2 interface show std_srvs/srv/SetBool").stdout.splitlines()[1:3] == [
+        "---",
+        "bool success    # whether it was done",
+    ]
+
+
+def test_a_learners_package_has_its_own_comments_alone(world: World, odd: Path) -> None:
+    _add(odd, "Vector3 linear\n", "msg/Twist.msg")
+    (odd / "comments.txt").write_text("[msg/Twist]\nlinear: m/s\n")
+    assert registry.commented("odd_msgs", "msg/Twist") == "Vector3 linear\n"
+
+
 def test_all_comments_or_none_but_not_both_can_be_asked_for(world: World) -> None:
     answer = type_in(world, "ros2 interface show geometry_msgs/msg/Point --all-comments --no-comments")
     assert answer.stderr.endswith("error: argument --no-comments: not allowed with argument --all-comments\n")

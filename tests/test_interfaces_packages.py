@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from rosbags.interfaces import Nodetype
 from rosbags.typesys import Stores, get_typestore
 
 from turtle_lesson.ros.interfaces.cdr import PLACEHOLDER, deserialize, serialize
+from turtle_lesson.ros.interfaces.registry import PARSERS, SHARE, registry
 
 HUMBLE, KILTED = get_typestore(Stores.ROS2_HUMBLE), get_typestore(Stores.ROS2_KILTED)
 OF_THE_RECORDER = "rosbag2_interfaces/"  # what `ros2 bag` tells of its own files
@@ -219,3 +221,26 @@ def test_grids_and_paths_hold_what_programs_put_in() -> None:
     assert Odometry().pose.covariance.shape == (36,)
     with pytest.raises(AssertionError, match="'poses' field must be a set or sequence and each value of type 'Pose"):
         Path().poses = [Odometry()]
+
+
+COMMENTS = sorted(SHARE.glob("*/comments.txt"))
+
+
+@pytest.mark.parametrize("file", COMMENTS, ids=lambda file: file.parent.name)
+def test_comments_are_about_what_is_there_and_change_no_definition(file: Path) -> None:
+    package = file.parent.name
+    sections = [line[1:-1] for line in file.read_text().splitlines() if line.startswith("[")]
+    assert len(set(sections)) == len(sections)
+    for interface in sections:
+        folder, name = interface.split("/")
+        text, commented = registry.text(package, interface), registry.commented(package, interface)
+        bare = "\n".join(line.partition("#")[0].rstrip() for line in commented.splitlines())
+        assert [line for line in bare.splitlines() if line] == [
+            bare for line in text.splitlines() if (bare := line.partition("#")[0].rstrip())
+        ]
+        _, _, rest = file.read_text().partition(f"[{interface}]\n")
+        said = [line for line in rest.partition("\n[")[0].splitlines() if line and line != "---"]
+        assert all(line.partition(": ")[2] in commented for line in said if not line.startswith("#")), interface
+        assert commented.count("#") == text.count("#") + len(said), interface
+        assert max(map(len, commented.splitlines())) <= 120, interface
+        assert PARSERS[folder](package, name, commented, "") is not None

@@ -110,7 +110,8 @@ def _show_arguments(parser: ArgumentParser) -> None:
 def _show(args: Namespace) -> None:
     _check(args.type)
     package, _, interface = args.type.partition("/")
-    for line in _lines(package, registry.text(package, interface), args):
+    read = registry.text if args.no_comments else registry.commented
+    for line in _lines(package, read(package, interface), args):
         print(line)
 
 
@@ -126,11 +127,13 @@ def _lines(package: str, text: str, args: Namespace) -> Iterator[str]:
 
 
 def _inner(field: FieldType, args: Namespace, depth: int) -> Iterator[str]:
-    text = registry.text(str(field.package), f"msg/{field.base}")
-    for line in text.splitlines():
-        shown = line.rstrip() if args.all_comments and not args.no_comments else _without_comment(line)
+    read = registry.commented if args.all_comments else registry.text
+    for line in read(str(field.package), f"msg/{field.base}").splitlines():
+        shown = line.rstrip() if args.all_comments else _without_comment(line)
         if shown:
             yield "\t" * depth + shown
+        elif args.all_comments:
+            yield ""
         inner = _field_type(str(field.package), line)
         if inner is not None and inner.package:
             yield from _inner(inner, args, depth + 1)

@@ -14,6 +14,7 @@ from types import ModuleType
 from typing import Any
 
 from turtle_lesson.ros.interfaces import names
+from turtle_lesson.ros.interfaces.comments import with_comments
 from turtle_lesson.ros.interfaces.definition import parse_action, parse_message, parse_service
 from turtle_lesson.ros.interfaces.errors import InvalidDefinition, UnknownMessageType
 from turtle_lesson.ros.interfaces.generator import make_module
@@ -122,6 +123,11 @@ class Registry:
     def text(self, package: str, interface: str) -> str:
         """The text of a definition file, e.g. of `geometry_msgs` and `msg/Twist`."""
         return _read(self._find(package, interface), interface)
+
+    def commented(self, package: str, interface: str) -> str:
+        """The text of a definition file; that of a built-in package with comments that say what its fields mean."""
+        owner, text = self._find(package, interface), self.text(package, interface)
+        return text if owner in self._added.values() else with_comments(owner.directory, interface, text)
 
     def definition(self, name: str) -> Definition:
         """The parsed definition of `geometry_msgs/msg/Twist`; InvalidDefinition where ROS refuses it."""
