@@ -41,3 +41,42 @@ def test_a_client_waits_for_its_server(shop: Terminal) -> None:
     ]
     assert shop.exit_codes() == [0, None]
     assert shop.say("ros2 pkg executables demo_nodes_py")[0] == "demo_nodes_py add_two_ints_client"
+
+
+NAMES = (
+    "talker_listener_launch.py", "talker_listener_launch.xml", "talker_listener_launch.yaml",
+    "talker_listener.launch.py", "talker_listener.launch.xml",
+    "talker_listener_best_effort_launch.py", "talker_listener_best_effort_launch.yaml",
+    "talker_listener_best_effort.launch.xml",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_launch_file_starts_talker_and_listener(shop: Terminal, name: str) -> None:
+    """Programs of a launch start one after the other, 0.3 s each; the talker says its first line a second later."""
+    printed = shop.say(f"ros2 launch demo_nodes_cpp {name}", seconds=1.5)
+    (said,) = having(printed, "Publishing: 'Hello World: 1'")
+    (heard,) = having(printed, "I heard: [Hello World: 1]")
+    assert said.startswith("[talker-1] ")
+    assert heard.startswith("[listener_best_effort-2] " if "best_effort" in name else "[listener-2] ")
+
+
+@pytest.mark.parametrize("name", ["add_two_ints", "add_two_ints_async"])
+@pytest.mark.parametrize("ending", ["_launch.py", ".launch.py", "_launch.xml", ".launch.xml"])
+def test_a_launch_file_starts_server_and_client(shop: Terminal, name: str, ending: str) -> None:
+    printed = shop.say(f"ros2 launch demo_nodes_cpp {name}{ending}", seconds=2.0)
+    assert len(having(printed, "Result of add_two_ints: 5")) == 1
+    ended = having(printed, "[INFO] [add_two_ints_server-1]: process has finished cleanly")
+    assert len(ended) == (1 if ending.endswith("py") else 0)  # the Python file ends the launch with the client
+
+
+def test_the_launch_files_are_found_by_their_path(shop: Terminal) -> None:
+    file = "from launch import LaunchDescription\nfrom launch.actions import IncludeLaunchDescription\n"
+    file += (
+        "from launch.substitutions import PathJoinSubstitution\nfrom launch_ros.substitutions import FindPackageShare\n"
+    )
+    place = "[FindPackageShare('demo_nodes_cpp'), 'launch', 'topics', 'talker_listener_launch.py']"
+    include = f"IncludeLaunchDescription(PathJoinSubstitution({place}))"
+    file += f"def generate_launch_description():\n    return LaunchDescription([{include}])\n"
+    (shop.folder / "mine.launch.py").write_text(file)
+    assert having(shop.say("ros2 launch mine.launch.py", seconds=1.5), "I heard: [Hello World: 1]")

@@ -4,7 +4,7 @@
 - ``tf2_monitor``: says how old transforms are when they come;
 - ``static_transform_publisher``: tells of a frame that never moves;
 - ``view_frames``: draws the tree of all frames;
-- ``demos``: talker, listener, and a service that adds.
+- ``demos``: talker, listener, and a service that adds; ``demo_nodes_cpp`` has the launch files for them.
 """
 
 from __future__ import annotations
@@ -35,12 +35,16 @@ def tf2_packages() -> list[Package]:
 
 def demo_packages() -> list[Package]:
     """The demos, as Python packages and as what they are called where they are C++."""
-    names = ("talker", "listener", "add_two_ints_server", "add_two_ints_client")
+    names = ("talker", "listener", "add_two_ints_server", "add_two_ints_client", "add_two_ints_client_async")
     programs: dict[str, Target] = {name: program(f"{__name__}.demos.{name}") for name in names}
-    of_cpp = {**programs, "talker": program(f"{__name__}.demos.talker", "main_of_cpp")}
+    of_cpp = {
+        **programs,
+        "talker": program(f"{__name__}.demos.talker", "main_of_cpp"),
+        "listener_best_effort": program(f"{__name__}.demos.listener", "main_of_best_effort"),
+    }
     return [
         Package("demo_nodes_py", HERE / "demos", executables=programs),
-        Package("demo_nodes_cpp", HERE / "demos", executables=of_cpp),
+        Package("demo_nodes_cpp", HERE / "demo_nodes_cpp", executables=of_cpp),
     ]
 
 
