@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import math
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -162,3 +163,33 @@ def test_velocities_in_words() -> None:
     assert in_words(0.0, 0.0) == "zeros (stop)"
     assert in_words(-1.0, 0.0) == "1.00 m/s backward"
     assert in_words(1.0, -0.25) == "1.00 m/s forward and 0.25 rad/s to the right"
+
+
+def test_keys_go_to_the_program_that_reads_them(lesson: Lesson, tmp_path: Path, capsys: Any) -> None:
+    widget = lesson.teleop()
+    heard = listen(lesson)
+    program = tmp_path / "keys.py"
+    program.write_text(
+        "import sys, tty\ntty.setraw(sys.stdin)\nfor _ in range(3):\n    print(repr(sys.stdin.read(1)))\n"
+    )
+    process = lesson._world.spawn(program, name="keys")
+    lesson.run(1)
+    widget._tick()
+    assert widget.program == "keys" and "Keys go to keys." in repr(widget)
+    for key in ("w", "F20", " ", "Enter"):
+        order(widget, "key", key=key, down=True)
+        order(widget, "key", key=key, down=False)
+    lesson.run(1)
+    assert capsys.readouterr().out.splitlines()[-3:] == ["'w'", "' '", "'\\r'"]
+    assert (heard, process.exit_code) == ([], 0)
+    widget._tick()
+    assert widget.program == ""
+
+
+def test_a_widget_that_is_there_needs_no_word_about_keys(lesson: Lesson, tmp_path: Path, capsys: Any) -> None:
+    lesson.teleop()
+    program = tmp_path / "keys.py"
+    program.write_text("import sys, tty\ntty.setraw(sys.stdin)\nsys.stdin.read(1)")
+    lesson._world.spawn(program, name="keys")
+    lesson.run(1)
+    assert "waits for keys" not in capsys.readouterr().err

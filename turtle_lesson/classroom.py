@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from .lab.obstacle_board import ObstacleBoard
     from .lab.recorder import Recorder
     from .live import Player
+    from .ros.core.keyboard import Keyboard
     from .ros.world import World
 
 
@@ -24,6 +25,7 @@ class Classroom:
         self.board = board
         self.node: Any = recorder.node
         self.clock: Clock | None = RobotClock(world, player)
+        self.keyboard: Keyboard | None = world.sim.keyboard
         self.loop = Loop()
 
     @property

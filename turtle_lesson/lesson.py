@@ -13,6 +13,7 @@ from .ros.command.driving import set_player
 from .ros.command.shell import open_terminal
 from .ros.console import CellOutput
 from .ros.core import EPOCH, NANOSECONDS
+from .ros.core.key_names import key_named
 from .ros.distro import chosen_release
 from .ros.interfaces.registry import registry
 from .ros.workspace.package import read_source_package
@@ -89,7 +90,9 @@ def start(
 def _built(seed: int, distro: str | None, mine: Workspace) -> Workspace:
     """The learner's workspace, built if its sources have changed. Prints what the build says where it fails."""
     if (mine.package / "package.xml").exists() and not mine.is_built:
-        world = open_world(seed, distro)  # one of its own: building takes robot time, and the lesson's world begins at 0 s
+        world = open_world(
+            seed, distro
+        )  # one of its own: building takes robot time, and the lesson's world begins at 0 s
         for each in underlay_packages():
             world.packages.add(each)
         if said := mine.build(world):
@@ -180,6 +183,25 @@ class Lesson(Shelf, Insight):
             raise TypeError(f'input must be lines of text, got {lines!r}: try lesson.run(5, input=["3", "yes"])')
         self._world.sim.keyboard.lines.extend(lines)
         self._world.sim.run_until(self._world.now + round(seconds * NANOSECONDS))
+
+    def press(self, *keys: str, every: float = 0.5) -> None:
+        """Press keys for the program that reads keys, and let `every` seconds of robot time pass with each of them.
+
+        A key is one character, or a name such as "up", "space", "enter", "esc" or "ctrl+c". Of several programs, the one
+        that began last gets them. Raises ValueError if there is no such key, RuntimeError if no program reads keys.
+        """
+        _check_seconds("press", every)
+        keyboard = self._world.sim.keyboard
+        keyboard.has_keys = True
+        for key in [key_named(key) for key in keys]:
+            if not keyboard.reader:
+                raise RuntimeError(
+                    f"no running program reads keys, so {key!r} was not pressed: start one first (ros2 run …), and let it "
+                    "begin (lesson.run(1)). input() reads lines: lesson.run(1, input=['3'])"
+                )
+            keyboard.press(key)
+            self.run(every)
+            keyboard.release(key)
 
     def spin(self, seconds: float, *nodes: Any) -> None:
         """Let `seconds` of robot time pass, and have the callbacks of nodes that live in this notebook called meanwhile.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import atexit
 import threading
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
@@ -15,6 +15,9 @@ from .lab.recorder import ON_A_ROBOT, Recorder
 from .lab.widgets.loop import Loop
 from .lab.widgets.station import Clock
 from .robot_node import LabNode
+
+if TYPE_CHECKING:
+    from .ros.core.keyboard import Keyboard
 
 BREATH = 0.02
 """Seconds of pause after an error, so that one that comes again and again does not take the whole computer."""
@@ -31,6 +34,7 @@ class RobotStation:
     """
 
     clock: Clock | None = None
+    keyboard: Keyboard | None = None
 
     def __init__(self) -> None:
         self.loop = Loop()

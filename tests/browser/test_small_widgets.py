@@ -177,3 +177,36 @@ def test_a_world_that_ended_is_said_to_have(window: Page) -> None:
 
 def test_the_browser_had_nothing_to_complain_of(window: Page, problems: list[str]) -> None:
     assert problems == []
+
+
+KEY_CELLS = (
+    """%load_ext turtle_lesson
+from turtle_lesson import start
+lesson = start(seed=0)""",
+    """%%writefile quit_by_q.py
+import sys, tty
+tty.setraw(sys.stdin)
+while sys.stdin.read(1) != "q":
+    pass""",
+    "python3 quit_by_q.py\nlesson.teleop()",
+)
+
+
+def test_keys_go_to_a_program_that_reads_them(browser: Browser, lab: str, problems: list[str]) -> None:
+    window = new_window(browser, problems)
+    write_notebook(window, lab, "keys.ipynb", KEY_CELLS)
+    open_notebook(window, lab, "keys.ipynb")
+    execute(window, "notebook:run-all-cells")
+    teleop = window.locator(".tl-teleop").first
+    said = teleop.locator(".tl-unheard")
+    expect(said).to_have_text("Keys pressed on the stick go to quit_by_q.")
+    teleop.locator(".tl-stick").focus()
+    window.keyboard.press("w")
+    expect(teleop.locator(".tl-said")).to_have_text("Keys go to quit_by_q.")
+    expect(speed(teleop)).to_have_text("0.00")
+    window.keyboard.press("q")
+    expect(said).to_have_text("")
+    window.keyboard.down("w")
+    expect(speed(teleop)).to_have_text("2.00")
+    window.keyboard.up("w")
+    window.close()

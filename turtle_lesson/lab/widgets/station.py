@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from .loop import Loop
 
 if TYPE_CHECKING:
+    from ...ros.core.keyboard import Keyboard
     from ..obstacle_board import ObstacleBoard
     from ..recorder import Recorder
 
@@ -67,6 +68,8 @@ class Station(Protocol):
     """The notebook's event loop."""
     clock: Clock | None
     """None where nobody can turn the clock, as on a real robot."""
+    keyboard: Keyboard | None
+    """What the programs of a simulated world read keys from; None on a real robot, whose programs have terminals."""
 
     @property
     def now(self) -> float:

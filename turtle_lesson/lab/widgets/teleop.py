@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from typing import Any
 
 import traitlets
@@ -28,6 +29,8 @@ FASTEST = {"forward": 10.0, "turn": 10.0}
 class Teleop(LiveWidget):
     """Publishes a Twist ten times a second while the stick is held, and one with zeros when it is let go.
 
+    While a program of the world reads keys, those that are pressed on the stick go to that program instead.
+
     The period is counted on the robot's clock, as every node's timer is; whether somebody still holds the stick is
     counted in real time, since a person does.
     """
@@ -39,6 +42,8 @@ class Teleop(LiveWidget):
     """Where the stick is, from -1 to 1 (turn: to the left), and whether somebody holds it."""
     sent = traitlets.Dict({"linear": 0.0, "angular": 0.0, "count": 0}).tag(sync=True)
     """The newest velocity on the topic, m/s and rad/s, and how many there were."""
+    program = traitlets.Unicode().tag(sync=True)
+    """The program that reads the keys that are pressed here; "" if they drive."""
     unheard = traitlets.Unicode().tag(sync=True)
     """Why no node hears it; "" if one does."""
 
@@ -56,6 +61,9 @@ class Teleop(LiveWidget):
         self._last_sign = -math.inf
         self._looks = Pace(2)
         super().__init__(station, topic=name, unheard=self._outlet.why_unheard())
+        if station.keyboard is not None:
+            station.keyboard.has_keys = True
+        self._look_for_program()
 
     # -- orders ------------------------------------------------------------------------------------------------------
 
@@ -79,6 +87,16 @@ class Teleop(LiveWidget):
         if self._timer is not None:
             self._stop("Stopped.")
 
+    def do_key(self, key: str, down: bool) -> None:
+        """A key, by the browser's name for it, was pressed or let go of: pass it on to the program that reads keys."""
+        keyboard = self.station.keyboard
+        if keyboard is None or not keyboard.reader:
+            return
+        with suppress(ValueError):  # browsers know many keys that no program asks for
+            (keyboard.press if down else keyboard.release)(key)
+        self.words = f"Keys go to {keyboard.reader}."
+        let_time_go_on(self.station)
+
     def do_stop(self) -> None:
         """Send zeros, whatever drives."""
         self._stop("Stopped.")
@@ -97,9 +115,14 @@ class Teleop(LiveWidget):
     def tick(self) -> None:
         """Stop if the page no longer says that the stick is held, and look which nodes listen."""
         self._watch()
+        self._look_for_program()
         self._outlet.flush()
         if self._looks.due():
             self.unheard = self._outlet.why_unheard()
+
+    def _look_for_program(self) -> None:
+        if self.station.keyboard is not None:
+            self.program = self.station.keyboard.reader
 
     def closed(self) -> None:
         """The last view is gone: stop, and leave the topic."""
@@ -148,7 +171,8 @@ class Teleop(LiveWidget):
             if self.sent["count"]
             else "nothing sent yet"
         )
-        return f"Teleop on {self.topic}, {most}: {last}. {self._outlet.why_unheard()}".strip()
+        keys = f"Keys go to {self.program}. " if self.program else ""
+        return f"Teleop on {self.topic}, {most}: {last}. {keys}{self._outlet.why_unheard()}".strip()
 
 
 def in_words(linear: float, angular: float) -> str:

@@ -1,10 +1,10 @@
-"""What a program in the simulation does not have: a terminal whose keys it reads, a screen, a user who answers."""
+"""Devices that a program in the simulation reaches in another way, or not at all: keys, a screen, a user who answers."""
 
 from __future__ import annotations
 
 KEYS = (
-    "A program here has no terminal of its own whose keys it could read. In a notebook lesson.teleop() drives a turtle, "
-    "and `ros2 topic pub` sends any message; on a robot you run the program in a terminal."
+    "Here a program reads keys from sys.stdin (with termios, tty and select), by pynput.keyboard or by curses; you press "
+    "them in lesson.teleop(), or by lesson.press('w')."
 )
 SCREEN = (
     "A program here has no screen for a window of its own. lesson.dashboard() may show the same; the "

@@ -1,7 +1,8 @@
 """What is typed at a world: the lines that programs ask for with `input()`, and the keys that they read one by one.
 
 A line comes from what was typed ahead, or else from the running cell: in a notebook from the prompt below it, in a script
-from Python's own `input`. Robot time stands still while somebody thinks about an answer.
+from Python's own `input`. Robot time stands still while somebody thinks about an answer. Keys are pressed in a widget or by
+`lesson.press`; while a program waits for one, robot time goes on.
 """
 
 from __future__ import annotations
@@ -12,6 +13,9 @@ import time
 from collections import deque
 from types import BuiltinFunctionType
 from typing import TYPE_CHECKING, Any
+
+from .key_names import key_named
+from .strand import Strand, running_strand
 
 if TYPE_CHECKING:
     from .process import Process
@@ -31,6 +35,14 @@ MOMENT = 1_000_000
 PAUSE = 100_000_000
 """How often, in ns, a program that asks between two cells of a notebook looks whether a cell runs."""
 
+POLL = 1_000_000
+"""What a look for a key that was not pressed takes, in ns: a loop that only looks must come to an end, too."""
+
+NO_KEYS = (
+    "{name} waits for keys. Press them in lesson.teleop(), which passes them on when it has the focus, or by "
+    "lesson.press('w', 'up')."
+)
+
 END = "EOF when reading a line"
 """Python's words for an input that has ended."""
 
@@ -40,16 +52,56 @@ class Keyboard:
 
     Attributes:
         lines: lines that were typed ahead, for the programs that ask next.
+        has_keys: whether something is there that can press keys.
         live: whether time goes on by itself now, run by no cell, so that no cell can ask.
         seconds_asked: how long, in s of real time, programs have waited for answers of the cell.
     """
 
     def __init__(self, simulation: Simulation) -> None:
         self.lines: deque[str] = deque()
+        self.has_keys = False
         self.live = False
         self.seconds_asked = 0.0
         self._simulation = simulation
         self._last: tuple[int, int] | None = None
+        self._readers: list[KeyReader] = []
+
+    # -- keys --------------------------------------------------------------------------------------------------------------
+
+    @property
+    def reader(self) -> str:
+        """The program that keys go to; "" if none reads keys."""
+        hearing = self._hearing()
+        return hearing[-1].process.name if hearing else ""
+
+    def reads_keys(self, reader: KeyReader) -> None:
+        """From now on a program reads keys. Of several programs with a terminal the one that began last gets them."""
+        if reader not in self._readers:
+            self._readers.append(reader)
+
+    def press(self, key: str) -> None:
+        """Press a key, such as "w" or "up".
+
+        Raises:
+            ValueError: if there is no such key.
+        """
+        self._tell(key_named(key), down=True)
+
+    def release(self, key: str) -> None:
+        """Let go of a key."""
+        self._tell(key_named(key), down=False)
+
+    def _tell(self, name: str, down: bool) -> None:
+        for reader in self._hearing():
+            reader.hear(name, down)
+
+    def _hearing(self) -> list[KeyReader]:
+        """The readers that hear the next key: those that hear all, and the newest of those with a terminal."""
+        self._readers = [reader for reader in self._readers if reader.process.alive and not reader.closed]
+        focus = [reader for reader in self._readers if reader.has_terminal][-1:]
+        return [reader for reader in self._readers if not reader.has_terminal or reader in focus]
+
+    # -- lines -------------------------------------------------------------------------------------------------------------
 
     def line(self, process: Process, prompt: str) -> str:
         """The next line that is typed for a program, without its line end.
@@ -95,6 +147,60 @@ class Keyboard:
         finally:
             sys.stdout = stream
             self.seconds_asked += _monotonic() - began
+
+
+class KeyReader:
+    """Something in a program that reads keys: its terminal, or a listener that hears all keys of the computer.
+
+    Attributes:
+        events: the names of keys, each with whether it was pressed or let go of, that nobody has read yet.
+        closed: whether it reads no more.
+    """
+
+    def __init__(self, process: Process, *, has_terminal: bool) -> None:
+        self.process = process
+        self.has_terminal = has_terminal
+        self.events: deque[tuple[str, bool]] = deque()
+        self.closed = False
+        self._waiting: list[Strand] = []
+        self._said = False
+
+    def hear(self, name: str, down: bool) -> None:
+        """A key was pressed, or let go of; a terminal knows nothing of the latter."""
+        if down or not self.has_terminal:
+            self.events.append((name, down))
+            self.tell()
+
+    def tell(self) -> None:
+        """Have those who wait look again."""
+        for strand in self._waiting:
+            strand.simulation.wake(strand)
+
+    def wait(self, seconds: float | None = None) -> bool:
+        """Hold the running strand up until there is an event, at most `seconds` of robot time; whether there is one."""
+        simulation = self.process.simulation
+        simulation.keyboard.reads_keys(self)
+        if self.events:
+            return True
+        self._say_where_keys_come_from()
+        strand, begun = running_strand(), simulation.now
+        assert strand is not None
+        if seconds is not None:
+            simulation.at(begun + max(POLL, round(seconds * 1e9)), simulation.wake, strand)
+        self._waiting.append(strand)
+        try:
+            while not self.events and not self.closed:
+                if seconds is not None and simulation.now >= begun + max(POLL, round(seconds * 1e9)):
+                    break
+                simulation.park(strand)
+        finally:
+            self._waiting.remove(strand)
+        return bool(self.events)
+
+    def _say_where_keys_come_from(self) -> None:
+        if not self._said and not self.process.simulation.keyboard.has_keys:
+            print(NO_KEYS.format(name=self.process.name), file=self.process.stderr or sys.stderr)
+        self._said = True
 
 
 def _is_between_cells() -> bool:

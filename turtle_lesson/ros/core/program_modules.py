@@ -32,14 +32,14 @@ on_import: dict[str, Callable[[], ModuleType | None]] = {}
 
 
 class ProgramModules:
-    """The modules of one program. `folders` is where they are looked for, before all others."""
+    """The modules of one program. `folders` is where they are looked for, before all others; `stdin` is its input."""
 
     def __init__(self, process: Process, folders: Iterable[str]) -> None:
         self._process = process
         self._folders = list(folders)
-        stdin = ProgramInput(process)
-        self.sys = ProgramSys(process, [*self._folders, *sys.path], stdin, self.show)
-        own = {"__import__": self._import, "input": stdin.ask, "exit": _exit, "quit": _exit, NAME: another_look}
+        self.stdin = ProgramInput(process)
+        self.sys = ProgramSys(process, [*self._folders, *sys.path], self.stdin, self.show)
+        own = {"__import__": self._import, "input": self.stdin.ask, "exit": _exit, "quit": _exit, NAME: another_look}
         self.builtins = {**vars(builtins), **own}
         self._modules: dict[str, ModuleType] = {}
         self._own = {"__main__": True}
@@ -141,6 +141,8 @@ class ProgramModules:
         if level or self.owns(name):
             self.show()
         elif (top := name.partition(".")[0]) in on_import and (module := on_import[top]()) is not None:
+            for part in name.split(".")[1:] if fromlist else ():
+                module = getattr(module, part)
             return module
         return builtins.__import__(name, globals, locals, fromlist or (), level)
 

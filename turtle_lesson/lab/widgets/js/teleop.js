@@ -30,7 +30,7 @@ function teleopPanel(model, order) {
     knob.style.top = `${50 - 36 * forward}%`;
   };
   followPointer(pad, hand);
-  const forgetKeys = followKeys(pad, hand, order);
+  const forgetKeys = followKeys(pad, hand, order, model);
 
   const forward = speedRow("forward", "m/s", model, order);
   const turn = speedRow("turn", "rad/s", model, order);
@@ -51,9 +51,12 @@ function teleopPanel(model, order) {
     pad.classList.toggle("tl-held", model.get("stick").held);
     if (!hand.held) put(model.get("stick"));
   };
-  const showUnheard = () => (unheard.textContent = model.get("unheard"));
+  const showUnheard = () => {
+    const program = model.get("program");
+    unheard.textContent = program ? `Keys pressed on the stick go to ${program}.` : model.get("unheard");
+  };
   const close = () => (hand.release(), forgetKeys());
-  return { panel, close, watch: { sent: showSent, limits: showLimits, stick: showStick, unheard: showUnheard } };
+  return { panel, close, watch: { sent: showSent, limits: showLimits, stick: showStick, unheard: showUnheard, program: showUnheard } };
 }
 
 /** What holds the stick: says so again and again, for Python stops the robot when it hears nothing. */
@@ -109,18 +112,32 @@ function followPointer(pad, hand) {
   pad.addEventListener("contextmenu", (event) => event.preventDefault());
 }
 
-/** Keys drive while the stick has the focus; letting go, leaving it and hiding the window all stop. */
-function followKeys(pad, hand, order) {
+/**
+ * Keys drive while the stick has the focus; letting go, leaving it and hiding the window all stop.
+ * While a program reads keys, they go there instead, all but Tab, which leaves the stick.
+ */
+function followKeys(pad, hand, order, model) {
   const down = new Set();
+  const passed = new Map(); // what a program was told, by code: with shift the key that is let go of has another name
+  const pass = (event) => {
+    const key = event.ctrlKey && event.code === "KeyC" ? "ctrl+c" : event.key;
+    if (event.metaKey || event.key === "Tab" || (event.ctrlKey && key !== "ctrl+c" && key !== "Control")) return false;
+    passed.set(event.code, key);
+    order("key", { key, down: true });
+    return true;
+  };
   const drive = () => {
     const sum = [...down].reduce(([f, t], key) => [f + KEYS[key][0], t + KEYS[key][1]], [0, 0]);
     const [forward, turn] = sum.map((each) => Math.max(-1, Math.min(1, each)));
     down.size ? hand.hold(forward, turn) : hand.release();
   };
-  const stop = () => (down.clear(), hand.release());
+  const letGo = (code) => (order("key", { key: passed.get(code), down: false }), passed.delete(code));
+  const stop = () => (down.clear(), hand.release(), [...passed.keys()].forEach(letGo));
   pad.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    if (event.code === "Space") stop(), order("stop");
+    if (model.get("program")) {
+      if (!pass(event)) return;
+    } else if (event.ctrlKey || event.metaKey || event.altKey) return;
+    else if (event.code === "Space") stop(), order("stop");
     else if (event.code in KEYS) {
       if (!event.repeat) down.add(event.code), drive();
     } else return;
@@ -128,6 +145,7 @@ function followKeys(pad, hand, order) {
     event.stopPropagation();
   });
   pad.addEventListener("keyup", (event) => {
+    if (passed.has(event.code)) letGo(event.code);
     if (down.delete(event.code)) drive();
   });
   const hidden = () => document.hidden && stop();

@@ -19,7 +19,8 @@ import threading
 import time
 from collections.abc import Callable
 from concurrent.futures import thread as pool
-from types import MethodType
+from functools import partial
+from types import MethodType, ModuleType
 from typing import Any
 
 from .. import virtual_time
@@ -39,6 +40,7 @@ from . import (
     pools,
     refused,
     signals,
+    terminals,
     threads,
     time_of_day,
 )
@@ -189,6 +191,7 @@ def _install_signals() -> None:
         replace_function(signal, function.__name__, function)
     replace_function(os, "kill", signals.kill)
     replace_function(os, "_exit", exits.exit_now)
+    replace_function(os, "read", terminals.read)
     replace_function(_thread, "interrupt_main", signals.interrupt_main)
 
 
@@ -204,8 +207,17 @@ def _install_modules() -> None:
     for owner, name in own_modules.LOOKS_INTO_SYS_MODULES:
         replace_function(owner, name, own_modules.showing())
     dates_module = dates.make_module()
-    on_import["datetime"] = lambda: dates_module
+    termios = terminals.make_termios()
+    own = [termios, terminals.make_tty(termios), terminals.make_select(), terminals.make_fcntl()]
+    if os.name == "nt":  # elsewhere programs find out by its absence that they are not on Windows
+        own.append(terminals.make_msvcrt())
+    for module in (dates_module, *own):
+        on_import[module.__name__] = partial(_itself, module)
     on_import["multiprocessing"] = on_import["concurrent"] = _refuse_multiprocessing
+
+
+def _itself(module: ModuleType) -> ModuleType:
+    return module
 
 
 def _refuse_multiprocessing() -> None:

@@ -1,0 +1,226 @@
+"""Programs that read keys: a terminal in raw mode, `select` with a time limit, key libraries; in robot time."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from turtle_lesson import Lesson, start
+from turtle_lesson.ros.core import Process
+from turtle_lesson.ros.core.stdlib import terminals
+
+Begin = Callable[..., Process]
+
+TELEOP = """
+    import select
+    import sys
+    import termios
+    import tty
+
+    import rclpy
+    from geometry_msgs.msg import Twist
+
+    SPEEDS = {"w": (1.0, 0.0), "a": (0.0, 1.0), "s": (0.0, 0.0)}
+    before = termios.tcgetattr(sys.stdin)
+
+
+    def get_key():
+        tty.setraw(sys.stdin.fileno())
+        ready, _, _ = select.select([sys.stdin], [], [], 0.1)
+        key = sys.stdin.read(1) if ready else ""
+        termios.tcsetattr(sys.stdin, termios.TCSADRAIN, before)
+        return key
+
+
+    rclpy.init()
+    node = rclpy.create_node("drive_by_keys")
+    publisher = node.create_publisher(Twist, "/turtle1/cmd_vel", 10)
+    forward = turn = 0.0
+    while True:
+        key = get_key()
+        if key == "\\x03":
+            break
+        if key:
+            forward, turn = SPEEDS.get(key, (forward, turn))
+            print(repr(key), forward, turn)
+        twist = Twist()
+        twist.linear.x, twist.angular.z = forward, turn
+        publisher.publish(twist)
+    print("bye")
+"""
+
+
+@pytest.fixture
+def lesson(capsys: Any) -> Lesson:
+    lesson = start(simulator=False)
+    capsys.readouterr()
+    return lesson
+
+
+@pytest.fixture
+def begin(lesson: Lesson, tmp_path: Path) -> Begin:
+    """Starts a program and lets it begin."""
+
+    def begin(text: str, name: str = "keys", **details: Any) -> Process:
+        path = tmp_path / f"{name}.py"
+        path.write_text(textwrap.dedent(text))
+        process = lesson._world.spawn(path, name=name, **details)
+        lesson._world.sim.settle()
+        return process
+
+    return begin
+
+
+def test_a_teleop_drives_the_turtle_by_keys(capsys: Any, tmp_path: Path) -> None:
+    lesson = start()
+    path = tmp_path / "teleop.py"
+    path.write_text(textwrap.dedent(TELEOP))
+    process = lesson._world.spawn(path, name="teleop")
+    lesson.run(1)
+    lesson.press("w", every=2)
+    lesson.press("s", "a", "x", "ctrl+c")
+    out, error = capsys.readouterr()
+    assert out.splitlines()[-5:] == ["'w' 1.0 0.0", "'s' 0.0 0.0", "'a' 0.0 1.0", "'x' 0.0 1.0", "bye"]
+    assert error.startswith("teleop waits for keys. Press them in lesson.teleop()") and error.count("waits") == 1
+    assert process.exit_code == 0
+    place = lesson._recording.place()
+    assert place is not None
+    assert place[:2] == pytest.approx((7.5, 5.5), abs=0.2) and place[2] > 0.5
+
+
+def test_a_program_that_waits_for_a_key_holds_up_nobody_else(lesson: Lesson, begin: Begin, capsys: Any) -> None:
+    begin(
+        """
+        import sys, threading, time, tty
+        def look():
+            while True:
+                print("key", repr(sys.stdin.read(1)), time.monotonic() // 0.1 / 10)
+        tty.setcbreak(sys.stdin)
+        threading.Thread(target=look, daemon=True).start()
+        for _ in range(3):
+            time.sleep(1)
+            print("tick")
+        """
+    )
+    lesson.run(1.25)
+    lesson.press("k", "up", every=0.25)
+    lesson.run(2)
+    assert capsys.readouterr().out.splitlines() == [
+        "tick", "key 'k' 1.2", "key '\\x1b' 1.5", "key '[' 1.5", "key 'A' 1.5", "tick", "tick",
+    ]  # fmt: skip
+
+
+def test_ctrl_c_interrupts_a_terminal_that_has_not_given_that_up(lesson: Lesson, begin: Begin, capsys: Any) -> None:
+    process = begin(
+        """
+        import sys, termios
+        settings = termios.tcgetattr(0)
+        settings[3] &= ~(termios.ICANON | termios.ECHO)
+        termios.tcsetattr(0, termios.TCSANOW, settings)
+        try:
+            while True:
+                print(repr(sys.stdin.read(1)))
+        except KeyboardInterrupt:
+            print("interrupted")
+        """
+    )
+    lesson.press("q", "enter", "ctrl+c", every=0.1)
+    assert capsys.readouterr().out.splitlines() == ["'q'", "'\\n'", "interrupted"]
+    assert process.exit_code == 0
+
+
+@pytest.mark.parametrize(
+    "look",
+    [
+        "fcntl.fcntl(0, fcntl.F_SETFL, fcntl.fcntl(0, fcntl.F_GETFL) | os.O_NONBLOCK)",
+        "set_no_least()",
+    ],
+)
+def test_looking_for_keys_without_waiting(lesson: Lesson, begin: Begin, capsys: Any, look: str) -> None:
+    begin(
+        f"""
+        import fcntl, os, sys, termios, time, tty
+        def set_no_least():
+            settings = termios.tcgetattr(sys.stdin)
+            settings[6][termios.VMIN] = 0
+            termios.tcsetattr(sys.stdin, termios.TCSADRAIN, settings)
+        tty.setraw(sys.stdin)
+        {look}
+        while True:
+            key = sys.stdin.read(1)
+            if key:
+                print(key, time.monotonic() // 0.1 / 10)
+        """
+    )
+    lesson.press("a", "b", every=0.3)
+    assert capsys.readouterr().out.splitlines() == ["a 0.0", "b 0.3"]
+
+
+def test_a_file_descriptor_gives_keys_too(lesson: Lesson, begin: Begin, capsys: Any) -> None:
+    begin("import os, sys, tty\ntty.setraw(sys.stdin)\nprint(os.read(sys.stdin.fileno(), 3), os.read(0, 3))")
+    lesson.press("left", "space")
+    assert capsys.readouterr().out.splitlines() == ["b'\\x1b[D' b' '"]
+
+
+def test_select_waits_for_a_whole_line_where_no_mode_was_changed(lesson: Lesson, begin: Begin, capsys: Any) -> None:
+    begin(
+        """
+        import select, sys, time
+        while not select.select([sys.stdin], [], [], 0.5)[0]:
+            print("on", time.monotonic() // 0.1 / 10)
+        print("stop", repr(sys.stdin.readline()))
+        """
+    )
+    lesson.run(0.75)
+    lesson.press("x", "enter", every=0.1)
+    lesson.run(1)
+    assert capsys.readouterr().out.splitlines() == ["on 0.5", "stop 'x\\n'"]
+
+
+def test_of_two_programs_the_newer_one_gets_the_keys(lesson: Lesson, begin: Begin, capsys: Any) -> None:
+    reader = "import sys, tty\ntty.setcbreak(sys.stdin)\nwhile True: print(sys.argv[0], sys.stdin.read(1))"
+    begin(reader, "one", argv=["one"])
+    newer = begin(reader, "two", argv=["two"])
+    lesson.press("a")
+    newer.kill()
+    lesson.press("b")
+    assert capsys.readouterr().out.splitlines() == ["two a", "one b"]
+
+
+def test_a_program_on_windows(lesson: Lesson, begin: Begin, capsys: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    from turtle_lesson.ros.core.program_modules import on_import
+
+    windows = terminals.make_msvcrt()
+    monkeypatch.setitem(on_import, "msvcrt", lambda: windows)
+    begin(
+        """
+        import msvcrt, time
+        while not msvcrt.kbhit():
+            pass
+        print(msvcrt.getch().decode(), repr(msvcrt.getwch()))
+        """
+    )
+    lesson.press("a", "enter")
+    assert capsys.readouterr().out.splitlines() == ["a '\\r'"]
+
+
+def test_keys_that_nobody_reads_and_names_that_are_none(lesson: Lesson) -> None:
+    with pytest.raises(RuntimeError, match="no running program reads keys, so 'w' was not pressed"):
+        lesson.press("w")
+    with pytest.raises(ValueError, match=r"Several keys are several arguments: press\(\*'wwd'\)"):
+        lesson.press("wwd")
+    with pytest.raises(ValueError, match='Did you mean "enter"'):
+        lesson.press("Entre")
+
+
+def test_a_pipe_is_no_terminal(lesson: Lesson, begin: Begin, capsys: Any) -> None:
+    import io
+
+    begin("import sys, termios\nprint(sys.stdin.isatty())\ntermios.tcgetattr(sys.stdin)", stdin=io.StringIO("a"))
+    out, error = capsys.readouterr()
+    assert out == "False\n"
+    assert "termios.error: (25, 'Inappropriate ioctl for device')" in error
