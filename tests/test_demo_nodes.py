@@ -53,7 +53,6 @@ NAMES = (
 
 @pytest.mark.parametrize("name", NAMES)
 def test_a_launch_file_starts_talker_and_listener(shop: Terminal, name: str) -> None:
-    """Programs of a launch start one after the other, 0.3 s each; the talker says its first line a second later."""
     printed = shop.say(f"ros2 launch demo_nodes_cpp {name}", seconds=1.5)
     (said,) = having(printed, "Publishing: 'Hello World: 1'")
     (heard,) = having(printed, "I heard: [Hello World: 1]")
