@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 from lab_fakes import SECOND, START, TICK, drive, recording, stand
 
@@ -49,6 +50,19 @@ def test_a_teleport_is_no_drive():
     assert find_jumps(poses).tolist() == [62]
     assert distance_driven(poses, find_jumps(poses)) == pytest.approx(122 * 0.016)
     assert "It was put elsewhere 1 time (teleport or reset)." in plot_path(heard).text
+
+
+def test_poses_that_come_in_bursts_and_with_gaps_are_a_drive():
+    heard = drive(recording(), seconds=4.0)
+    drive(heard, seconds=2.0, at=(2.0, 2.0, math.pi / 2))
+    poses = heard.poses.array().copy()
+    burst = 300_000_000
+    poses["stamp"] = (
+        -(-poses["stamp"] // burst) * burst + np.arange(len(poses)) * 1000
+    )  # a busy kernel takes all at once
+    assert find_jumps(poses).tolist() == [250]
+    poses = np.delete(poses, slice(60, 65))  # and its queue was full
+    assert find_jumps(poses).tolist() == [245]
 
 
 def test_goals_tell_what_is_left():

@@ -9,6 +9,12 @@ import numpy as np
 WORLD = 11.088889
 """Side of turtlesim's square world in metres: 499 pixels at its 45 pixels a metre."""
 
+TICK = 16_000_000
+"""How often, in ns, turtlesim publishes a pose."""
+
+LATEST = 1_000_000_000
+"""How late, in ns, a pose is expected to come at most: what a busy kernel may take for something else."""
+
 SLACK = 0.05
 """A step longer than the speed explains by this much (m) is a jump: the turtle was put somewhere else."""
 
@@ -16,11 +22,14 @@ SLACK = 0.05
 def find_jumps(poses: np.ndarray) -> np.ndarray:
     """Return the indices of the poses that the turtle cannot have driven to: teleport or reset.
 
-    `poses` has the fields `stamp` (ns), `x`, `y` (m) and `speed` (m/s).
+    `poses` has the fields `stamp` (ns), `x`, `y` (m) and `speed` (m/s). A stamp may be the time at which a pose was heard:
+    on a robot a busy kernel takes poses in bursts, each at least one tick of the simulator younger than the one before.
     """
-    steps = _steps(poses)
+    steps, stamps = _steps(poses), poses["stamp"]
     fastest = np.maximum(np.abs(poses["speed"][1:]), np.abs(poses["speed"][:-1]))
-    possible = fastest * np.diff(poses["stamp"]) / 1e9
+    behind = stamps - TICK * np.arange(len(poses))
+    late = np.minimum(behind - np.minimum.accumulate(behind), LATEST)  # how long ago a pose may have been sent
+    possible = fastest * (np.maximum(np.diff(stamps), TICK) + late[:-1]) / 1e9
     return np.flatnonzero(steps > 1.5 * possible + SLACK) + 1
 
 
