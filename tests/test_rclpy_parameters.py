@@ -13,6 +13,7 @@ from rcl_interfaces.msg import (
     IntegerRange,
     ParameterDescriptor,
     ParameterEvent,
+    ParameterValue,
     SetParametersResult,
 )
 from rcl_interfaces.srv import (
@@ -494,6 +495,22 @@ def test_values_given_to_the_constructor_go_before_those_of_the_command_line(wor
     assert alone.declare_parameter("speed", 0.5).value == 0.5
     eager = Node("eager", automatically_declare_parameters_from_overrides=True)
     assert eager.get_parameter("extra").value == 7
+
+
+def test_an_empty_list_in_a_file_is_a_parameter_without_a_value(world: World, tmp_path: Path) -> None:
+    file = tmp_path / "params.yaml"
+    file.write_text("/**:\n  ros__parameters:\n    empty: []\n    speed: 1.5\n")
+    rclpy.init(args=["prog", "--ros-args", "--params-file", str(file)])
+    node = Node("eager", automatically_declare_parameters_from_overrides=True)
+    assert node.has_parameter("empty") and node.get_parameter_or("empty", Parameter("else", value=3)).value == 3
+    assert node.get_parameter_type("empty") == Parameter.Type.NOT_SET.value
+    assert node.get_parameter("speed").value == 1.5
+
+
+def test_a_parameters_message_without_a_value_is_no_default(world: World) -> None:
+    rclpy.init(args=[])
+    with pytest.raises(ValueError, match="default value of type PARAMETER_NOT_SET"):
+        Node("n").declare_parameter("speed", ParameterValue())
 
 
 def test_an_override_out_of_range_ends_the_declaration(world: World) -> None:

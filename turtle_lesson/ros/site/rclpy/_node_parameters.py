@@ -65,10 +65,16 @@ class NodeParameters(ParameterSetting):
             raise exceptions.InvalidParameterValueException(parameter.name, parameter.value, reason)
 
     def _ros_declare_overrides(self) -> None:
-        """Declare what the parameter overrides name, as the real one does before it declares anything else."""
+        """Declare what the parameter overrides name, as the real one does before it declares anything else.
+
+        An empty list in a parameter file has no type, so Humble's node has the parameter, but no value for it.
+        """
         from rcl_interfaces.msg import ParameterDescriptor
 
-        found = [(name, each.value, ParameterDescriptor()) for name, each in self._ros_overrides.items()]
+        found = [
+            (name, each.value, ParameterDescriptor(dynamic_typing=each.value is None))
+            for name, each in self._ros_overrides.items()
+        ]
         self.declare_parameters("", found, ignore_override=True)
 
     def undeclare_parameter(self, name: str) -> None:

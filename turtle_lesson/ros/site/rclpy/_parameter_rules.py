@@ -24,7 +24,7 @@ ONLY_A_NAME = (
 
 def read_declaration(index: int, namespace: str, details: tuple[Any, ...]) -> tuple[str, Any, Any]:
     """Full name, default value and descriptor of a declaration: a tuple of name, and perhaps value and descriptor."""
-    from rcl_interfaces.msg import ParameterDescriptor
+    from rcl_interfaces.msg import ParameterDescriptor, ParameterValue
 
     if not 1 <= len(details) <= 3:
         raise TypeError(
@@ -44,8 +44,9 @@ def read_declaration(index: int, namespace: str, details: tuple[Any, ...]) -> tu
         _declare_type(name, value, descriptor)
         return name, None, descriptor
     if not descriptor.dynamic_typing:
-        descriptor.type = Parameter.Type.from_parameter_value(value).value
-        if value is None:
+        is_unset = isinstance(value, ParameterValue) and value.type == Parameter.Type.NOT_SET.value
+        descriptor.type = Parameter.Type.from_parameter_value(None if is_unset else value).value
+        if value is None or is_unset:
             raise ValueError("Cannot declare a statically typed parameter with default value of type PARAMETER_NOT_SET")
     return name, value, descriptor
 
