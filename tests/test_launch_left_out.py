@@ -184,3 +184,30 @@ def test_what_a_prefix_puts_before_nodes(
     assert len(world.processes) == 2
     said = [f"{program} is left out: programs run here without a prefix"] if program else []
     assert warnings(capsys) == said
+
+
+def test_what_waits_for_it_is_named_too(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = write(
+        tmp_path,
+        """
+        from launch import LaunchDescription
+        from launch.actions import RegisterEventHandler, Shutdown
+        from launch.event_handlers import OnProcessExit
+        from launch_ros.actions import Node
+
+        def generate_launch_description():
+            spawn = Node(package='gazebo_ros', executable='spawn_entity.py')
+            rviz = Node(package='rviz2', executable='rviz2')
+            node = Node(package='robot_controller', executable='navigator')
+            return LaunchDescription([
+                RegisterEventHandler(OnProcessExit(target_action=spawn, on_exit=[node])),
+                RegisterEventHandler(OnProcessExit(target_action=rviz, on_exit=[Shutdown()])),
+                spawn, rviz,
+            ])
+        """,
+    )
+    world = FakeWorld()
+    launch_file(world, path)
+    assert world.processes == []
+    said = "OnProcessExit of spawn_entity.py of gazebo_ros is left out, too, with what it starts"
+    assert warnings(capsys)[2:] == [said]

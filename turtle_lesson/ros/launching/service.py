@@ -12,7 +12,9 @@ from itertools import count
 from typing import TYPE_CHECKING, Any
 
 from launch import Action, Event, LaunchContext, LaunchDescriptionEntity
+from launch.actions import EmitEvent
 from launch.event_handler import as_entities
+from launch.event_handlers.on_action_event_base import OnActionEventBase
 from launch.events import IncludeLaunchDescription, Shutdown
 
 from ..workspace.current import seeing
@@ -52,6 +54,7 @@ class LaunchService:
         self._coroutine_processes: list[Process] = []
         self._said_level = False
         self._warnings: set[str] = set()
+        self._left_out: dict[LaunchDescriptionEntity, str] = {}
         self.failed = False
         """Whether an error has ended it."""
 
@@ -136,10 +139,20 @@ class LaunchService:
         with self._inside():
             try:
                 self.visit(entity)
+                self._warn_of_what_follows()
                 self._settle()
             except LaunchError:
                 self.shut_down("an error in the launch file")
                 raise
+
+    def _warn_of_what_follows(self) -> None:
+        """Name what waits for the end, say, of a program that is left out, unless all that it does is to emit events."""
+        for handler in self.context._event_handlers:
+            target = handler._target_action if isinstance(handler, OnActionEventBase) else None
+            if target in self._left_out and not all(isinstance(each, EmitEvent) for each in handler.describe()[1]):
+                self.warn_once(
+                    f"{type(handler).__name__} of {self._left_out[target]} is left out, too, with what it starts"
+                )
 
     def carry_on(self, function: Callable[[], None]) -> None:
         """Do something that came later; an error in it ends the launch and is printed, as on a robot."""
@@ -198,6 +211,7 @@ class LaunchService:
             raise
         except NotHereError as error:
             self.warn_once(f"{error.what} is left out: {error.why}")
+            self._left_out[entity] = error.what
         except Exception as error:
             place = entity._written_at if isinstance(entity, Action) else None
             raise as_launch_error(error, place, self.given) from error

@@ -31,6 +31,11 @@ class OnActionEventBase(BaseEventHandler):
         self.__reaction = on_event
         self.__entities = [] if callable(on_event) else as_entities(on_event)
 
+    @property
+    def _target_action(self) -> Action | None:
+        """The only action that it reacts to, if it was given one."""
+        return self.__target if isinstance(self.__target, Action) else None
+
     def _is_for(self, event: Event) -> bool:
         if not isinstance(event, self.__event_class):
             return False
