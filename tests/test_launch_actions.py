@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import pytest
@@ -106,6 +108,58 @@ def test_a_files_content_and_the_log_folder(
         with pytest.raises(LaunchError) as caught:
             launch(tmp_path, action)
         assert caught.value.reason.startswith(reason)
+
+
+XACRO = """\
+<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="r">
+  <xacro:arg name="w" default="2"/>
+  <xacro:macro name="wheel" params="n"><link name="${n}" w="$(arg w)"/></xacro:macro>
+  <xacro:wheel n="left"/>
+</robot>
+"""
+STAND_IN = """\
+import sys
+
+def main():
+    if "nope" in sys.argv[1]:
+        print("\\x1b[31merror: no such file\\x1b[0m", file=sys.stderr)
+        sys.exit(2)
+    print("made by", *sys.argv)
+"""
+
+
+def test_xacro_evaluates_macros_where_it_is_installed(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    stand_in = ModuleType("xacro")
+    exec(STAND_IN, vars(stand_in))
+    monkeypatch.setitem(sys.modules, "xacro", stand_in)
+    write(tmp_path, XACRO, "robot.xacro")
+    command = "Command([FindExecutable(name='xacro'), ' ', ThisLaunchFileDir(), '/robot.xacro w:=3'])"
+    launch(tmp_path, f"LogInfo(msg={command}),")
+    assert said(capsys)[0] == f"made by xacro {tmp_path}/robot.xacro w:=3"
+    write(tmp_path, XACRO, "nope.xacro")
+    with pytest.raises(LaunchError, match=r"Captured stderr output: error: no such file\n"):
+        launch(tmp_path, "LogInfo(msg=Command(['xacro ', ThisLaunchFileDir(), '/nope.xacro'])),")
+
+
+def test_what_needs_xacro_is_left_out_where_it_is_not_installed(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "xacro", None)
+    write(tmp_path, XACRO, "robot.xacro")
+    launch(tmp_path, "LogInfo(msg=Command(['xacro ', ThisLaunchFileDir(), '/robot.xacro'])), LogInfo(msg='the rest'),")
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[-2].startswith(f"[WARNING] [launch]: an action that needs `xacro {tmp_path}/robot.xacro` is left out")
+    assert lines[-2].endswith("is not installed: pip install xacro (in a notebook: %pip install xacro)")
+    assert lines[-1].endswith("the rest")
+
+
+def test_the_real_xacro(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    pytest.importorskip("xacro")
+    write(tmp_path, XACRO, "robot.xacro")
+    launch(tmp_path, "LogInfo(msg=Command(['xacro ', ThisLaunchFileDir(), '/robot.xacro w:=3'])),")
+    assert '<link name="left" w="3"/>' in capsys.readouterr().out
 
 
 def test_parameters_for_all_can_be_read_again_and_files_meant_for_one_node(

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
 import rclpy
 from geometry_msgs.msg import TransformStamped
+from program_terminal import Terminal, having
 from rclpy.time import Time
 from tf2_ros import Buffer, StaticTransformBroadcaster, TransformBroadcaster, TransformListener
 from workshop import Workshop, distance
@@ -51,6 +54,19 @@ def test_the_underlay_has_its_programs(shop: Workshop) -> None:
         "turtlesim turtle_teleop_key",
         "turtlesim turtlesim_node",
     ]
+
+
+def test_xacro_runs_where_it_is_installed(fresh_terminal: Terminal, monkeypatch: pytest.MonkeyPatch) -> None:
+    text = "xacro is not available here: the Python package xacro is not installed: pip install xacro"
+    monkeypatch.setitem(sys.modules, "xacro", None)
+    assert having(fresh_terminal.say("ros2 run xacro xacro robot.xacro"), text)
+    monkeypatch.delitem(sys.modules, "xacro")
+    Path("xacro.py").write_text("import sys\ndef main():\n    print('made by', *sys.argv[1:])\n")
+    monkeypatch.syspath_prepend(str(Path.cwd()))
+    packages = {package.name: package for package in underlay_packages()}
+    fresh_terminal.world.packages.add(packages["xacro"])
+    assert fresh_terminal.say("ros2 run xacro xacro robot.xacro w:=1") == ["made by robot.xacro w:=1"]
+    monkeypatch.delitem(sys.modules, "xacro")
 
 
 # ---------------------------------------------------------------- static_transform_publisher

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from importlib.util import find_spec
+from pathlib import Path
 
 from .ros.tools import demo_packages, program, tf2_packages
 from .ros.workspace.package import Package, Target
@@ -18,4 +20,12 @@ def underlay_packages() -> list[Package]:
     programs: dict[str, Target] = {name: program(f"turtle_lesson.turtlesim.{name}") for name in others}
     programs["turtle_teleop_key"] = program("turtle_lesson.turtlesim.teleop_turtle_key")
     turtlesim = Package("turtlesim", HERE / "turtlesim", executables={"turtlesim_node": SIMULATOR, **programs})
-    return [turtlesim, *tf2_packages(), *demo_packages()]
+    return [turtlesim, *tf2_packages(), *demo_packages(), *_of_pypi()]
+
+
+def _of_pypi() -> list[Package]:
+    """`ros2 run xacro xacro FILE`, where the Python package xacro is installed."""
+    spec = find_spec("xacro")
+    if spec is None or spec.origin is None:
+        return []
+    return [Package("xacro", Path(spec.origin).parent, executables={"xacro": program("xacro")})]

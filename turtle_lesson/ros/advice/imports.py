@@ -34,7 +34,7 @@ ABSENT = frozenset((
     "qt_gui", "rclpy_message_converter", "robot_localization", "robot_state_publisher", "ros2_numpy", "ros2bag",
     "ros2cli", "ros2node", "ros2param", "ros2pkg", "ros2run", "ros2topic", "ros_gz_interfaces", "rqt_gui",
     "rqt_gui_py", "slam_toolbox", "smach", "smach_ros", "teleop_twist_keyboard", "test_msgs", "tf2_kdl",
-    "turtlebot3_msgs", "ur_msgs", "vision_msgs", "webots_ros2_driver", "xacro",
+    "turtlebot3_msgs", "ur_msgs", "vision_msgs", "webots_ros2_driver",
 ))  # fmt: skip
 """Packages that a robot may have, and the simulation does not."""
 
@@ -55,6 +55,8 @@ def _no_module(name: str) -> str:
         return FROM_ROS_1[top]
     if top in _DEVICES:
         return f"{top} is installed separately from ROS 2 ({_DEVICES[top][1]}). {_DEVICES[top][0]}"
+    if top in _FOR_ROBOTS_TOO:
+        return f"{top} is a Python package that works here, too, once it is installed: {_pip_install(top)}."
     if top in ABSENT:
         return (
             f"{top} is a package of ROS 2 that is not available here: a program that needs it runs on a robot "
@@ -64,6 +66,10 @@ def _no_module(name: str) -> str:
         return parent
     close = difflib.get_close_matches(top, _known_modules(), n=1, cutoff=0.8)
     return f"Did you mean '{close[0]}'?" if close else _of_ones_own(top)
+
+
+def _pip_install(name: str) -> str:
+    return f"pip install {_ON_PYPI.get(name, name)} (in a notebook: %pip install {_ON_PYPI.get(name, name)})"
 
 
 def _apt(name: str) -> str:
@@ -133,6 +139,9 @@ _DEVICES = {
     "customtkinter": (SCREEN, "pip install customtkinter"), "wx": (SCREEN, "pip install wxPython"),
 }  # fmt: skip
 """Modules that read keys or show windows: what stands in for that here, and how they are installed on a robot."""
+
+_FOR_ROBOTS_TOO = ("xacro",)
+"""Packages of PyPI that programs for robots use, and that need nothing of ROS's own to work."""
 
 _ON_PYPI = {"cv2": "opencv-python", "PIL": "pillow", "yaml": "pyyaml", "serial": "pyserial", "sklearn": "scikit-learn"}
 

@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+import contextlib
+import importlib
+import io
 import re
 import shlex
+import sys
 from collections.abc import Sequence
 from pathlib import Path, PurePath
+
+from ..workspace.absent import why_not_here
+from ..workspace.errors import NotHereError
 
 
 class CommandFailure(RuntimeError):
@@ -21,6 +28,7 @@ def output_of(text: str) -> str:
 
     Raises:
         CommandFailure: if it fails, or the simulation does not have it.
+        NotHereError: if it needs a Python package that is not installed.
     """
     try:
         words = shlex.split(text)
@@ -37,7 +45,7 @@ def output_of(text: str) -> str:
         return _xacro(words[1:])
     raise CommandFailure(
         f"'{name}' is a program of the operating system, which launch files cannot run here",
-        "Command(…) can run cat FILE, echo TEXT, and xacro of a file without macros.",
+        "Command(…) can run cat FILE, echo TEXT and xacro FILE.",
     )
 
 
@@ -50,14 +58,33 @@ def _read(name: str) -> str:
 
 
 def _xacro(words: Sequence[str]) -> str:
-    """A robot description that has no macros in it is what xacro would make of it."""
+    """What xacro makes of a robot description. One without macros stays as it is; for others the package xacro is needed."""
     files = [word for word in words if not word.startswith("-") and ":=" not in word]
     if len(files) != 1:
         raise CommandFailure("xacro needs the name of one file")
     text = _read(files[0])
-    if re.search(r"<xacro:|\$\{|\$\(", text):
-        raise CommandFailure(
-            f"{files[0]} has macros in it, and xacro itself is not available here",
-            "On a robot, xacro FILE > robot.urdf writes the plain description: use that file with cat.",
-        )
-    return text
+    return _processed(words) if re.search(r"<xacro:|\$\{|\$\(", text) else text
+
+
+def _processed(words: Sequence[str]) -> str:
+    """What the program xacro prints, which is installed from PyPI (https://github.com/ros/xacro)."""
+    try:
+        main = importlib.import_module("xacro").main
+    except (ImportError, AttributeError):  # not installed, or a mere folder of this name
+        raise NotHereError(f"an action that needs `xacro {' '.join(words)}`", why_not_here("xacro")) from None
+    out, errors, argv = io.StringIO(), io.StringIO(), sys.argv
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
+        sys.argv = ["xacro", *words]
+        try:
+            main()
+        except SystemExit as end:
+            if end.code:
+                raise CommandFailure(
+                    _COLOURS.sub("", errors.getvalue()).strip() or f"xacro: exit code {end.code}"
+                ) from None
+        finally:
+            sys.argv = argv
+    return out.getvalue()
+
+
+_COLOURS = re.compile(r"\x1b\[[0-9;]*m")

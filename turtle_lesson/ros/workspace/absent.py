@@ -11,6 +11,7 @@ from .errors import NotHereError
 
 _WINDOWS = "there are no windows here; lesson.dashboard(), lesson.scene() and the lesson's plots draw into the page"
 _GAZEBO = "there is no Gazebo here; the simulated world is turtlesim"
+_XACRO = "the Python package xacro is not installed: pip install xacro (in a notebook: %pip install xacro)"
 _OTHER = "it is not part of this simulation"
 
 
@@ -21,6 +22,7 @@ def _words(text: str) -> tuple[str, ...]:
 _NAMES = {
     _WINDOWS: _words("rviz rviz2 rqt plotjuggler image_view joint_state_publisher_gui gzclient"),
     _GAZEBO: _words("gazebo gzserver gz ign ignition turtlebot3_gazebo turtlebot4_ignition_bringup"),
+    _XACRO: ("xacro",),
     _OTHER: _words(
         """
         action_tutorials_cpp ament_index_cpp apriltag_ros async_web_server_cpp camera_ros class_loader composition

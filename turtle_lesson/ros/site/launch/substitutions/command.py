@@ -15,7 +15,7 @@ from .substitution_failure import SubstitutionFailure
 
 @expose_substitution("command")
 class Command(Substitution):
-    """Stands for the output of a command. Here these are `cat FILE`, `echo …` and `xacro FILE` of a plain file.
+    """Stands for the output of a command. Here these are `cat FILE`, `echo …` and `xacro FILE`.
 
     Args:
         command: the command, as one text.
@@ -50,6 +50,7 @@ class Command(Substitution):
 
         Raises:
             SubstitutionFailure: if it fails, or the simulation does not have it.
+            NotHereError: if it needs a Python package that is not installed; then the launch goes on without the action.
         """
         from turtle_lesson.ros.launching.small_commands import CommandFailure, output_of
 

@@ -13,7 +13,7 @@ from ..utilities import normalize_to_list_of_substitutions, perform_substitution
 from ._parsing import arguments
 from .substitution_failure import SubstitutionFailure
 
-PROGRAMS = {"ros2", "python3", "python"}
+PROGRAMS = {"ros2", "python3", "python", "xacro"}
 """Programs that the simulation itself has."""
 
 
