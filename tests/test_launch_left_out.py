@@ -162,6 +162,18 @@ def test_a_file_of_such_a_package_that_the_launch_file_itself_reads(tmp_path: Pa
     assert caught.value.hint == "nav2_bringup is not available here: it is not part of this simulation."
 
 
+def test_a_launch_file_that_imports_such_a_package(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    inner = write(tmp_path, "from nav2_common.launch import RewrittenYaml\n", "inner.launch.py")
+    with pytest.raises(LaunchError) as caught:
+        launch_file(FakeWorld(), inner)
+    assert caught.value.hint == "nav2_common is not available here: it is not part of this simulation."
+    capsys.readouterr()
+    world, _ = launch(tmp_path, f"IncludeLaunchDescription({str(inner)!r}),\n{node()}")
+    assert len(world.processes) == 1
+    why = "it imports nav2_common, and it is not part of this simulation"
+    assert warnings(capsys) == [f"inner.launch.py is left out: {why}"]
+
+
 def test_outside_of_a_launch_such_a_package_is_not_found() -> None:
     with pytest.raises(KeyError, match="rviz2 is not available here: there are no windows"):
         FakeWorld().packages.get("rviz2")

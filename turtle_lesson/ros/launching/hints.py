@@ -42,6 +42,12 @@ def _known(error: BaseException, given: list[str]) -> str:
         return _missing_argument(error.argument, given)
     if isinstance(error, FileNotFoundError | IsADirectoryError) and isinstance(error.filename, str):
         return _missing_file(Path(error.filename))
+    if (
+        isinstance(error, ModuleNotFoundError)
+        and error.name
+        and (why := absent.why_not_here(error.name.partition(".")[0]))
+    ):
+        return f"{error.name} is not available here: {why}."
     if isinstance(error, SyntaxError):
         return "Look at this line and at the end of the one before: is a comma, a bracket or a quote missing?"
     if type(error).__name__ == "InvalidNodeNameException":

@@ -29,13 +29,13 @@ _NAMES = {
         controller_manager depth_image_proc diagnostic_aggregator diff_drive_controller
         dynamixel_workbench filters foxglove_bridge generate_parameter_library gripper_controllers
         hardware_interface hls_lfcd_lds_driver image_geometry image_pipeline image_proc image_publisher image_tools
-        image_transport interactive_markers intra_process_demo joint_state_broadcaster joint_state_publisher
+        image_transport intra_process_demo joint_state_broadcaster joint_state_publisher
         joint_trajectory_controller joy joy_linux joy_teleop kdl_parser laser_filters laser_geometry ld08_driver lifecycle
         logging_demo micro_ros_agent nav2_bringup octomap_server orocos_kdl pcl_conversions pcl_ros pluginlib
         pointcloud_to_laserscan rmf_demos robot_localization robot_state_publisher ros2_control ros2_controllers
         rosbridge_server rosapi rplidar_ros rtabmap_ros rtabmap_slam slam_gmapping slam_toolbox
         spatio_temporal_voxel_layer stereo_image_proc teleop_twist_joy tf2_bullet tf2_eigen topic_tools tracetools_launch
-        turtle_tf2_cpp turtlebot3_node twist_mux urdf urdf_tutorial urdfdom usb_cam v4l2_camera velodyne
+        teleop_twist_keyboard turtle_tf2_cpp twist_mux urdf urdf_tutorial urdfdom usb_cam v4l2_camera velodyne
         velodyne_driver velodyne_pointcloud vision_opencv web_video_server zed_wrapper
         Boost CURL Eigen OpenCV PCL OpenMP PkgConfig Qt5 Qt5Widgets SDL2 SDL Protobuf yaml-cpp yaml_cpp_vendor
         eigen3_cmake_module backward_ros behaviortree_cpp behaviortree_cpp_v3
@@ -48,7 +48,7 @@ _BEGINNINGS = {
     _OTHER: _words(
         """
         ackermann_steering_ cartographer costmap_ depthai_ dwb_ examples_rclcpp_ librealsense moveit nav2_
-        realsense2_ sick_scan turtlebot3_navigation turtlebot3_cartographer urg_node ur_robot_driver
+        realsense2_ sick_scan turtlebot3_ turtlebot4_ urg_node ur_robot_driver
         """
     ),
 }

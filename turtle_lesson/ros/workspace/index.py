@@ -116,7 +116,7 @@ class LaunchedPackages(PackageIndex):
 
     def get(self, name: str) -> Package:
         """The package of this name, an absent one included."""
-        if name not in self and absent.why_not_here(name):
+        if _why_absent(name, self._layers):
             return Package(name, absent.place_of(name))
         return super().get(name)
 
@@ -127,7 +127,7 @@ class LaunchedPackages(PackageIndex):
             NotHereError: if only a robot can start it.
             PackageNotFoundError, ExecutableNotFoundError: as otherwise.
         """
-        if package not in self and absent.why_not_here(package):
+        if _why_absent(package, self._layers):
             raise absent.left_out(package if package == executable else f"{executable} of {package}", package)
         try:
             return super().executable(package, executable)
@@ -136,9 +136,19 @@ class LaunchedPackages(PackageIndex):
 
 
 def package_hint(name: str, known: Iterable[str]) -> str:
-    """What is known about a package that is not there: that only robots have it, or which one was perhaps meant."""
-    if name not in known and (why := absent.why_not_here(name)):
-        return f"{name} is not available here: {why}."
+    """What is known about a package that is not there: which one was perhaps meant, or that only robots have it."""
+    known = list(known)
+    why = _why_absent(name, known)
+    return f"{name} is not available here: {why}." if why else _package_meant(name, known)
+
+
+def _why_absent(name: str, known: Iterable[str]) -> str:
+    """Why a package is only on robots; nothing for one that is known, and for what is the slip of one that is known."""
+    why = "" if name in known else absent.why_not_here(name)
+    return "" if why and _package_meant(name, known) else why
+
+
+def _package_meant(name: str, known: Iterable[str]) -> str:
     return did_you_mean(name, [each for each in known if _close_in_all_words(name, each)])
 
 

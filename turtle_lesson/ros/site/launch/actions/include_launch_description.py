@@ -7,9 +7,11 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from turtle_lesson.ros.workspace import absent
+from turtle_lesson.ros.workspace.errors import NotHereError
 
 from ..action import Action
 from ..frontend import Entity, Parser, expose_action
+from ..invalid_launch_file_error import InvalidLaunchFileError
 from ..launch_context import LaunchContext
 from ..launch_description import LaunchDescription
 from ..launch_description_entity import LaunchDescriptionEntity
@@ -91,7 +93,7 @@ class IncludeLaunchDescription(Action):
         """Load the description, check its arguments, and give it.
 
         Raises:
-            NotHereError: if it is one of a package that only robots have.
+            NotHereError: if it is one of a package that only robots have, or imports such a package.
         """
         self._remember_places(context)
         try:
@@ -99,6 +101,12 @@ class IncludeLaunchDescription(Action):
         except FileNotFoundError:
             if package := absent.package_of(self.__source.location):
                 raise absent.left_out(f"{os.path.basename(self.__source.location)} of {package}", package) from None
+            raise
+        except InvalidLaunchFileError as error:
+            module = getattr(error.__cause__, "name", None) if isinstance(error.__cause__, ImportError) else None
+            if self._written_at is not None and module and absent.why_not_here(module):
+                name = os.path.basename(self.__source.location)
+                raise NotHereError(name, f"it imports {module}, and {absent.why_not_here(module)}") from None
             raise
         self._check_depth(context)
         context.extend_locals(
