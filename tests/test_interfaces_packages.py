@@ -22,10 +22,11 @@ OF_THE_RECORDER = "rosbag2_interfaces/"  # what `ros2 bag` tells of its own file
 
 PACKAGES = words(
     """
-action_msgs action_tutorials_interfaces actionlib_msgs builtin_interfaces composition_interfaces diagnostic_msgs
-example_interfaces geometry_msgs lifecycle_msgs nav_msgs rcl_interfaces rmw_dds_common rosgraph_msgs sensor_msgs
-service_msgs shape_msgs statistics_msgs std_msgs std_srvs stereo_msgs tf2_msgs trajectory_msgs turtlesim
-type_description_interfaces unique_identifier_msgs visualization_msgs
+ackermann_msgs action_msgs action_tutorials_interfaces actionlib_msgs builtin_interfaces composition_interfaces
+control_msgs diagnostic_msgs example_interfaces gazebo_msgs geometry_msgs lifecycle_msgs nav2_msgs nav_msgs
+rcl_interfaces rmw_dds_common rosgraph_msgs sensor_msgs service_msgs shape_msgs statistics_msgs std_msgs std_srvs
+stereo_msgs tf2_msgs trajectory_msgs turtlebot3_msgs turtlesim type_description_interfaces unique_identifier_msgs
+visualization_msgs
 """
 )
 
@@ -115,6 +116,30 @@ def test_every_default_message_travels() -> None:
         ("lifecycle_msgs/srv/GetAvailableStates", ["", "available_states"]),
         ("lifecycle_msgs/srv/GetAvailableTransitions", ["", "available_transitions"]),
         ("lifecycle_msgs/srv/GetState", ["", "current_state"]),
+        (
+            "control_msgs/action/FollowJointTrajectory",
+            [
+                "trajectory multi_dof_trajectory path_tolerance component_path_tolerance goal_tolerance"
+                " component_goal_tolerance goal_time_tolerance",
+                "error_code error_string",
+                "header joint_names desired actual error multi_dof_joint_names multi_dof_desired multi_dof_actual"
+                " multi_dof_error",
+            ],
+        ),
+        (
+            "gazebo_msgs/srv/SpawnEntity",
+            ["name xml robot_namespace initial_pose reference_frame", "success status_message"],
+        ),
+        (
+            "nav2_msgs/action/NavigateToPose",
+            [
+                "pose behavior_tree",
+                "result",
+                "current_pose navigation_time estimated_time_remaining number_of_recoveries distance_remaining",
+            ],
+        ),
+        ("nav2_msgs/action/ComputePathToPose", ["goal start planner_id use_start", "path planning_time", ""]),
+        ("nav2_msgs/srv/ManageLifecycleNodes", ["command", "success"]),
         ("nav_msgs/srv/GetMap", ["", "map"]),
         ("nav_msgs/srv/GetPlan", ["start goal tolerance", "plan"]),
         ("nav_msgs/srv/LoadMap", ["map_url", "map result"]),

@@ -25,16 +25,16 @@ FROM_ROS_1 = {
 }
 
 ABSENT = frozenset((
-    "ackermann_msgs", "angles", "bond", "can_msgs", "control_msgs", "controller_manager_msgs", "cv_bridge",
-    "diagnostic_updater", "gazebo_msgs", "geographic_msgs", "grid_map_msgs", "image_geometry",
+    "angles", "bond", "can_msgs", "controller_manager_msgs",
+    "diagnostic_updater", "geographic_msgs", "grid_map_msgs", "image_geometry",
     "image_tools", "image_transport", "interactive_markers", "irobot_create_msgs", "joint_state_publisher",
     "joy_teleop", "laser_geometry", "launch_pytest", "launch_testing", "launch_testing_ros", "map_msgs", "mavros_msgs",
-    "moveit", "moveit_msgs", "moveit_py", "nav2_common", "nav2_msgs", "nav2_simple_commander", "octomap_msgs",
+    "moveit", "moveit_msgs", "moveit_py", "nav2_common", "nav2_simple_commander", "octomap_msgs",
     "pcl_msgs", "pcl_ros", "pendulum_msgs", "pointcloud2_msgs", "px4_msgs", "py_trees_ros", "python_qt_binding",
     "qt_gui", "rclpy_message_converter", "robot_localization", "robot_state_publisher", "ros2_numpy", "ros2bag",
     "ros2cli", "ros2node", "ros2param", "ros2pkg", "ros2run", "ros2topic", "ros_gz_interfaces", "rqt_gui",
     "rqt_gui_py", "slam_toolbox", "smach", "smach_ros", "teleop_twist_keyboard", "test_msgs", "tf2_kdl",
-    "turtlebot3_msgs", "ur_msgs", "vision_msgs", "webots_ros2_driver",
+    "ur_msgs", "vision_msgs", "webots_ros2_driver",
 ))  # fmt: skip
 """Packages that a robot may have, and the simulation does not."""
 
