@@ -16,6 +16,7 @@ from fibonacci_action import start as begin
 from geometry_msgs.msg import Point, Polygon, Vector3
 from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState
+from rcl_interfaces.msg import Log
 from rclpy.duration import Duration
 from rclpy.exceptions import RCLError
 from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
@@ -237,6 +238,20 @@ def test_since_kilted_a_forbidden_transition_is_logged_and_answered(
     assert run(program) == ["error" if old else False]
     said = "[managed]: Unable to start transition 2 from current state (1, 'unconfigured')"
     assert (said in capsys.readouterr().err) is not old
+
+
+@of("humble", "iron")
+def test_since_iron_the_lines_of_child_loggers_are_on_rosout(run: Run, world: World) -> None:
+    def program(found: list[str]) -> None:
+        rclpy.init()
+        node = rclpy.create_node("robot")
+        node.create_subscription(Log, "/rosout", lambda log: found.append(f"{log.name}: {log.msg}"), 10)
+        node.get_logger().get_child("arm").get_child("hand").info("open")
+        node.get_logger().info("ready")
+        rclpy.spin(node)
+
+    heard = ["robot: ready"] if world.release.name == "humble" else ["robot.arm.hand: open", "robot: ready"]
+    assert run(program) == heard
 
 
 # ---------------------------------------------------------------- times

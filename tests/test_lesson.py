@@ -108,6 +108,15 @@ def test_a_real_ros_is_never_hidden(tmp_path: Path, monkeypatch: pytest.MonkeyPa
         sys.modules.update(kept)
 
 
+def test_the_lessons_recorder_is_not_among_the_nodes_that_a_program_sees(lesson: Lesson) -> None:
+    import rclpy
+
+    rclpy.init()
+    lesson.run(0.1)
+    assert rclpy.create_node("mine").get_node_names() == ["turtlesim", "mine"]
+    assert "_lab" in rclpy.create_node("_hidden").get_node_names()
+
+
 def test_the_world_before_is_closed(lesson: Lesson) -> None:
     start()
     with pytest.raises(WorldClosed, match="use the lesson that start"):

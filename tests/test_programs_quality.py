@@ -57,11 +57,17 @@ def test_a_publisher_no_longer_asserts_its_liveliness(terminal: Terminal) -> Non
 
 @pytest.mark.parametrize(
     ("policy", "kind"),
-    [("durability", 2), ("deadline", 4), ("liveliness", 8), ("liveliness_lease_duration", 8), ("reliability", 16)],
+    [
+        ("durability", "DURABILITY"),
+        ("deadline", "DEADLINE"),
+        ("liveliness", "LIVELINESS"),
+        ("liveliness_lease_duration", "LIVELINESS"),
+        ("reliability", "RELIABILITY"),
+    ],
 )
-def test_both_ends_hear_that_they_do_not_fit(terminal: Terminal, policy: str, kind: int) -> None:
+def test_both_ends_hear_that_they_do_not_fit(terminal: Terminal, policy: str, kind: str) -> None:
     printed = terminal.run(*first(f"misfit {policy}"), seconds=2)
-    told = f"incompatible qos - total 1 delta 1 last_policy_kind: {kind}"
+    told = f"incompatible qos - total 1 delta 1 last_policy_kind: rmw_qos_policy_kind_t.RMW_QOS_POLICY_{kind}"
     assert having(printed, "talker: inc", "listener: inc") == [f"0.0 talker: {told}", f"0.0 listener: {told}"]
     assert not having(printed, "heard") and terminal.exit_codes() == [0]
 

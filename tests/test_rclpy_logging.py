@@ -351,7 +351,31 @@ def test_each_process_has_its_own_levels(run: Run, capsys: Capture) -> None:
     assert run(loud, quiet) == [False]
 
 
+def test_lines_have_colours_where_the_environment_asks_for_them(
+    run: Run, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def program(found: list[Any]) -> None:
+        logger = demo_logger()
+        logger.set_level(LoggingSeverity.DEBUG)
+        logger.debug("text")
+        logger.info("text")
+        logger.warning("text")
+        logger.error("text")
+        logger.fatal("text")
+
+    monkeypatch.setenv("RCUTILS_COLORIZED_OUTPUT", "1")
+    run(program)
+    printed = capsys.readouterr().err.splitlines()
+    assert [line.partition("[")[2].partition("m")[0] for line in printed] == ["32", "0", "33", "31", "31"]
+    assert all(line.startswith("\033[") and line.endswith(" text\033[0m") for line in printed)
+
+
 # ---------------------------------------------------------------- mistakes
+
+
+def test_no_message_is_printed_as_c_does_it(world: World, capsys: Capture) -> None:
+    demo_logger().info(None)  # type: ignore[arg-type]
+    assert capsys.readouterr().out.endswith(": (null)\n")
 
 
 def test_a_message_must_be_one_text(world: World) -> None:

@@ -253,6 +253,7 @@ def test_the_clock_of_ros_time_is_a_class_of_its_own(world: World) -> None:
     assert type(Clock(clock_type=ClockType.ROS_TIME)) is ROSClock
     assert type(Clock()) is Clock
     assert repr(ROSClock()) == "Clock(clock_type=ROS_TIME)"
+    assert f"{ROSClock().clock_type} {ClockType.STEADY_TIME!s}" == "ClockType.ROS_TIME ClockType.STEADY_TIME"
     assert Clock(clock_type=ClockType.STEADY_TIME).clock_type == ClockType.STEADY_TIME
     with pytest.raises(TypeError, match="Clock type must be a ClockType enum"):
         Clock(clock_type="STEADY_TIME")

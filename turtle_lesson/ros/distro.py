@@ -57,6 +57,12 @@ MESSAGE_INFO = Change(
     "rclpy, pull request 922",
     is_addition=True,
 )
+CHILD_LOGGERS_ON_ROSOUT = Change(
+    "iron",
+    "the lines of a logger that `get_child()` has made are published on /rosout",
+    "they are only printed",
+    "rclpy, pull request 1084",
+)
 EXECUTOR_AS_CONTEXT = Change(
     "jazzy",
     "`with` shuts an executor down",

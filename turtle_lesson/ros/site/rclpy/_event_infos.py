@@ -8,6 +8,19 @@ from typing import Any, NamedTuple
 from turtle_lesson.ros.graph import tally
 
 from ._qos_policies import QoSPolicyKind
+from .clock_type import CEnum
+
+
+class rmw_qos_policy_kind_t(CEnum):
+    """Which policy did not fit. Its members equal those of QoSPolicyKind."""
+
+    RMW_QOS_POLICY_INVALID = QoSPolicyKind.INVALID
+    RMW_QOS_POLICY_DURABILITY = QoSPolicyKind.DURABILITY
+    RMW_QOS_POLICY_DEADLINE = QoSPolicyKind.DEADLINE
+    RMW_QOS_POLICY_LIVELINESS = QoSPolicyKind.LIVELINESS
+    RMW_QOS_POLICY_RELIABILITY = QoSPolicyKind.RELIABILITY
+    RMW_QOS_POLICY_HISTORY = QoSPolicyKind.HISTORY
+    RMW_QOS_POLICY_LIFESPAN = QoSPolicyKind.LIFESPAN
 
 
 class QoSPublisherEventType(IntEnum):
@@ -73,7 +86,7 @@ class QoSRequestedIncompatibleQoSInfo(NamedTuple):
 
     total_count: int = 0
     total_count_change: int = 0
-    last_policy_kind: int = QoSPolicyKind.INVALID
+    last_policy_kind: int = rmw_qos_policy_kind_t.RMW_QOS_POLICY_INVALID
 
 
 class IncompatibleTypeInfo(NamedTuple):

@@ -63,7 +63,6 @@ class NodeEntities(NodeGraph):
 
     def _ros_check_context(self, what: str) -> None:
         """As that, for what needs a context, but no place in the graph."""
-        self._ros_check_alive()
         if self._ros_shut_down:
             raise not_valid(what)
 
@@ -195,7 +194,10 @@ class NodeEntities(NodeGraph):
         clock: Clock | None = None,
         autostart: bool = True,
     ) -> Timer:
-        """Have `callback()` called every `timer_period_sec` seconds, for the first time after one period."""
+        """Have `callback()` called every `timer_period_sec` seconds, for the first time after one period.
+
+        A destroyed node can make timers, too, but no executor has it any more, so they never tick.
+        """
         self._ros_check_context("timer")
         period = period_ns(timer_period_sec)
         group = callback_group or self._ros_default_callback_group
@@ -242,6 +244,7 @@ class NodeEntities(NodeGraph):
         self, callback: Callable[[], Any], callback_group: CallbackGroup | None = None
     ) -> GuardCondition:
         """Have `callback()` called whenever the guard condition is triggered."""
+        self._ros_check_alive()
         self._ros_check_context("guard_condition")
         group = callback_group or self._ros_default_callback_group
         return self._ros_keep(GuardCondition(callback, group, context=self._ros_context))

@@ -101,8 +101,11 @@ class NodeGraph:
         return [(entry.name, entry.namespace, "/") for entry in self._ros_known_nodes()]
 
     def _ros_known_nodes(self) -> list[NodeEntry]:
+        """All nodes. The lesson's own recorder, which no robot has, is shown to hidden nodes only, as commands have them."""
         self._ros_check_alive(f"Failed to get node names: {NODE_S}")
-        return self._ros_graph.nodes
+        if self._ros_entry.hidden:
+            return self._ros_graph.nodes
+        return [entry for entry in self._ros_graph.nodes if (entry.name, entry.process.name) != ("_lab", "lab")]
 
     def _ros_entry_of(self, what: str, node_name: str, node_namespace: str) -> NodeEntry:
         self._ros_check_alive(f"failed to get {what} names and types: {NODE_S}")

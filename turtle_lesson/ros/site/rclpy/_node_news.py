@@ -44,8 +44,8 @@ class NodeNews:
         publisher = self.create_publisher(Log, "/rosout", profile)
         trace = self._ros_graph.trace
 
-        def publish(message: str, severity: LoggingSeverity, frame: FrameType) -> None:
-            log = Log(level=int(severity), name=self._ros_logger.name, msg=message)
+        def publish(name: str, message: str, severity: LoggingSeverity, frame: FrameType) -> None:
+            log = Log(level=int(severity), name=name, msg=message)
             log.stamp.sec, log.stamp.nanosec = divmod(EPOCH + self._ros_simulation.now, NANOSECONDS)
             log.file = shown_path(frame.f_code.co_filename)  # the whole path would differ between machines
             log.function, log.line = frame.f_code.co_name, frame.f_lineno

@@ -13,7 +13,7 @@ from turtle_lesson.ros.world import current_process
 from ._arguments import ArgumentError, Arguments, parse_arguments, tell_obsolete
 from ._entity import Handle
 from .exceptions import RCLError
-from .impl._console import wanted_format
+from .impl._console import is_colorized, wanted_format
 from .impl.logging_severity import LoggingSeverity
 from .impl.rcutils_logger import RcutilsLogger
 from .signals import contexts_of
@@ -80,6 +80,7 @@ class Context:
             RcutilsLogger(name).set_level(LoggingSeverity[level.upper()])
         self._process.locals["rclpy.log_to"] = self.arguments.switches
         self._process.locals["rclpy.log_format"] = wanted_format()
+        self._process.locals["rclpy.log_colorized"] = is_colorized()
 
     @property
     def handle(self) -> Handle | None:

@@ -26,6 +26,7 @@ from ._event_infos import (
     QoSRequestedIncompatibleQoSInfo,
     QoSSubscriptionEventType,
     QoSSubscriptionMatchedInfo,
+    rmw_qos_policy_kind_t,
 )
 from ._rclpy_pybind11 import UnsupportedEventTypeError
 from .callback_groups import CallbackGroup
@@ -100,7 +101,7 @@ class EventHandler(Entity, Waitable):
     def _read(self) -> Any:
         info = self._info(*self._tally.take())
         if isinstance(info, QoSRequestedIncompatibleQoSInfo):
-            info = info._replace(last_policy_kind=QoSPolicyKind[info.last_policy_kind])  # type: ignore[misc]
+            info = info._replace(last_policy_kind=rmw_qos_policy_kind_t(QoSPolicyKind[info.last_policy_kind]))  # type: ignore[misc]
         return info
 
     # What an executor of a real rclpy asks a waitable; the ones here ask an entity.

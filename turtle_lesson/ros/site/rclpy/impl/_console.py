@@ -20,6 +20,10 @@ from .._notebook import is_notebook
 from .logging_severity import LoggingSeverity
 
 VARIABLE = "RCUTILS_CONSOLE_OUTPUT_FORMAT"
+COLORIZED = "RCUTILS_COLORIZED_OUTPUT"
+NORMAL = "\033[0m"
+COLORS = {"DEBUG": "\033[32m", "WARN": "\033[33m", "ERROR": "\033[31m", "FATAL": "\033[31m"}
+"""Of lines that are not printed in the normal colour (rcutils' logging.c)."""
 
 
 class Line(NamedTuple):
@@ -38,14 +42,22 @@ def wanted_format() -> str | None:
     return os.environ.get(VARIABLE)
 
 
-def print_line(line: Line, wanted: str | None) -> None:
+def is_colorized() -> bool:
+    """Whether the environment asks for colours, which a real program also uses on a terminal. A process looks once."""
+    return os.environ.get(COLORIZED) == "1"
+
+
+def print_line(line: Line, wanted: str | None, *, colorized: bool = False) -> None:
     """Print a line where the running process's logs go."""
     stream = sys.stdout if is_notebook(current_process()) else sys.stderr
     if wanted is None:
         seconds, nanoseconds = divmod(line.time, NANOSECONDS)
-        print(f"[{line.severity.name}] [{seconds}.{nanoseconds:09d}] [{line.name}]: {line.message}", file=stream)
+        text = f"[{line.severity.name}] [{seconds}.{nanoseconds:09d}] [{line.name}]: {line.message}"
     else:
-        print(formatted(line, wanted), file=stream)
+        text = formatted(line, wanted)
+    if colorized:
+        text = f"{COLORS.get(line.severity.name, NORMAL)}{text}{NORMAL}"
+    print(text, file=stream)
 
 
 def formatted(line: Line, wanted: str) -> str:

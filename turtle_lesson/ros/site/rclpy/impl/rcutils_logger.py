@@ -14,6 +14,7 @@ from types import CodeType, FrameType
 from typing import TYPE_CHECKING, Any
 
 from turtle_lesson.ros.core import EPOCH
+from turtle_lesson.ros.distro import CHILD_LOGGERS_ON_ROSOUT
 from turtle_lesson.ros.world import current_process, current_world
 
 from ._console import Line, print_line
@@ -67,6 +68,9 @@ class CallerId(namedtuple("CallerId", ["function_name", "file_path", "line_numbe
 class RcutilsLogger:
     """A logger with a name; `get_child` makes one below it, which takes over its level."""
 
+    _parent: str | None = None
+    """The logger whose lines go to /rosout together with this one's, if this is a child since Iron."""
+
     def __init__(self, name: str = "") -> None:
         self.name = name
         self._sites: dict[tuple[CodeType, int], CallSite] = {}
@@ -77,10 +81,13 @@ class RcutilsLogger:
         return {CallerId._of(code, site.line, last): site.context for (code, last), site in self._sites.items()}
 
     def get_child(self, name: str) -> RcutilsLogger:
-        """The logger `<this>.<name>`."""
+        """The logger `<this>.<name>`. Since Iron its lines are published on /rosout, too, if this one's are."""
         if not name:
             raise ValueError("Child logger name must not be empty.")
-        return RcutilsLogger(self.name + "." + name if self.name else name)
+        child = RcutilsLogger(self.name + "." + name if self.name else name)
+        if current_world().release.has(CHILD_LOGGERS_ON_ROSOUT):
+            child._parent = self._parent or self.name
+        return child
 
     def set_level(self, level: int) -> None:
         """Print only what is at least this severe."""
@@ -124,7 +131,9 @@ class RcutilsLogger:
 
     def _log(self, message: str, severity: LoggingSeverity, options: dict[str, Any], frame: FrameType) -> bool:
         name = options.pop("name", self.name) if options else self.name
-        if not isinstance(message, str):
+        if message is None:
+            message = "(null)"  # what C makes of it
+        elif not isinstance(message, str):
             raise TypeError(f"a log message must be a str, got {message!r}: write str(…) or an f-string")
         key = (frame.f_code, frame.f_lasti)  # in a cell each statement of a line has code of its own
         site = self._sites.get(key)
@@ -140,10 +149,12 @@ class RcutilsLogger:
         shelf = current_process().locals
         goes_to = shelf.get("rclpy.log_to", EVERYWHERE)
         if goes_to.get("stdout", True):
-            print_line(Line(message, severity, name, EPOCH + now, frame), shelf.get("rclpy.log_format"))
-        publish = shelf.get("rclpy.rosout", EVERYWHERE).get(name)
+            line = Line(message, severity, name, EPOCH + now, frame)
+            print_line(line, shelf.get("rclpy.log_format"), colorized=shelf.get("rclpy.log_colorized", False))
+        on_rosout = shelf.get("rclpy.rosout", EVERYWHERE)
+        publish = on_rosout.get(name if self._parent is None else self._parent)
         if publish is not None and goes_to.get("rosout", True):
-            publish(message, severity, frame)
+            publish(name, message, severity, frame)
         return True
 
 
@@ -188,8 +199,8 @@ def forget_levels() -> None:
     _levels().clear()
 
 
-def publish_rosout(name: str, publish: Callable[[str, LoggingSeverity, FrameType], None]) -> None:
-    """Have what the logger of this name prints published too."""
+def publish_rosout(name: str, publish: Callable[[str, str, LoggingSeverity, FrameType], None]) -> None:
+    """Have what the logger of this name prints published too, by `publish(name, message, severity, frame)`."""
     current_process().locals.setdefault("rclpy.rosout", {})[name] = publish
 
 
