@@ -14,6 +14,7 @@ from .cmake import INTERFACE_WORDS, Command
 from .cmake_text import SHARE, cmake_message
 from .discover import Found
 from .errors import did_you_mean
+from .index import package_hint
 from .known import PYTHON_PACKAGES
 from .outcome import BuildFailure
 from .package import GROUP
@@ -204,8 +205,7 @@ def not_found(name: str, line: int, required: bool, known: set[str]) -> tuple[st
     message = cmake_message(text.rstrip("\n"), f"CMakeLists.txt:{line} (find_package)", kind=kind)
     if name in PYTHON_PACKAGES:
         return message, f"{name} is a Python package, which CMake cannot find: name it only in package.xml."
-    hint = did_you_mean(name, known)
-    return message, hint or (
+    return message, package_hint(name, known) or (
         f"Is {name} the right name? If it is a package of this workspace, write <depend>{name}</depend> in package.xml, "
         "so that it is built first."
     )

@@ -157,7 +157,7 @@ def _close_in_all_words(one: str, other: str) -> bool:
     if one.replace("_", "") == other.replace("_", ""):
         return True
     words, others = one.split("_"), other.split("_")
-    close = (SequenceMatcher(None, *pair).ratio() > 0.6 for pair in zip(words, others, strict=False))
+    close = (SequenceMatcher(None, *pair).ratio() > 0.78 for pair in zip(words, others, strict=False))
     return len(words) == len(others) and all(close)
 
 
