@@ -224,3 +224,132 @@ def test_a_pipe_is_no_terminal(lesson: Lesson, begin: Begin, capsys: Any) -> Non
     out, error = capsys.readouterr()
     assert out == "False\n"
     assert "termios.error: (25, 'Inappropriate ioctl for device')" in error
+
+
+# -- key libraries -------------------------------------------------------------------------------------------------------
+
+
+def test_a_listener_of_pynput_hears_keys_go_down_and_up(lesson: Lesson, begin: Begin, capsys: Any) -> None:
+    process = begin(
+        """
+        import time
+        from pynput import keyboard
+        from pynput.keyboard import Key, KeyCode
+
+        def on_press(key):
+            try:
+                print("down", key.char, time.monotonic() // 0.1 / 10)
+            except AttributeError:
+                print("down", key, key == Key.up)
+
+        def on_release(key):
+            print("up", key, key == KeyCode.from_char("w"))
+            if key == Key.esc:
+                return False
+
+        with keyboard.Listener(on_press=on_press, on_release=on_release) as listener:
+            listener.join()
+        print("the end", listener.running)
+        """
+    )
+    lesson.press("w", "up", "esc", every=0.3)
+    assert capsys.readouterr().out.splitlines() == [
+        "down w 0.0", "up 'w' True", "down Key.up True", "up Key.up False", "down Key.esc False", "up Key.esc False",
+        "the end False",
+    ]  # fmt: skip
+    assert process.exit_code == 0
+
+
+def test_a_listener_beside_a_node_that_spins(lesson: Lesson, begin: Begin, capsys: Any) -> None:
+    begin(
+        """
+        import pynput.keyboard as keyboard
+        import rclpy
+
+        rclpy.init()
+        node = rclpy.create_node("teleop")
+        node.speed = 0.0
+        def on_press(key):
+            node.speed += {keyboard.Key.up: 0.5, keyboard.Key.down: -0.5}.get(key, 0.0)
+        listener = keyboard.Listener(on_press=on_press)
+        listener.start()
+        node.create_timer(1.0, lambda: print(node.speed))
+        rclpy.spin(node)
+        """
+    )
+    lesson.press("up", "up", "down", "ctrl+c", every=0.8)
+    assert capsys.readouterr().out.splitlines() == ["1.0", "0.5", "0.5"]
+
+
+def test_all_listeners_hear_and_what_pynput_lacks_is_said(lesson: Lesson, begin: Begin, capsys: Any) -> None:
+    listener = """
+        import sys
+        from pynput.keyboard import Listener
+        with Listener(on_press=lambda key: print(sys.argv[0], key)) as listener:
+            listener.join()
+    """
+    for name in ("one", "two"):
+        begin(listener, name, argv=[name])
+    lesson.press("a")
+    assert capsys.readouterr().out.splitlines() == ["one 'a'", "two 'a'"]
+    begin("from pynput import mouse", "three")
+    assert "pynput.mouse is not available here: of pynput a program has keyboard.Listener" in capsys.readouterr().err
+
+
+def test_curses_reads_keys_and_prints_the_lines_that_change(lesson: Lesson, begin: Begin, capsys: Any) -> None:
+    process = begin(
+        """
+        import curses
+
+        def main(screen):
+            curses.curs_set(0)
+            screen.nodelay(True)
+            screen.addstr(0, 0, "arrows drive, q ends", curses.A_BOLD)
+            speed = 0
+            while True:
+                key = screen.getch()
+                if key == curses.KEY_UP:
+                    speed += 1
+                elif key == ord("q"):
+                    break
+                elif key == -1:
+                    curses.napms(50)
+                screen.addstr(1, 0, f"speed {speed}")
+                screen.clrtoeol()
+                screen.refresh()
+            return speed
+
+        print("speed was", curses.wrapper(main))
+        """
+    )
+    lesson.run(0.2)
+    lesson.press("up", "up", "x", "q")
+    assert capsys.readouterr().out.splitlines() == [
+        "arrows drive, q ends", "speed 0", "speed 1", "speed 2", "speed was 2",
+    ]  # fmt: skip
+    assert process.exit_code == 0
+
+
+def test_curses_waits_for_keys_in_robot_time(lesson: Lesson, begin: Begin, capsys: Any) -> None:
+    begin(
+        """
+        import curses, time
+        screen = curses.initscr()
+        curses.noecho(); curses.cbreak(); screen.keypad(True); screen.timeout(500)
+        print(screen.getch(), time.monotonic() // 0.1 / 10)
+        screen.timeout(-1)
+        print(screen.getkey(), repr(screen.get_wch()), screen.getstr())
+        try:
+            screen.nodelay(1)
+            screen.getkey()
+        except curses.error as problem:
+            print(problem)
+        curses.endwin()
+        time.sleep(1)
+        print(input("name? "))
+        """
+    )
+    lesson.run(1)
+    lesson.press("left", "enter", "h", "i", "enter", every=0.1)
+    lesson.run(1, input=["Ada"])
+    assert capsys.readouterr().out.splitlines() == ["-1 0.5", "KEY_LEFT '\\n' b'hi'", "no input", "name? Ada", "Ada"]

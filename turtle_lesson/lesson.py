@@ -202,6 +202,7 @@ class Lesson(Shelf, Insight):
             keyboard.press(key)
             self.run(every)
             keyboard.release(key)
+            self._world.sim.settle()
 
     def spin(self, seconds: float, *nodes: Any) -> None:
         """Let `seconds` of robot time pass, and have the callbacks of nodes that live in this notebook called meanwhile.

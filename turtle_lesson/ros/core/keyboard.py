@@ -168,7 +168,8 @@ class KeyReader:
     def hear(self, name: str, down: bool) -> None:
         """A key was pressed, or let go of; a terminal knows nothing of the latter."""
         if down or not self.has_terminal:
-            self.events.append((name, down))
+            parts = name.split("+") if "+" in name[1:] and not self.has_terminal else [name]
+            self.events.extend((part, down) for part in parts)
             self.tell()
 
     def tell(self) -> None:

@@ -116,6 +116,15 @@ class ProgramInput(TextIOBase):
             return self._take(min(size, len(self._typed)))
         return self.read(size)
 
+    @property
+    def is_ready_text(self) -> bool:
+        """Whether characters are there that were typed and not read."""
+        return bool(self._typed)
+
+    def put_back(self, text: str) -> None:
+        """Have characters be read next."""
+        self._typed = text + self._typed
+
     def next_key(self, seconds: float | None) -> str | None:
         """The name of the next key, None if none is pressed within `seconds` of robot time (None: wait for it)."""
         while self.keys.wait(seconds):

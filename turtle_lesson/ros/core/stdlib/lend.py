@@ -19,7 +19,7 @@ import threading
 import time
 from collections.abc import Callable
 from concurrent.futures import thread as pool
-from functools import partial
+from functools import cache, partial
 from types import MethodType, ModuleType
 from typing import Any
 
@@ -213,11 +213,19 @@ def _install_modules() -> None:
         own.append(terminals.make_msvcrt())
     for module in (dates_module, *own):
         on_import[module.__name__] = partial(_itself, module)
+    on_import["curses"] = partial(_made, "curses_screen")
+    on_import["pynput"] = partial(_made, "pynput_keyboard")
     on_import["multiprocessing"] = on_import["concurrent"] = _refuse_multiprocessing
 
 
 def _itself(module: ModuleType) -> ModuleType:
     return module
+
+
+@cache
+def _made(name: str) -> ModuleType:
+    """What a module beside this one makes for programs, once one of them asks for it: few do."""
+    return importlib.import_module(f".{name}", __package__).make_module()
 
 
 def _refuse_multiprocessing() -> None:
