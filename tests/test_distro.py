@@ -16,16 +16,19 @@ from fibonacci_action import start as begin
 from geometry_msgs.msg import Point, Polygon, Vector3
 from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState
-from rcl_interfaces.msg import Log
+from rcl_interfaces.msg import Log, ParameterEvent
 from rclpy.duration import Duration
 from rclpy.exceptions import RCLError
 from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.lifecycle import LifecycleNode
+from rclpy.parameter import Parameter
+from rclpy.parameter_event_handler import ParameterEventHandler
 from rclpy.serialization import deserialize_message, serialize_message
 from rclpy.task import Future
 from rclpy.time import Time
 from sensor_msgs.msg import JointState, LaserScan
 from std_msgs.msg import Float32, String
+from type_description_interfaces.srv import GetTypeDescription
 
 from turtle_lesson import start
 from turtle_lesson.ros.distro import (
@@ -39,6 +42,8 @@ from turtle_lesson.ros.distro import (
 from turtle_lesson.ros.world import World, open_world
 
 HERE = Path(__file__).parent
+KNOWN_HASH = "df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
+"""Of std_msgs/msg/String, as ROS 2 publishes it."""
 
 
 @pytest.fixture
@@ -238,6 +243,36 @@ def test_since_kilted_a_forbidden_transition_is_logged_and_answered(
     assert run(program) == ["error" if old else False]
     said = "[managed]: Unable to start transition 2 from current state (1, 'unconfigured')"
     assert (said in capsys.readouterr().err) is not old
+
+
+@of("iron", "jazzy")
+def test_since_jazzy_every_node_describes_its_types(run: Run, world: World) -> None:
+    def program(found: list[Any]) -> None:
+        rclpy.init()
+        node = rclpy.create_node("robot")
+        node.create_publisher(String, "text", 1)
+        request = GetTypeDescription.Request(type_name="std_msgs/msg/String", type_hash=f"RIHS01_{KNOWN_HASH}")
+        client = node.create_client(GetTypeDescription, "/robot/get_type_description")
+        if client.service_is_ready():
+            answer = client.call_async(request)
+            rclpy.spin_until_future_complete(node, answer)
+            found.append(answer.result().type_description.type_description.type_name)
+        found.append(node.has_parameter("start_type_description_service"))
+
+    assert run(program) == ([False] if world.release.name == "iron" else ["std_msgs/msg/String", True])
+
+
+@of("humble", "jazzy")
+def test_since_iron_an_event_may_be_filled_with_rclpys_own_parameters(world: World) -> None:
+    rclpy.init()
+    handler = ParameterEventHandler(rclpy.create_node("robot"))
+    changed = [Parameter("speed", value=0.5), Parameter("name", value="x")]
+    if world.release.name == "humble":
+        with pytest.raises(AssertionError, match="'changed_parameters' field must be a set or sequence"):
+            ParameterEvent(node="/robot", changed_parameters=changed)
+    else:
+        event = ParameterEvent(node="/robot", changed_parameters=changed)
+        assert list(handler.get_parameters_from_event(event)) == changed
 
 
 @of("humble", "iron")

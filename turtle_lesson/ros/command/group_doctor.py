@@ -45,7 +45,7 @@ def _doctor(args: Namespace) -> int:
 def _introduce(node: Node) -> None:
     world = current_world()
     print("This is Turtle Lesson's simulation of a robot's computer, with no ROS 2 installed.")
-    print(f"It behaves as ROS 2 Humble does. Robot time {(world.now / 1e9):.1f} s, seed {world.seed}.")
+    print(f"It behaves as ROS 2 {world.release.title} does. Robot time {(world.now / 1e9):.1f} s, seed {world.seed}.")
     packages = world.packages.names()
     up = [_counted(node_names(node), "node"), _counted(topics(node), "topic"), _counted(services(node), "service")]
     print(f"Up: {', '.join(up)}. {_counted(packages, 'package')} with programs: {', '.join(packages) or 'none'}.")

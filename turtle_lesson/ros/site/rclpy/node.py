@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+from turtle_lesson.ros.distro import NODES_DESCRIBE_TYPES
 from turtle_lesson.ros.graph import NodeEntry
 from turtle_lesson.ros.world import current_process, current_world
 
@@ -119,6 +120,10 @@ class Node(NodeEntities, NodeNews, NodeParameters):
             self._ros_parameter_service = ParameterService(self)
         if enable_logger_service:
             self._ros_logger_service = LoggingService(self)
+        if world.release.has(NODES_DESCRIBE_TYPES):
+            from .type_description_service import TypeDescriptionService
+
+            self._type_description_service = TypeDescriptionService(self)
 
     def __repr__(self) -> str:
         entry = vars(self).get("_ros_entry")

@@ -1,6 +1,7 @@
 """The service by which a node tells what its types look like (rclpy of Jazzy and newer).
 
-There every node has it. Here, as in Humble, a node has it if the program makes one: `TypeDescriptionService(node)`.
+There every node has it. Where the world behaves as an older release, a node has it if the program makes one:
+`TypeDescriptionService(node)`.
 """
 
 from __future__ import annotations
