@@ -336,9 +336,24 @@ def test_mimic_does_what_another_turtle_does(shop: Workshop) -> None:
     assert (other_x - 2.0, other_y - 2.0) == pytest.approx((x - 5.544445, y - 5.544445), abs=0.8)
 
 
-def test_teleop_says_what_to_use_instead(shop: Workshop) -> None:
-    said = shop.say("ros2 run turtlesim turtle_teleop_key")
-    assert "lesson.teleop()" in said[0] and said[1] == "[ros2run]: Process exited with failure 1"
+def test_teleop_drives_and_turns_by_keys(shop: Workshop) -> None:
+    shop.say("ros2 run turtlesim turtlesim_node", seconds=1)
+    seen, keyboard = shop.watch("turtle1"), shop.world.sim.keyboard
+    said = shop.say("ros2 run turtlesim turtle_teleop_key --ros-args -p scale_linear:=1.0", seconds=0.5)
+    assert said[:3] == ["Reading from keyboard", "---------------------------", "Use arrow keys to move the turtle."]
+    assert said[-1].startswith("turtle_teleop_key waits for keys.")
+    for key in ("up", "left", "r"):
+        keyboard.press(key)
+        shop.run(3)
+    assert seen["turtle1"][-1] == pytest.approx((6.55, 5.54, 1.5708), abs=0.05)
+    keyboard.press("d")
+    shop.run(0.5)
+    keyboard.press("f")
+    shop.run(3)
+    assert 1.7 < seen["turtle1"][-1][2] < 2.5
+    keyboard.press("q")
+    shop.run(0.1)
+    assert [process.exit_code for process in shop.world.processes if process.name == "turtle_teleop_key"] == [0]
 
 
 def test_a_cell_may_have_a_listener_with_a_thread() -> None:
