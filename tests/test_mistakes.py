@@ -194,3 +194,44 @@ def test_two_nodes_of_one_name(workspace: Workspace) -> None:
     workspace.build()
     workspace.type("ros2 run demo talker", "ros2 run demo talker")
     assert "nodes in the graph that share an exact name" in workspace.type("ros2 node list")
+
+
+REFUSED = {
+    "nav2_simple_commander.robot_navigator": "nav2_simple_commander is a package of ROS 2 that is not available here",
+    "py_trees_ros": "py_trees_ros is a package of ROS 2 that is not available here",
+    "interactive_markers": "interactive_markers is a package of ROS 2 that is not available here",
+    "PyQt5.QtWidgets": "ImportError: PyQt5 opens windows, and a program here has no screen for them: lesson.dashboard()",
+    "pygame": "ImportError: pygame opens windows, and a program here has no screen for them: lesson.dashboard()",
+}
+
+
+@pytest.mark.parametrize("module", REFUSED)
+def test_what_is_not_here_is_refused_at_import_and_the_rest_of_a_launch_goes_on(
+    workspace: Workspace, monkeypatch: pytest.MonkeyPatch, module: str
+) -> None:
+    for toolkit in ("PyQt5", "pygame"):  # as if they were installed
+        (workspace.folder / "site" / toolkit).mkdir(parents=True)
+        (workspace.folder / "site" / toolkit / "__init__.py").touch()
+    monkeypatch.syspath_prepend(str(workspace.folder / "site"))
+    workspace.write("lost.py", f"import {module}\nprint('never')\n")
+    workspace.write("there.py", "import time\ntime.sleep(0.1)\nprint('the rest goes on')\n")
+    workspace.write(
+        "two.launch.py",
+        "import os, sys\nfrom launch import LaunchDescription\nfrom launch.actions import ExecuteProcess\n"
+        "here = os.path.dirname(__file__)\n"
+        "def generate_launch_description():\n"
+        "    names = ('lost.py', 'there.py')\n"
+        "    run = [ExecuteProcess(cmd=[sys.executable, os.path.join(here, name)], output='screen') for name in names]\n"
+        "    return LaunchDescription(run)\n",
+    )
+    printed = workspace.type("ros2 launch src/demo/two.launch.py")
+    assert REFUSED[module] in printed
+    assert "the rest goes on" in printed and "never" not in printed
+
+
+def test_a_window_of_tkinter_is_refused_and_its_import_is_not(workspace: Workspace) -> None:
+    pytest.importorskip("tkinter")
+    workspace.write("window.py", "from tkinter import Y, Tk\nprint('imported', Y)\nTk()\n")
+    printed = workspace.type("python3 src/demo/window.py")
+    assert "imported y" in printed
+    assert "RuntimeError: tkinter opens windows, and a program here has no screen for them" in printed

@@ -213,6 +213,9 @@ def _install_modules() -> None:
         own.append(terminals.make_msvcrt())
     for module in (dates_module, *own):
         on_import[module.__name__] = partial(_itself, module)
+    for toolkit in refused.WINDOWS:
+        on_import[toolkit] = partial(refused.windows, toolkit)
+    on_import["tkinter"] = partial(refused.tk_windows, replace_method)
     on_import["curses"] = partial(_made, "curses_screen")
     on_import["pynput"] = partial(_made, "pynput_keyboard")
     on_import["multiprocessing"] = on_import["concurrent"] = _refuse_multiprocessing
