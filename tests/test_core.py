@@ -595,3 +595,23 @@ def test_a_clean_up_that_fails_keeps_nobody_from_hearing_of_the_end(world: World
     world.sim.run_until(SECOND)
     assert [process.exit_code for process in ended] == [0]
     assert world.graph.nodes == []
+
+
+def test_an_interrupt_while_a_process_cleans_up_comes_when_that_is_done(world: World) -> None:
+    cleaned = []
+
+    def main() -> None:
+        try:
+            time.sleep(100)
+        finally:
+            os.kill(os.getpid(), signal.SIGINT)
+            cleaned.append("all")
+
+    process = world.spawn(main, name="tidy", argv=["tidy", "--fast"])
+    world.sim.settle()
+    arguments = sys.argv
+    with pytest.raises(KeyboardInterrupt):
+        process.kill()
+    assert cleaned == ["all"]
+    assert not process.alive
+    assert sys.argv is arguments

@@ -52,19 +52,20 @@ class Guard:
         self.tripped_at: int | None = None
         self.spent = False
         self._previous: Any = None
+        self._outer: Guard | None = None
         self._active = threading.current_thread() is threading.main_thread()
 
     def __enter__(self) -> Guard:
         if self._active:
             self._previous = signal.signal(signal.SIGINT, self._on_signal)
-            _watchdog.watch(self)
+            self._outer = _watchdog.watch(self)
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         if self._active:
-            _watchdog.watch(None)
+            _watchdog.watch(self._outer)
             if self._previous is not None:
                 signal.signal(signal.SIGINT, self._previous)
 
@@ -148,15 +149,17 @@ class _Watchdog:
         self._wanted = threading.Event()
         self._thread: threading.Thread | None = None
 
-    def watch(self, guard: Guard | None) -> None:
-        self._guard = guard
+    def watch(self, guard: Guard | None) -> Guard | None:
+        """Watch this guard's run from now on, or none. Returns the guard that was watched before."""
+        before, self._guard = self._guard, guard
         if guard is None:
             self._wanted.clear()
-            return
+            return before
         if self._thread is None or not self._thread.is_alive():
             self._thread = threading.Thread(target=self._loop, name="turtle_lesson watchdog", daemon=True)
             self._thread.start()
         self._wanted.set()
+        return before
 
     def _loop(self) -> None:
         seen: tuple[object, int] | None = None

@@ -37,6 +37,10 @@ CLOCK_READ = 1_000
 PATIENCE = 3
 """How often a strand that does not want to end is told to, when its world closes."""
 
+_undead: list[Strand] = []
+"""Strands that did not end then. They are kept: one that Python collects would be unwound in the middle of any other code,
+and would take the notebook's event loop for its own."""
+
 
 class Simulation(Face):
     """Runs timed events and strands in order. `now` is the virtual time in ns since the world's start."""
@@ -171,7 +175,18 @@ class Simulation(Face):
             self._visit(strand, strand.go_on)
 
     def _visit(self, strand: Strand, go: Callable[[], object]) -> None:
-        """Switch to a strand out of its turn, until it waits again or ends. No time passes."""
+        """Switch to a strand out of its turn, until it waits again or ends. No time passes.
+
+        An interrupt meanwhile, which would leave this half done, is raised at the end.
+        """
+        if self.running:
+            self._visit_guarded(strand, go)
+            return
+        with Guard(self) as guard:
+            self._visit_guarded(strand, go)
+        guard.raise_if_interrupted()
+
+    def _visit_guarded(self, strand: Strand, go: Callable[[], object]) -> None:
         hub, face, halted, limit, raising = self.hub, self._face, self._halted, self._limit, self._raising
         self.hub = running_greenlet()
         self.halt()
@@ -312,5 +327,6 @@ class Simulation(Face):
                 for _ in range(PATIENCE):
                     if strand and not strand.dead and not strand.warned:
                         self._unwind(strand)
+        _undead.extend(strand for strand in self._strands if strand and not strand.dead)
         self._heap.clear()
         self._ready.clear()
