@@ -63,8 +63,9 @@ class Keyboard:
         self.live = False
         self.seconds_asked = 0.0
         self._simulation = simulation
-        self._last: tuple[int, int] | None = None
+        self._last: tuple[Process, int, int] | None = None
         self._readers: list[KeyReader] = []
+        self._askers: list[Process] = []
 
     # -- keys --------------------------------------------------------------------------------------------------------------
 
@@ -104,13 +105,17 @@ class Keyboard:
     # -- lines -------------------------------------------------------------------------------------------------------------
 
     def line(self, process: Process, prompt: str) -> str:
-        """The next line that is typed for a program, without its line end.
+        """The next line that is typed for a program, without its line end. Of several that ask each says its name.
 
         Raises:
             EOFError: if no line was typed ahead and the cell cannot be asked.
             KeyboardInterrupt: if the user stops the cell while it asks.
         """
-        self._let_time_for_typing_pass()
+        self._let_time_for_typing_pass(process)
+        self._askers = [asker for asker in self._askers if asker.alive and asker is not process]
+        if self._askers:
+            prompt = f"[{process.name}] {prompt}"
+        self._askers.append(process)
         if not self.lines:
             self._wait_for_a_cell(process, prompt)
         if self.lines:
@@ -118,14 +123,14 @@ class Keyboard:
             print(f"{prompt}{line}", file=process.stdout or sys.stdout)
         else:
             line = self._answer_of_the_cell(prompt)
-        self._last = (self._simulation.now, self._simulation.events)
+        self._last = (process, self._simulation.now, self._simulation.events)
         return line
 
-    def _let_time_for_typing_pass(self) -> None:
+    def _let_time_for_typing_pass(self, process: Process) -> None:
         simulation = self._simulation
         if self._last is not None:
-            now, events = self._last
-            if simulation.now - now < MOMENT and simulation.events != events:
+            asker, now, events = self._last
+            if asker is process and simulation.now - now < MOMENT and simulation.events != events:
                 simulation.sleep_until(simulation.now + TYPING)
 
     def _wait_for_a_cell(self, process: Process, prompt: str) -> None:
