@@ -1,6 +1,6 @@
 """`CvBridge` with numpy alone: which encodings there are and how they are laid out, from cv_bridge's core.py.
 
-What it refuses and in which words, from vision_opencv's core.py and cv_bridge.cpp (https://github.com/ros-perception/vision_opencv).
+What it refuses and in which words, from core.py and cv_bridge.cpp (https://github.com/ros-perception/vision_opencv).
 """
 
 from __future__ import annotations
