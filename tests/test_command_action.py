@@ -168,7 +168,7 @@ def test_where_there_are_no_actions(world: World) -> None:
         ("ros2 action ", ["--help", "find", "info", "list", "send_goal", "type"]),
         ("ros2 action info ", ["/turtle1/rotate_absolute"]),
         ("ros2 action type /tu", ["/turtle1/rotate_absolute"]),
-        ("ros2 action find turt", ["turtlesim/action/RotateAbsolute"]),
+        ("ros2 action find turtles", ["turtlesim/action/RotateAbsolute"]),
         ("ros2 action send_goal ", ["/turtle1/rotate_absolute"]),
         ("ros2 action send_goal /turtle1/rotate_absolute ", ["turtlesim/action/RotateAbsolute"]),
         ("ros2 action send_goal /nope example_i", ["example_interfaces/action/Fibonacci"]),
