@@ -11,7 +11,8 @@ import nbformat
 import pytest
 
 from turtle_lesson import story
-from turtle_lesson.ros.workspace import create
+from turtle_lesson.ros.workspace import colcon, create
+from turtle_lesson.ros.world import World
 from turtle_lesson.workspace import Workspace, workspace
 
 NODE = "robot_controller/navigator_node.py"
@@ -301,3 +302,19 @@ def test_a_later_page_goes_on_from_an_earlier_one(mine: Workspace) -> None:
 
 def test_the_workspace_is_beside_the_notebook(tmp_path: Path) -> None:
     assert workspace().folder.name == "workspace"
+
+
+def test_it_is_built_again_after_a_build_by_hand_from_other_sources(tmp_path: Path, world: World) -> None:
+    mine = Workspace(tmp_path / "workspace")
+    mine.prepare("04_status_monitor")
+    assert not mine.is_built
+    assert mine.build(world) == ""
+    assert mine.is_built
+    cmake = mine.package / "CMakeLists.txt"
+    published = cmake.read_text()
+    cmake.write_text(published.replace("RENAME navigator", "RENAME pilot"))
+    colcon.run(world, ["build"], stdout=io.StringIO(), stderr=io.StringIO(), cwd=mine.folder)
+    cmake.write_text(published)
+    assert not mine.is_built, "what is installed now lacks the node"
+    assert mine.build(world) == ""
+    assert mine.is_built

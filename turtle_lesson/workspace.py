@@ -105,7 +105,7 @@ class Workspace:
 
     @property
     def is_built(self) -> bool:
-        """Whether the package was built by `build()` from exactly the sources that are there now."""
+        """Whether `build()` built the package from exactly the sources that are there now, and nothing else did since."""
         return (self.folder / "install" / "setup.bash").exists() and self._memory().get("built") == self._fingerprint()
 
     def build(self, world: World) -> str:
@@ -129,7 +129,10 @@ class Workspace:
             overlay(world, self.folder / "install")
 
     def _fingerprint(self) -> str:
-        return _hash("\n".join(f"{path}\n{_text(path)}" for path in sorted(_sources(self.package))))
+        """A hash of the texts of the sources and of the times of what is installed: each build writes that anew."""
+        sources = [f"{path}\n{_text(path)}" for path in sorted(_sources(self.package))]
+        installed = [f"{path} {path.lstat().st_mtime_ns}" for path in sorted(_sources(self.folder / "install"))]
+        return _hash("\n".join(sources + installed))
 
     # -- cells that write files --------------------------------------------------------------------------------------
 
@@ -207,8 +210,8 @@ def _parts(path: str, now: str, memory: dict[str, Any]) -> list[str]:
     return same[0] if same else max((story.divided(now, parts) for parts in known), key=len)
 
 
-def _sources(package: Path) -> list[Path]:
-    return [path for path in package.rglob("*") if path.is_file() and "__pycache__" not in path.parts]
+def _sources(folder: Path) -> list[Path]:
+    return [path for path in folder.rglob("*") if path.is_file() and "__pycache__" not in path.parts]
 
 
 def _is_template(path: str, text: str) -> bool:
