@@ -17,8 +17,10 @@ _folders: dict[Path, tempfile.TemporaryDirectory[str]] = {}
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_runtest_setup(item: pytest.Item) -> None:
-    """Name a fresh folder for the kernel of a page, before nbval starts it."""
-    if item.path.suffix == ".ipynb" and item.path not in _folders:
+    """Name a fresh folder for the kernel of a page, before nbval starts it; kernels of other tests go where they are put."""
+    if item.path.suffix != ".ipynb":
+        os.environ.pop("TURTLE_LESSON_FOLDER", None)
+    elif item.path not in _folders:
         _folders[item.path] = tempfile.TemporaryDirectory()
         os.environ["TURTLE_LESSON_FOLDER"] = _folders[item.path].name
 
