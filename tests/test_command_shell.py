@@ -220,6 +220,8 @@ def test_long_words_of_other_terminals_are_cut(type_line) -> None:  # type: igno
         ("chmod 000 x", "chmod: here it makes files executable"),
         ("source", "bash: source: filename argument required"),
         ("source nope.bash", "bash: nope.bash: No such file or directory"),
+        ("sleep", "sleep: how long?"),
+        ("sleep soon", "sleep: how long?"),
     ],
 )
 def test_mistakes_get_a_line(type_line, line: str, text: str) -> None:  # type: ignore[no-untyped-def]
@@ -237,6 +239,38 @@ def test_cd_goes_and_comes_back(type_line, folder: Path) -> None:  # type: ignor
 
 def test_a_folder_of_nearly_the_right_name_is_named(type_line) -> None:  # type: ignore[no-untyped-def]
     assert "Did you mean 'turtle_ws'?" in type_line("mkdir turtle_ws; cd turtel_ws")[2]
+
+
+# -- files of commands -------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("line", ["bash drive.sh", "sh drive.sh", "source drive.sh", ". ./drive.sh", "./drive.sh"])
+def test_a_file_of_commands_runs_line_by_line_in_robot_time(type_line, world: World, line: str) -> None:  # type: ignore[no-untyped-def]
+    Path("drive.sh").write_text("#!/bin/bash\n# two turtles\necho first\nsleep 2.5\n\necho second && cd /\n")
+    assert type_line(f"chmod +x drive.sh; {line} > said.txt") == (0, "", "")
+    assert Path("/" if line[:2] in ("so", ". ") else ".").samefile(Path.cwd())
+    assert type_line("cd -; cat said.txt")[1].endswith("first\nsecond\n")
+    assert world.now == 2_500_000_000
+
+
+def test_a_program_is_run_by_its_first_line(type_line, world: World) -> None:  # type: ignore[no-untyped-def]
+    Path("draw.py").write_text("#!/usr/bin/env python3\nimport sys\nprint(sys.argv[1:])\n")
+    code, out, error = type_line("./draw.py circle")
+    assert (code, out) == (126, "")
+    assert error.startswith("bash: ./draw.py: Permission denied. Make it executable: chmod +x ./draw.py")
+    type_line("chmod +x draw.py; ./draw.py circle")
+    world.sim.run_until(1)
+    assert type_line("./draw.py square")[1].startswith("['square']")
+
+
+@pytest.mark.parametrize(
+    "commands", ["for i in 1 2; do\n  echo $i\ndone", "if true; then echo a; fi", "echo $1", "go() {\n}"]
+)
+def test_a_file_of_more_than_commands_is_refused_before_it_begins(type_line, commands: str) -> None:  # type: ignore[no-untyped-def]
+    Path("loop.sh").write_text(f"echo begins\n{commands}\n")
+    code, out, error = type_line("bash loop.sh")
+    assert (code, out) == (1, "")
+    assert error.startswith("bash: loop.sh: line 2: this simulated terminal runs commands one after the other")
 
 
 # -- ros2 ------------------------------------------------------------------------------------------------------------------

@@ -33,6 +33,7 @@ UNSURE = ELSEWHERE | {
     "printenv",
     "printf",
     "rm",
+    "sleep",
     "sort",
     "tail",
     "unset",
@@ -49,7 +50,8 @@ LONGEST = 1000
 """How far into a line a command behind other statements is looked for."""
 
 _FIRST = re.compile(
-    r"(?P<indent>[ \t]*)(?P<sign>%|!\s*|\$\s+)?(?P<word>[A-Za-z][\w-]*|\.(?=[ \t]))(?![\w(\[.,?:\])}])(?P<rest>.*)",
+    r"(?P<indent>[ \t]*)(?P<sign>%|!\s*|\$\s+)?(?P<word>[A-Za-z][\w-]*|\.(?=[ \t])|\.{1,2}/[\w./-]+)"
+    r"(?![\w(\[.,?:\])}])(?P<rest>.*)",
     re.DOTALL,
 )
 _PYTHON_NEXT = re.compile(r"\s*(?:[-+*/%&|^@]|//|\*\*|<<|>>|[=!<>]|:)?=|\s+(?:in|is|if|and|or|not|for)\b\s")
@@ -110,7 +112,7 @@ def _is_command(lines: list[str], at: int, column: int, python: _Python) -> bool
     if found is None:
         return False
     sign, word, rest = (found["sign"] or "").strip(), found["word"], found["rest"]
-    if sign == "$":
+    if sign == "$" or (not sign and "/" in word):  # no statement of Python begins with ./
         return True
     if sign == "%":
         return word in OWN_MAGICS

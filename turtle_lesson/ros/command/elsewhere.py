@@ -26,11 +26,12 @@ _PICTURES = (
 _NO_INSTALLING = "nothing needs to be installed here: ROS 2 is simulated, and everything that the lesson needs is there"
 _EDITOR = "no editor here: open the file in JupyterLab's list at the left, or begin a cell with %%writefile FILE"
 _SCRIPT = "python3 FILE runs a file, and ros2 run the program of a package; !python3 is the Python of your computer"
+_SHELL = "type commands into the cell, as in a terminal; bash FILE runs the commands in a file that is here"
 
 _HERE = {
     "apt": _NO_INSTALLING,
     "apt-get": _NO_INSTALLING,
-    "bash": "type the commands into the cell, as in a terminal; %%terminal makes a whole cell a script",
+    "bash": _SHELL,
     "clear": "JupyterLab's menu Edit clears the outputs of cells",
     "cmake": "colcon build does that, from a package's CMakeLists.txt",
     "code": _EDITOR,
@@ -50,6 +51,7 @@ _HERE = {
     "rqt_plot": _PICTURES,
     "rviz": _PICTURES,
     "rviz2": _PICTURES,
+    "sh": _SHELL,
     "sudo": _NO_INSTALLING,
     "vi": _EDITOR,
     "vim": _EDITOR,

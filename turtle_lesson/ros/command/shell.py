@@ -1,7 +1,8 @@
 """A small terminal: a line or a script becomes commands, which run one after the other.
 
 Quotes, `\\` at a line's end, comments, `&&`, `||`, `;`, a trailing `&`, `| grep`, `< file`, `> file` and patterns such as
-`*.msg` work as in bash. The current folder is the notebook's; `~` is the folder in which the notebook began.
+`*.msg` work as in bash, and so do files of commands. The current folder is the notebook's; `~` is the folder in which the
+notebook began.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from .elsewhere import advice
 from .parser import cut
 from .python_script import names_a_script, run_script
 from .script import Command, ShellSyntaxError, expand, pipelines
+from .script_files import NOT_EXECUTABLE, commands_in, with_its_program
 from .streams import cell_streams
 from .terminal import BUILTINS
 from .terminal_io import Terminal
@@ -68,7 +70,9 @@ class Shell:
         Raises:
             CommandInterrupted: if the user stops a command.
         """
-        out, error = cell_streams()
+        return self._script(script, *cell_streams())
+
+    def _script(self, script: str, out: Any, error: Any) -> int:
         try:
             plan = list(pipelines(list(tokens(script))))
         except (UnfinishedError, ShellSyntaxError) as mistake:
@@ -124,11 +128,20 @@ class Shell:
         name = words[0]
         if name == "ros2":
             return run_ros2(self.world, words, stdin=given, stdout=out, stderr=error, background=background)
+        if (script := commands_in(words)) is not None:
+            with contextlib.nullcontext() if name in {"source", "."} else contextlib.chdir("."):
+                return self._script(script, out, error)
         if name in {"colcon", "source", "."}:
             return _workspace(self.world, words, out, error)
         if "/" in name and (program := self.world.packages.program_at(name)):
             words = ["ros2", "run", *program, *words[1:]]
             return run_ros2(self.world, words, stdin=given, stdout=out, stderr=error, background=background)
+        try:
+            if (whole := with_its_program(words)) != list(words):
+                return self._call(whole, given, out, error, background)
+        except PermissionError as mistake:
+            print(mistake, file=error)
+            return NOT_EXECUTABLE
         if names_a_script(words):
             return run_script(self.world, words, given)
         if name in BUILTINS:

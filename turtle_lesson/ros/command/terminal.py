@@ -5,7 +5,7 @@ from __future__ import annotations
 from .terminal_changes import cp, mv, rm
 from .terminal_files import cd, chmod, ls, mkdir, pwd, touch
 from .terminal_io import Builtin
-from .terminal_jobs import kill, list_jobs
+from .terminal_jobs import kill, list_jobs, sleep
 from .terminal_text import cat, echo, grep, head, printf, sort, tail, wc
 from .terminal_variables import export, printenv, unset
 
@@ -27,6 +27,7 @@ BUILTINS: dict[str, Builtin] = {
     "printf": printf,
     "pwd": pwd,
     "rm": rm,
+    "sleep": sleep,
     "sort": sort,
     "tail": tail,
     "touch": touch,

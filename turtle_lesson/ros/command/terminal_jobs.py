@@ -1,10 +1,11 @@
-"""The terminal's words for what goes on: jobs, kill."""
+"""The terminal's words for what goes on: jobs, kill, sleep."""
 
 from __future__ import annotations
 
 import re
 from typing import TYPE_CHECKING
 
+from .driving import run_for
 from .jobs import SIGNALS, Job, jobs, send
 from .terminal_io import Terminal
 
@@ -16,6 +17,14 @@ def list_jobs(terminal: Terminal, words: list[str]) -> int:
     """`jobs`: what goes on."""
     for job in jobs(terminal.world).running:
         terminal.say(f"[{job.number}]  Running                 {job.words} &")
+    return 0
+
+
+def sleep(terminal: Terminal, words: list[str]) -> int:
+    """`sleep SECONDS`: let robot time pass, in which the programs go on."""
+    if len(words) != 1 or not re.fullmatch(r"\d{1,6}(\.\d{1,9})?s?", words[0]):
+        return terminal.fail("sleep: how long? Write it in seconds of robot time, as in sleep 0.5")
+    run_for(terminal.world, float(words[0].rstrip("s")))
     return 0
 
 
