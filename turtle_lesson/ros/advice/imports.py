@@ -62,7 +62,7 @@ def _no_module(name: str) -> str:
             f"{top} is a package of ROS 2 that is not available here: a program that needs it runs on a robot "
             f"where it is installed ({_apt(top)})."
         )
-    if rest and (parent := _parent(name)):
+    if rest and (parent := _newer(top, name) or _parent(name)):
         return parent
     close = difflib.get_close_matches(top, _known_modules(), n=1, cutoff=0.8)
     return f"Did you mean '{close[0]}'?" if close else _of_ones_own(top)
@@ -117,10 +117,20 @@ def _known_modules() -> list[str]:
     return [*registry.packages(), *sorted(path.name for path in site.iterdir() if path.is_dir())]
 
 
+_OF_MESSAGES = re.compile(r"_(msgs|srvs|actions|interfaces?)$")
+"""What packages of messages are usually called."""
+
+
 def _of_ones_own(name: str) -> str:
     sources = [path.parent for path in Path.cwd().glob("src/**/package.xml") if path.parent.name == name]
     if sources or (Path.cwd() / "src" / name).is_dir():
         return f"There is a package {name} in src: build it (colcon build), then source install/setup.bash."
+    if _OF_MESSAGES.search(name):
+        return (
+            f"Is the name spelled correctly? Packages of messages are built here, too: put the folder {name} (with its "
+            "package.xml, CMakeLists.txt and msg, srv or action) into src, build it (colcon build), and source "
+            "install/setup.bash."
+        )
     return (
         "Is the name spelled correctly? A package of your own is found when it is built (colcon build) and sourced "
         f"(source install/setup.bash); a module beside the program, when its package is installed; {_pip(name)}."
@@ -146,9 +156,21 @@ _FOR_ROBOTS_TOO = ("xacro",)
 _ON_PYPI = {"cv2": "opencv-python", "PIL": "pillow", "yaml": "pyyaml", "serial": "pyserial", "sklearn": "scikit-learn"}
 
 
+def _newer(package: str, path: str) -> str:
+    """What to write instead of what came after the releases that are known here (rclpy, pull request 1620)."""
+    if package != "rclpy" or not re.search(r"\.(Async[A-Z]|async_)", path):
+        return ""
+    return (
+        "AsyncNode is newer than the releases that are known here (up to Kilted). Callbacks of a Node may be `async def`, "
+        "too: they can await client.call_async(request), and rclpy.spin(node) runs them."
+    )
+
+
 def _no_name(module: str, name: str) -> str:
     """What a module has instead of a name. For a package's interfaces, those of its other folders, too."""
     package, _, folder = module.partition(".")
+    if newer := _newer(package, f"{module}.{name}"):
+        return newer
     if package in registry.packages() and folder in ("", *FOLDERS):
         owner = registry.package(package)
         for each in FOLDERS:

@@ -38,6 +38,7 @@ _HERE = {
     "emacs": _EDITOR,
     "gazebo": "the simulated world is there already: turtlesim, which start() starts",
     "gedit": _EDITOR,
+    "launch_test": "launch_testing is not available here; write tests with pytest instead",
     "make": "colcon build does that, from a package's CMakeLists.txt",
     "nano": _EDITOR,
     "pip3": "%pip install NAME installs into this notebook's Python",
