@@ -13,6 +13,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from workspace_cases import change, colcon, make_package, source_in, timeless
 
+from turtle_lesson.ros.command.shell import run_line
 from turtle_lesson.ros.workspace.colcon import run
 from turtle_lesson.ros.workspace.errors import CompiledProgramError
 from turtle_lesson.ros.world import World
@@ -241,9 +242,12 @@ def test_entry_points_do_nothing_in_an_ament_cmake_package(package: Path, world:
     assert "nothing will be installed from them." in answer.err
 
 
-def test_a_python_package_of_the_interfaces_name_is_refused(package: Path, world: World) -> None:
+@pytest.mark.parametrize("before", ["ament_package()", "rosidl_generate_interfaces("])
+def test_a_python_package_of_the_interfaces_name_is_refused(package: Path, world: World, before: str) -> None:
+    """Whichever comes first: both make a Python package (ros2/rosidl_python, issue 141)."""
     (package / "robot_controller/__init__.py").touch()
-    change(package / CMAKE, "ament_package()", "ament_python_install_package(${PROJECT_NAME})\nament_package()")
+    python = "find_package(ament_cmake_python REQUIRED)\nament_python_install_package(${PROJECT_NAME})\n"
+    change(package / CMAKE, before, f"{python}{before}")
     answer = colcon(world)
     assert 'cannot create target "ament_cmake_python_copy_robot_controller"' in " ".join(answer.err.split())
     assert "install the nodes as programs instead" in answer.err
@@ -461,6 +465,19 @@ def test_a_python_package(python_package: Path, world: World, tmp_path: Path) ->
         "share/py_demo/hook/pythonpath.dsv", "share/py_demo/package.xml",
     ):  # fmt: skip
         assert (prefix / path).is_file(), path
+
+
+def test_entry_points_of_any_group_are_found_by_a_program(
+    python_package: Path, world: World, capsys: pytest.CaptureFixture[str]
+) -> None:
+    change(python_package / "setup.py", "entry_points={", "entry_points={'shapes': ['round = py_demo.my_node:circle'],")
+    (python_package / "py_demo/my_node.py").write_text(
+        "from importlib.metadata import entry_points\n\n\ndef circle():\n    return 'a circle'\n\n\n"
+        "def main():\n    for each in entry_points(group='shapes'):\n        print(each.name, each.load()())\n"
+    )
+    assert colcon(world).code == 0
+    run_line(world, "source install/setup.bash && ros2 run py_demo my_node")
+    assert "round a circle" in capsys.readouterr().out.splitlines()
 
 
 @pytest.mark.parametrize(

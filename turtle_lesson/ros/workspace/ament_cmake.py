@@ -185,6 +185,8 @@ class _Build:
         check.configure()
         self._check_xml(where, [f"{SHARE}/rosidl_cmake/cmake/rosidl_generate_interfaces.cmake:226 (ament_package_xml)"])
         check.check_group()
+        if any(name == self.found.name for _, name in self.python):
+            raise self._two_python_packages(where)
         self.checks.append(check)
 
     def _on_cmake_minimum_required(self, command: Command, where: str) -> None:
@@ -220,23 +222,31 @@ class _Build:
         name = command.args[0] if command.args else ""
         folder = self._option(command, "PACKAGE_DIR") or name
         if self.checks and name == self.found.name:
-            text = (
-                f'add_custom_target cannot create target "ament_cmake_python_copy_{name}" because another target with the '
-                "same name already exists. The existing target is a custom target created in source directory "
-                f'"{shown_path(str(self.found.path))}". See documentation for policy CMP0002 for more details.'
-            )
-            stack = (f"CMakeLists.txt:{command.line} (ament_python_install_package)",)
-            place = f"{SHARE}/ament_cmake_python/cmake/ament_python_install_package.cmake:114 (add_custom_target)"
-            hint = (
-                f"The interfaces already make a Python package {name}: install the nodes as programs instead, "
-                f"install(PROGRAMS {name}/<file>.py DESTINATION lib/${{PROJECT_NAME}} RENAME <name>)."
-            )
-            raise refused(text, place, hint, stack)
+            raise self._two_python_packages(f"CMakeLists.txt:{command.line} (ament_python_install_package)")
         if not (self.found.path / folder / "__init__.py").is_file():
             text = f"ament_python_install_package() the Python package folder '{folder}' doesn't exist"
             raise refused(text, where, f"Make {folder}/__init__.py, which may be empty.")
         self.python.append((folder, name))
         self.commands |= COMMANDS_OF["ament_cmake_core"]  # which it finds (ament_cmake_python-extras.cmake)
+
+    def _two_python_packages(self, where: str) -> BuildFailure:
+        """The refusal of a package that generates interfaces and installs a Python package of the same name.
+
+        In whichever order: rosidl_generator_py calls ament_python_install_package(), too, and CMake refuses the second
+        target of one name (ros2/rosidl_python, issue 141).
+        """
+        name = self.found.name
+        text = (
+            f'add_custom_target cannot create target "ament_cmake_python_copy_{name}" because another target with the '
+            "same name already exists. The existing target is a custom target created in source directory "
+            f'"{shown_path(str(self.found.path))}". See documentation for policy CMP0002 for more details.'
+        )
+        place = f"{SHARE}/ament_cmake_python/cmake/ament_python_install_package.cmake:114 (add_custom_target)"
+        hint = (
+            f"The interfaces already make a Python package {name}: install the nodes as programs instead, "
+            f"install(PROGRAMS {name}/<file>.py DESTINATION lib/${{PROJECT_NAME}} RENAME <name>)."
+        )
+        return refused(text, place, hint, (where,))
 
     def _on_ament_python_install_module(self, command: Command, where: str) -> None:
         name = command.args[0] if command.args else ""

@@ -13,7 +13,7 @@ from typing import Any
 from ..core.tracebacks import shown_path
 from . import manifest_check
 from .discover import Found
-from .entry_points import program_lines
+from .entry_points import entry_groups, entry_text, program_lines
 from .errors import did_you_mean
 from .outcome import PYTHON, BuildFailure, Environment, Item, Outcome, check_targets, with_hint
 from .setup_manifest import files_in_manifest
@@ -101,11 +101,10 @@ class _Build:
             items.append(Item(f"{SITE}/{module}.py", file))
         version = self.setup.get("version", "0.0.0")
         info = f"{SITE}/{self.found.name}-{version}-py{PYTHON.removeprefix('python')}.egg-info"
-        entries = "[console_scripts]\n" + "".join(f"{line.strip()}\n" for line in self._entry_lines())
         items.append(
             Item(f"{info}/PKG-INFO", text=f"Metadata-Version: 2.1\nName: {self.found.name}\nVersion: {version}\n")
         )
-        items.append(Item(f"{info}/entry_points.txt", text=entries))
+        items.append(Item(f"{info}/entry_points.txt", text=entry_text(self._entries())))
         items.append(Item(f"{info}/top_level.txt", text="".join(f"{name}\n" for name in sorted(top))))
         return items
 
@@ -211,17 +210,17 @@ class _Build:
 
     # -- programs --------------------------------------------------------------------------------------------------
 
-    def _entry_lines(self) -> list[str]:
-        lines = program_lines(self.setup.get("entry_points") or {})
-        if lines is None:
+    def _entries(self) -> dict[str, list[str]]:
+        groups = entry_groups(self.setup.get("entry_points") or {})
+        if groups is None:
             hint = "Write entry_points={'console_scripts': ['name = package.module:main']},."
             raise BuildFailure("error: entry_points must be a dictionary\n", hint, seconds=0.5)
-        return lines
+        return groups
 
     def _programs(self) -> list[Item]:
         place = install_scripts(self.found.path)
         items = [self._script(place, str(name)) for name in _texts(self.setup.get("scripts"))]
-        for line in self._entry_lines():
+        for line in program_lines(self._entries()):
             match = _ENTRY.fullmatch(line)
             if match is None:
                 text = f"error in {self.found.name} setup command: ('Invalid entry point: ', {line!r})\n"

@@ -7,12 +7,22 @@ from typing import Any
 PROGRAMS = ("console_scripts", "gui_scripts")
 
 
-def program_lines(given: Any) -> list[str] | None:
-    """The lines that become programs; None if this is neither a dictionary nor a text with a `[group]` above its lines."""
+def entry_groups(given: Any) -> dict[str, list[str]] | None:
+    """The lines of each group; None if this is neither a dictionary nor a text with a `[group]` above its lines."""
     groups = _sections(given) if isinstance(given, str) else given
     if not isinstance(groups, dict):
         return None
-    return [line for group in PROGRAMS for line in _lines(groups.get(group) or [])]
+    return {str(group): _lines(lines or []) for group, lines in groups.items()}
+
+
+def program_lines(groups: dict[str, list[str]]) -> list[str]:
+    """The lines that become programs."""
+    return [line for group in PROGRAMS for line in groups.get(group, [])]
+
+
+def entry_text(groups: dict[str, list[str]]) -> str:
+    """What an installed package's entry_points.txt says, where `importlib.metadata` finds plugins of all packages."""
+    return "\n".join(f"[{group}]\n" + "".join(f"{line.strip()}\n" for line in lines) for group, lines in groups.items())
 
 
 def _lines(given: Any) -> list[str]:
