@@ -44,6 +44,18 @@ def test_a_program_is_started_and_left_running(world: World, capsys: pytest.Capt
     assert nodes(world) == ["/navigator"]
 
 
+def test_a_program_logs_into_its_file_while_it_runs(world: World, capsys: pytest.CaptureFixture[str]) -> None:
+    run_line(world, "ros2 run robot_controller navigator > log.txt 2>&1")
+    run_line(world, "kill -INT %1")
+    printed = capsys.readouterr()
+    assert printed.out.splitlines() == [
+        "[1] ros2 run robot_controller navigator is still running. To stop it, as Ctrl-C would: kill -INT %1"
+    ]
+    logged = Path("log.txt").read_text().splitlines()
+    assert logged[0].endswith("[navigator]: Navigator node started")
+    assert logged[-2:] == ["KeyboardInterrupt", "[ros2run]: Interrupt"]
+
+
 def test_starting_the_same_twice_is_pointed_out(world: World, capsys: pytest.CaptureFixture[str]) -> None:
     run_line(world, "ros2 run robot_controller navigator; ros2 run robot_controller navigator")
     last = capsys.readouterr().out.splitlines()[-1]

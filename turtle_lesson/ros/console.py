@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from io import TextIOBase
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, TextIO
 
 if TYPE_CHECKING:
     from .core import Simulation
@@ -33,3 +35,21 @@ class CellOutput(BorrowedStream):
     def flush(self) -> None:
         """Show what was written."""
         self._simulation.cell_stdout.flush()
+
+
+class FileOutput(BorrowedStream):
+    """A text stream that appends to a file as long as anybody prints: behind `>`, a program may outlast its command.
+
+    No file stays open. What is printed after its folder was removed is lost, as on Linux. `instead_of` is the stream that
+    it stands for: a command's note that its program goes on belongs there.
+    """
+
+    def __init__(self, path: Path, instead_of: TextIO) -> None:
+        self._path = path.absolute()
+        self.instead_of = instead_of
+
+    def write(self, text: str) -> int:
+        """Append a text, as it is."""
+        with suppress(FileNotFoundError), self._path.open("a", encoding="utf-8") as file:
+            file.write(text)
+        return len(text)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from .driving import Waiter, live_rate
 from .parser import Call, Stop, cut, parse
-from .streams import Errors, cell_streams
+from .streams import Errors, cell_streams, lasting
 
 if TYPE_CHECKING:
     from ..core import Process
@@ -69,7 +69,7 @@ def run(
             call.arguments.stdin = stdin
             return _run_in_cell(call, out_to, error_to)
         if background:
-            return _start_in_background(world, call, words)
+            return _start_in_background(world, call, words, out_to, error_to)
         shown = stdout is None or stdout is sys.stdout
         return _run_as_process(world, call, words, out_to, error_to, shown)
 
@@ -129,12 +129,11 @@ def _run_as_process(world: World, call: Call, words: Sequence[str], stdout: Any,
     return process.exit_code or 0
 
 
-def _start_in_background(world: World, call: Call, words: Sequence[str]) -> int:
-    from ..console import CellOutput
+def _start_in_background(world: World, call: Call, words: Sequence[str], stdout: Any, stderr: Any) -> int:
     from .jobs import Job, jobs
 
-    output = CellOutput(world.sim)
-    process: Process = world.spawn(_program(call), name="ros2", argv=words, stdout=output, stderr=output)
+    out, error = lasting(stdout, world.sim), lasting(stderr, world.sim)
+    process: Process = world.spawn(_program(call), name="ros2", argv=words, stdout=out, stderr=error)
     process.locals.update({"cwd": Path.cwd(), BACKGROUND: True})
     job = jobs(world).add(Job(" ".join(words), process))
     print(f"[{job.number}] {process.pid}")

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .. import launching
-from ..console import CellOutput
+from ..console import FileOutput
 from ..core import Process
 from ..core.tracebacks import shown_path
 from ..launching import LaunchError
@@ -26,6 +26,7 @@ from .group_pkg import not_found, path_of
 from .in_cell import CellCommand, CommandError
 from .jobs import Job, jobs
 from .parser import cut
+from .streams import lasting
 
 if TYPE_CHECKING:
     from ..launching.handle import LaunchHandle
@@ -76,14 +77,13 @@ def _run(args: Namespace) -> int:
             f"{shown_path(str(changed))} was changed after the build: run colcon build to use the new version.",
             file=sys.stderr,
         )
-    output = CellOutput(world.sim)
     process = world.spawn(
         target,
         name=name,
         argv=[str(path_of(package, name)), *args.argv],
         stdin=reader_of(args.stdin),
-        stdout=output,
-        stderr=output,
+        stdout=lasting(sys.stdout, world.sim),
+        stderr=lasting(sys.stderr, world.sim),
         on_exit=_say_how_it_ended,
     )
     return leave(process, " ".join(["ros2 run", args.package_name, name, *args.argv]), args.seconds)
@@ -200,14 +200,15 @@ def leave(what: Process | LaunchHandle, words: str, seconds: float | None) -> in
         what.wait_until_up()
     sys.stdout.flush()
     if job.running:
-        print(
-            f"[{job.number}] {cut(job.words, 200)} is still running. To stop it, as Ctrl-C would: kill -INT %{job.number}"
-        )
+        cell = sys.stdout.instead_of if isinstance(sys.stdout, FileOutput) else sys.stdout
+        stop = f"To stop it, as Ctrl-C would: kill -INT %{job.number}"
+        print(f"[{job.number}] {cut(job.words, 200)} is still running. {stop}", file=cell)
         for twin in jobs(world).like(job):
             twice = f"The same command is running as [{twin.number}], so everything in it exists twice now."
-            print(f"{twice} To stop that one: kill -INT %{twin.number}")
+            print(f"{twice} To stop that one: kill -INT %{twin.number}", file=cell)
         if len(world.graph.servers("/spawn")) > simulators and _has_one_of_its_own(world):
-            print("Two simulators are running now, and both follow every command: start(simulator=False) starts none.")
+            twins = "Two simulators are running now, and both follow every command: start(simulator=False) starts none."
+            print(twins, file=cell)
         return 0
     return _code_of(what)
 

@@ -6,12 +6,12 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from ..console import CellOutput
 from ..workspace.current import current_packages
 from ..workspace.installed import python_folders
 from ..workspace.python_program import PythonProgram
+from .streams import lasting
 
 if TYPE_CHECKING:
     from ..world import World
@@ -55,19 +55,20 @@ def _module(name: str) -> Path | None:
     return next((place for place in places if place.is_file()), None)
 
 
-def run_script(world: World, words: Sequence[str], stdin: str | None = None) -> int:
+def run_script(world: World, words: Sequence[str], stdin: str | None, stdout: Any, stderr: Any) -> int:
     """Start the program, let it begin, and leave it running; the exit code of one that has ended at once.
 
-    It reads `stdin` as its input, or the keyboard if there is none.
+    It reads `stdin` as its input, or the keyboard if there is none, and prints into the cell, or into files behind `>`.
     """
     from .group_run_launch import leave, reader_of
 
-    path, output = _script(words[1:]), CellOutput(world.sim)
+    path = _script(words[1:])
     assert path is not None
     target: Path | PythonProgram = path
     name, arguments = path.stem, list(words[1:])
     if arguments[0] == "-m":
         name, arguments = arguments[1].rpartition(".")[2], [str(path), *arguments[2:]]
         target = PythonProgram(path, (Path.cwd(),), _AS_MODULE.format(name=words[2]))
-    process = world.spawn(target, name=name, argv=arguments, stdin=reader_of(stdin), stdout=output, stderr=output)
+    out, error = lasting(stdout, world.sim), lasting(stderr, world.sim)
+    process = world.spawn(target, name=name, argv=arguments, stdin=reader_of(stdin), stdout=out, stderr=error)
     return leave(process, " ".join(words), None)

@@ -12,10 +12,11 @@ import io
 import os
 import re
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..console import FileOutput
 from ..workspace.errors import did_you_mean
 from . import INTERRUPTED, terminal_files
 from . import run as run_ros2
@@ -105,8 +106,8 @@ class Shell:
         try:
             if command.stdin is not None:
                 given = Path(command.stdin).read_text(encoding="utf-8")
-            with _redirected(command, out, error) as (to, error_to):
-                return self._guarded(words, given, to, error_to, command.background)
+            to, error_to = _redirected(command, out, error)
+            return self._guarded(words, given, to, error_to, command.background)
         except (OSError, ValueError) as mistake:
             return _said(words[0], mistake, error)
         except KeyboardInterrupt:
@@ -143,7 +144,7 @@ class Shell:
             print(mistake, file=error)
             return NOT_EXECUTABLE
         if names_a_script(words):
-            return run_script(self.world, words, given)
+            return run_script(self.world, words, given, out, error)
         if name in BUILTINS:
             return BUILTINS[name](Terminal(self.world, out, error, given), list(words[1:]))
         print(_not_found(words), file=error)
@@ -184,21 +185,23 @@ def _explain(error: Exception) -> str:
     return str(error)
 
 
-@contextlib.contextmanager
-def _redirected(command: Command, out: Any, error: Any) -> Iterator[tuple[Any, Any]]:
-    """The streams of a command, some of which may be files."""
-    with contextlib.ExitStack() as stack:
-        to: Any = out
-        error_to: Any = error
-        if command.stdout is not None:
-            sign, name = command.stdout
-            mode = "a" if sign == ">>" else "w"
-            to = stack.enter_context(Path(name).open(mode, encoding="utf-8"))
-        if command.stderr == "&1":
-            error_to = to
-        elif command.stderr is not None:
-            error_to = stack.enter_context(Path(command.stderr).open("w", encoding="utf-8"))
-        yield to, error_to
+def _redirected(command: Command, out: Any, error: Any) -> tuple[Any, Any]:
+    """The streams of a command, some of which may be files. Raises OSError if a file cannot be written."""
+    to: Any = out
+    error_to: Any = error
+    if command.stdout is not None:
+        sign, name = command.stdout
+        to = _file(name, "a" if sign == ">>" else "w", out)
+    if command.stderr == "&1":
+        error_to = to
+    elif command.stderr is not None:
+        error_to = _file(command.stderr, "w", error)
+    return to, error_to
+
+
+def _file(name: str, mode: str, instead_of: Any) -> FileOutput:
+    Path(name).open(mode, encoding="utf-8").close()
+    return FileOutput(Path(name), instead_of)
 
 
 def _here() -> Path:

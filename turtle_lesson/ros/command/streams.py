@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import sys
 from contextlib import suppress
-from typing import Any, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
 
-from ..console import BorrowedStream
+from ..console import BorrowedStream, CellOutput, FileOutput
+
+if TYPE_CHECKING:
+    from ..core import Simulation
 
 LONGEST = 1500
 """How many characters of a line of stderr are shown: nobody reads on in a name of 10,000."""
@@ -66,3 +69,9 @@ class Errors(BorrowedStream):
         """Show what was written. Python flushes once more at the very end, when the cell's stream may be closed."""
         with suppress(ValueError):
             self._target.flush()
+
+
+def lasting(stream: Any, simulation: Simulation) -> BorrowedStream:
+    """Where a program prints that goes on after its command: into the file behind `>`, or else into the running cell."""
+    target = stream._target if isinstance(stream, Errors) else stream
+    return target if isinstance(target, FileOutput) else CellOutput(simulation)
