@@ -30,7 +30,10 @@ def opened(uri: str, storage_id: str) -> Bag:
     except BagError as error:
         raise RuntimeError(f"{NO_STORAGE} {error}") from None
     if storage_id not in ("", bag.storage):
-        raise RuntimeError(f"{NO_STORAGE} The bag '{uri}' is stored as {bag.storage!r}, not as {storage_id!r}")
+        raise RuntimeError(
+            f"{NO_STORAGE} The bag '{uri}' is stored as {bag.storage!r}, not as {storage_id!r}: open it with "
+            f"storage_id={bag.storage!r}, or record it with ros2 bag record -s {storage_id}"
+        )
     return bag
 
 
