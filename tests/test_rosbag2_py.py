@@ -142,7 +142,7 @@ def test_what_does_not_go_is_said() -> None:
     with pytest.raises(RuntimeError, match=r"^Bag directory already exists \(run\), can't overwrite existing bag$"):
         writer()
     with pytest.raises(
-        RuntimeError, match="'mcap', not as 'sqlite3': open it with storage_id='mcap', or .* -s sqlite3"
+        RuntimeError, match=r"'mcap', not as 'sqlite3': open it with storage_id='mcap', or .* -s sqlite3"
     ):
         reader(storage_id="sqlite3")
     with pytest.raises(RuntimeError, match="mcap or sqlite3, got 'disk'"):
