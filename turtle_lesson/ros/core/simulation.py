@@ -33,11 +33,6 @@ EPOCH = 1_800_000_000 * NANOSECONDS
 
 CLOCK_READ = 1_000
 """What reading the clock costs in virtual time, in ns, so that a loop that only looks at the clock comes to an end."""
-BUSY = 1_000 * CLOCK_READ
-"""A strand for which only reading the clock has let so much time (ns) pass, and nothing else, is in a busy loop."""
-EVENT = 100_000
-"""What each message sent, or other event planned, costs in a busy loop, in ns: about what sending and handling one takes on a
-robot (README, Speed)."""
 
 PATIENCE = 3
 """How often a strand that does not want to end is told to, when its world closes."""
@@ -63,9 +58,6 @@ class Simulation(Face):
         self._count = 0
         self.looks = 0
         self.looked_at = 0
-        self.only_read = 0
-        self._read_at = -1
-        self._count_then = 0
         self._limit = 0
         self._halted = False
         self._raising = False
@@ -139,34 +131,14 @@ class Simulation(Face):
             self.park(strand)
 
     def read_clock(self, cost: int = CLOCK_READ) -> int:
-        """The virtual time in ns, for a caller that reads a clock: reading costs time itself (ns).
-
-        In a busy loop that sends messages, as in `while time.time() < end: publisher.publish(twist)`, each of them costs
-        time, too. Otherwise such a loop would send a million messages a second, many more than on a robot.
-        """
+        """The virtual time in ns, for a caller that reads a clock: reading costs time itself (ns)."""
         if self._raising:
             return self.now  # somebody who was interrupted cleans up, all in this instant
-        reader = running_strand()
-        who = self if reader is None else reader
-        if self.now != self._read_at:
-            who.only_read = 0  # it has waited since it last read the clock
-        elif (so_far := who.only_read) < BUSY:
-            who.only_read = so_far + cost
-        else:
-            cost += EVENT * (self._count - self._count_then)
-        if reader is not None:
+        if running_strand() is not None:
             self.sleep_until(self.now + cost)
         elif not self.running and not self.closed:
             self.run_until(self.now + cost)
-        self._read_at = self.now
-        self._count_then = self._count
         return self.now
-
-    def sends_in_a_busy_loop(self) -> bool:
-        """Whether the caller has sent something since it read the clock, in a loop that does not wait."""
-        if self._count == self._count_then or self.now != self._read_at:
-            return False
-        return (running_strand() or self).only_read >= BUSY
 
     # -- running ---------------------------------------------------------------------------------------------
 

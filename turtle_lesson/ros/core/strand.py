@@ -37,7 +37,6 @@ class Strand(greenlet):
         name: what it is called, if nobody gives it another name.
         thread: the `threading.Thread` that it is, once somebody has asked.
         calls: functions to be called in it where it waits, such as handlers of signals.
-        only_read: how long (ns) nothing but reading the clock has let time pass for it; see `Simulation.read_clock`.
     """
 
     process: Process
@@ -51,7 +50,6 @@ class Strand(greenlet):
     name: str = ""
     thread: Any = None
     calls: Sequence[Callable[[], object]] = ()
-    only_read: int = 0
 
     def __init__(self, process: Process, target: Callable[[], Any]) -> None:
         super().__init__(target)

@@ -39,8 +39,6 @@ def count_look(simulation: Simulation) -> None:
     if simulation.looks > FREE_LOOKS:
         simulation.looks = 0
         simulation.read_clock(FREE_LOOKS * CLOCK_READ)
-    elif simulation.sends_in_a_busy_loop():
-        simulation.read_clock()
 
 
 def is_set(self: threading.Event) -> bool:
