@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import asyncio
 import os
 import signal
 import threading
-import warnings
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import kernels
 import pytest
 from jupyter_client.manager import start_new_kernel
 
@@ -41,11 +40,7 @@ def ask(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Ask]:
     ask(f"import sys; sys.path.insert(0, {root!r})")
     ask("%load_ext turtle_lesson\nfrom turtle_lesson import start\nlesson = start(seed=0)")
     yield ask
-    client.stop_channels()
-    manager.shutdown_kernel(now=True)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", DeprecationWarning)
-        asyncio.get_event_loop().close()  # which jupyter_client leaves open
+    kernels.end(manager, client)
 
 
 def test_the_stop_button_ends_a_long_command_and_the_cell(ask: Ask) -> None:

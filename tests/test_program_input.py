@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import asyncio
 import io
 import os
 import signal
 import sys
 import threading
-import warnings
 from collections.abc import Callable, Iterator
-from contextlib import suppress
 from pathlib import Path
 from textwrap import dedent
 from typing import Any
 
+import kernels
 import pytest
 from jupyter_client.manager import start_new_kernel
 from program_terminal import Terminal
@@ -188,11 +186,7 @@ def ask(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Ask]:
     ask(f"import sys; sys.path.insert(0, {root!r})")
     ask("%load_ext turtle_lesson\nfrom turtle_lesson import start\nlesson = start(seed=0)")
     yield ask
-    client.stop_channels()
-    manager.shutdown_kernel(now=True)
-    with warnings.catch_warnings(), suppress(RuntimeError):  # no loop
-        warnings.simplefilter("ignore", DeprecationWarning)
-        asyncio.get_event_loop().close()  # which jupyter_client may leave open
+    kernels.end(manager, client)
 
 
 def test_the_cell_asks_and_robot_time_stands_still(ask: Ask) -> None:

@@ -7,10 +7,10 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import kernels
 import pytest
 from jupyter_client.kernelspec import KernelSpecManager
 from jupyter_client.manager import start_new_kernel
-from jupyter_core.utils import ensure_event_loop
 
 from turtle_lesson.teaching.server import JUPYTER
 
@@ -39,9 +39,7 @@ def ask(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Ask]:
         return said["out"], said["error"]
 
     yield ask
-    client.stop_channels()
-    manager.shutdown_kernel(now=True)
-    ensure_event_loop().close()  # jupyter_client's own, which it leaves open
+    kernels.end(manager, client)
 
 
 def test_it_takes_the_place_of_jupyters_own(monkeypatch: pytest.MonkeyPatch) -> None:

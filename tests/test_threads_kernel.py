@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import asyncio
 import os
 import signal
 import threading
-import warnings
 from collections.abc import Callable, Iterator
-from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+import kernels
 import pytest
 from jupyter_client.manager import start_new_kernel
 
@@ -43,11 +41,7 @@ def ask(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Ask]:
     ask("from turtle_lesson import start\nlesson = start(seed=0)")
     ask("import asyncio, queue, threading, time\nimport rclpy")
     yield ask
-    client.stop_channels()
-    manager.shutdown_kernel(now=True)
-    with warnings.catch_warnings(), suppress(RuntimeError):  # no loop
-        warnings.simplefilter("ignore", DeprecationWarning)
-        asyncio.get_event_loop().close()  # which jupyter_client may leave open
+    kernels.end(manager, client)
 
 
 def test_a_node_spins_in_a_thread_and_prints_to_the_cell_that_runs_it(ask: Ask) -> None:

@@ -90,9 +90,8 @@ def start(
 def _built(seed: int, distro: str | None, mine: Workspace) -> Workspace:
     """The learner's workspace, built if its sources have changed. Prints what the build says where it fails."""
     if (mine.package / "package.xml").exists() and not mine.is_built:
-        world = open_world(
-            seed, distro
-        )  # one of its own: building takes robot time, and the lesson's world begins at 0 s
+        # A world of its own: building takes robot time, and the lesson's world begins at 0 s.
+        world = open_world(seed, distro)
         for each in underlay_packages():
             world.packages.add(each)
         if said := mine.build(world):

@@ -1,4 +1,4 @@
-"""A case file: what a user reports of a broken system, and hints for the learner who looks for the cause."""
+"""A case file: what a user reports of a broken system, and hints for finding the cause."""
 
 from __future__ import annotations
 
