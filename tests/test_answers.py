@@ -19,7 +19,7 @@ import pytest
 from answers import NOTEBOOKS, Answer, Answers, answer, code_cells, solution, stub
 
 from turtle_lesson.lab.checks import all_checks
-from turtle_lesson.lab.checks.registry import PAGES
+from turtle_lesson.story import PAGES
 
 LEAST_WRONG, LEAST_RIGHT = 6, 4
 TESTS = Path(__file__).resolve().parent

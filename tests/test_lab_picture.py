@@ -130,3 +130,13 @@ def test_pictures_leave_pyplot_alone():
     path = [*sys.path, __file__.rsplit("test_", 1)[0]]
     run = [sys.executable, "-c", f"import sys; sys.path[:] = {path!r}\n{code}"]
     assert subprocess.run(run, capture_output=True, text=True, check=False).stderr == ""
+
+
+def test_a_plain_script_starts_and_launches_without_what_only_a_page_needs():
+    code = (
+        "import sys; from turtle_lesson import start\n"
+        "lesson = start(package='finished'); lesson.launch('robot_controller', 'start_system.launch.py'); lesson.run(1)\n"
+        "needless = {'IPython', 'ipywidgets', 'anywidget', 'matplotlib', 'meshcat', 'nbformat'} & set(sys.modules)\n"
+        "assert not needless, needless"
+    )
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False).stderr == ""

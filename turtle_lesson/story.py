@@ -11,11 +11,29 @@ import re
 from collections.abc import Iterator, Sequence
 from functools import cache
 
-from .lab.checks.registry import PAGES
-from .lab.widgets.typed_names import did_you_mean
+from .lab.typed_names import did_you_mean
 from .sourced import HERE
 
-PUBLISHED = HERE.parent / "notebooks"
+PAGES = (
+    "00_welcome",
+    "01_publish_and_subscribe",
+    "02_services_and_interfaces",
+    "03_navigator",
+    "03b_answer_on_arrival",
+    "04_status_monitor",
+    "05_obstacle_detector",
+    "06_parameters_and_launch",
+    "07_command_line",
+    "08_executors",
+    "09_debugging_lab",
+    "10_test_and_validate",
+    "11_to_a_real_robot",
+)
+"""The lesson's pages, in their order."""
+
+PUBLISHED = HERE / "pages" if (HERE / "pages").is_dir() else HERE.parent / "notebooks"
+"""The published pages: in `notebooks` of a checkout; a wheel has them beside the modules."""
+
 PACKAGE = "workspace/src/robot_controller/"
 """Where the learner's package is, seen from the notebook's folder."""
 

@@ -16,7 +16,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import files, story
-from .lab.checks.registry import PAGES
 from .ros.command.shell import home
 from .ros.workspace import templates
 from .ros.workspace.create import TO_DO_DESCRIPTION
@@ -186,7 +185,7 @@ class Workspace:
             memory = json.loads((self.folder / ".pages.json").read_text(encoding="utf-8"))
         except (OSError, ValueError):  # there is none, or it was damaged: then all files count as the learner's own
             memory = {}
-        return {"page": PAGES[0], "files": {}} | (memory if isinstance(memory, dict) else {})
+        return {"page": story.PAGES[0], "files": {}} | (memory if isinstance(memory, dict) else {})
 
     def _remember(self, memory: dict[str, Any]) -> None:
         files.write(self.folder / ".pages.json", json.dumps(memory, indent=1) + "\n")
@@ -199,7 +198,7 @@ def _may_replace(path: str, now: str, text: str, memory: dict[str, Any]) -> bool
     if now == text or published or _is_template(path, now):
         return True
     written, page = memory["files"].get(path, ["", ""])
-    earlier = page == "" or PAGES.index(page) <= PAGES.index(here)
+    earlier = page == "" or story.PAGES.index(page) <= story.PAGES.index(here)
     return written == _hash(now) and earlier
 
 

@@ -232,7 +232,7 @@ def ask(
 def tell(name: str, value: Any) -> Outcome:
     """Say what came of it. Raises ValueError for a name that was never asked, and for a value that the question cannot have."""
     if name not in _questions:
-        from .widgets.typed_names import did_you_mean, enumerated
+        from .typed_names import did_you_mean, enumerated
 
         hint = did_you_mean(str(name), _questions) or f"Asked were: {enumerated(_questions)}."
         raise ValueError(

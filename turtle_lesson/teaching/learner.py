@@ -15,7 +15,7 @@ import nbformat
 
 from .. import files
 from ..lab import progress
-from ..lab.checks.registry import PAGES
+from ..story import PAGES
 from . import pages
 
 FOLDER = "my-lesson"
@@ -77,8 +77,8 @@ class LearnersFolder:
         self._remember()
         if not any((self.path / name).is_file() for name in NAMES):
             raise pages.PageError(
-                f"the lesson's pages are not here (they would be in {source or pages.PUBLISHED}). Run the command from "
-                "the lesson's checkout, or name a folder of published pages: --from FOLDER"
+                f"the lesson's pages are not here (they would be in {source or pages.PUBLISHED}). Name a folder of "
+                "published pages: --from FOLDER"
             )
         return said
 

@@ -71,7 +71,7 @@ def _add_open(commands: argparse._SubParsersAction) -> None:
 
 
 def _add_from(command: argparse.ArgumentParser) -> None:
-    where = "folder of the published pages (default: those of the checkout that this command belongs to)"
+    where = "folder of the published pages (default: those that came with this command)"
     command.add_argument("--from", dest="source", type=Path, metavar="FOLDER", help=where)
 
 

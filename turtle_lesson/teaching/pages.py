@@ -10,12 +10,10 @@ from typing import Any
 
 import nbformat
 
-from ..lab.checks.registry import PAGES
+from ..story import PAGES, PUBLISHED
 
-CHECKOUT = Path(__file__).resolve().parents[2]
-"""Where the project lies, if it was installed from its checkout (as README says); the pages are in `notebooks`."""
-
-PUBLISHED = CHECKOUT / "notebooks"
+CHECKOUT = PUBLISHED.parent
+"""Where the project lies, if it was installed from its checkout (as README says)."""
 SOLUTION = "solution"
 """Tag of the cells that hold a solution."""
 
@@ -110,8 +108,8 @@ def unused(path: Path, word: str) -> Path:
 def published(path: Path, source: Path | None = None) -> bytes:
     """The published page that a copy is of.
 
-    Published is what lies in `source`; without one, what the checkout's version control holds, or else what lies in the
-    checkout's `notebooks`. Raises PageError where it is found in neither.
+    Published is what lies in `source`; without one, what the checkout's version control holds, or else what was installed.
+    Raises PageError where it is found in neither.
     """
     if path.suffix != ".ipynb":
         raise PageError(f"{path} is not a notebook: its name should end in .ipynb")
@@ -122,8 +120,8 @@ def published(path: Path, source: Path | None = None) -> bytes:
         raise PageError(f"there is no {name} in {source}")
     if content is None:
         raise PageError(
-            f"the published {name} is not here (it would be in {PUBLISHED}). Run the command from the lesson's checkout, "
-            "or name a folder of published pages: --from FOLDER"
+            f"the published {name} is not here (it would be in {PUBLISHED}). Name a folder of published pages: "
+            "--from FOLDER"
         )
     if source is None and file.resolve() == path.resolve() and _from_git(name) is None:
         raise PageError(

@@ -4,7 +4,7 @@ A page asks for a check by its name, `lesson.check("status_monitor")`, and shows
 list of *expectations*. Each has a text and a function that looks, and becomes a row: ✓, or ✗ with what was seen and some
 advice, or – where it cannot be looked at, with the reason. Every ✓ together earns the check's points.
 
-**To write one**, add it to the module of its page (`page_04.py`; a new page is named in `registry.PAGES`):
+**To write one**, add it to the module of its page (`page_04.py`; a new page is named in `story.PAGES`):
 
     @check("talker", page="01_publish_and_subscribe", points=3, limit=15, learnt="A timer makes a steady stream.")
     def talker() -> list[Expectation]:
@@ -56,14 +56,13 @@ Nodes that live in a notebook cell, and that no executor spins, are spun while a
 
 from .exam import Answer, Exam, Heard
 from .fields import field, interface
-from .registry import PAGES, Check, Expectation, all_checks, check, checks_of, find
+from .registry import Check, Expectation, all_checks, check, checks_of, find
 from .result import METADATA, CheckResult
 from .rows import Advice, CannotLook, OutOfTime, Row, Seen, Stopped
 from .runner import run
 
 __all__ = [
     "METADATA",
-    "PAGES",
     "Advice",
     "Answer",
     "CannotLook",

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-from ..widgets.typed_names import did_you_mean
+from ..typed_names import did_you_mean
 from .exam import Exam
 from .registry import Expectation
 from .rows import Advice, CannotLook, Seen

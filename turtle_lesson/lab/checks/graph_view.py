@@ -6,7 +6,7 @@ from collections import Counter
 from typing import Any
 
 from ..system import is_hidden
-from ..widgets.typed_names import nearest
+from ..typed_names import nearest
 
 
 class GraphView:

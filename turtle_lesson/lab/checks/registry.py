@@ -7,28 +7,12 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ..widgets.typed_names import did_you_mean, enumerated
+from ...story import PAGES
+from ..typed_names import did_you_mean, enumerated
 from .rows import Seen
 
 if TYPE_CHECKING:
     from .exam import Exam
-
-PAGES = (
-    "00_welcome",
-    "01_publish_and_subscribe",
-    "02_services_and_interfaces",
-    "03_navigator",
-    "03b_answer_on_arrival",
-    "04_status_monitor",
-    "05_obstacle_detector",
-    "06_parameters_and_launch",
-    "07_command_line",
-    "08_executors",
-    "09_debugging_lab",
-    "10_test_and_validate",
-    "11_to_a_real_robot",
-)
-"""The lesson's pages, in their order."""
 
 MODULES = tuple(f"page_{page.partition('_')[0]}" for page in PAGES)
 """The modules beside this one that define checks, one a page; they are imported when a check is first asked for."""

@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from ..table import Table
+from ..typed_names import did_you_mean, enumerated, is_hidden, nearest
 from .message_types import find_class, kinds_of
-from .typed_names import did_you_mean, enumerated, is_hidden, nearest
 
 KEPT = 20_000
 """Numbers that are kept of a curve: more than five minutes of a turtle's pose."""

@@ -6,6 +6,7 @@ from typing import Any
 
 import traitlets
 
+from ..typed_names import did_you_mean, enumerated, is_hidden
 from ..words import count, listed
 from .caller import Caller
 from .form_fields import FieldError, Group, Rows, Single, find_part
@@ -15,7 +16,6 @@ from .outlet import Outlet, let_time_go_on
 from .pace import Pace
 from .station import Station
 from .typed_line import call_line, publish_line
-from .typed_names import did_you_mean, enumerated, is_hidden
 
 FASTEST = 100.0
 """How many messages a second a form publishes at most."""

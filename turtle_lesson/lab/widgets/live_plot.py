@@ -11,6 +11,7 @@ import traitlets
 
 from ..channel import Channel
 from ..recording import NANOSECONDS, OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC
+from ..typed_names import enumerated, is_hidden
 from ..words import count, number
 from .curve import Curve, mistyped
 from .live_plot_picture import draw
@@ -18,7 +19,6 @@ from .live_widget import LiveWidget, script, styles
 from .pace import Pace
 from .packing import pack
 from .station import Station
-from .typed_names import enumerated, is_hidden
 
 if TYPE_CHECKING:
     from ..picture import Picture

@@ -5,9 +5,9 @@ from __future__ import annotations
 from contextlib import suppress
 from typing import Any
 
+from ..typed_names import enumerated
 from ..words import listed
 from .station import Station
-from .typed_names import enumerated
 
 PATIENCE = 1.0
 """Robot time, s, for which a message waits until a publisher that was just made has found its listeners."""
