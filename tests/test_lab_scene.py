@@ -6,7 +6,8 @@ import gzip
 import html
 import json
 import re
-import socket
+import subprocess
+import sys
 from base64 import b64decode
 from collections.abc import Iterator
 from itertools import pairwise
@@ -14,7 +15,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import psutil
 import pytest
 import umsgpack
 from hypothesis import given
@@ -189,15 +189,29 @@ def test_showing_the_scene_leaves_robot_time_alone(lesson: Lesson) -> None:
     lesson.scene()._order(lesson.scene(), {"do": "close", "view": "v"}, [])
 
 
-def test_no_port_is_opened(lesson: Lesson) -> None:
-    def listening() -> set[Any]:
-        return {each.laddr for each in psutil.Process().net_connections() if each.status == psutil.CONN_LISTEN}
+SCENES = """
+import socket, subprocess, sys, threading
 
-    before = listening()
-    scene = lesson.scene()
-    scene.redraw()
-    scene.snapshot()
-    assert listening() == before and socket.getdefaulttimeout() is None
+def refused(*_):
+    raise AssertionError("neither a port nor a program is needed")
+
+socket.socket.bind = socket.socket.listen = subprocess.Popen.__init__ = refused
+
+from turtle_lesson import start
+lesson = start(seed=0)
+lesson.launch("robot_controller", "start_system.launch.py", source="world")
+lesson.run(1)
+before = threading.enumerate()
+scene = lesson.scene()
+lesson.run(1)
+scene.redraw(), scene.snapshot(), scene.animation()
+print("meshcat" in sys.modules, "pyngrok" in sys.modules, set(threading.enumerate()) <= set(before))
+"""
+
+
+def test_meshcats_server_never_runs_and_the_tunnel_that_it_could_open_is_never_imported() -> None:
+    done = subprocess.run([sys.executable, "-c", SCENES], capture_output=True, text=True, check=False)
+    assert done.stdout.splitlines()[-1:] == ["True False True"], done.stderr
 
 
 # -- shapes ----------------------------------------------------------------------------------------------------------
