@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import traceback
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -19,7 +20,6 @@ from turtle_lesson.ros.command import shell as terminal
 from turtle_lesson.ros.command.cells import COMMANDS, UNSURE, translate
 from turtle_lesson.ros.command.completion import complete
 from turtle_lesson.ros.command.elsewhere import ELSEWHERE, advice
-from turtle_lesson.ros.core.virtual_time import real_monotonic
 from turtle_lesson.ros.world import current_world
 
 Run = Callable[..., str]
@@ -383,11 +383,70 @@ def test_python_that_could_be_a_command_is_python_if_the_name_is_a_variable() ->
     assert translate(["source / opt\n"], set()) != ["source / opt\n"]
 
 
+def work_of(lines: list[str]) -> int:
+    """How many functions are called to translate these lines."""
+    calls = 0
+
+    def count(frame: object, event: str, argument: object) -> None:
+        nonlocal calls
+        calls += event in ("call", "c_call")
+
+    before = sys.getprofile()
+    sys.setprofile(count)
+    try:
+        translate(lines)
+    finally:
+        sys.setprofile(before)
+    return calls
+
+
 @pytest.mark.parametrize("piece", ["x;", "1:cd a", "ros2 ;", "if x: ", "'; ls", "[;ls "])
-def test_endless_lines_are_read_at_once(piece: str) -> None:
-    began = real_monotonic()
-    translate([piece * (10_000 // len(piece)) + "\n"])
-    assert real_monotonic() - began < 2
+def test_twice_as_long_a_line_is_at_most_twice_the_work(piece: str) -> None:
+    long = 10_000 // len(piece)
+    assert work_of([piece * 2 * long + "\n"]) < 2.2 * work_of([piece * long + "\n"])
+
+
+ENDLESS = [
+    "ros2 topic list \\",
+    "echo \\",
+    "x = 1 + \\",
+    "foo(",
+    "foo(bar,",
+    "x = [",
+    "ls -1",
+    "echo (",
+    "echo it's",
+    "echo '",
+    "cat <<END",
+    'ls \\"""',
+    '\\"""',
+    'x = """ ' + "'''",
+    "x''' (",
+    "a'\\",
+    "def f(ls",
+    "ls, x",
+    "%time \\",
+]
+
+
+@pytest.mark.parametrize("line", ENDLESS)
+def test_twice_as_many_lines_are_at_most_twice_the_work(line: str) -> None:
+    """Lines that go on to the cell's end, or whose brackets and quotes are never closed, are not read again and again."""
+    lines = [f"{line}\n"] * 200
+    assert work_of(2 * lines) < 2.2 * work_of(lines)
+
+
+def test_what_is_never_closed_ends_with_its_line_and_later_statements_are_whole() -> None:
+    lines = ["x = (\n", "y = [\n", "ls -1\n", "]\n", "z = '''\n", "ls -1\n", "'''\n", "ls -1\n"]
+    assert translate(lines, {"ls"}) == lines, "ls - 1 is Python, with a variable of this name"
+    assert [line.startswith("get_ipython()") for line in translate(lines)] == [False] * 7 + [True]
+
+
+def test_a_command_that_ends_in_a_backslash_is_one_command() -> None:
+    """It is refused once, with all its lines, not once for each."""
+    translated = translate(["ros2 topic pub /t \\\n", "  std_msgs/String \\\n"])
+    assert translated[0].count("std_msgs/String") == 1
+    assert translated[1:] == ["\n"]
 
 
 @given(some.lists(some.text(alphabet="ros2 cd\\\"'#()[]{}&|;=:\n\tx5%!é\x00"), max_size=6))

@@ -18,7 +18,7 @@ from turtle_lesson.ros.command.parser import verb_parser
 from turtle_lesson.ros.command.shell import run_line
 from turtle_lesson.ros.command.streams import CellErrors, Errors
 from turtle_lesson.ros.command.usage import WIDTH, group_help, top_help
-from turtle_lesson.ros.command.words import Operator, UnfinishedError, Word, is_unfinished, tokens
+from turtle_lesson.ros.command.words import Operator, UnfinishedError, Word, command_end, tokens
 from turtle_lesson.ros.world import World
 
 
@@ -69,9 +69,27 @@ def test_signs_between_commands() -> None:
     assert found == ["&&", "||", ";", "&", "|", ">", ">>", "\n", "2>", "2>&1"]
 
 
-@pytest.mark.parametrize("line", ["'a", '"a', "a \\", "a 'b\n", "a &&", "a |"])
-def test_what_goes_on_in_the_next_line(line: str) -> None:
-    assert is_unfinished(line)
+@pytest.mark.parametrize(
+    ("first", "second"),
+    [
+        ("'a", "b'"),
+        ('"a', 'b"'),
+        ("a \\", "b"),
+        ("a 'b\n", "'"),
+        ("a &&", "b"),
+        ("a |", "b"),
+        ("a |\n# or", "b"),
+        ("a <<E", "E"),
+    ],
+)
+def test_what_goes_on_in_the_next_line(first: str, second: str) -> None:
+    assert command_end(f"x\n{first}\n{second}\nc\n", 2) == len(f"x\n{first}\n{second}\n")
+
+
+@pytest.mark.parametrize("line", ["'a", '"a', "a 'b\n", "cat <<E"])
+def test_what_is_never_closed(line: str) -> None:
+    with pytest.raises(UnfinishedError, match="is never closed"):
+        command_end(f"{line}\nc\n")
 
 
 @given(some.text(max_size=60))

@@ -13,11 +13,12 @@ import difflib
 import re
 import shutil
 import textwrap
+from bisect import bisect_left
 from collections.abc import Container, Iterator
-from dataclasses import dataclass
+from itertools import accumulate
 
 from .elsewhere import ELSEWHERE, NEVER_PYTHON
-from .words import is_unfinished
+from .words import UnfinishedError, command_end
 
 COMMANDS = ("ros2", "colcon", "source", "mkdir", "cd", "ls", "pwd", "cat", "touch", "jobs", "kill")
 """Words that are a command unless they are a variable."""
@@ -60,18 +61,6 @@ _DEEPER = {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}
 _STRING = re.compile(r"(?i)(?:[rbfut]{0,3})('''|\"\"\"|'|\")")
 
 
-@dataclass(frozen=True)
-class _Python:
-    """What is known of the Python around a line: which command words are variables."""
-
-    variables: Container[str]
-    cell: str
-
-    def has(self, word: str) -> bool:
-        """Whether a word is a variable, of the notebook or of this cell."""
-        return word in self.variables or _is_assigned(word, self.cell)
-
-
 def translate(lines: list[str], variables: Container[str] = ()) -> list[str]:
     """Replace the commands among a cell's lines; the number of lines stays as it is.
 
@@ -79,16 +68,16 @@ def translate(lines: list[str], variables: Container[str] = ()) -> list[str]:
         lines: the cell's lines, with their line ends.
         variables: names that have a value, and so are Python wherever they could be.
     """
-    python = _Python(variables, "".join(lines))
+    cell = _Cell(lines, variables)
     translated: list[str] = []
     at = 0
     while at < len(lines):
-        column = _command_column(lines, at, python)
+        column = _command_column(cell, at)
         if column is not None:
-            end = _end_of_script(lines, at, column)
+            end = cell.script_end(at, column)
             translated += _call(lines[at:end], column)
         else:
-            end = _statement_end(lines, at)
+            end = cell.statement_end(at)
             translated += lines[at:end]
         at = end
     return translated
@@ -97,18 +86,19 @@ def translate(lines: list[str], variables: Container[str] = ()) -> list[str]:
 # -- commands ------------------------------------------------------------------------------------------------------------
 
 
-def _command_column(lines: list[str], at: int, python: _Python) -> int | None:
+def _command_column(cell: _Cell, at: int) -> int | None:
     """Where in the statement's first line a command begins; None if there is none."""
-    if _is_command(lines, at, 0, python):
+    if _is_command(cell, at, 0):
         return 0
-    if lines[at].lstrip().startswith(("%", "!")):
+    line = cell.lines[at]
+    if line.lstrip().startswith(("%", "!")):
         return None
-    return next((column for column in inner_places(lines[at]) if _is_command(lines, at, column, python)), None)
+    return next((column for column in inner_places(line) if _is_command(cell, at, column)), None)
 
 
-def _is_command(lines: list[str], at: int, column: int, python: _Python) -> bool:
+def _is_command(cell: _Cell, at: int, column: int) -> bool:
     """Whether what begins at this column of a line is meant for the terminal."""
-    found = _FIRST.match(lines[at], column)
+    found = _FIRST.match(cell.lines[at], column)
     if found is None:
         return False
     sign, word, rest = (found["sign"] or "").strip(), found["word"], found["rest"]
@@ -119,19 +109,15 @@ def _is_command(lines: list[str], at: int, column: int, python: _Python) -> bool
     if sign == "!":
         return word in OWN_MAGICS and shutil.which(word) is None
     if _VARIABLE.match(word + rest):
-        return not _is_python(_statement(lines, at, column))
+        return not _is_python(cell.statement(at, column))
     if _PYTHON_NEXT.match(rest):
         return False
     if word in COMMANDS or word == ".":
-        return not python.has(word) or not _is_python(_statement(lines, at, column))
+        return not cell.has(word) or not _is_python(cell.statement(at, column))
     if not rest.strip():
-        return word in NEVER_PYTHON and not python.has(word)
+        return word in NEVER_PYTHON and not cell.has(word)
     known = word in UNSURE or bool(difflib.get_close_matches(word, ("ros2", "colcon"), 1, 0.75))
-    return known and not _is_python(_statement(lines, at, column))
-
-
-def _statement(lines: list[str], at: int, column: int) -> str:
-    return "".join([lines[at][column:], *lines[at + 1 : _statement_end(lines, at)]])
+    return known and not _is_python(cell.statement(at, column))
 
 
 def inner_places(line: str) -> Iterator[int]:
@@ -152,16 +138,6 @@ def _opens(head: str, body: str) -> bool:
     return any(_is_python(f"{before}{head.strip()}{body}") for before in ("", "if 1: pass\n", "try: pass\n"))
 
 
-def _end_of_script(lines: list[str], at: int, column: int) -> int:
-    """A command goes on while a quote is open or its line ends in a backslash."""
-    script = lines[at][column:]
-    for end in range(at + 1, len(lines) + 1):
-        if not is_unfinished(script.rstrip("\n")):
-            return end
-        script += "".join(lines[end : end + 1])
-    return at + 1
-
-
 def _is_python(statement: str) -> bool:
     try:
         ast.parse(textwrap.dedent(statement).lstrip(" \t"))
@@ -174,9 +150,9 @@ def _is_assigned(word: str, cell: str) -> bool:
     """Whether a cell itself gives a value to a word."""
     word = re.escape(word)
     return bool(
-        re.search(rf"(?m)(?:^|[\s,(*]){word}\s*(?:,[^=\n]*)?(?::[^=\n]*)?=(?!=)", cell)
+        re.search(rf"(?m)(?:^|[\s,(*]){word}\s*(?:[,:][^=\n]*)?=(?!=)", cell)
         or re.search(rf"\b(?:for|import|as|def|class|global)\s+{word}\b", cell)
-        or re.search(rf"\bdef\s+\w+\([^)]*\b{word}\b", cell)
+        or re.search(rf"\bdef\s+\w+\([^)]{{0,1000}}\b{word}\b", cell)
     )
 
 
@@ -193,31 +169,91 @@ def _call(lines: list[str], column: int) -> list[str]:
 # -- Python --------------------------------------------------------------------------------------------------------------
 
 
-def _statement_end(lines: list[str], at: int) -> int:
-    """The line behind the Python statement that begins here: brackets and long strings hold it together."""
-    first = lines[at].lstrip()
-    depth, string = 0, ""
-    for end in range(at, len(lines)):
-        line = lines[end]
-        if first.startswith(("%", "!")):
-            going_on = line.rstrip("\n").endswith("\\")
-        else:
-            depth, string, going_on = _scan(line, depth, string)
-        if not going_on:
-            return end + 1
-    return at + 1 if depth or string else len(lines)
+class _Cell:
+    """A cell's lines, and where their statements and commands end.
+
+    A line is not read again for each statement that it might belong to: what an unclosed bracket holds open to the cell's
+    end shows on the way where the statements end that begin in later lines.
+    """
+
+    def __init__(self, lines: list[str], variables: Container[str]) -> None:
+        self.lines = lines
+        self._text = "".join(lines)
+        self._begins = [0, *accumulate(map(len, lines))]
+        self._variables = variables
+        self._known: dict[str, bool] = {}
+        self._ends: dict[int, int] = {}
+        self._endless: dict[
+            str, int
+        ] = {}  # from which line's end on a string is open until the cell ends, by its quote
+
+    def has(self, word: str) -> bool:
+        """Whether a word is a variable, of the notebook or of this cell."""
+        if word not in self._known:
+            self._known[word] = word in self._variables or _is_assigned(word, self._text)
+        return self._known[word]
+
+    def script_end(self, at: int, column: int) -> int:
+        """The line behind a command, which goes on while a quote is open or its line ends in a backslash."""
+        try:
+            end = command_end(self._text, self._begins[at] + column)
+        except UnfinishedError:
+            return at + 1
+        return bisect_left(self._begins, end)
+
+    def statement(self, at: int, column: int) -> str:
+        """The Python statement that begins here."""
+        return "".join([self.lines[at][column:], *self.lines[at + 1 : self.statement_end(at)]])
+
+    def statement_end(self, at: int) -> int:
+        """The line behind the Python statement that begins here: brackets and long strings hold it together.
+
+        One with a bracket or a string that is never closed ends with its first line.
+        """
+        if self.lines[at].lstrip().startswith(("%", "!")):
+            return next(
+                (end for end in range(at + 1, len(self.lines)) if not _is_continued(self.lines[end - 1])),
+                len(self.lines),
+            )
+        if at not in self._ends:
+            self._read_statement(at)
+        return self._ends[at]
+
+    def _read_statement(self, at: int) -> None:
+        """Read to the end of a statement, or of the cell; note where those end that begin on the way."""
+        opened: list[int] = []  # the line of each bracket that is open
+        closed: dict[int, int] = {}  # where the outermost bracket of a line is closed
+        joined: set[int] = set()  # lines that end in a backslash, or within a string
+        starts: list[int] = []
+        string, since, last = "", at, at
+        for last in range(at, len(self.lines)):
+            starts += [] if string else [last]
+            kind, text, before = "", "", string
+            for kind, text, _ in _pieces(self.lines[last], string):
+                if kind == "bracket" and _DEEPER[text] > 0:
+                    opened.append(last)
+                elif kind == "bracket" and opened:
+                    closed[opened.pop()] = last
+            string = text if kind == "open string" else ""
+            since = since if string == before else last
+            if kind in ("open string", "backslash"):
+                joined.add(last)
+            if (not opened and last not in joined) or last >= self._endless.get(string, len(self.lines)):
+                break
+        if string:
+            self._endless[string] = min(since, self._endless.get(string, since))
+        behind = None if string else len(self.lines)
+        ends: dict[int, int | None] = dict.fromkeys(opened)
+        for line in range(last, at - 1, -1):
+            if closed.get(line, line) > line:
+                ends.setdefault(line, ends[closed[line]])
+            else:
+                ends.setdefault(line, ends.get(line + 1, behind) if line in joined else line + 1)
+        self._ends.update((line, ends[line] or line + 1) for line in starts)
 
 
-def _scan(line: str, depth: int, string: str) -> tuple[int, str, bool]:
-    """Read one line: the brackets and the string that are open behind it, and whether the statement goes on."""
-    for kind, text, _ in _pieces(line, string):
-        if kind == "open string":
-            return depth, text, True
-        if kind == "bracket":
-            depth = max(0, depth + _DEEPER[text])
-        elif kind == "backslash":
-            return depth, "", True
-    return depth, "", depth > 0
+def _is_continued(line: str) -> bool:
+    return line.rstrip("\n").endswith("\\")
 
 
 def _pieces(line: str, string: str) -> Iterator[tuple[str, str, int]]:

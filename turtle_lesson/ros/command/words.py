@@ -13,6 +13,9 @@ from dataclasses import dataclass
 _CONTINUED = re.compile(r"\\[ \t]*\n")
 """A backslash at a line's end. Blanks behind it, which nobody sees, do no harm here."""
 
+_LAST = re.compile(r"\\[ \t]*\Z")
+"""A backslash at the text's end."""
+
 _HERE = re.compile(r"<<-?[ \t]*(['\"]?)(\w+)\1")
 
 OPERATORS = ("&&", "||", ">>", "2>&1", "&>", "2>", ";", "&", "|", ">", "<", "\n")
@@ -50,6 +53,10 @@ class HereText:
     text: str
 
 
+class BackslashAtEndError(UnfinishedError):
+    """The last line ends in a backslash."""
+
+
 Token = Word | Operator | HereText
 
 
@@ -64,19 +71,31 @@ def tokens(text: str) -> Iterator[Token]:
         yield token
 
 
-def is_unfinished(text: str) -> bool:
-    """Whether a command goes on in the next line: a quote is open, or a backslash stands at its end."""
+def command_end(text: str, at: int = 0) -> int:
+    """The place behind the command that begins at a place of a text, and behind its line's end.
+
+    It goes on in the next line while a quote or a `<<END` is open, and behind a backslash, `&&`, `||` or `|`; where such
+    a thing is the last one, the command takes all that is left.
+
+    Raises:
+        UnfinishedError: if a quote or a `<<END` is never closed.
+    """
+    scanner, before = _Scanner(text, at), None
     try:
-        found = list(tokens(text))
-    except UnfinishedError:
-        return True
-    return bool(found) and found[-1] in (Operator("&&"), Operator("||"), Operator("|"))
+        while (token := scanner.next()) is not None:
+            if token != Operator("\n"):
+                before = token
+            elif before not in (Operator("&&"), Operator("||"), Operator("|")):
+                break
+    except BackslashAtEndError:
+        return len(text)
+    return len(text) - len(scanner.text) + scanner.at
 
 
 class _Scanner:
-    def __init__(self, text: str) -> None:
+    def __init__(self, text: str, at: int = 0) -> None:
         self.text = text
-        self.at = 0
+        self.at = at
 
     def next(self) -> Token | None:
         self._skip_space()
@@ -153,8 +172,8 @@ class _Scanner:
         if continued is not None:
             self.at = continued.end()
             return ""
-        if not self.text[self.at + 1 :].strip(" \t"):
-            raise UnfinishedError("a backslash at the end of a line continues on the next line, and there is none")
+        if _LAST.match(self.text, self.at):
+            raise BackslashAtEndError("a backslash at the end of a line continues on the next line, and there is none")
         char = self.text[self.at + 1]
         self.at += 2
         return char
