@@ -23,10 +23,10 @@ OF_THE_RECORDER = "rosbag2_interfaces/"  # what `ros2 bag` tells of its own file
 PACKAGES = words(
     """
 ackermann_msgs action_msgs action_tutorials_interfaces actionlib_msgs builtin_interfaces composition_interfaces
-control_msgs diagnostic_msgs example_interfaces gazebo_msgs geometry_msgs lifecycle_msgs nav2_msgs nav_msgs
-rcl_interfaces rmw_dds_common rosgraph_msgs sensor_msgs service_msgs shape_msgs statistics_msgs std_msgs std_srvs
-stereo_msgs tf2_msgs trajectory_msgs turtlebot3_msgs turtlesim type_description_interfaces unique_identifier_msgs
-visualization_msgs
+control_msgs diagnostic_msgs example_interfaces gazebo_msgs geometry_msgs lifecycle_msgs moveit_msgs nav2_msgs
+nav_msgs object_recognition_msgs octomap_msgs px4_msgs rcl_interfaces rmw_dds_common rosgraph_msgs sensor_msgs
+service_msgs shape_msgs statistics_msgs std_msgs std_srvs stereo_msgs tf2_msgs trajectory_msgs turtlebot3_msgs
+turtlesim type_description_interfaces unique_identifier_msgs visualization_msgs
 """
 )
 
@@ -131,6 +131,28 @@ def test_every_default_message_travels() -> None:
             ["name xml robot_namespace initial_pose reference_frame", "success status_message"],
         ),
         (
+            "gazebo_msgs/srv/SpawnModel",
+            ["model_name model_xml robot_namespace initial_pose reference_frame", "success status_message"],
+        ),
+        ("moveit_msgs/action/ExecuteTrajectory", ["trajectory", "error_code", "state"]),
+        (
+            "moveit_msgs/action/MoveGroup",
+            [
+                "request planning_options",
+                "error_code trajectory_start planned_trajectory executed_trajectory planning_time",
+                "state",
+            ],
+        ),
+        (
+            "moveit_msgs/srv/GetCartesianPath",
+            [
+                "header start_state group_name link_name waypoints max_step jump_threshold prismatic_jump_threshold"
+                " revolute_jump_threshold avoid_collisions path_constraints",
+                "start_state solution fraction error_code",
+            ],
+        ),
+        ("moveit_msgs/srv/GetPositionIK", ["ik_request", "solution error_code"]),
+        (
             "nav2_msgs/action/NavigateToPose",
             [
                 "pose behavior_tree",
@@ -139,6 +161,7 @@ def test_every_default_message_travels() -> None:
             ],
         ),
         ("nav2_msgs/action/ComputePathToPose", ["goal start planner_id use_start", "path planning_time", ""]),
+        ("nav2_msgs/srv/IsPathValid", ["path", "is_valid invalid_pose_indices"]),
         ("nav2_msgs/srv/ManageLifecycleNodes", ["command", "success"]),
         ("nav_msgs/srv/GetMap", ["", "map"]),
         ("nav_msgs/srv/GetPlan", ["start goal tolerance", "plan"]),
@@ -147,6 +170,7 @@ def test_every_default_message_travels() -> None:
         ("rcl_interfaces/srv/GetLoggerLevels", ["names", "levels"]),
         ("rcl_interfaces/srv/SetLoggerLevels", ["levels", "results"]),
         ("sensor_msgs/srv/SetCameraInfo", ["camera_info", "success status_message"]),
+        ("octomap_msgs/srv/GetOctomap", ["", "map"]),
         ("tf2_msgs/srv/FrameGraph", ["", "frame_yaml"]),
         (
             "tf2_msgs/action/LookupTransform",
@@ -156,6 +180,7 @@ def test_every_default_message_travels() -> None:
                 "",
             ],
         ),
+        ("turtlebot3_msgs/action/Patrol", ["goal", "result", "state"]),
         ("turtlesim/action/RotateAbsolute", ["theta", "delta", "remaining"]),
         (
             "type_description_interfaces/srv/GetTypeDescription",
@@ -200,6 +225,53 @@ def test_constants_are_on_the_class_and_its_messages() -> None:
     assert (State.PRIMARY_STATE_ACTIVE, Transition.TRANSITION_CALLBACK_ERROR) == (3, 99)
     assert (SolidPrimitive.CONE, TF2Error.EXTRAPOLATION_ERROR) == (4, 3)
     assert LoadMap.Response.RESULT_UNDEFINED_FAILURE == LoadMap.Response().RESULT_UNDEFINED_FAILURE == 255
+
+
+def test_a_request_to_move_an_arm_is_filled_in_as_in_moveit_s_examples() -> None:
+    """The fields of Humble (moveit_msgs 2.2.1): the limited link was renamed, and more fields came, in 2.3.0."""
+    from moveit_msgs.action import MoveGroup
+    from moveit_msgs.msg import (
+        CollisionObject,
+        Constraints,
+        JointConstraint,
+        MotionPlanRequest,
+        MoveItErrorCodes,
+        OrientationConstraint,
+        PlanningSceneComponents,
+    )
+    from shape_msgs.msg import SolidPrimitive
+
+    elbow = JointConstraint(joint_name="elbow", position=1.5, tolerance_above=0.01, tolerance_below=0.01, weight=1.0)
+    goal = MoveGroup.Goal(request=MotionPlanRequest(group_name="arm", allowed_planning_time=5.0))
+    goal.request.goal_constraints = [Constraints(joint_constraints=[elbow])]
+    goal.planning_options.planning_scene_diff.is_diff = True
+    assert deserialize(serialize(goal), MoveGroup.Goal) == goal
+    assert goal.request.cartesian_speed_end_effector_link == ""
+    assert not hasattr(goal.request, "cartesian_speed_limited_link")
+
+    box = CollisionObject(id="box", primitives=[SolidPrimitive(type=SolidPrimitive.BOX, dimensions=[1.0, 2.0, 3.0])])
+    assert box.operation == CollisionObject.ADD == b"\x00"
+    assert (CollisionObject.REMOVE, CollisionObject.MOVE) == (b"\x01", b"\x03")
+    assert MoveGroup.Result().error_code == MoveItErrorCodes(val=0)
+    assert (MoveItErrorCodes.SUCCESS, MoveItErrorCodes.FAILURE, MoveItErrorCodes.NO_IK_SOLUTION) == (1, 99999, -31)
+    assert (MoveItErrorCodes.TIMED_OUT, MoveItErrorCodes.START_STATE_INVALID) == (-6, -26)
+    assert (OrientationConstraint.ROTATION_VECTOR, PlanningSceneComponents.OBJECT_COLORS) == (1, 512)
+
+
+def test_an_offboard_node_s_messages_are_those_of_px4_1_14() -> None:
+    from px4_msgs.msg import ActuatorMotors, OffboardControlMode, TrajectorySetpoint, VehicleCommand, VehicleStatus
+
+    assert list(OffboardControlMode.get_fields_and_field_types()) == words(
+        "timestamp position velocity acceleration attitude body_rate actuator"
+    )
+    above = TrajectorySetpoint(position=[0.0, 0.0, -5.0], velocity=[float("nan")] * 3, yaw=-3.14)
+    assert above.position.tolist() == [0.0, 0.0, -5.0]
+    arm = VehicleCommand(command=VehicleCommand.VEHICLE_CMD_COMPONENT_ARM_DISARM, param1=1.0, from_external=True)
+    assert (arm.command, VehicleCommand.VEHICLE_CMD_DO_SET_MODE, VehicleCommand.VEHICLE_CMD_NAV_LAND) == (400, 176, 21)
+    assert VehicleCommand.VEHICLE_CMD_SET_GPS_GLOBAL_ORIGIN == 100000
+    assert (VehicleStatus.ARMING_STATE_STANDBY, VehicleStatus.ARMING_STATE_ARMED) == (1, 2)
+    assert (VehicleStatus.NAVIGATION_STATE_OFFBOARD, VehicleStatus.NAVIGATION_STATE_MAX) == (14, 23)
+    assert len(ActuatorMotors().control) == ActuatorMotors.NUM_CONTROLS == 12
 
 
 # How programs in the wild get at them

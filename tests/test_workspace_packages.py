@@ -105,6 +105,23 @@ def test_who_hides_what_others_need_is_warned(four: Path, world: World) -> None:
     assert "\t'std_msgs' is in: /opt/ros/humble\n" in colcon(world, "build --packages-select std_msgs").err
 
 
+def test_a_package_of_a_course_is_built_from_its_sources_without_a_word(four: Path, world: World) -> None:
+    """px4_msgs of another release than the lesson's own: a robot has none, so that nothing is hidden, and it counts."""
+    add(four / "px4_msgs", "rosidl_default_generators", "build_depend")
+    group = "<member_of_group>rosidl_interface_packages</member_of_group>"
+    change(four / "px4_msgs/package.xml", "<export>", f"{group}<export>")
+    every = "file(GLOB all RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} msg/*.msg)\nrosidl_generate_interfaces(${PROJECT_NAME} ${all})"
+    generators = "find_package(rosidl_default_generators REQUIRED)"
+    change(four / "px4_msgs/CMakeLists.txt", "ament_package()", f"{generators}\n{every}\nament_package()")
+    (four / "px4_msgs/msg").mkdir()
+    (four / "px4_msgs/msg/GotoSetpoint.msg").write_text("uint64 timestamp\nfloat32[3] position\n")
+    (four / "px4_msgs/msg/OffboardControlMode.msg").write_text("uint64 timestamp\nbool direct_actuator\n")
+    answer = colcon(world, "build --packages-select px4_msgs")
+    assert (answer.code, answer.err) == (0, "")
+    source_in(world, "install/setup.bash")
+    assert registry.interface_names("px4_msgs") == ["msg/GotoSetpoint", "msg/OffboardControlMode"]
+
+
 # -- layouts -----------------------------------------------------------------------------------------------------------
 
 

@@ -7,7 +7,7 @@ import re
 import sys
 from pathlib import Path
 
-from ..interfaces.registry import registry
+from ..interfaces.registry import INSTALLED_SEPARATELY, SHARE, registry
 from ..workspace.errors import did_you_mean
 from .devices import KEYS, SCREEN
 
@@ -29,8 +29,8 @@ ABSENT = frozenset((
     "diagnostic_updater", "geographic_msgs", "grid_map_msgs", "image_geometry",
     "image_tools", "image_transport", "interactive_markers", "irobot_create_msgs", "joint_state_publisher",
     "joy_teleop", "laser_geometry", "launch_pytest", "launch_testing", "launch_testing_ros", "map_msgs", "mavros_msgs",
-    "moveit", "moveit_msgs", "moveit_py", "nav2_common", "nav2_simple_commander", "octomap_msgs",
-    "pcl_msgs", "pcl_ros", "pendulum_msgs", "pointcloud2_msgs", "px4_msgs", "py_trees_ros", "python_qt_binding",
+    "moveit", "moveit_py", "nav2_common", "nav2_simple_commander",
+    "pcl_msgs", "pcl_ros", "pendulum_msgs", "pointcloud2_msgs", "py_trees_ros", "python_qt_binding",
     "qt_gui", "rclpy_message_converter", "robot_localization", "robot_state_publisher", "ros2_numpy", "ros2bag",
     "ros2cli", "ros2node", "ros2param", "ros2pkg", "ros2run", "ros2topic", "ros_gz_interfaces", "rqt_gui",
     "rqt_gui_py", "slam_toolbox", "smach", "smach_ros", "teleop_twist_keyboard", "test_msgs", "tf2_kdl",
@@ -177,9 +177,19 @@ def _no_name(module: str, name: str) -> str:
             if name in owner.names_in(each):
                 return f"It is in {package}.{each}: from {package}.{each} import {name}"
         everything = [known for each in FOLDERS for known in owner.names_in(each)]
-        return _like(name, everything)
+        return _like(name, everything) or _left_to_its_sources(package, name)
     found = sys.modules.get(module)
     return "" if found is None else _like(name, dir(found))
+
+
+def _left_to_its_sources(package: str, name: str) -> str:
+    """What to do about an interface that a robot may have, and of whose package only a part is built in."""
+    if package not in INSTALLED_SEPARATELY or registry.package(package).directory.parent != SHARE:
+        return ""
+    return (
+        f"{name} is not among the interfaces of {package} that are available here: if a robot has it, put that package's "
+        "own sources into src, build it (colcon build), and source install/setup.bash."
+    )
 
 
 def _like(name: str, known: list[str]) -> str:

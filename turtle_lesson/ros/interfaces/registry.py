@@ -25,6 +25,13 @@ FOLDERS = ("msg", "srv", "action")
 ALIASES = {"turtlesim_msgs": "turtlesim"}
 """Built-in packages that newer releases know by another name (turtlesim's interfaces since Kilted): the same classes."""
 
+INSTALLED_SEPARATELY = frozenset((
+    "ackermann_msgs", "control_msgs", "gazebo_msgs", "moveit_msgs", "nav2_msgs", "object_recognition_msgs",
+    "octomap_msgs", "px4_msgs", "turtlebot3_msgs",
+))  # fmt: skip
+"""Built-in packages that an ordinary installation (ros-humble-desktop) lacks. They have what courses use, as in Humble and
+in PX4 1.14; their other interfaces come with the package's own sources, which hide the built-in package."""
+
 DEEPEST = 50
 """How many messages may lie within each other; Python's own stack would end at some 100."""
 

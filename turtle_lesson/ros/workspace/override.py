@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..core.tracebacks import shown_path
-from ..interfaces.registry import Registry
+from ..interfaces.registry import INSTALLED_SEPARATELY, Registry
 from .discover import Found
 from .installed import prefix_of
 from .known import CMAKE_PACKAGES, PYTHON_PACKAGES
@@ -36,7 +36,7 @@ This may be promoted to an error in a future release of colcon-override-check.""
 
 def overridden(world: World, chosen: list[Found], install: Path, allowed: list[str]) -> str:
     """The warning, or nothing where nothing is overridden that others need."""
-    built_in = {*CMAKE_PACKAGES, *PYTHON_PACKAGES, *Registry().packages()}
+    built_in = {*CMAKE_PACKAGES, *PYTHON_PACKAGES, *Registry().packages()} - INSTALLED_SEPARATELY
     needed = _needed_in_underlays(world, install)
     places: dict[str, str] = {}
     for found in chosen:
