@@ -14,6 +14,7 @@ from .contents import Contents, Message, TopicContents, TopicKey
 from .errors import BagError
 from .scan_mcap import scan_mcap
 from .scan_sqlite import scan_sqlite
+from .unpack import TooLargeError, unpack_file, unpack_message
 
 if TYPE_CHECKING:
     from rosbags.interfaces import Qos
@@ -22,6 +23,10 @@ SCANNERS = {".mcap": ("mcap", scan_mcap), ".db3": ("sqlite3", scan_sqlite)}
 METADATA = "metadata.yaml"
 LISTS = ("relative_file_paths", "files", "topics_with_message_count")
 """What is a list in metadata.yaml."""
+
+LONGEST = 10_000_000
+DEEPEST = 20
+"""How many bytes of metadata.yaml are read, and how deeply its lists and mappings may be nested."""
 
 LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
@@ -98,7 +103,22 @@ class Bag:
     def messages(self, topics: Sequence[str] | None = None) -> Iterator[Message]:
         """The messages in the order of their times; only those of some topics, if any are named."""
         every = self._salvaged() if self.damage else self._read()
-        return (message for message in every if topics is None or message.topic in topics)
+        for message in every:
+            if topics is not None and message.topic not in topics:
+                continue
+            yield message._replace(data=self._unpacked(message.data)) if self.compression == "message" else message
+
+    def _unpacked(self, data: bytes) -> bytes:
+        """A message that was compressed on its own; of a damaged bag, nothing if it is spoiled."""
+        try:
+            return unpack_message(data)
+        except TooLargeError as error:
+            reason = str(error)
+        except ValueError as error:
+            if self.damage:
+                return b""
+            reason = str(error)
+        raise BagError(f"the bag '{self.path}' cannot be read to its end: {reason}")
 
     def _read(self) -> Iterator[Message]:
         """Read a sound bag message by message, without holding it in memory; rosbags is strict about what is sound."""
@@ -107,6 +127,8 @@ class Bag:
         try:
             reader = Reader(self.path)
             reader.open()
+            # Messages that are compressed one by one are unpacked here, up to a limit that rosbags does not have.
+            reader.storage.metadata = reader.storage.metadata._replace(compression_mode=None)
         except Exception:
             yield from self._salvaged()
             return
@@ -119,8 +141,7 @@ class Bag:
             reader.close()
 
     def _salvaged(self) -> Iterator[Message]:
-        for message in _scan_all(self.files, keep=True).messages:
-            yield message._replace(data=_unpacked(message.data)) if self.compression == "message" else message
+        yield from _scan_all(self.files, keep=True).messages
 
 
 def open_bag(path: str | Path, *, listed_only: bool = True) -> Bag:
@@ -159,16 +180,31 @@ def _read_metadata(path: Path) -> tuple[dict[str, Any], list[str]]:
     if path.is_file():
         return {}, []
     try:
-        text = (path / METADATA).read_text("utf-8")
+        text = _plain_yaml(path / METADATA)
         found = yaml.load(text, LOADER)["rosbag2_bagfile_information"]
         if not isinstance(found, dict):
             raise ValueError("it is not a mapping")
         wrong = [key for key in LISTS if not isinstance(found.get(key, []), list)]
         return found, [f"{METADATA} is not valid: its {key} is not a list" for key in wrong]
+    except TooLargeError as error:
+        return {}, [f"{METADATA} cannot be read: {error}"]
     except FileNotFoundError:
         return {}, [f"there is no {METADATA} (was the recording not stopped?)"]
     except Exception as error:
         return {}, [f"{METADATA} cannot be read ({type(error).__name__})"]
+
+
+def _plain_yaml(file: Path) -> str:
+    """The text of metadata.yaml. Raises TooLargeError if it could become far larger than what a recorder writes."""
+    if file.is_file() and file.stat().st_size > LONGEST:
+        raise TooLargeError(f"it has more than {LONGEST:,} bytes")
+    text = file.read_text("utf-8")
+    depth = 0
+    for event in yaml.parse(text, LOADER):
+        depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
+        if depth > DEEPEST or isinstance(event, yaml.AliasEvent):
+            raise TooLargeError("it has aliases, or is nested more deeply than any recorder writes it")
+    return text
 
 
 def _files_of(path: Path, metadata: dict[str, Any]) -> tuple[list[Path], list[str]]:
@@ -195,6 +231,8 @@ def _scan_all(files: Sequence[Path], *, keep: bool) -> Contents:
             contents = _scan_one(file, keep=keep)
         except OSError as error:
             contents = Contents(flaws=[f"{file.name}: it cannot be read ({error.strerror or error})"])
+        except TooLargeError as error:
+            contents = Contents(flaws=[str(error)])
         if total is None:
             total = contents
         else:
@@ -210,15 +248,5 @@ def _scan_one(file: Path, *, keep: bool) -> Contents:
         return scan(file, keep=keep)
     with TemporaryDirectory() as folder:
         unpacked = Path(folder) / file.stem
-        unpacked.write_bytes(_unpacked(file.read_bytes()))
+        unpack_file(file, unpacked)
         return scan(unpacked, keep=keep)
-
-
-def _unpacked(data: bytes) -> bytes:
-    """What was compressed by zstd; nothing if it is spoiled."""
-    from .scan_mcap import unpack_zstd
-
-    try:
-        return unpack_zstd(data)
-    except Exception:
-        return b""

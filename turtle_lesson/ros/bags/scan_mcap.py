@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import os
 import struct
-import sys
 import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import BinaryIO
 
 from .contents import Contents, Message, TopicContents, TopicKey
+from .unpack import DECOMPRESSORS, limit, too_large, unpack
 
 MAGIC = b"\x89MCAP0\r\n"
 FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, CHUNK_INDEX, STATISTICS, DATA_END = (
@@ -60,6 +60,8 @@ class _Scan:
         self._counts: dict[int, int] = {}
         self._messages: list[tuple[int, int, bytes]] = []
         self._chunks: list[int] = []
+        self._read: set[int] = set()
+        self._left = limit(size)
         self._complete = False
         self._ends_well = False
 
@@ -80,6 +82,8 @@ class _Scan:
                 place = following[0]
         if self._complete and not self._ends_well:
             self._flaw("its end is missing or damaged")
+        if not self._found.flaws and not self._read.issuperset(self._chunks):
+            self._flaw("its summary names a chunk that is not there")
         return self._result()
 
     def _flaw(self, text: str) -> None:
@@ -132,10 +136,12 @@ class _Scan:
         (packed_size,) = struct.unpack_from("<Q", body, begin - 8)
         if not cut_short and packed_size != len(body) - begin:
             self._flaw(f"the chunk at byte {place} gives a wrong length")  # its checksum tells whether that is all
-        records = _decompressed(compression, body[begin:], size)
+        self._read.add(place)
+        records, more = self._unpacked(compression, body[begin:], size, place)
         whole = len(records) == size  # also where only the record's length is spoiled, so that it seems cut short
-        if (whole and checksum and zlib.crc32(records) != checksum) or not (whole or cut_short):
-            self._flaw(f"the chunk at byte {place} is damaged (its checksum is wrong), so its messages are left out")
+        if more or (whole and checksum and zlib.crc32(records) != checksum) or not (whole or cut_short):
+            why = "it holds more than it says" if more else "its checksum is wrong"
+            self._flaw(f"the chunk at byte {place} is damaged ({why}), so its messages are left out")
             return
         view, at = memoryview(records), 0
         while at + HEAD.size <= len(records):
@@ -143,6 +149,17 @@ class _Scan:
             at += HEAD.size + length
             if at <= len(records):
                 self._take(opcode, view[at - length : at])
+
+    def _unpacked(self, compression: str, data: bytes, size: int, place: int) -> tuple[bytes, bool]:
+        """The records of a chunk, less if it is cut short, none if it is spoiled; and whether there are more."""
+        if compression == "":
+            return data[:size], False
+        if compression not in DECOMPRESSORS:
+            raise _Spoiled(f"its chunks are compressed in an unknown way ({compression[:20]})")
+        if size > self._left:
+            raise _Spoiled(str(too_large(f"the chunk at byte {place}", self._size)))
+        self._left -= size
+        return unpack(compression, data, size)
 
     # -- the summary -------------------------------------------------------------------------------------------------
 
@@ -222,35 +239,3 @@ def _offered(body: memoryview) -> str:
             return value
         at += 8 + len(key.encode()) + len(value.encode())
     return ""
-
-
-def _decompressed(compression: str, data: bytes, size: int) -> bytes:
-    """What a chunk holds, at most `size` bytes; less if the chunk is cut short or spoiled."""
-    if size > LARGEST:
-        raise _Spoiled("a chunk says that it holds more than 4 GiB")
-    if compression == "":
-        return data[:size]
-    if compression not in DECOMPRESSORS:
-        raise _Spoiled(f"its chunks are compressed in an unknown way ({compression[:20]})")
-    try:
-        return DECOMPRESSORS[compression](data, size)
-    except Exception:
-        return b""
-
-
-def unpack_zstd(data: bytes, size: int = -1) -> bytes:
-    """What was compressed by zstd, at most `size` bytes of it; less if the data is cut short."""
-    if sys.version_info >= (3, 14):
-        from compression import zstd
-    else:
-        from backports import zstd
-    return bytes(zstd.ZstdDecompressor().decompress(data, size))
-
-
-def _unpack_lz4(data: bytes, size: int) -> bytes:
-    from lz4.frame import LZ4FrameDecompressor
-
-    return bytes(LZ4FrameDecompressor().decompress(data, size))
-
-
-DECOMPRESSORS: dict[str, Callable[[bytes, int], bytes]] = {"zstd": unpack_zstd, "lz4": _unpack_lz4}

@@ -43,7 +43,12 @@ def _open_and_scan(path: Path, found: Contents, keep: bool) -> Contents:
         return found
     with closing(database):
         database.text_factory = lambda raw: raw.decode(errors="replace")
-        _scan(database, path.name, found, keep)
+        size = path.stat().st_size
+        database.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, max(size, 1_000_000))  # no value is larger than its file
+        if _has_views(database):
+            found.flaws.append(f"{path.name}: its tables are computed, not recorded, so they are not read")
+        else:
+            _scan(database, path.name, found, keep, size)
     return found
 
 
@@ -60,7 +65,18 @@ def _pages(path: Path) -> tuple[int, bool]:
     return size // page * page, size < page * pages
 
 
-def _scan(database: sqlite3.Connection, name: str, found: Contents, keep: bool) -> None:
+def _has_views(database: sqlite3.Connection) -> bool:
+    """Whether something else than plain tables bears the name of a bag's table: its rows could be without end."""
+    query = (
+        "SELECT 1 FROM sqlite_master WHERE lower(name) IN ('topics', 'messages', 'message_definitions') "
+        "AND (type = 'view' OR sql LIKE 'CREATE VIRTUAL%')"
+    )
+    with suppress(*BROKEN):
+        return database.execute(query).fetchone() is not None
+    return False  # the file is damaged, and _scan says how
+
+
+def _scan(database: sqlite3.Connection, name: str, found: Contents, keep: bool, size: int) -> None:
     try:
         verdict = database.execute("PRAGMA integrity_check(1)").fetchone()[0]
         if verdict != "ok":
@@ -72,7 +88,12 @@ def _scan(database: sqlite3.Connection, name: str, found: Contents, keep: bool) 
             database.execute("PRAGMA writable_schema=ON")  # or a file that is too short is not read at all
     topics = _topics(database, name, found)
     data = "data" if keep else "NULL"
-    for _, number, time, content in _rows(database, f"SELECT id, topic_id, timestamp, {data} FROM messages", found):
+    query = f"SELECT id, topic_id, timestamp, {data}, length(data) FROM messages"
+    for _, number, time, content, length in _rows(database, query, found):
+        size -= length if isinstance(length, int) else 0
+        if size < 0:
+            found.flaws.append(f"{name}: its messages are computed, not recorded: they are larger than the file")
+            break
         key = topics.get(number)
         if key is None or not isinstance(time, int):
             continue
