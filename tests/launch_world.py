@@ -74,6 +74,7 @@ class FakeWorld:
         self.sim = FakeSimulation()
         self.packages = PackageIndex()
         self.processes: list[FakeProcess] = []
+        self.at_close: list[Any] = []
         self.packages.add(package or robot_package())
 
     def spawn(self, target: Any, **details: Any) -> FakeProcess:

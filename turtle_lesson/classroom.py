@@ -27,6 +27,7 @@ class Classroom:
         self.clock: Clock | None = RobotClock(world, player)
         self.keyboard: Keyboard | None = world.sim.keyboard
         self.loop = Loop()
+        self.at_close = world.at_close
 
     @property
     def now(self) -> float:

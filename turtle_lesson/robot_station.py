@@ -38,6 +38,7 @@ class RobotStation:
 
     def __init__(self) -> None:
         self.loop = Loop()
+        self.at_close: list[Callable[[], object]] = []
         self._closing = threading.Event()
         self._left = False
         self._last = 0
@@ -114,6 +115,8 @@ class RobotStation:
         self._last = self.node.get_clock().now().nanoseconds
         self._left = True
         self._closing.set()
+        for let_go in self.at_close:
+            let_go()
         self.recorder.close()
         self._executor.shutdown()
         self.node.destroy_node()

@@ -42,8 +42,12 @@ class Shelf:
     def _widget(self, key: Hashable, make: Callable[[Station], Widget]) -> Widget:
         """The widget of this key; made now if there is none yet."""
         widgets = self.__dict__.setdefault("_widgets", {})
-        if key not in widgets:
-            widgets[key] = make(self._make_station())
+        if key not in widgets or widgets[key].comm is None:  # not made yet, or closed
+            from .lab.widgets.station import Link
+
+            station: Any = Link(self._make_station())
+            widgets[key] = make(station)
+            station.at_close.append(widgets[key].end)
         return widgets[key]
 
     def goal_pad(self) -> LabView:

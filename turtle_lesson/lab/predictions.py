@@ -185,6 +185,7 @@ class Question:
     """Where it is to go."""
     guess: Any = None
     outcome: Any = None
+    shown: PredictionWidget | None = None
 
     @property
     def open(self) -> bool:
@@ -222,6 +223,10 @@ def ask(
     """
     found = _questions.get(name)
     if found is None or not found.open or (found.question, found.kind) != (question, kind):
+        if found is not None and found.shown is not None:
+            from .widgets.live_widget import put_aside
+
+            put_aside(found.shown)
         found = _questions[name] = Question(name, question, kind)
     found.turtle, found.goal = turtle, goal
     if guess is not None:
@@ -248,19 +253,18 @@ class Asked:
 
     def __init__(self, question: Question) -> None:
         self.question = question
-        self._widget: PredictionWidget | None = None
 
     def __repr__(self) -> str:
         return self.question.text()
 
     @property
     def widget(self) -> PredictionWidget:
-        """The widget on which the guess is given."""
-        if self._widget is None:
+        """The widget on which the guess is given, the same one wherever the question is asked again."""
+        if self.question.shown is None or self.question.shown.comm is None:
             from .widgets.prediction import PredictionWidget
 
-            self._widget = PredictionWidget(self.question)
-        return self._widget
+            self.question.shown = PredictionWidget(self.question)
+        return self.question.shown
 
     def _repr_mimebundle_(self, **options: Any) -> Any:
         return self.widget._repr_mimebundle_(**options)

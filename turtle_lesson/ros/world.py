@@ -48,6 +48,8 @@ class World:
         self.trace: Trace | None = None
         self.packages = PackageIndex()
         self.processes: list[Process] = []
+        self.at_close: list[Callable[[], object]] = []
+        """Called first when the world is closed: what outlives it lets go of it."""
         self._pid = FIRST_PID
         self._names: dict[str, int] = {}
         self.notebook = self._make_process("notebook", argv=["notebook"])
@@ -98,6 +100,9 @@ class World:
 
     def close(self) -> None:
         """End every process and the simulation; nothing of this world runs again."""
+        for let_go in self.at_close:
+            let_go()
+        self.at_close.clear()
         for process in [*self.processes, self.notebook]:
             process.close()
         self.sim.close()

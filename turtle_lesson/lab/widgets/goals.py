@@ -88,8 +88,8 @@ class GoalDesk:
 
     @property
     def recorder(self) -> object:
-        """What the desk's system is known by."""
-        return self._station.recorder
+        """What the desk's system is known by; None once it has ended."""
+        return None if self._station.ended else self._station.recorder
 
     @property
     def current(self) -> Goal | None:
@@ -137,6 +137,7 @@ class GoalDesk:
 
     def close(self) -> None:
         """Ask no more."""
+        self._asked.clear()
         self.server.close()
         if self._client is not None:
             self._station.node.destroy_client(self._client)

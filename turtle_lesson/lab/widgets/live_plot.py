@@ -129,6 +129,11 @@ class LivePlot(LiveWidget):
         self._timer = None
         self._channels.clear()
 
+    def end(self) -> None:
+        """The system ends now."""
+        super().end()
+        self._curves.clear()
+
     # -- what is shown -------------------------------------------------------------------------------------------------
 
     def window(self, curve: Curve) -> tuple[np.ndarray, np.ndarray]:

@@ -3,26 +3,35 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
+from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar, cast
 
 import anywidget
 import traitlets
 
+from ...ros.core.virtual_time import real_monotonic
 from ..picture import Picture
-from .views import Views
+from .station import Link, Station
+from .views import PATIENCE, Views
 
-if TYPE_CHECKING:
-    from .station import Station
+KEPT = 20
+"""Of the widgets whose system has ended and that no page shows, so many can still be shown: a page that is run as a whole
+shows all of its widgets only after its last cell. Older ones are closed."""
+
+_ended: list[LiveWidget] = []
 
 FOLDER = Path(__file__).with_name("js")
 
 
+@cache
 def script(*names: str) -> str:
     """The JavaScript of a widget: its files one after another, as one module."""
     return "\n".join((FOLDER / f"{name}.js").read_text(encoding="utf-8") for name in names)
 
 
+@cache
 def styles(*names: str) -> str:
     """The style sheets of a widget."""
     return "\n".join((FOLDER / f"{name}.css").read_text(encoding="utf-8") for name in names)
@@ -33,6 +42,8 @@ class LiveWidget(anywidget.AnyWidget):
 
     The browser sends orders (`{"do": "goal", "x": …}`), each of which is a method `do_goal(x=…)` here; state goes the other
     way, as traits. While at least one view is open, `tick()` is called 30 times a second to bring the traits up to date.
+
+    When its system ends, it stays on the page as it is and says what it said last, but lets go of the system.
     """
 
     words = traitlets.Unicode().tag(sync=True)
@@ -44,7 +55,9 @@ class LiveWidget(anywidget.AnyWidget):
     is_made = False
 
     def __init__(self, station: Station, **traits: Any) -> None:
+        """`station` is a `Link` to it."""
         self.station = station
+        self._seen: dict[str, float] = {}
         super().__init__(**traits)
         self._views = Views(station.loop, 1 / self.RATE, self._tick, self.opened, self.closed)
         self.on_msg(station.loop.hopping(self._order))
@@ -76,8 +89,7 @@ class LiveWidget(anywidget.AnyWidget):
 
     def _tick(self) -> None:
         if self.station.ended:
-            self._views.clear()
-            self.ended = True
+            self.end()
             return
         try:
             with self.hold_sync():
@@ -85,16 +97,23 @@ class LiveWidget(anywidget.AnyWidget):
         except Exception as error:  # or the widget would stand still without a word
             self.words = f"This widget could not be updated: {error}"
 
+    def set_state(self, sync_data: dict[str, Any]) -> None:
+        """Take no state from a page: what a widget shows is Python's alone to say, and a page sends orders."""
+
     def _order(self, widget: object, content: Any, buffers: object) -> None:
         """Carry out what a view asks for. What it cannot understand it says in `words`: nothing from outside may break it."""
-        if self.station.ended:
-            self.ended = True  # a view that was opened after the end has to be told
-        if not isinstance(content, dict) or self.station.ended:
+        if not isinstance(content, dict):
             return
         order = dict(content)
         name = order.pop("do", None)
-        view = order.pop("view", "")
-        if name in ("open", "alive"):
+        view = str(order.pop("view", ""))
+        if self.station.ended:
+            self.end()
+            if name in ("open", "alive"):
+                self._seen[view] = real_monotonic()
+            elif name == "close":
+                self._seen.pop(view, None)
+        elif name in ("open", "alive"):
             self._views.heard(view)
         elif name == "close":
             self._views.gone(view)
@@ -112,14 +131,39 @@ class LiveWidget(anywidget.AnyWidget):
             self.words = f"{error}"
         self._tick()
 
+    def end(self) -> None:
+        """The system ends now: show its last state from now on."""
+        if not self.ended and self.comm is not None:
+            with suppress(Exception):  # a real ROS 2 that a signal has shut down answers nothing any more
+                self.tick()
+            self._let_go()
+            self.ended = True
+            put_aside(self)
+
     def close(self) -> None:
         """Take the widget away: its views close, it listens no more, and lets go of what it has."""
-        if not self.is_made:  # traitlets' __del__ closes what was refused while it was made, too
-            return
-        self._views.clear()
-        if not self.station.ended:
-            self.left()
-        super().close()
+        if self.is_made and self.comm is not None:  # traitlets' __del__ closes what was refused while it was made, too
+            self._let_go()
+            layout = self.layout
+            super().close()
+            layout.close()
+
+    def _let_go(self) -> None:
+        """Keep the last words, and nothing of the system."""
+        last = "This widget has ended."
+        with suppress(Exception):
+            last = self.text()
+        for step in (self._views.clear, self.left):
+            with suppress(Exception):  # what has broken down must not keep the next system from starting
+                step()
+        cast(Link, self.station).cut()
+        self.text = lambda: last  # type: ignore[method-assign]
+        self.picture = lambda: None  # type: ignore[method-assign]
+
+    @property
+    def is_seen(self) -> bool:
+        """Whether a page shows the widget."""
+        return len(self._views) > 0 or any(real_monotonic() - time < PATIENCE for time in self._seen.values())
 
     def __repr__(self) -> str:
         return self.text()
@@ -134,3 +178,12 @@ class LiveWidget(anywidget.AnyWidget):
             data["image/png"] = shown["image/png"]
             metadata = {**metadata, **size}
         return data, metadata
+
+
+def put_aside(widget: LiveWidget) -> None:
+    """Keep a widget that will show nothing new as long as a page shows it, or may do so soon; then it is closed."""
+    _ended.append(widget)
+    unseen = [each for each in _ended if not each.is_seen]
+    for each in unseen[:-KEPT]:
+        _ended.remove(each)
+        each.close()

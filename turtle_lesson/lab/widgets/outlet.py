@@ -17,7 +17,7 @@ class Outlet:
     """One topic of one message class. Until the first message nothing of it is to be seen in the graph."""
 
     def __init__(self, station: Station, topic: str, message_class: Any, type_name: str) -> None:
-        self._station, self._node = station, station.node
+        self._station = station
         self.topic, self.message_class, self.type_name = topic, message_class, type_name
         self._publisher: Any = None
         self._waiting: list[tuple[float, Any]] = []
@@ -25,7 +25,7 @@ class Outlet:
     def publish(self, message: Any) -> None:
         """Publish; on a real network the very first messages wait until the listeners were found."""
         if self._publisher is None:
-            self._publisher = self._node.create_publisher(self.message_class, self.topic, self._quality())
+            self._publisher = self._station.node.create_publisher(self.message_class, self.topic, self._quality())
         self._waiting.append((self._station.now, message))
         self.flush()
 
@@ -38,7 +38,7 @@ class Outlet:
         """Leave the topic."""
         self._waiting.clear()
         if self._publisher is not None:
-            self._node.destroy_publisher(self._publisher)
+            self._station.node.destroy_publisher(self._publisher)
             self._publisher = None
 
     def listeners(self) -> int:
@@ -55,21 +55,21 @@ class Outlet:
             return f"The nodes that listen on {self.topic} expect {types}, not {self.type_name}."
         elsewhere = [
             name
-            for name, types in self._node.get_topic_names_and_types()
+            for name, types in self._station.node.get_topic_names_and_types()
             if self.type_name in types and any(end.topic_type == self.type_name for end in self._others(name))
         ]
         hint = f" There are listeners on {enumerated(elsewhere)}." if elsewhere else ""
         return f"No node listens on {self.topic}.{hint}"
 
     def _others(self, topic: str) -> list[Any]:
-        me = (self._node.get_name(), self._node.get_namespace())
-        ends = self._node.get_subscriptions_info_by_topic(topic)
+        me = (self._station.node.get_name(), self._station.node.get_namespace())
+        ends = self._station.node.get_subscriptions_info_by_topic(topic)
         return [end for end in ends if (end.node_name, end.node_namespace) != me]
 
     def _is_ready(self, since: float) -> bool:
         if not self.listeners() or self._station.now - since >= PATIENCE:
             return True
-        own = len(self._node.get_subscriptions_info_by_topic(self.topic)) - len(self._others(self.topic))
+        own = len(self._station.node.get_subscriptions_info_by_topic(self.topic)) - len(self._others(self.topic))
         return self._publisher.get_subscription_count() > own  # the recorder's, which is found at once
 
     def _quality(self) -> Any:

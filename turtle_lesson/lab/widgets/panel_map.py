@@ -49,6 +49,11 @@ class MapPanel(LiveWidget):
         self._show_scan()
         self.obstacles = [as_state(each) for each in self.station.board.obstacles]
 
+    def left(self) -> None:
+        """Draw no more."""
+        super().left()
+        del self._way
+
     def _show_scan(self) -> None:
         recorder = self.station.recorder
         scan = recorder.last_scan

@@ -10,6 +10,7 @@ import traitlets
 from ..track import WORLD
 from .live_widget import LiveWidget, script, styles
 from .loop import Loop
+from .station import Link
 
 if TYPE_CHECKING:
     from ..predictions import Question
@@ -38,7 +39,7 @@ class PredictionWidget(LiveWidget):
         self._esm = script("dom", "small", "map", "prediction")
         self._css = styles("base", "small", "prediction")
         self._asked = question
-        station: Any = SimpleNamespace(loop=Loop(), ended=False)
+        station: Any = Link(SimpleNamespace(loop=Loop(), ended=False))
         kind = question.kind
         super().__init__(
             station,

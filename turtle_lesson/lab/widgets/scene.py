@@ -96,9 +96,15 @@ class Scene(LiveWidget):
     # -- bringing it up to date ----------------------------------------------------------------------------------------
 
     def redraw(self) -> None:
-        """Bring everything up to date, also what usually waits a little."""
+        """Bring everything up to date, also what usually waits a little; of an ended world, nothing changes."""
         self._due.clear()
-        self.tick()
+        if not self.ended:
+            self.tick()
+
+    def left(self) -> None:
+        """Draw no more."""
+        super().left()
+        del self._trail
 
     def tick(self) -> None:
         """Send the parts that have changed."""

@@ -6,6 +6,7 @@ robot it is a node of the real rclpy (see robot_station.py).
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
 
 from .loop import Loop
@@ -70,6 +71,8 @@ class Station(Protocol):
     """None where nobody can turn the clock, as on a real robot."""
     keyboard: Keyboard | None
     """What the programs of a simulated world read keys from; None on a real robot, whose programs have terminals."""
+    at_close: list[Callable[[], object]]
+    """Called when the system ends, while its node is still there: what outlives the system lets go of it."""
 
     @property
     def now(self) -> float:
@@ -80,3 +83,28 @@ class Station(Protocol):
     def ended(self) -> bool:
         """Whether this system is gone, so that its widgets have nothing to show any more."""
         ...
+
+
+class Link:
+    """A widget's own link to its station. Once it is cut, nothing of the system is reached through it, or kept alive.
+
+    A widget outlives its system: on the page, in Jupyter's `Out`, and in the list that ipywidgets keeps.
+    """
+
+    def __init__(self, station: Station | Any) -> None:
+        self.loop: Loop = station.loop
+        self._station: Station | Any = station
+
+    @property
+    def ended(self) -> bool:
+        """Whether the link is cut, or the system is gone."""
+        return self._station is None or self._station.ended
+
+    def cut(self) -> None:
+        """Let go of the station."""
+        self._station = None
+
+    def __getattr__(self, name: str) -> Any:
+        if self._station is None:
+            raise RuntimeError("this widget has ended, and its system with it: run the cell again that shows it")
+        return getattr(self._station, name)

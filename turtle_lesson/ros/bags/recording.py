@@ -12,6 +12,7 @@ from .recorder import HIDDEN_NODE, Recorder, Selection, checked_names, record
 from .writer import BagWriter, is_there
 
 if TYPE_CHECKING:
+    from ..core import Process
     from ..world import World
 
 
@@ -37,11 +38,16 @@ class Recording:
         self._shown = str(path)
         self._writer = BagWriter(self.path, storage)
         self._recorder: Recorder | None = None
-        self._process = world.spawn(lambda: self._main(selection), name="rosbag2_recorder")
+        self._process: Process | None = world.spawn(lambda: self._main(selection), name="rosbag2_recorder")
+        world.at_close.append(self._let_go)
         world.sim.settle()
 
     def _main(self, selection: Selection) -> None:
         self._recorder = record(self._writer, selection, _keep_warnings_only, node_name=HIDDEN_NODE)
+
+    def _let_go(self) -> None:
+        """The world is closed: it ends the recording, which this handle then keeps nothing of."""
+        self._process = self._recorder = None
 
     def __repr__(self) -> str:
         state = "done" if self.done else "going on"
@@ -60,7 +66,7 @@ class Recording:
 
     def stop(self) -> None:
         """End the recording and complete the bag. A second call does nothing."""
-        if not self._process.alive:
+        if self._process is None or not self._process.alive:
             return
         self._process.interrupt()
         self._writer.close()

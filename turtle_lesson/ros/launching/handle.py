@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
 
 from ..command.driving import run_for
 from ..core import NANOSECONDS
@@ -16,8 +17,14 @@ class LaunchHandle:
     """A running launch: its processes, and how to stop it."""
 
     def __init__(self, service: LaunchService, name: str) -> None:
-        self._service = service
+        self._service: LaunchService | Any = service
         self.name = name
+        service.world.at_close.append(self._let_go)
+
+    def _let_go(self) -> None:
+        """Keep the names, and nothing of the world that is closed: Jupyter's `Out` may keep this handle for long."""
+        left = [SimpleNamespace(name=name, alive=False, process=None) for name in self.names]
+        self._service = SimpleNamespace(processes=left, running=False)
 
     @property
     def processes(self) -> list[Process]:
