@@ -109,6 +109,42 @@ def test_a_few_aliases_are_read() -> None:
     assert read_yaml("{a: &a {x: 1}, b: *a}") == {"a": {"x": 1}, "b": {"x": 1}}
 
 
+LAUGHS = "a0: &a0 [x, x]\n" + "".join(f"a{n}: &a{n} [{', '.join([f'*a{n - 1}'] * 8)}]\n" for n in range(1, 12))
+"""Twelve lines that stand for seventeen thousand million values."""
+
+MERGED = "a0: &a0 {k: 1}\n" + "".join(f"a{n}: &a{n} {{<<: [{', '.join([f'*a{n - 1}'] * 8)}]}}\n" for n in range(1, 12))
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (LAUGHS, "its aliases stand for more than 100,000 values: *a4 alone for 12,873. Write out what is needed"),
+        (MERGED, "its aliases stand for more than 100,000 values: *a4 alone for"),
+        ("&a [*a]", "*a stands for a value that contains it, which has no end"),
+        ("&a {b: [*a]}", "*a stands for a value that contains it"),
+        ("[" * 5000, "lists and mappings are nested more than 100 deep"),
+        ("{a: " * 5000, "lists and mappings are nested more than 100 deep"),
+        ("- " * 5000, "lists and mappings are nested more than 100 deep"),
+        ("#" * 1_000_001, "it has 1,000,001 characters, and at most 1,000,000 are read"),
+    ],
+)
+def test_a_short_text_that_stands_for_something_huge_is_refused(
+    world: World, tmp_path: Path, text: str, said: str
+) -> None:
+    from rclpy.parameter import get_parameter_value, parameter_dict_from_yaml_file
+
+    file = tmp_path / "p.yaml"
+    file.write_text(text)
+    with pytest.raises(yaml.YAMLError) as caught:
+        parameter_dict_from_yaml_file(str(file))
+    assert said in str(caught.value)
+    assert get_parameter_value(text).string_value == text
+    if len(text) < 100_000:
+        with pytest.raises(CommandError, match=r"^The passed value is not valid YAML: ") as refused:
+            read_yaml(text)
+        assert said in str(refused.value) and "\n" not in str(refused.value)
+
+
 def test_yaml_means_what_it_means_elsewhere() -> None:
     text = "{a: [1, 2.5, yes, ~, 0x10, 010, 1_000, 1e3, 12:30, 2020-01-01, '1'], <<: {b: 2}}"
     assert read_yaml(text) == yaml.safe_load(text)

@@ -322,6 +322,25 @@ def test_messages_lie_within_each_other_only_so_deep(tmp_path: Path) -> None:
     assert registry.get("deep_msgs/M30")() == registry.get("deep_msgs/M30")()
 
 
+def test_arrays_of_arrays_are_counted_before_one_is_made(tmp_path: Path) -> None:
+    files = {"msg/M0.msg": "uint8[1000] x\n"} | {
+        f"msg/M{level}.msg": f"M{level - 1}[1000] m\n" for level in range(1, 5)
+    }
+    registry = Registry()
+    registry.add("wide_msgs", write_package(tmp_path, files))
+    registry.get("wide_msgs/M1")
+    with pytest.raises(InvalidDefinition, match=r"each message M2 would consist of 1,00\d,00\d,001 values"):
+        registry.get("wide_msgs/M4")
+
+
+def test_a_definition_without_end_is_not_read(tmp_path: Path) -> None:
+    files = {"msg/Long.msg": "".join(f"int8 x{number}\n" for number in range(10_000))}
+    registry = Registry()
+    registry.add("long_msgs", write_package(tmp_path, files))
+    with pytest.raises(InvalidDefinition, match=r"Long\.msg: the definition has more than 100,000 char.*\. Move some"):
+        registry.get("long_msgs/Long")
+
+
 # Any definition is either built or refused
 
 

@@ -301,6 +301,11 @@ def test_of_several_values_that_counts_whose_nodes_were_named_last(world: World,
         ("n1:\n  ros__parameters:\n    a:\n", "No value at line 3"),
         ("n1:\n  ros__parameters: 5\n", "Cannot have a value before ros__parameters at line 2"),
         ("n1:\n  ros__parameters:\n    a: &x 1\n    b: *x\n", "Will not support aliasing at line 4"),
+        (
+            "n1:\n  - " + "[" * 5000,
+            "Error parsing a event near line 2: lists and mappings are nested more than 100 deep",
+        ),
+        ("#" * 2_000_000, "Error parsing a event near line 0: it has 1,000,001 characters, and at most 1,000,000 are"),
         ("ros__parameters:\n  a: 1\n", "There are no node names before ros__parameters at line 1"),
         (
             "bad name:\n  ros__parameters:\n    a: 1\n",

@@ -125,7 +125,9 @@ def _guessed(typed: Any) -> tuple[Any, int]:
 def _yaml(text: str) -> Any:
     import yaml
 
+    from turtle_lesson.ros.bounded_yaml import safe_load
+
     try:
-        return yaml.safe_load(text)
+        return safe_load(text)
     except yaml.YAMLError:
         raise ValueError(f'"{text}" is not valid YAML: lists are written [1, 2, 3]') from None

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from .common import CommandError
@@ -13,9 +12,6 @@ if TYPE_CHECKING:
 
 MAX_LENGTH = 100_000
 """How many characters of YAML are read at most."""
-
-MAX_ALIASES = 16
-"""How many aliases (`*name`) YAML may have: a text of a few lines with more of them can stand for billions of values."""
 
 
 class NoYaml(CommandError):
@@ -30,17 +26,17 @@ def read_yaml(text: str, what: str = "The passed value") -> Any:
     """The value of a YAML text. Raises NoYaml, in one line, for anything that is none or could be a trap."""
     import yaml
 
+    from ..bounded_yaml import safe_load
+
     if len(text) > MAX_LENGTH:
         raise NoYaml(f"{what} is too long: at most {MAX_LENGTH} characters of YAML are read")
     try:
-        return yaml.load(text, _loader())
+        return safe_load(text)
     except yaml.MarkedYAMLError as error:
         kind = Unparsable if isinstance(error, yaml.parser.ParserError) else NoYaml
         raise kind(f"{what} is not valid YAML: {_in_one_line(error)}") from None
     except (yaml.YAMLError, ValueError, OverflowError) as error:
         raise NoYaml(f"{what} is not valid YAML: {' '.join(str(error).split())}") from None
-    except RecursionError:
-        raise NoYaml(f"{what} cannot be read as YAML: its brackets are nested too deeply") from None
 
 
 def _in_one_line(error: Any) -> str:
@@ -48,25 +44,6 @@ def _in_one_line(error: Any) -> str:
     mark = error.problem_mark
     place = f" (line {mark.line + 1}, column {mark.column + 1})" if mark else ""
     return ", ".join(" ".join(part.split()) for part in parts) + place
-
-
-@cache
-def _loader() -> Any:
-    import yaml
-
-    class Loader(yaml.SafeLoader):
-        """Refuses many aliases, with which a short text can stand for a gigantic value."""
-
-        aliases = 0
-
-        def compose_node(self, parent: Any, index: Any) -> Any:
-            if self.check_event(yaml.AliasEvent):
-                self.aliases += 1
-                if self.aliases > MAX_ALIASES:
-                    raise yaml.YAMLError(f"it has more than {MAX_ALIASES} aliases (*{self.peek_event().anchor})")
-            return super().compose_node(parent, index)
-
-    return Loader
 
 
 def populate(message: Any, values: Any) -> list[Callable[[Any], None]]:

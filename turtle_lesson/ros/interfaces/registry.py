@@ -32,6 +32,9 @@ INSTALLED_SEPARATELY = frozenset((
 """Built-in packages that an ordinary installation (ros-humble-desktop) lacks. They have what courses use, as in Humble and
 in PX4 1.14; their other interfaces come with the package's own sources, which hide the built-in package."""
 
+LONGEST = 100_000
+"""How many characters a definition may have: five times as many as the longest of those in use."""
+
 DEEPEST = 50
 """How many messages may lie within each other; Python's own stack would end at some 100."""
 
@@ -291,10 +294,16 @@ def _parse(owner: Package, interface: str) -> Definition:
 def _read(owner: Package, interface: str) -> str:
     path = owner.path(interface)
     try:
-        return path.read_text(encoding="utf-8")
+        with path.open(encoding="utf-8") as file:
+            text = file.read(LONGEST + 1)
     except (OSError, UnicodeDecodeError) as error:
         reason = f"the file cannot be read ({error})"
         raise InvalidDefinition(reason).locate(interface=f"{owner.name}/{interface}", file=str(path)) from None
+    if len(text) > LONGEST:
+        hint = "Move some of its fields into messages of their own"
+        too_long = InvalidDefinition(f"the definition has more than {LONGEST:,} characters", hint=hint)
+        raise too_long.locate(interface=f"{owner.name}/{interface}", file=str(path))
+    return text
 
 
 def advice(owner: Package, interface: str) -> str:

@@ -67,11 +67,11 @@ def value_of(context: LaunchContext, value: Any) -> Any:
 
 def _from_text(text: str) -> Any:
     """What YAML makes of a substitution's text; an empty text stays one (launch_ros, pull request 300)."""
-    import yaml
+    from turtle_lesson.ros.bounded_yaml import safe_load
 
     if not text:
         return ""
-    value = yaml.safe_load(text)
+    value = safe_load(text)
     if isinstance(value, PLAIN):
         return value
     if isinstance(value, list):
@@ -84,14 +84,14 @@ def _from_text(text: str) -> Any:
 
 
 def _from_sequence(context: LaunchContext, items: Sequence[Any]) -> Any:
-    import yaml
+    from turtle_lesson.ros.bounded_yaml import safe_load
 
     if any(isinstance(item, Substitution) for item in items):
         pieces = normalize_to_list_of_substitutions(items)
         return _from_text(perform_substitutions(context, pieces))
     if any(isinstance(item, Sequence) and not isinstance(item, str) for item in items):
         texts = [perform_substitutions(context, normalize_to_list_of_substitutions(item)) for item in items]
-        return uniform([yaml.safe_load(text) for text in texts])
+        return uniform([safe_load(text) for text in texts])
     return uniform(list(items))
 
 

@@ -56,11 +56,11 @@ class ParameterValue:
         return perform_text_as(context, self.__value, self.__value_type)
 
     def _list(self, context: LaunchContext, kind: type) -> list[Any]:
-        import yaml
+        from turtle_lesson.ros.bounded_yaml import safe_load
 
         items = self.__value
         if isinstance(items, Substitution):
-            items = yaml.safe_load(perform_substitutions(context, normalize_to_list_of_substitutions(items)))
+            items = safe_load(perform_substitutions(context, normalize_to_list_of_substitutions(items)))
         return uniform([perform_text_as(context, item, kind) for item in items])
 
 

@@ -9,6 +9,7 @@ import yaml
 from launch import frontend
 from launch.frontend.parser import read
 
+from turtle_lesson.ros.bounded_yaml import BoundedLoader
 from turtle_lesson.ros.core.tracebacks import shown_path
 
 from .entity import Entity, Mapping
@@ -61,7 +62,7 @@ def _tree(text: str, name: str) -> Any:
         loader.dispose()
 
 
-class _Loader(yaml.SafeLoader):
+class _Loader(BoundedLoader):
     """Reads mappings as `Mapping`s, which know the lines of their keys."""
 
 

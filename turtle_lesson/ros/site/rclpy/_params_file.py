@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 from turtle_lesson.ros.graph.names import node_name_flaw
@@ -18,8 +17,11 @@ Entry = tuple[str, str, Any]
 
 def read_parameter_file(path: str) -> list[Entry]:
     """The values in a file, in its order; names of nested parameters are joined by dots. Raises YamlValueError."""
+    from turtle_lesson.ros.bounded_yaml import LONGEST
+
     try:
-        text = Path(path).read_text(encoding="utf-8")
+        with open(path, encoding="utf-8") as file:
+            text = file.read(LONGEST + 1)
     except UnicodeDecodeError:
         raise YamlValueError("Error opening YAML file: it is not text in UTF-8") from None
     except (OSError, ValueError) as error:

@@ -113,9 +113,9 @@ def line_of(node: Any) -> int:
 @cache
 def _loader() -> Any:
     """A reader of YAML that leaves it to us what an unmarked word means."""
-    import yaml
+    from turtle_lesson.ros.bounded_yaml import BoundedLoader
 
-    class Loader(yaml.SafeLoader):
+    class Loader(BoundedLoader):
         yaml_implicit_resolvers: ClassVar[dict[str, Any]] = {}
         DEFAULT_SCALAR_TAG = "unmarked"
 
@@ -126,10 +126,15 @@ def tree(text: str) -> Any:
     """The tree of a YAML text, None of an empty one. Raises YamlValueError for what is no YAML, or has aliases."""
     import yaml
 
-    line = 0
+    from turtle_lesson.ros.bounded_yaml import DEEPEST
+
+    line = depth = 0
     try:
         for event in yaml.parse(text, _loader()):
             line = event.start_mark.line + 1
+            depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
+            if depth > DEEPEST:
+                break  # composing says so
             if isinstance(event, yaml.AliasEvent):
                 raise YamlValueError(f"Will not support aliasing at line {line}: write the value once more")
         return yaml.compose(text, _loader())

@@ -144,8 +144,10 @@ def get_parameter_value(string_value: str) -> Any:
     """
     import yaml
 
+    from turtle_lesson.ros.bounded_yaml import safe_load
+
     try:
-        value = yaml.safe_load(string_value)
+        value = safe_load(string_value)
     except (yaml.YAMLError, ValueError):
         value = string_value
     for kind in (Parameter.Type[name] for name in _TRIED):
@@ -178,10 +180,10 @@ def parameter_dict_from_yaml_file(
         RuntimeError: if the file has nothing for a node, or is no parameter file.
         OSError: if it cannot be read.
     """
-    import yaml
+    from turtle_lesson.ros.bounded_yaml import LONGEST, safe_load
 
     with open(parameter_file, encoding="utf-8") as file:
-        content = yaml.safe_load(file)
+        content = safe_load(file.read(LONGEST + 1))
     if not isinstance(content, dict):
         raise RuntimeError(
             f"YAML file is not a valid ROS parameter file: it should map nodes to ros__parameters: {content!r}"

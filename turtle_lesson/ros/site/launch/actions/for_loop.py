@@ -64,10 +64,10 @@ class ForEach(Action):
 
     def execute(self, context: LaunchContext) -> Entities | None:
         """Call the function with each set, and give all that it gave."""
-        import yaml
+        from turtle_lesson.ros.bounded_yaml import safe_load
 
         text = perform_substitutions(context, self._input_values)
-        sets = [yaml.safe_load(part.strip()) for part in text.strip().split(self.SEPARATOR) if part]
+        sets = [safe_load(part.strip()) for part in text.strip().split(self.SEPARATOR) if part]
         if not sets:
             logging.get_logger("launch.actions.for_loop").warning("no input values: will not iterate")
         found: Entities = []

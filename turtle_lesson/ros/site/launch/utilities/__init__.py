@@ -70,7 +70,7 @@ def perform_substitutions(context: LaunchContext, subs: Iterable[Substitution]) 
 
 def perform_text_as(context: LaunchContext, value: Any, kind: type) -> Any:
     """A plain value as it is; a substitution's text read as YAML, which must give a value of `kind`."""
-    import yaml
+    from turtle_lesson.ros.bounded_yaml import safe_load
 
     if isinstance(value, kind) and not isinstance(value, Substitution):
         return value
@@ -79,7 +79,7 @@ def perform_text_as(context: LaunchContext, value: Any, kind: type) -> Any:
     text = perform_substitutions(context, normalize_to_list_of_substitutions(value))
     if kind is str:
         return text
-    found = yaml.safe_load(text)
+    found = safe_load(text)
     if kind is float and isinstance(found, int) and not isinstance(found, bool):
         return float(found)
     if not isinstance(found, kind) or (kind is int and isinstance(found, bool)):

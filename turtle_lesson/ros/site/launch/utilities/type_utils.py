@@ -77,10 +77,10 @@ def coerce_to_type(value: str, data_type: Any = None, can_be_str: bool = False) 
 
 
 def _by_yaml(text: str, complaint: str, can_be_str: bool) -> Any:
-    import yaml
+    from turtle_lesson.ros.bounded_yaml import safe_load
 
     try:
-        value = yaml.safe_load(text)
+        value = safe_load(text)
     except Exception as error:
         if can_be_str:
             return text
