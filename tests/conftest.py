@@ -13,6 +13,7 @@ import pytest
 from program_terminal import Terminal
 
 import turtle_lesson  # noqa: F401  (makes rclpy and the interface packages importable in every test)
+from turtle_lesson import files
 from turtle_lesson.ros.interfaces import registry
 from turtle_lesson.ros.interfaces.registry import forget_modules
 from turtle_lesson.ros.world import World, open_world
@@ -29,6 +30,13 @@ def no_package_of_another_module() -> None:
     if "robot_controller" in registry.packages():
         registry.remove("robot_controller")
     forget_modules("robot_controller")
+
+
+@pytest.fixture(autouse=True)
+def no_folder_of_another_test(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The learner's folder is the one that is current when a test first asks for it, or calls `start()`."""
+    monkeypatch.setattr(files, "_home", None)
+    monkeypatch.setattr(files, "_of_notebook", False)
 
 
 @pytest.fixture

@@ -14,7 +14,6 @@ from turtle_lesson import Lesson, start
 from turtle_lesson.lab.checks import CheckResult, Exam, Expectation
 from turtle_lesson.lab.checks.functions import learner_function, returns
 from turtle_lesson.lab.checks.rows import CannotLook
-from turtle_lesson.ros.command import shell
 from turtle_lesson.workspace import workspace
 
 # isort: split
@@ -125,7 +124,7 @@ def cells() -> Iterator[dict[str, Any]]:
 @pytest.fixture
 def file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A file of the learner's package that does not exist yet."""
-    monkeypatch.setattr(shell, "_home", tmp_path)
+    monkeypatch.chdir(tmp_path)
     folder = workspace().package / "robot_controller"
     folder.mkdir(parents=True)
     return folder / "node.py"

@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from turtle_lesson import start
-from turtle_lesson.ros.command import shell
+from turtle_lesson import files, start
 from turtle_lesson.ros.command.shell import run_line
 
 CASES = {
@@ -20,7 +19,7 @@ CASES = {
 
 @pytest.fixture(autouse=True)
 def in_a_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(shell, "_home", tmp_path)
+    monkeypatch.setattr(files, "_home", tmp_path)
     monkeypatch.chdir(tmp_path)
 
 

@@ -15,11 +15,12 @@ from IPython.core.completer import provisionalcompleter
 from IPython.core.interactiveshell import InteractiveShell
 from traitlets.config import Config
 
-from turtle_lesson import start
-from turtle_lesson.ros.command import shell as terminal
+from turtle_lesson import files, start
+from turtle_lesson.ros.command import terminal_files
 from turtle_lesson.ros.command.cells import COMMANDS, UNSURE, translate
 from turtle_lesson.ros.command.completion import complete
 from turtle_lesson.ros.command.elsewhere import ELSEWHERE, advice
+from turtle_lesson.ros.command.shell import BUILTINS, PROGRAMS
 from turtle_lesson.ros.world import current_world
 
 Run = Callable[..., str]
@@ -39,8 +40,8 @@ def run(
 ) -> Iterator[Run]:
     """Runs a cell in a fresh world and returns what it printed."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(terminal, "_home", tmp_path)
-    monkeypatch.setattr(terminal.terminal_files, "last_cd", None)
+    monkeypatch.setattr(files, "_home", tmp_path)
+    monkeypatch.setattr(terminal_files, "last_cd", None)
     ipython.reset(new_session=False)
     ipython.user_ns["lesson"] = start(seed=0)
     capsys.readouterr()
@@ -569,7 +570,7 @@ def test_tab_leaves_python_alone(run: Run, ipython: InteractiveShell) -> None:
 
 
 def test_every_word_that_may_be_typed_bare_is_known_to_the_terminal(run: Run) -> None:
-    assert {*COMMANDS, *UNSURE} <= {*terminal.PROGRAMS, *terminal.BUILTINS, *ELSEWHERE}
-    assert {*terminal.PROGRAMS, *terminal.BUILTINS} <= {*COMMANDS, *UNSURE, "."}
+    assert {*COMMANDS, *UNSURE} <= {*PROGRAMS, *BUILTINS, *ELSEWHERE}
+    assert {*PROGRAMS, *BUILTINS} <= {*COMMANDS, *UNSURE, "."}
     assert all(advice([word]) for word in ELSEWHERE)
-    assert not ELSEWHERE & {*terminal.PROGRAMS, *terminal.BUILTINS}
+    assert not ELSEWHERE & {*PROGRAMS, *BUILTINS}

@@ -151,7 +151,8 @@ def test_a_file_that_never_ends_is_not_read(demo: World, tmp_path: Path) -> None
     assert answer.code == 1 and "is too long: at most 100000 characters" in answer.stderr
 
 
-def test_the_old_ways_to_dump_are_warned_of(demo: World, tmp_path: Path) -> None:
+def test_the_old_ways_to_dump_are_warned_of(demo: World, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
     answer = type_in(demo, "ros2 param dump /status_monitor --print")
     assert answer.stdout == "/status_monitor:\n  ros__parameters:\n    use_sim_time: false\n\n"
     assert answer.stderr == "WARNING: '--print' is deprecated; this utility prints to stdout by default\n"

@@ -211,7 +211,7 @@ def test_long_words_of_other_terminals_are_cut(type_line) -> None:  # type: igno
         ("print(5)", "print(5): command not found. If it is Python, write it on a line of its own"),
         ("rm -rf /", "rm: '/' stays where it is: the current folder or the notebook's is in it"),
         ("rm -rf .", "rm: '.' stays where it is"),
-        ("rm -r /usr/lib", "rm: '/usr/lib' stays where it is: it is outside the notebook's folder"),
+        ("rm -r /usr/lib", "rm: '/usr/lib' stays where it is: it is outside your folder ("),
         ("rm nope", "rm: cannot remove 'nope': No such file or directory"),
         ("rm", "rm: missing operand"),
         ("mv .. x", "mv: '..' stays where it is"),

@@ -9,9 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from turtle_lesson import Lesson, start
+from turtle_lesson import Lesson, files, start
 from turtle_lesson.lab.troubles import TROUBLES, Case
-from turtle_lesson.ros.command import shell
 from turtle_lesson.ros.command.shell import run_line
 
 SEEDS = range(10)
@@ -23,7 +22,7 @@ NAMED = {"CMakeLists.txt": '"msg/TurtleStatus.msg"\n  "srv/NavigateTo.srv"'}
 @pytest.fixture(autouse=True)
 def in_a_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     before = Path.cwd()
-    monkeypatch.setattr(shell, "_home", tmp_path)
+    monkeypatch.setattr(files, "_home", tmp_path)
     os.chdir(tmp_path)
     yield
     os.chdir(before)

@@ -79,7 +79,8 @@ def pages(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.fixture
-def mine(pages: Path, tmp_path: Path) -> Workspace:
+def mine(pages: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Workspace:
+    monkeypatch.chdir(tmp_path)
     return Workspace(tmp_path / "workspace")
 
 
@@ -304,7 +305,10 @@ def test_the_workspace_is_beside_the_notebook(tmp_path: Path) -> None:
     assert workspace().folder.name == "workspace"
 
 
-def test_it_is_built_again_after_a_build_by_hand_from_other_sources(tmp_path: Path, world: World) -> None:
+def test_it_is_built_again_after_a_build_by_hand_from_other_sources(
+    tmp_path: Path, world: World, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
     mine = Workspace(tmp_path / "workspace")
     mine.prepare("04_status_monitor")
     assert not mine.is_built

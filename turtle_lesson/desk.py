@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from .ros.command.shell import home
+from .files import home
 
 if TYPE_CHECKING:
     from .lab.checks import CheckResult

@@ -69,13 +69,14 @@ def start(
     _check_no_real_ros()
     _check_seed(seed)
     chosen_release(distro)
-    if page is not None:
-        print(workspace().prepare(page_named(page)).state())
-        package = "mine" if package == "finished" else package
-    mine = _built(seed, distro, workspace()) if package == "mine" else None
-    source = _package_folder(None if mine else package)
-    world = open_world(seed, distro)
+    page = None if page is None else page_named(page)
+    package = "mine" if page and package == "finished" else package
+    source = None if package == "mine" else _package_folder(package)
     open_terminal()
+    if page is not None:
+        print(workspace().prepare(page).state())
+    mine = _built(seed, distro, workspace()) if package == "mine" else None
+    world = open_world(seed, distro)
     if "robot_controller" in registry.packages():
         registry.remove("robot_controller")
     for each in underlay_packages():

@@ -9,9 +9,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from .files import home
 from .ros import launching
 from .ros.command.jobs import Job, jobs
-from .ros.command.shell import home
 from .ros.console import CellOutput
 from .ros.core import Process
 from .ros.interfaces.registry import registry

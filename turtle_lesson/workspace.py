@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import files, story
-from .ros.command.shell import home
+from .files import home
 from .ros.workspace import templates
 from .ros.workspace.create import TO_DO_DESCRIPTION
 

@@ -7,6 +7,8 @@ from io import TextIOBase
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
+from .. import files
+
 if TYPE_CHECKING:
     from .core import Simulation
 
@@ -50,6 +52,6 @@ class FileOutput(BorrowedStream):
 
     def write(self, text: str) -> int:
         """Append a text, as it is."""
-        with suppress(FileNotFoundError), self._path.open("a", encoding="utf-8") as file:
+        with suppress(FileNotFoundError), files.opened(self._path, "a") as file:
             file.write(text)
         return len(text)

@@ -9,6 +9,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from ..files import OPENED
 from .pages import PageError
 
 JUPYTER = Path(__file__).resolve().parent / "jupyter"
@@ -34,7 +35,7 @@ def serve(folder: Path, port: int | None, browser: bool, more: Sequence[str]) ->
         words += [f"--ServerApp.port={port}", "--ServerApp.port_retries=0"]
     if not browser:
         words.append("--no-browser")
-    environment = dict(os.environ)
+    environment = dict(os.environ) | {OPENED: str(folder.resolve())}
     for name in ("JUPYTER_PATH", "JUPYTER_CONFIG_PATH"):
         environment[name] = os.pathsep.join([str(JUPYTER), *filter(None, [os.environ.get(name)])])
     sys.stdout.flush()

@@ -8,6 +8,7 @@ without which damage cannot be noticed.
 
 from __future__ import annotations
 
+import sqlite3
 import weakref
 import zlib
 from collections.abc import Sequence
@@ -15,6 +16,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
+from ... import files
 from .errors import BagError
 from .qos import as_recorded
 from .schema import schema_text, type_hash
@@ -50,7 +52,9 @@ class BagWriter:
         self.count = 0
         self._connections: dict[tuple[str, str], Any] = {}
         self._writer = _open(folder, storage)
-        self._end = weakref.finalize(self, _close, self._writer)  # also when Python ends before anybody said stop
+        files.in_use.add(folder.resolve())
+        # Also when Python ends before anybody said stop.
+        self._end = weakref.finalize(self, _close, self._writer, folder.resolve())
 
     def __repr__(self) -> str:
         return f"<BagWriter of {self.folder.name}, {self.count} messages>"
@@ -126,12 +130,21 @@ def _open(folder: Path, storage: str) -> Any:
             if self.chunk.bio.tell() > CHUNK_SIZE:
                 self.close_chunk()
 
+    class ExactSqlite3Writer(Sqlite3Writer):
+        """Writes the file of this name: Sqlite3Writer makes a URI of it, in which %, ? and # mean something else."""
+
+        def __init__(self, path: Path, _compression: object) -> None:
+            self.path = path / f"{path.name}.db3"
+            self.conn = sqlite3.connect(self.path)
+            self.conn.executescript(self.SQLITE_SCHEMA)
+            self.cursor = self.conn.cursor()
+
     class NumberedWriter(Writer):
         """Calls the data file `run_0.mcap`."""
 
         STORAGE_PLUGINS: Any = {  # noqa: RUF012
             StoragePlugin.MCAP: lambda path, mode: CheckedMcapWriter(numbered(path), mode),
-            StoragePlugin.SQLITE3: lambda path, mode: Sqlite3Writer(numbered(path), mode),
+            StoragePlugin.SQLITE3: lambda path, mode: ExactSqlite3Writer(numbered(path), mode),
         }
 
     numbered: Any = _Numbered
@@ -155,7 +168,8 @@ class _Numbered:
         return self._folder / name
 
 
-def _close(writer: Any) -> None:
+def _close(writer: Any, folder: Path) -> None:
+    files.in_use.discard(folder)
     try:
         writer.close()
     except Exception:

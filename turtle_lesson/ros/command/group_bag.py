@@ -13,6 +13,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+from turtle_lesson import files
 from turtle_lesson.ros.bags.errors import BagError
 
 from .bag_arguments import info_arguments, play_arguments, reader_arguments, record_arguments
@@ -23,9 +24,9 @@ def _record(args: Namespace) -> int:
     if problem := _contradiction(args):
         return _error(problem)
     from turtle_lesson.ros.bags.recorder import Selection, checked_names, record
-    from turtle_lesson.ros.bags.writer import BagWriter
+    from turtle_lesson.ros.bags.writer import BagWriter, is_there
 
-    folder = Path(args.output or _name_by_time()).expanduser()
+    folder = Path(args.output or _name_by_time()).expanduser().absolute()
     say = _logger("rosbag2_recorder")
     seconds = stretch_of(args)
     try:
@@ -33,9 +34,9 @@ def _record(args: Namespace) -> int:
         selection = Selection(
             names, args.regex, args.exclude, args.include_hidden_topics, args.include_unpublished_topics
         )
-        bag = BagWriter(folder.absolute(), args.storage)
-    except BagError as error:
-        return _error(str(error).replace(str(folder.absolute()), args.output or folder.name))
+        bag = BagWriter(folder if is_there(folder) else files.check(folder), args.storage)
+    except (BagError, OSError) as error:
+        return _error(_reason(error).replace(str(folder), args.output or folder.name))
     if args.storage == "sqlite3":
         _logger("rosbag2_storage")(
             "INFO", f"Opened database '{args.output or folder.name}/{bag.file.name}' for READ_WRITE."
@@ -120,6 +121,7 @@ def _play(args: Namespace) -> int:
 
 
 def _reindex(args: Namespace) -> int:
+    from turtle_lesson.ros.bags.bag import METADATA
     from turtle_lesson.ros.bags.reindex import reindex
 
     folder = Path(args.bag_path).expanduser()
@@ -128,9 +130,10 @@ def _reindex(args: Namespace) -> int:
     say = _logger("rosbag2_cpp")
     say("INFO", f"Beginning reindexing bag in directory: {args.bag_path}")
     try:
+        files.check(folder / METADATA)
         bag = reindex(folder)
     except (BagError, OSError) as error:
-        return _error(str(error))
+        return _error(_reason(error))
     say("INFO", "Reindexing complete.")
     return _error(bag.damage) if bag.damage else 0
 
@@ -166,6 +169,12 @@ def _logger(name: str) -> Any:
             logger.error(text)
 
     return say
+
+
+def _reason(error: BagError | OSError) -> str:
+    if isinstance(error, OSError) and error.strerror:
+        return f"{error.filename}: {error.strerror}"
+    return str(error)
 
 
 def _error(text: str) -> int:

@@ -7,6 +7,8 @@ from argparse import ArgumentParser, Namespace
 from pathlib import Path
 from typing import Any
 
+from turtle_lesson import files
+
 from . import param_values
 from .common import CommandError, direct_node, suggest
 from .param_calls import arguments_of_all, ask, find_node, listed, set_values, with_reason
@@ -42,7 +44,7 @@ def dump(args: Namespace) -> None:
     file = Path(args.output_dir) / f"{name.lstrip('/').replace('/', '__')}.yaml"
     print("Saving to: ", file)
     try:
-        file.write_text(text, encoding="utf-8")
+        files.save(file, text)
     except (OSError, ValueError) as error:
         raise CommandError(f"cannot write {file}: {getattr(error, 'strerror', None) or error}") from None
 

@@ -2,7 +2,7 @@
 
 Quotes, `\\` at a line's end, comments, `&&`, `||`, `;`, a trailing `&`, `| grep`, `< file`, `> file` and patterns such as
 `*.msg` work as in bash, and so do files of commands. The current folder is the notebook's; `~` is the folder in which the
-notebook began.
+notebook began. Which files a command may change, `files.check` decides.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ... import files
 from ..console import FileOutput
 from ..workspace.errors import did_you_mean
 from . import INTERRUPTED, terminal_files
@@ -102,7 +103,7 @@ class Shell:
         return code
 
     def _one(self, command: Command, given: str | None, out: Any, error: Any) -> int:
-        words = [text for word in command.words for text in expand(word, home=_home, exit_code=self.exit_code)]
+        words = [text for word in command.words for text in expand(word, home=files.home(), exit_code=self.exit_code)]
         try:
             if command.stdin is not None:
                 given = Path(command.stdin).read_text(encoding="utf-8")
@@ -200,38 +201,22 @@ def _redirected(command: Command, out: Any, error: Any) -> tuple[Any, Any]:
 
 
 def _file(name: str, mode: str, instead_of: Any) -> FileOutput:
-    Path(name).open(mode, encoding="utf-8").close()
+    files.opened(Path(name), mode).close()
     return FileOutput(Path(name), instead_of)
-
-
-def _here() -> Path:
-    """The current folder; the computer's home where somebody has deleted the current one."""
-    try:
-        return Path.cwd()
-    except FileNotFoundError:
-        return Path.home()
-
-
-_home = _here()
-
-
-def home() -> Path:
-    """What `~` is: the folder in which the notebook began."""
-    return _home
 
 
 def open_terminal() -> None:
     """A new terminal begins where the notebook began: undo what `cd` did."""
-    if terminal_files.last_cd is not None and _here() == terminal_files.last_cd and _home.is_dir():
-        os.chdir(_home)
+    if terminal_files.last_cd is not None and files.here() == terminal_files.last_cd and files.home().is_dir():
+        os.chdir(files.home())
     terminal_files.last_cd = None
+    files.begin()
 
 
 def begin_here() -> None:
     """The notebook begins: its folder is what `~` is from now on."""
-    global _home
     if terminal_files.last_cd is None:
-        _home = _here()
+        files.begin(notebook=True)
 
 
 def run_line(world: World, script: str) -> int:

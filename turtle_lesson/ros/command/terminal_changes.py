@@ -1,10 +1,12 @@
-"""The terminal's words that change files and folders: rm, cp, mv. What is outside of the notebook's folder stays as it is."""
+"""The terminal's words that change files and folders: rm, cp, mv."""
 
 from __future__ import annotations
 
+import os
 import shutil
 from pathlib import Path
 
+from ... import files
 from .terminal_io import Terminal, options
 
 
@@ -20,8 +22,10 @@ def _delete(terminal: Terminal, name: str, letters: set[str]) -> int:
     path = Path(name)
     if not path.exists() and not path.is_symlink():
         return 0 if "f" in letters else terminal.fail(f"rm: cannot remove '{name}': No such file or directory")
-    if why := _why_not(path):
-        return terminal.fail(f"rm: '{name}' stays where it is: {why}")
+    try:
+        files.check(path, removes=True)
+    except PermissionError as refusal:
+        return terminal.fail(f"rm: '{name}' stays where it is: {refusal.strerror}")
     if path.is_symlink() or not path.is_dir():
         path.unlink()
     elif letters & {"r", "R"}:
@@ -29,18 +33,6 @@ def _delete(terminal: Terminal, name: str, letters: set[str]) -> int:
     else:
         return terminal.fail(f"rm: cannot remove '{name}': Is a directory. rm -r deletes a folder and everything in it")
     return 0
-
-
-def _why_not(path: Path) -> str:
-    """Why this must not be deleted or moved away; nothing if it may be."""
-    from .shell import home
-
-    place = path.parent.resolve() / path.name if path.is_symlink() else path.resolve()
-    if any(each.is_relative_to(place) for each in (Path.cwd(), home())):
-        return "the current folder or the notebook's is in it"
-    if not any(place.is_relative_to(each) for each in (Path.cwd(), home())):
-        return "it is outside the notebook's folder; with a ! before it, the command runs on your computer"
-    return ""
 
 
 def cp(terminal: Terminal, words: list[str]) -> int:
@@ -56,13 +48,14 @@ def _copy(terminal: Terminal, name: str, target: Path, letters: set[str]) -> int
     if not source.exists():
         return terminal.fail(f"cp: cannot stat '{name}': No such file or directory")
     if not source.is_dir():
+        files.check(target)
         shutil.copy(source, target)
     elif not letters & {"r", "R", "a"}:
         return terminal.fail(f"cp: -r not specified; omitting directory '{name}'")
-    elif target.resolve().is_relative_to(source.resolve()):
+    elif Path(os.path.realpath(target)).is_relative_to(source.resolve()):
         return terminal.fail(f"cp: cannot copy a directory, '{name}', into itself, '{target}'")
     else:
-        shutil.copytree(source, target, dirs_exist_ok=True)
+        files.copy(source.resolve(), target)
     return 0
 
 
@@ -78,13 +71,16 @@ def _move(terminal: Terminal, name: str, target: Path) -> int:
     source = Path(name)
     if not source.exists():
         return terminal.fail(f"mv: cannot stat '{name}': No such file or directory")
-    if why := _why_not(source):
-        return terminal.fail(f"mv: '{name}' stays where it is: {why}")
-    shutil.move(source, target)
+    try:
+        files.check(source, removes=True)
+    except PermissionError as refusal:
+        return terminal.fail(f"mv: '{name}' stays where it is: {refusal.strerror}")
+    files.check(target, follow=False)
+    os.replace(source, target)
     return 0
 
 
 def _target(name: str, to: str) -> Path:
     """Where a file goes: into a folder that is there, or else to the name itself."""
     place = Path(to)
-    return place / Path(name).resolve().name if place.is_dir() else place
+    return place / os.path.basename(os.path.realpath(name)) if place.is_dir() else place

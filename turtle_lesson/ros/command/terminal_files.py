@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from ... import files
 from ..core.tracebacks import shown_path
 from ..workspace.errors import did_you_mean
 from .terminal_io import Terminal, options
@@ -19,11 +20,9 @@ last_cd: Path | None = None
 def cd(terminal: Terminal, words: list[str]) -> int:
     """`cd folder`, `cd ..`, `cd -`, `cd`: change the current folder."""
     global last_cd
-    from .shell import home
-
     if len(words) > 1:
         return terminal.fail("cd: too many arguments: a folder's name with a space in it needs quotes")
-    target = Path(words[0]) if words else home()
+    target = Path(words[0]) if words else files.home()
     if words == ["-"]:
         target = Path(os.environ.get("OLDPWD", "."))
         terminal.say(shown_path(str(target)))
@@ -64,7 +63,7 @@ def mkdir(terminal: Terminal, words: list[str]) -> int:
     code = 0
     for name in names:
         try:
-            Path(name).mkdir(parents=parents, exist_ok=parents)
+            _make(Path(name), parents)
         except FileExistsError:
             code = terminal.fail(f"mkdir: cannot create directory '{name}': File exists")
         except FileNotFoundError:
@@ -72,6 +71,12 @@ def mkdir(terminal: Terminal, words: list[str]) -> int:
                 f"mkdir: cannot create directory '{name}': No such file or directory. mkdir -p also makes the folders above"
             )
     return code
+
+
+def _make(path: Path, parents: bool) -> None:
+    if not parents and os.path.lexists(path):
+        raise FileExistsError
+    files.check(path).mkdir(parents=parents, exist_ok=parents)  # not by way of other folders, as in new/../../x
 
 
 # -- files -------------------------------------------------------------------------------------------------------------
@@ -108,6 +113,7 @@ def _list_folder(terminal: Terminal, place: Path, letters: set[str], *, headed: 
 def touch(terminal: Terminal, words: list[str]) -> int:
     """`touch file…`: make empty files."""
     for name in words:
+        files.check(name)
         Path(name).touch()
     return 0 if words else terminal.fail("touch: name the files to make")
 
@@ -119,5 +125,6 @@ def chmod(terminal: Terminal, words: list[str]) -> int:
         return terminal.fail("chmod: here it makes files executable: chmod +x file")
     for name in names:
         path = Path(name)
+        files.check(path)
         path.chmod(path.stat().st_mode | 0o111)
     return 0

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
+from ... import files
 from ..core import NANOSECONDS, running_strand
 from ..core.tracebacks import shown_path
 from ..interfaces.names import LOWER_CASE
@@ -195,17 +196,15 @@ class _Builder:
         stamp = time.strftime("%Y-%m-%d_%H-%M-%S", time.gmtime(1_800_000_000 + self.world.now // NANOSECONDS))
         folder = self.plan.log / f"build_{stamp}"
         for name, outcome in self.log.items():
-            (folder / name).mkdir(parents=True, exist_ok=True)
             stdout = "".join(f"{line}\n" for line in outcome.stdout)
             for file, text in (
                 ("stdout", stdout),
                 ("stderr", outcome.stderr),
                 ("stdout_stderr", stdout + outcome.stderr),
             ):
-                (folder / name / f"{file}.log").write_text(text, encoding="utf-8")
-        folder.mkdir(parents=True, exist_ok=True)
+                files.save(folder / name / f"{file}.log", text)
         summary = "".join(f"{name}: exit code {outcome.code}\n" for name, outcome in self.log.items())
-        (folder / "logger_all.log").write_text(summary, encoding="utf-8")
+        files.save(folder / "logger_all.log", summary)
         for name in ("latest", "latest_build"):
             _point(self.plan.log / name, folder.name)
 
@@ -217,6 +216,7 @@ def _listed(word: str, names: list[str]) -> str:
 
 
 def _point(link: Path, target: str) -> None:
+    files.check(link, follow=False)
     try:
         link.unlink(missing_ok=True)
         link.symlink_to(target)

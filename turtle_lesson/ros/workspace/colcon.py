@@ -118,7 +118,7 @@ def run(world: World, words: list[str], *, stdout: TextIO, stderr: TextIO, cwd: 
     except ColconError as error:
         stderr.write(f"[{command.clock()}s] ERROR:colcon:colcon {verb}: {error}\n")
         return 1
-    except (OSError, ValueError) as error:  # a folder that cannot be read, written or even named
+    except (OSError, ValueError, RuntimeError) as error:  # an unusable folder, or a loop of links
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
         named = f": {str(error.filename)[:100]}" if isinstance(error, OSError) and error.filename else ""
         stderr.write(f"[{command.clock()}s] ERROR:colcon:colcon {verb}: {reason}{named}\n")

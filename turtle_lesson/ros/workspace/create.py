@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 from typing import TextIO
 
+from ... import files
 from ..core.tracebacks import shown_path
 from . import templates
 
@@ -94,16 +95,18 @@ class _Creation:
         self.maintainer = (args.maintainer_name, args.maintainer_email or f"{args.maintainer_name}@todo.todo")
         self.dependencies = list(dict.fromkeys(args.dependencies))
         self.destination = cwd / args.destination_directory
+        self.folder = self.destination / self.name
         self.out, self.err = out, err
 
     def run(self) -> int:
         self._introduce()
         try:
+            self.folder = files.check(self.folder)
             self._write_all()
+            self._licence()
         except OSError as error:
             print(f"\nAborted!\n{self.name} cannot be written: {error.strerror or error}", file=self.err)
             return 1
-        self._licence()
         if not _GOOD_NAME.fullmatch(self.name):
             rule = "ROS 2 wants small letters, digits and '_', beginning with a letter"
             print(f"[WARNING]: the package name '{self.name}' will be refused by colcon build: {rule}.", file=self.err)
@@ -134,11 +137,11 @@ class _Creation:
 
     def _folder(self, *inner: str) -> None:
         self._say(f"creating folder {self._path(*inner)}")
-        (self.destination / self.name).joinpath(*inner).mkdir(parents=True, exist_ok=True)
+        self.folder.joinpath(*inner).mkdir(parents=True, exist_ok=True)
 
     def _file(self, text: str, *inner: str) -> None:
         self._say(f"creating {self._path(*inner)}")
-        (self.destination / self.name).joinpath(*inner).write_text(text, encoding="utf-8")
+        self.folder.joinpath(*inner).write_text(text, encoding="utf-8")
 
     def _write_all(self) -> None:
         args = self.args
@@ -200,7 +203,7 @@ class _Creation:
         licence = self.args.license
         if licence in LICENCES:
             text = templates.licence_text(licence, self.maintainer[0])
-            (self.destination / self.name / "LICENSE").write_text(text, encoding="utf-8")
+            (self.folder / "LICENSE").write_text(text, encoding="utf-8")
             return
         self._say(
             f"\n[WARNING]: Unknown license '{licence}'.  This has been set in the package.xml, but no LICENSE file has "

@@ -7,6 +7,7 @@ import shutil
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
+from ... import files
 from ..core.tracebacks import shown_path
 from .discover import ColconError, Found
 from .installed import LAYOUT, layout_of, prefix_of
@@ -29,10 +30,9 @@ def prepare(install: Path, build: Path, log: Path, layout: str = "isolated") -> 
             f"directory, pick a different one or {'add' if before == 'merged' else 'remove'} the '--merge-install' option."
         )
     for folder in (install, build, log):
-        folder.mkdir(parents=True, exist_ok=True)
-        (folder / "COLCON_IGNORE").touch()
-    (install / LAYOUT).write_text(f"{layout}\n", encoding="utf-8")
-    (build / ".built_by").write_text("colcon\n", encoding="utf-8")
+        files.save(folder / "COLCON_IGNORE", "")
+    files.save(install / LAYOUT, f"{layout}\n")
+    files.save(build / ".built_by", "colcon\n")
 
 
 def install_package(found: Found, outcome: Outcome, environment: Environment) -> list[str]:
@@ -42,8 +42,7 @@ def install_package(found: Found, outcome: Outcome, environment: Environment) ->
     _uninstall(prefix, manifest)
     lines = []
     items = [*outcome.items, *_index(found, outcome), *_environment(found, outcome)]
-    manifest.parent.mkdir(parents=True, exist_ok=True)
-    manifest.write_text("".join(f"{target}\n" for item in items for target in _targets(item)), encoding="utf-8")
+    files.save(manifest, "".join(f"{target}\n" for item in items for target in _targets(item)))
     for item in items:
         _write(item, prefix / item.target, environment.symlink)
         lines.append(f"-- Installing: {shown_path(str(prefix))}/{item.target}")
@@ -65,6 +64,7 @@ def _uninstall(prefix: Path, manifest: Path) -> None:
     for name in names:
         file = prefix / name
         if file.parent.resolve().is_relative_to(prefix.resolve()) and (file.is_symlink() or file.is_file()):
+            files.check(file, removes=True)
             file.unlink()
             for folder in file.parents:
                 if folder == prefix or any(folder.iterdir()):
@@ -73,15 +73,15 @@ def _uninstall(prefix: Path, manifest: Path) -> None:
 
 
 def _write(item: Item, target: Path, symlink: bool) -> None:
-    target.parent.mkdir(parents=True, exist_ok=True)
     if item.source is None:
-        target.write_text(item.text, encoding="utf-8")
+        files.save(target, item.text)
     elif symlink and not item.copied:
         _link(item.source, target)
         return
     elif item.source.is_dir():
-        shutil.copytree(item.source, target, dirs_exist_ok=True, ignore=shutil.ignore_patterns("__pycache__", "*.pyc"))
+        files.copy(item.source, target, shutil.ignore_patterns("__pycache__", "*.pyc"))
     else:
+        files.check(target).parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(item.source, target)
     if item.program:
         target.chmod(0o755)
@@ -93,7 +93,7 @@ def _link(source: Path, target: Path) -> None:
         for inner in _files_in(source):
             _link(inner, target / inner.relative_to(source))
         return
-    target.parent.mkdir(parents=True, exist_ok=True)
+    files.check(target, follow=False).parent.mkdir(parents=True, exist_ok=True)
     target.unlink(missing_ok=True)
     try:
         target.symlink_to(source.resolve())
@@ -102,9 +102,9 @@ def _link(source: Path, target: Path) -> None:
 
 
 def _files_in(folder: Path) -> Iterator[Path]:
-    for place, folders, files in os.walk(folder):
+    for place, folders, names in os.walk(folder):
         folders[:] = sorted(name for name in folders if name != "__pycache__")
-        yield from (Path(place, name) for name in sorted(files) if not name.endswith(".pyc"))
+        yield from (Path(place, name) for name in sorted(names) if not name.endswith(".pyc"))
 
 
 def _index(found: Found, outcome: Outcome) -> Iterator[Item]:
@@ -160,9 +160,8 @@ def _note_build(found: Found, environment: Environment) -> None:
     There is no CMakeCache.txt in it: a real colcon, to which this folder may be taken, runs CMake where there is none.
     """
     folder = environment.build / found.name
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / "colcon_build.rc").write_text("0\n", encoding="utf-8")
-    (folder / "source_folder.txt").write_text(f"{found.path.resolve()}\n", encoding="utf-8")
+    files.save(folder / "colcon_build.rc", "0\n")
+    files.save(folder / "source_folder.txt", f"{found.path.resolve()}\n")
 
 
 def write_setup_files(install: Path, names: Iterable[str]) -> None:
@@ -178,6 +177,6 @@ def write_setup_files(install: Path, names: Iterable[str]) -> None:
             lines.append(f'COLCON_CURRENT_PREFIX="$_folder{inner}"\n')
             lines.append(f'. "$COLCON_CURRENT_PREFIX/share/{name}/package.{shell}"\n')
         lines.append("unset COLCON_CURRENT_PREFIX _folder\n")
-        (install / f"local_setup.{shell}").write_text("".join(lines), encoding="utf-8")
+        files.save(install / f"local_setup.{shell}", "".join(lines))
         chain = f'. "$(cd "$(dirname "{place}")" > /dev/null && pwd)/local_setup.{shell}"\n'
-        (install / f"setup.{shell}").write_text(f"# Made by colcon build.\n{chain}", encoding="utf-8")
+        files.save(install / f"setup.{shell}", f"# Made by colcon build.\n{chain}")

@@ -5,9 +5,11 @@ from __future__ import annotations
 import shutil
 import sys
 from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
+from ... import files
 from ..core.program import run_program
 
 
@@ -32,7 +34,8 @@ class PythonProgram:
 def forget_below(folders: Iterable[Path]) -> None:
     """Have the modules in these folders be imported anew, from what the files say now.
 
-    Compiled files are deleted, too: Python takes them for good if the source has the same size and second.
+    Compiled files in the learner's folder are deleted, too: Python takes them for good if the source has the same size and
+    second.
     """
     folders = tuple(folders)
     for name, module in list(sys.modules.items()):
@@ -41,4 +44,5 @@ def forget_below(folders: Iterable[Path]) -> None:
             del sys.modules[name]
     for folder in folders:
         for cache in list(folder.rglob("__pycache__")):
-            shutil.rmtree(cache, ignore_errors=True)
+            with suppress(PermissionError):
+                shutil.rmtree(files.check(cache, removes=True), ignore_errors=True)
