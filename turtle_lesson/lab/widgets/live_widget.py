@@ -150,12 +150,12 @@ class LiveWidget(anywidget.AnyWidget):
 
     def _let_go(self) -> None:
         """Keep the last words, and nothing of the system."""
-        last = "This widget has ended."
-        with suppress(Exception):
-            last = self.text()
         for step in (self._views.clear, self.left):
             with suppress(Exception):  # what has broken down must not keep the next system from starting
                 step()
+        last = "This widget has ended."
+        with suppress(Exception):
+            last = self.text()
         cast(Link, self.station).cut()
         self.text = lambda: last  # type: ignore[method-assign]
         self.picture = lambda: None  # type: ignore[method-assign]
