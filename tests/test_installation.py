@@ -121,3 +121,8 @@ def test_in_an_empty_folder_the_first_command_needs_no_checkout(fresh: Path, tmp
 
 def test_pages_begin_with_the_files_of_those_before_them_without_a_checkout(fresh: Path, tmp_path: Path) -> None:
     assert "navigator_node.py" in run([str(fresh / "python"), "-c", BEGIN_PAGE_04], tmp_path)
+
+
+def test_what_other_pythons_leave_out_is_there() -> None:
+    lines = (ROOT / ".ci/every_python").read_text(encoding="utf-8").split()
+    assert [line for line in lines if not (ROOT / line.removeprefix("--ignore=")).exists()] == []
