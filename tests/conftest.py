@@ -10,6 +10,7 @@ from typing import Any
 # in the middle of a simulated process would be a look at its clock.
 import hypothesis.internal.conjecture.junkdrawer  # noqa: F401
 import pytest
+from hypothesis import HealthCheck, settings
 from program_terminal import Terminal
 
 import turtle_lesson  # noqa: F401  (makes rclpy and the interface packages importable in every test)
@@ -18,6 +19,10 @@ from turtle_lesson.ros.interfaces import registry
 from turtle_lesson.ros.interfaces.registry import forget_modules
 from turtle_lesson.ros.world import World, open_world
 from turtle_lesson.underlay import underlay_packages
+
+# A busy machine is no reason to fail: what hypothesis would refuse by its clock, CI or not, is taken.
+settings.register_profile("patient", settings(deadline=None, suppress_health_check=[HealthCheck.too_slow]))
+settings.load_profile("patient")
 
 SECOND = 1_000_000_000
 
