@@ -109,7 +109,7 @@ def _look_up(entry: Entry) -> Any:
 def _only_of_instances(thing: Any, name: str) -> Any:
     """What stands for an attribute that only the instances of a class have."""
     kinds = getattr(thing, "__mro__", ())
-    return any(name in vars(kind).get("__annotations__", {}) for kind in kinds) or _MISSING
+    return any(name in inspect.get_annotations(kind) for kind in kinds) or _MISSING
 
 
 def signature_of(thing: Callable[..., Any]) -> str:

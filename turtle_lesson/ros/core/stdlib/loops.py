@@ -7,6 +7,7 @@ that never waits lets time pass all the same. Sockets and child processes it doe
 from __future__ import annotations
 
 import asyncio
+import inspect
 import signal
 from collections.abc import Callable
 from typing import Any
@@ -128,7 +129,7 @@ class VirtualEventLoop(asyncio.BaseEventLoop):
 
     def add_signal_handler(self, sig: int, callback: Any, *args: Any) -> None:  # type: ignore[override]
         """Have a function called in the loop when this process gets a signal."""
-        if asyncio.iscoroutinefunction(callback):
+        if inspect.iscoroutinefunction(callback):
             raise TypeError("coroutines cannot be used with add_signal_handler()")
         signal.signal(sig, lambda *_: self.call_soon_threadsafe(callback, *args))
 
