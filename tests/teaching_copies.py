@@ -33,6 +33,13 @@ RIGHT, TOO_SLOW = COUNTER.replace("PERIOD", "0.5"), COUNTER.replace("PERIOD", "1
 STUB = "# your node"
 ENDLESS = "while True:\n    pass"
 DEAF = "while True:\n    try:\n        while True:\n            pass\n    except KeyboardInterrupt:\n        pass"
+ESCAPES = r"raise ValueError('\x1b[31mred\x1b]0;title\x07 \x9b2J\u202e<script>alert(1)</script>')"
+MUCH_MEMORY = "bytearray(4_000_000_000)"
+LARGE_FILE = "with open('large', 'wb') as file:\n    file.truncate(300_000_000)"
+CURIOUS = """import os
+seen = str(dict(os.environ)) + (open(f"/proc/{os.getppid()}/environ").read() if os.path.exists("/proc") else "")
+assert "of-the-teacher" not in seen and "TEACHERS_TOKEN" not in seen and os.environ["HOME"] != "HOME_OF_TEACHER"
+""".replace("HOME_OF_TEACHER", str(Path.home()))
 
 
 def copy(counter: str, doubler: str, *more: str) -> Any:
@@ -82,25 +89,26 @@ def was_run(notebook: Any) -> Any:
 
 
 def a_class(folder: Path) -> dict[str, tuple[int, str]]:
-    """Twenty copies in a folder; returns, by name, the points and what is said of a copy that is not run to its end."""
+    """Copies in a folder; returns, by path in it, the points and what is said of a copy that is not run to its end."""
     expected: dict[str, tuple[int, str]] = {}
 
     def hand_in(name: str, points: int, notebook: Any, problem: str = "") -> None:
+        (folder / name).parent.mkdir(exist_ok=True)
         write(folder, name, notebook)
         expected[name] = (points, problem)
 
-    for number in range(6):
-        hand_in(f"finished_{number}", 6, copy(RIGHT, DOUBLER))
-    for number in range(4):
-        hand_in(f"half_{number}", 3, copy(RIGHT, STUB))
+    hand_in("anna/page_01", 6, copy(RIGHT, DOUBLER))
+    hand_in("ben/page_01", 3, copy(RIGHT, STUB))
     hand_in("slow", 3, copy(TOO_SLOW, DOUBLER))
     hand_in("nothing", 0, copy(STUB, STUB))
     hand_in("typing_error", 3, copy("def (:", DOUBLER))
-    hand_in("error_first", 6, copy(RIGHT, DOUBLER, "1 / 0"))
+    hand_in("error_first", 6, copy(RIGHT, DOUBLER, "1 / 0", ESCAPES))
     hand_in("endless_cell", 6, copy(RIGHT, DOUBLER, ENDLESS))
-    hand_in("deaf_cell", 0, copy(RIGHT, DOUBLER, DEAF), "was stopped")
-    hand_in("dies", 0, copy(RIGHT, DOUBLER, "import os; os._exit(3)"), "kernel died")
     hand_in("flood", 6, copy(RIGHT, DOUBLER, "while True:\n    print('x' * 1000)"))
+    hand_in("greedy", 6, copy(RIGHT, DOUBLER, MUCH_MEMORY, LARGE_FILE))
+    hand_in("curious", 6, copy(RIGHT, DOUBLER, CURIOUS))
+    hand_in("deaf_cell", 3, copy(RIGHT, DEAF), "was stopped")
+    hand_in("dies", 3, copy(RIGHT, "import os; os._exit(3)"), "kernel died")
     (folder / "no_notebook.ipynb").write_text("this is no JSON")
     (folder / "binary.ipynb").write_bytes(bytes(range(256)))
     expected |= {"no_notebook": (0, "not a notebook"), "binary": (0, "not a notebook")}

@@ -10,9 +10,23 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from . import junit, learner, pages
-from .grade import TIMEOUT, grade
-from .report import as_json, in_words
+from .grade import MEMORY, PATIENCE, TIMEOUT, Graded, grade
+from .report import as_csv, as_json, in_a_line, in_words
 from .server import serve
+
+GRADE = """\
+Run copies of pages, each in a kernel and a folder of its own, and print the points for each check.
+
+Checks are carried out and judged by the installed lesson's code: what a copy shows, writes or edits earns nothing, and a copy
+that has replaced code of the lesson is named, and earns nothing from then on. Cells and checks share one process, though: a
+copy that fakes what the checks observe cannot be stopped, nor can one that attacks the grader itself.
+
+The cells are run with your rights. They get few of your environment variables, and limits on time, memory (Linux, macOS), files
+and processes (not for root); what leaves its group of processes and hides its variables is not found and goes on. Grade what
+you do not trust in a container (the folder must hold the copies; the image, an installed lesson):
+
+  docker run --rm --network none --memory 4g --pids-limit 500 --user 1000 -v "$PWD/copies:/copies:ro" \\
+    IMAGE turtle-lesson grade --json /copies > points.json"""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -76,18 +90,19 @@ def _add_from(command: argparse.ArgumentParser) -> None:
 
 
 def _add_grade(commands: argparse._SubParsersAction) -> None:
-    text = "Run copies of pages, each in a kernel and a folder of its own, and print the points for each check."
-    warning = "The cells of a copy are run as they are, with your rights: grade in a container what you do not trust."
-    grading = commands.add_parser("grade", help="points for each check", description=f"{text} {warning}")
+    grading = commands.add_parser("grade", help="points for each check", description=GRADE)
+    grading.formatter_class = argparse.RawDescriptionHelpFormatter
     grading.add_argument("paths", nargs="+", type=Path, metavar="PATH", help="a notebook, or a folder of notebooks")
     grading.add_argument("--json", action="store_true", help="print JSON, with every row of every check")
     grading.add_argument("--junit", type=Path, metavar="FILE", help="also write a JUnit report")
-    how_long = f"real time that one copy may take, s (default: {TIMEOUT:g})"
+    grading.add_argument("--csv", type=Path, metavar="FILE", help="also write a table with a line for each copy")
+    how_long = f"computing time that one copy may take, s (default: {TIMEOUT:g}); real time, {PATIENCE} times as long"
     grading.add_argument("--timeout", type=_seconds, default=TIMEOUT, metavar="SECONDS", help=how_long)
-    jobs = min(4, os.cpu_count() or 1)
-    grading.add_argument(
-        "--jobs", type=_count, default=jobs, metavar="N", help=f"copies at once (default here: {jobs})"
-    )
+    how_much = f"memory that each process of a copy may take, where the system limits that (default: {MEMORY:g})"
+    grading.add_argument("--memory", type=_gigabytes, default=MEMORY, metavar="GB", help=how_much)
+    jobs = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    many = f"copies at once (default: one for each core, here {jobs})"
+    grading.add_argument("--jobs", type=_count, default=jobs, metavar="N", help=many)
     grading.set_defaults(act=_grade)
 
 
@@ -116,6 +131,12 @@ def _seconds(text: str) -> float:
     return seconds
 
 
+def _gigabytes(text: str) -> float:
+    if not 0.5 <= float(text) <= 1000:
+        raise argparse.ArgumentTypeError("must be from 0.5 to 1000 GB")
+    return float(text)
+
+
 def _count(text: str) -> int:
     if not 1 <= int(text) <= 256:
         raise argparse.ArgumentTypeError("must be from 1 to 256")
@@ -126,30 +147,19 @@ def _grade(options: argparse.Namespace) -> int:
     copies = pages.find(options.paths)
     if not copies:
         raise pages.PageError(f"there is no notebook in {', '.join(map(str, options.paths))}")
-    if not options.json:
-        amount = "1 notebook" if len(copies) == 1 else f"{len(copies)} notebooks"
-        print(f"Grading {amount}, at most {options.timeout:g} s each.", flush=True)
-    graded = grade(copies, options.timeout, options.jobs, told=None if options.json else _tell)
-    if options.json:
-        print(json.dumps(as_json(graded), indent=1, ensure_ascii=False))
-    else:
-        print(in_words(graded))
-    if options.junit is not None:
-        try:
-            options.junit.write_text(junit.report(graded), encoding="utf-8")
-        except OSError as error:
-            raise pages.PageError(f"{options.junit} cannot be written: {error.strerror}") from None
+    graded = grade(copies, options.timeout, options.jobs, _tell, options.memory)
+    print(json.dumps(as_json(graded), indent=1, ensure_ascii=False) if options.json else in_words(graded))
+    for file, text in ((options.junit, junit.report), (options.csv, as_csv)):
+        if file is not None:
+            try:
+                file.write_text(text(graded), encoding="utf-8")
+            except OSError as error:
+                raise pages.PageError(f"{file} cannot be written: {error.strerror}") from None
     return 1 if any(copy.problem for copy in graded) else 0
 
 
-def _tell(done: int, amount: int, name: str) -> None:
-    if sys.stderr.isatty():
-        print(
-            f"\r{done} of {amount}: {name[:60]}".ljust(78),
-            end="\n" if done == amount else "",
-            file=sys.stderr,
-            flush=True,
-        )
+def _tell(done: int, amount: int, copy: Graded) -> None:
+    print(f"{done} of {amount}: {in_a_line(copy)}", file=sys.stderr, flush=True)
 
 
 def _open(options: argparse.Namespace) -> int:

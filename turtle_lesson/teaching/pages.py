@@ -70,9 +70,9 @@ def clear(notebook: Any) -> Any:
     return notebook
 
 
-def page_of(path: Path, notebook: Any = None) -> str:
+def page_of(path: Path, metadata: Any = None) -> str:
     """The lesson's page that a copy is of: what its metadata say, or else its name; "" if neither does."""
-    said = notebook.metadata.get("turtle_lesson", {}) if notebook is not None else {}
+    said = metadata.get("turtle_lesson") if isinstance(metadata, dict) else None
     page = said.get("page", "") if isinstance(said, dict) else ""
     if page in PAGES:
         return page
@@ -145,7 +145,7 @@ def _published_name(path: Path) -> str:
     if (PUBLISHED / path.name).is_file():
         return path.name
     try:
-        page = page_of(path, read(path))
+        page = page_of(path, read(path).metadata)
     except PageError:  # damaged: all the more reason to reset it
         page = page_of(path)
     return f"{page}.ipynb" if page else path.name

@@ -1,7 +1,10 @@
-"""What grading has found: as a table to read, and as JSON."""
+"""What grading has found: as a table to read, as JSON, and as CSV; without what a terminal or a browser would obey."""
 
 from __future__ import annotations
 
+import csv
+import io
+import re
 import textwrap
 from collections.abc import Sequence
 from typing import Any
@@ -11,26 +14,54 @@ from .grade import CheckScore, Graded
 MARKS = {"passed": "✓", "failed": "✗", "not run": "–"}
 WIDTH = 110
 
+LONGEST = 2000
+"""Characters of one text."""
+
+_ESCAPES = re.compile(
+    r"\x1b(?:\[[0-?]*[ -/]*[@-~]|[\]PX^_][^\x07\x1b]*(?:\x07|\x1b\\)?|[ -/]*[0-~])|\x9b[0-?]*[ -/]*[@-~]"
+)
+_CONTROLS = re.compile(
+    "[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069\ud800-\udfff\ufffe\uffff]"
+)
+_TAG = re.compile(r"<(?=[A-Za-z/!?])")
+
+
+def plain(text: str) -> str:
+    """The text without escape sequences, control characters and marks that turn the direction of writing; no HTML is left."""
+    return _TAG.sub("‹", _CONTROLS.sub("", _ESCAPES.sub("", text)))[:LONGEST]
+
 
 def in_words(graded: Sequence[Graded]) -> str:
-    """A block for each copy: its points, then a line for each check and for what went wrong."""
-    wide = max(len(copy.path.name) for copy in graded)
+    """A block for each copy: its path and its points, then a line for each check and for what went wrong."""
+    names = [_name(copy) for copy in graded]
+    wide = max(map(len, names))
     lines: list[str] = []
-    for copy in graded:
-        lines += ["", f"{copy.path.name.ljust(wide)}  {copy.earned:3} of {copy.points:3} points  {copy.page}".rstrip()]
-        names = max((len(score.name) for score in copy.scores), default=0)
-        lines += [_short(f"  {MARKS[score.state]} {score.name.ljust(names)}  {_of(score)}") for score in copy.scores]
-        lines += [_short(f"  ! {each}") for each in filter(None, [copy.problem, *copy.errors])]
+    for copy, name in zip(graded, names, strict=True):
+        lines += ["", f"{name.ljust(wide)}  {copy.earned:3} of {copy.points:3} points  {copy.page}".rstrip()]
+        widest = max((len(score.name) for score in copy.scores), default=0)
+        lines += [_short(f"  {MARKS[score.state]} {score.name.ljust(widest)}  {_of(score)}") for score in copy.scores]
+        lines += [_short(f"  ! {plain(each)}") for each in filter(None, [copy.problem, *copy.errors])]
     return "\n".join([*lines, "", _sum(graded)]).lstrip("\n")
 
 
+def in_a_line(copy: Graded) -> str:
+    """A copy's path and points, and why it was not run to its end."""
+    why = f": {plain(copy.problem)}" if copy.problem else ""
+    return f"{_name(copy)}  {copy.earned} of {copy.points} points{why}"
+
+
+def _name(copy: Graded) -> str:
+    return " ".join(plain(str(copy.path)).split())
+
+
 def _of(score: CheckScore) -> str:
-    why = "it was not run" if score.state == "not run" else score.first_miss
+    why = "it was not run" if score.state == "not run" else plain(score.first_miss)
     return f"{score.earned:2} of {score.points:2}  {why}".rstrip()
 
 
 def _short(line: str) -> str:
     indent = line[: len(line) - len(line.lstrip())]
+    line = indent + " ".join(line.split("\n")).strip()
     return indent + textwrap.shorten(line.strip(), WIDTH - len(indent), placeholder=" …") if len(line) > WIDTH else line
 
 
@@ -48,14 +79,40 @@ def as_json(graded: Sequence[Graded]) -> dict[str, Any]:
 
 def _copy(copy: Graded) -> dict[str, Any]:
     return {
-        "path": str(copy.path),
+        "path": plain(str(copy.path)),
         "page": copy.page,
         "earned": copy.earned,
         "points": copy.points,
-        "problem": copy.problem,
-        "errors": copy.errors,
+        "problem": plain(copy.problem),
+        "errors": [plain(each) for each in copy.errors],
         "checks": [
-            {"name": each.name, "state": each.state, "earned": each.earned, "points": each.points, "rows": each.rows}
+            {
+                "name": each.name,
+                "state": each.state,
+                "earned": each.earned,
+                "points": each.points,
+                "rows": [{key: plain(value) for key, value in row.items()} for row in each.rows],
+            }
             for each in copy.scores
         ],
     }
+
+
+def as_csv(graded: Sequence[Graded]) -> str:
+    """A line for each copy: its path, page, points and what went wrong, then a column for each check with its points."""
+    checks = list(dict.fromkeys(score.name for copy in graded for score in copy.scores))
+    text = io.StringIO()
+    table = csv.writer(text, lineterminator="\n")
+    table.writerow(["path", "page", "earned", "points", "remarks", *checks])
+    for copy in graded:
+        earned = {score.name: "" if score.state == "not run" else score.earned for score in copy.scores}
+        remarks = "; ".join(filter(None, [copy.problem, *copy.errors]))
+        points = [earned.get(name, "") for name in checks]
+        table.writerow([_cell(str(copy.path)), copy.page, copy.earned, copy.points, _cell(remarks), *points])
+    return text.getvalue()
+
+
+def _cell(text: str) -> str:
+    """A text that a spreadsheet does not take for a formula."""
+    words = " ".join(plain(text).split())
+    return f"'{words}" if words.startswith(("=", "+", "-", "@")) else words

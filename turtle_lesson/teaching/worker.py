@@ -1,141 +1,295 @@
-"""Runs one copy of a page in a kernel, and writes what its checks said into a file: `worker NOTEBOOK ANSWER FOLDER SECONDS`.
+"""Runs one copy of a page in a kernel, and tells the grader line by line what it finds: `worker NOTEBOOK FOLDER SECONDS GB`.
+
+The calls of `lesson.check` in a copy only say where a check is due. It is carried out by the code in `observer.py`, which the
+grader sends, and answered on a line of its own, which is opened after the cells before it have run, with a secret made then.
+So nothing that a cell shows, prints or writes counts.
 
 A cell that takes too long is interrupted, and the next ones are run all the same; a kernel that does not listen is killed.
+Time is the computing time of the kernel, so that a busy machine changes nothing.
 """
 
 from __future__ import annotations
 
-import asyncio
+import contextlib
+import hashlib
+import hmac
 import json
 import logging
+import marshal
+import os
 import re
+import secrets
+import socket
 import sys
+import time
 import warnings
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
+from queue import Empty
+from threading import Event
 from typing import Any
 
-from nbclient import NotebookClient
-from nbclient.exceptions import DeadKernelError
-from nbclient.util import ensure_async
+import psutil
+from jupyter_client.manager import KernelManager
 
-from ..lab.checks.result import METADATA
-from .pages import PageError, clear, page_of, read
+from . import limits
 
 SHARE = 0.4
 """What part of the copy's time one cell may take."""
 
-ASKED = re.compile(r"\.check\(\s*[\"'](\w+)[\"']")
-"""A call of `lesson.check` in a cell."""
+PATIENCE = 4
+"""How many seconds of real time count as one of computing: for a cell that waits."""
 
-ROW = ("mark", "expected", "seen", "next")
-NOISE = ("stream", "update_display_data", "clear_output")
-"""Outputs that nobody reads here: an endless one would fill the memory."""
+LARGEST = 50_000_000
+"""Bytes of a notebook, and of an answer, that are read at most."""
+
+DUE = re.compile(r"^(?![ \t]*#).*?\b(\w+)\.check\(\s*(?:[\"'](\w+)[\"'])?\s*\)", re.MULTILINE)
+"""A call of `lesson.check("name")`, or of `case.check()`."""
+
+ALONE = re.compile(r"^(\w+)\.check\(\s*[\"'](\w+)[\"']\s*\)\s*;?\s*(#.*)?$")
+"""A line that is nothing else."""
+
+NO_PYTHON = re.compile(r"^\s*%%(?!time\b|capture\b)")
+"""The beginning of a cell that is not run as Python, or not at all."""
+
+ASK = """
+import marshal, socket
+with socket.socket({family}) as line:
+    line.connect({address})
+    with line.makefile("rwb") as file:
+        question = marshal.load(file)
+        space = {{"__name__": "observer"}}
+        exec(question["observer"], space)
+        file.write(space["answer"](question, names, {key!r}))
+"""
+"""What the kernel is given to carry a check out. Half of the secret comes with it, half on the line: one that connects in the
+kernel's place has not both."""
 
 
-class Runner(NotebookClient):
-    """Runs cells, and keeps only the outputs that may hold the result of a check, or an error."""
-
-    def output(self, outs: Any, msg: Any, display_id: Any, cell_index: int) -> Any:
-        """Take an output, unless it is noise."""
-        if msg["msg_type"] in NOISE or len(outs) >= 100:
-            return None
-        return super().output(outs, msg, display_id, cell_index)
+class EndedEarly(Exception):
+    """The copy cannot be run to its end; the message says why."""
 
 
 def main(arguments: list[str]) -> None:
-    """Run a copy and write the answer."""
-    notebook, answer, folder, seconds = arguments
-    logging.disable(logging.CRITICAL)
-    warnings.simplefilter("ignore")
-    found = examine(Path(notebook), Path(folder), float(seconds))
-    Path(answer).write_text(json.dumps(found), encoding="utf-8")
+    """Run a copy; what is found goes to the standard output, which the kernel does not get, as a line of JSON each."""
+    notebook, folder, seconds, memory = arguments
+    with open(os.dup(1), "w", encoding="utf-8") as line:
+        quiet = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(quiet, 1)
+        os.dup2(quiet, 2)
+        logging.disable(logging.CRITICAL)
+        warnings.simplefilter("ignore")
+        sent = sys.stdin.buffer.read()
+        limits.apply(float(memory))
+        for found in examine(Path(notebook), Path(folder), float(seconds), marshal.loads(sent)):
+            print(json.dumps(found), file=line, flush=True)
 
 
-def examine(path: Path, folder: Path, seconds: float) -> dict[str, Any]:
-    """Run a copy for at most `seconds`: its page, the checks that it asks for, their results, and what went wrong."""
+def examine(path: Path, folder: Path, seconds: float, sent: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    """Run a copy for at most `seconds` of computing: its metadata and what it asks for, then what is found, and an end."""
     try:
-        notebook = clear(read(path))
-    except PageError as error:
-        reason = str(error).removeprefix(f"{path} ")
-        return {"problem": reason, "page": page_of(path)}
-    problem = _run(notebook, folder, seconds)
-    return {
-        "page": page_of(path, notebook),
-        "asked": [name for cell in notebook.cells if cell.cell_type == "code" for name in ASKED.findall(cell.source)],
-        "results": results_in(notebook),
-        "errors": errors_in(notebook, seconds),
-        "problem": problem,
-    }
-
-
-def _run(notebook: Any, folder: Path, seconds: float) -> str:
-    """Run all cells; returns why that did not come to its end, or ""."""
-    client = Runner(
-        notebook,
-        timeout=max(1, round(SHARE * seconds)),
-        interrupt_on_timeout=True,
-        allow_errors=True,
-        kernel_name="python3",
-        shutdown_kernel="immediate",
-        resources={"metadata": {"path": str(folder)}},
-    )
+        notebook = _read(path)
+    except EndedEarly as reason:
+        yield {"problem": str(reason), "end": True}
+        return
+    cells = [(number, cell) for number, cell in enumerate(notebook["cells"], start=1) if cell["cell_type"] == "code"]
+    asked = [name for _, cell in cells for _, _, name in _parts(_source(cell)) if name]
+    yield {"metadata": notebook.get("metadata"), "asked": asked}
+    kernel = Kernel(folder, seconds, sent)
     try:
-        asyncio.run(_limited(client, seconds))
-    except TimeoutError:
-        return f"it had not finished after {seconds:g} s, and was stopped"
-    except DeadKernelError:
-        return "its kernel died"
-    except Exception as error:  # whatever a damaged notebook can do to the one that runs it
-        return f"it could not be run: {type(error).__name__}: {' '.join(str(error).split())[:120]}"
-    return ""
-
-
-async def _limited(client: Runner, seconds: float) -> None:
-    running = asyncio.ensure_future(client.async_execute())
-    try:
-        done, _ = await asyncio.wait({running}, timeout=seconds)
-        if not done:
-            raise TimeoutError
-        running.result()
+        yield {"kernel": kernel.start()}
+        for number, cell in cells:
+            yield from _run(kernel, number, cell)
+        yield {"end": True}
+    except EndedEarly as reason:
+        yield {"problem": str(reason), "end": True}
+    except Exception as error:  # whatever a damaged notebook can do to what runs it
+        words = " ".join(str(error).split())[:120]
+        yield {"problem": f"it could not be run: {type(error).__name__}: {words}", "end": True}
     finally:
-        running.cancel()
-        if client.km is not None and client.km.has_kernel:
-            await ensure_async(client.km.shutdown_kernel(now=True))
+        kernel.stop()
 
 
-def results_in(notebook: Any) -> dict[str, dict[str, Any]]:
-    """The result of each check that was shown; of one that was asked several times a good one counts."""
-    found: dict[str, dict[str, Any]] = {}
-    for _, output in _outputs(notebook):
-        figures = output.get("metadata", {}).get(METADATA)
-        if not isinstance(figures, dict) or not isinstance(figures.get("rows"), list):
-            continue
-        name, passed = str(figures.get("name")), figures.get("passed") is True
-        if passed or not found.get(name, {}).get("passed"):
-            found[name] = {"passed": passed, "rows": [_row(each) for each in figures["rows"]]}
-    return found
+def _read(path: Path) -> dict[str, Any]:
+    """The notebook in a file, as JSON has it. Raises EndedEarly, which says why it cannot be read."""
+    if not path.exists():
+        raise EndedEarly("does not exist")
+    with contextlib.suppress(OSError, ValueError, RecursionError, AttributeError, KeyError, TypeError):
+        if path.stat().st_size > LARGEST:
+            raise EndedEarly(f"is larger than {LARGEST // 1_000_000} MB")
+        found = json.loads(path.read_text(encoding="utf-8-sig"))
+        if found.get("nbformat") == 4 and all({"cell_type", "source"} <= cell.keys() for cell in found["cells"]):
+            return dict(found)
+    from .pages import (
+        PageError,
+        read,
+    )  # imports nbformat, which takes seconds: for older formats, and to say what is wrong
+
+    try:
+        return dict(read(path))
+    except PageError as error:
+        raise EndedEarly(str(error).removeprefix(f"{path} ")) from None
 
 
-def _row(row: Any) -> dict[str, str]:
-    return {key: str(row.get(key, "")) if isinstance(row, dict) else "" for key in ROW}
+def _source(cell: dict[str, Any]) -> str:
+    return "".join(cell["source"])
 
 
-def errors_in(notebook: Any, seconds: float) -> list[str]:
-    """The cells that raised something, in words; those that are meant to are left out."""
-    found = []
-    for cell, output in _outputs(notebook):
-        if output.output_type != "error" or "raises-exception" in cell.metadata.get("tags", []):
-            continue
-        number = notebook.cells.index(cell) + 1
-        if output.ename == "KeyboardInterrupt":
-            found.append(f"cell {number} took more than {round(SHARE * seconds)} s, and was stopped")
+def _run(kernel: Kernel, number: int, cell: Any) -> Iterator[dict[str, Any]]:
+    """Run one cell, and carry out the checks that are due in it, up to the first error."""
+    for source, variable, name in _parts(_source(cell)):
+        if source.strip():
+            reply, stopped = kernel.run(source)
+            if stopped:
+                yield {"error": f"cell {number} took more than {round(SHARE * kernel.seconds)} s, and was stopped"}
+            elif reply.get("status") == "error" and "raises-exception" not in cell.get("metadata", {}).get("tags", []):
+                words = " ".join(str(reply.get("evalue")).split())[:120]
+                yield {"error": f"cell {number} raised {reply.get('ename')}: {words}"}
+            if reply.get("status") != "ok":
+                return
+        if name:
+            yield {"check": name, **kernel.look(variable, name)}
+
+
+def _parts(source: str) -> list[tuple[str, str, str]]:
+    """A cell's code up to each check that is due, the name of the lesson there, and the check's; "" for none at the end."""
+    if NO_PYTHON.match(source):
+        return [(source, "", "")]
+    parts, lines = [], list[str]()
+
+    def add(variable: str = "", name: str = "") -> None:
+        code = "\n".join(lines)
+        found = DUE.findall(code)
+        parts.append((code, *((found[0][0], found[0][1] or "trouble") if found else (variable, name))))
+        parts.extend(("", each, check or "trouble") for each, check in found[1:])
+        if found and name:
+            parts.append(("", variable, name))
+        lines.clear()
+
+    for line in source.splitlines():
+        if alone := ALONE.match(line):
+            add(alone[1], alone[2])
         else:
-            found.append(f"cell {number} raised {output.ename}: {' '.join(output.evalue.split())[:120]}")
-    return found
+            lines.append(line)
+    if lines:
+        add()
+    return parts
 
 
-def _outputs(notebook: Any) -> list[tuple[Any, Any]]:
-    return [(cell, output) for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs]
+class Kernel:
+    """A copy's kernel. It is asked on the channel for orders alone; what cells print or show is never received."""
+
+    def __init__(self, folder: Path, seconds: float, sent: dict[str, Any]) -> None:
+        self.seconds = seconds
+        self._folder, self._sent = folder, sent
+        self._manager = KernelManager(kernel_name="python3")
+        self._client: Any = None
+        self._began = time.monotonic()
+        self._process: Any = None
+
+    def start(self) -> int:
+        """Start it; returns the number of its process."""
+        self._manager.start_kernel(cwd=str(self._folder))
+        self._process = psutil.Process(self._manager.provisioner.pid)  # type: ignore[union-attr]
+        self._client = self._manager.blocking_client()
+        self._client.start_channels(iopub=False, stdin=False, hb=False)
+        self._reply(self._client.kernel_info())
+        return int(self._process.pid)
+
+    def stop(self) -> None:
+        """End it, whatever it does."""
+        if self._client is not None:
+            self._client.stop_channels()
+        with contextlib.suppress(Exception):
+            self._manager.shutdown_kernel(now=True)
+
+    def run(self, source: str, silent: bool = False) -> tuple[dict[str, Any], bool]:
+        """Run some code; returns the kernel's reply, and whether it was interrupted because it took too long."""
+        options = {"silent": silent, "store_history": not silent, "allow_stdin": False, "stop_on_error": False}
+        return self._reply(self._client.execute(source, **options))
+
+    def _reply(self, asked: str) -> tuple[dict[str, Any], bool]:
+        began, stopped = self._used(), 0
+        while True:
+            with contextlib.suppress(Empty):
+                reply = self._client.get_shell_msg(timeout=0.1)
+                if reply["parent_header"].get("msg_id") == asked:
+                    return reply["content"], bool(stopped)
+            used = self._used()
+            if used > self.seconds:
+                raise EndedEarly(f"it had not finished after {self.seconds:g} s, and was stopped")
+            if used - began > SHARE * self.seconds + stopped:
+                stopped += 1  # and again after another second
+                self._manager.interrupt_kernel()
+
+    def _used(self) -> float:
+        """Seconds of computing so far; of real time, if it waited so long that this is more. Raises EndedEarly if it died."""
+        try:
+            if self._process.status() == psutil.STATUS_ZOMBIE:
+                raise EndedEarly("its kernel died")
+            times = self._process.cpu_times()
+        except psutil.NoSuchProcess:
+            raise EndedEarly("its kernel died") from None
+        return max(times.user + times.system, (time.monotonic() - self._began) / PATIENCE)
+
+    # -- checks ----------------------------------------------------------------------------------------------------------
+
+    def look(self, variable: str, name: str) -> dict[str, Any]:
+        """Carry a check out: its rows, and what the copy has replaced; no rows if it did not answer."""
+        secret, key = secrets.token_bytes(16), secrets.token_bytes(16)
+        question = {**self._sent, "check": name, "variable": variable, "secret": secret}
+        with _opened(self._folder) as listener, ThreadPoolExecutor(1) as pool:
+            over = Event()
+            answered = pool.submit(_answer, listener, marshal.dumps(question), secret + key, over)
+            code = ASK.format(family=int(listener.family), address=repr(listener.getsockname()), key=key)
+            try:
+                self.run(f"exec({code!r}, {{'names': globals()}})", silent=True)
+            finally:
+                over.set()
+            return dict(answered.result())
+
+
+@contextlib.contextmanager
+def _opened(folder: Path) -> Iterator[socket.socket]:
+    """A socket that waits for one to connect; its address was not known before."""
+    here = folder.with_name(secrets.token_hex(8))
+    with socket.socket(socket.AF_UNIX if hasattr(socket, "AF_UNIX") else socket.AF_INET) as listener:
+        listener.settimeout(0.2)
+        listener.bind(str(here) if hasattr(socket, "AF_UNIX") else ("127.0.0.1", 0))
+        listener.listen()
+        try:
+            yield listener
+        finally:
+            here.unlink(missing_ok=True)
+
+
+def _answer(listener: socket.socket, question: bytes, secret: bytes, over: Event) -> dict[str, Any]:
+    """Send the question to each that connects, until one gives an answer that is signed; no rows if none does."""
+    with contextlib.suppress(TimeoutError):
+        while not over.is_set():
+            said = b""
+            with contextlib.suppress(ConnectionError), _when(over, listener.accept)[0] as connection:
+                connection.settimeout(10)
+                connection.sendall(question)
+                connection.settimeout(0.2)
+                while len(said) < LARGEST and (more := _when(over, partial(connection.recv, 65536))):
+                    said += more
+            text = said[32:]
+            if hmac.compare_digest(said[:32], hmac.digest(secret, text, hashlib.sha256)):
+                return dict(json.loads(text))
+    return {"rows": [], "replaced": []}
+
+
+def _when(over: Event, receive: Callable[[], Any]) -> Any:
+    """What `receive` gives. Raises TimeoutError where it gives nothing before it is over."""
+    while True:
+        ended = over.is_set()
+        with contextlib.suppress(TimeoutError):
+            return receive()
+        if ended:
+            raise TimeoutError
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ from ..words import count, number
 from .rows import BAD, GOOD, IN_WORDS, OPEN, STOPPED, Row
 
 METADATA = "turtle_lesson_check"
-"""Where an output's metadata holds the figures of a result: what `turtle-lesson grade` reads."""
+"""Where an output's metadata holds the figures of a result, for a program that reads notebooks; they prove nothing."""
 
 WIDTH = 100
 """Characters in a line of the plain table."""
