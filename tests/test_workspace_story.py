@@ -71,10 +71,10 @@ def pages(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     for page, its in cells.items():
         nbformat.write(nbformat.v4.new_notebook(cells=its), folder / f"{page}.ipynb")
     monkeypatch.setattr(story, "PUBLISHED", folder)
-    for each in (story.versions, story._states):
+    for each in (story.versions, story._left_open, story._states, story._code_cells):
         each.cache_clear()
     yield folder
-    for each in (story.versions, story._states):
+    for each in (story.versions, story._left_open, story._states, story._code_cells):
         each.cache_clear()
 
 
@@ -111,6 +111,18 @@ def test_a_page_begins_with_what_the_pages_before_it_leave(pages: Path) -> None:
 def test_each_state_that_a_page_passes_through_is_known(pages: Path) -> None:
     states = [text for path, text in story.versions("03_navigator") if path == NODE]
     assert states == ["first = 1\n", "first = 1\n\nsecond = 2\n", "solved = 3\n"]
+
+
+def test_an_exercise_that_was_left_open_is_filled_in_by_the_next_page(mine: Workspace) -> None:
+    run_page(mine, "03_navigator")
+    mine.write(mine.package / NODE, "stub = 0\n", append=False)
+    mine.prepare("03_navigator")
+    assert node(mine) == "stub = 0\n", "its own page leaves it to the learner"
+    mine.prepare("04_status_monitor")
+    assert node(mine) == "solved = 3\n"
+    (mine.package / NODE).write_text("stub = 0  # nearly\n")
+    mine.prepare("04_status_monitor")
+    assert node(mine) == "stub = 0  # nearly\n"
 
 
 def test_a_page_may_be_named_by_its_number(pages: Path) -> None:

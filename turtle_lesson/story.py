@@ -10,6 +10,7 @@ import json
 import re
 from collections.abc import Iterator, Sequence
 from functools import cache
+from itertools import chain, combinations
 
 from .lab.typed_names import did_you_mean
 from .sourced import HERE
@@ -66,8 +67,12 @@ def parts_before(page: str) -> dict[str, tuple[str, ...]]:
 
 
 def is_published(path: str, text: str, before: str) -> bool:
-    """Whether a page before this one writes exactly this text into a file, as its final or an intermediate text."""
-    return any((path, text) in versions(earlier) for earlier in PAGES[: PAGES.index(before)])
+    """Whether a page before this one writes exactly this text into a file, as its final or an intermediate text.
+
+    So does a page whose exercises were left as they are, or some of them.
+    """
+    earlier = PAGES[: PAGES.index(before)]
+    return any((path, text) in versions(page) or (path, text) in _left_open(page) for page in earlier)
 
 
 @cache
@@ -77,11 +82,20 @@ def versions(page: str) -> tuple[tuple[str, str], ...]:
 
 
 @cache
-def _states(page: str) -> tuple[tuple[str, tuple[str, ...]], ...]:
-    """The same, with each text in its parts."""
+def _left_open(page: str) -> frozenset[tuple[str, str]]:
+    """The same where one exercise or more is still as published."""
+    names = sorted({_exercise(cell) for cell in _code_cells(page)} - {""})
+    some = chain.from_iterable(combinations(names, count) for count in range(1, len(names) + 1))
+    states = chain.from_iterable(_states(page, still_open) for still_open in some)
+    return frozenset((path, "".join(parts)) for path, parts in states)
+
+
+@cache
+def _states(page: str, still_open: tuple[str, ...] = ()) -> tuple[tuple[str, tuple[str, ...]], ...]:
+    """The states in the page's order, each text in its parts, with these exercises as published and the others solved."""
     states: list[tuple[str, tuple[str, ...]]] = []
     latest = {path: list(parts) for path, parts in parts_before(page).items()}
-    for source in _cells(page):
+    for source in _sources(page, still_open):
         match = _WRITE.match(source)
         if match is None or not match["file"].startswith(PACKAGE):
             continue
@@ -117,22 +131,24 @@ def _beginning(part: str) -> tuple[str, ...]:
     return match.groups() if match else (part.strip().partition("\n")[0],)
 
 
-def _cells(page: str) -> Iterator[str]:
-    """The sources of a published page's code cells, each exercise as its solution has it."""
-    file = PUBLISHED / f"{page}.ipynb"
-    if not file.is_file():
-        raise FileNotFoundError(f"the published page {file.name} is missing: it would be in {PUBLISHED}")
-    cells = [
-        (_exercise(cell), cell["metadata"].get("tags", []), _source(cell))
-        for cell in json.loads(file.read_text(encoding="utf-8"))["cells"]
-        if cell["cell_type"] == "code"
-    ]
+def _sources(page: str, still_open: tuple[str, ...]) -> Iterator[str]:
+    """The sources of a published page's code cells: each exercise as its solution has it, but for those still open."""
+    cells = [(_exercise(cell), cell["metadata"].get("tags", []), _source(cell)) for cell in _code_cells(page)]
     solutions = {name: source.partition("\n")[2] for name, tags, source in cells if "solution" in tags}
     for name, tags, source in cells:
         if "exercise" in tags:
-            yield solutions.get(name, source)
+            yield source if name in still_open else solutions.get(name, source)
         elif "solution" not in tags:
             yield source
+
+
+@cache
+def _code_cells(page: str) -> list[dict]:
+    file = PUBLISHED / f"{page}.ipynb"
+    if not file.is_file():
+        raise FileNotFoundError(f"the published page {file.name} is missing: it would be in {PUBLISHED}")
+    cells = json.loads(file.read_text(encoding="utf-8"))["cells"]
+    return [cell for cell in cells if cell["cell_type"] == "code"]
 
 
 def _exercise(cell: dict) -> str:
