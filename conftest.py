@@ -1,18 +1,56 @@
-"""For all tests, those of the pages too: points are kept in no file, and each page begins in a fresh folder.
+"""For all tests, those of the pages too: points are kept in no file, each page begins in a fresh folder, and each test ends.
 
 So no run depends on an earlier one, and no page sees what another one wrote.
 """
 
 from __future__ import annotations
 
+import faulthandler
 import os
+import signal
+import sys
 import tempfile
+from collections.abc import Generator, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
 
 os.environ["TURTLE_LESSON_PROGRESS"] = "off"
 _folders: dict[Path, tempfile.TemporaryDirectory[str]] = {}
+
+PATIENCE = float(os.environ.get("TURTLE_LESSON_PATIENCE", 600))
+"""After how many seconds a test is taken to hang: no verdict on its speed, on however slow a machine."""
+
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    # A job in the background (`nohup … &`) ignores Ctrl-C, and so would the kernels whose cells these tests interrupt.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+@contextmanager
+def ended_after(seconds: float) -> Iterator[None]:
+    """Show all stacks and fail what does not end; again each minute, should that be caught. Not on Windows."""
+
+    def fail(*_: object) -> None:
+        faulthandler.dump_traceback(sys.__stderr__)
+        pytest.fail(f"this did not end in {seconds:g} seconds")
+
+    if not hasattr(signal, "setitimer"):
+        yield
+        return
+    signal.signal(signal.SIGALRM, fail)
+    signal.setitimer(signal.ITIMER_REAL, seconds, 60)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_protocol() -> Generator[None, bool, bool]:
+    """Have no test hang. One that Python cannot interrupt is ended with its worker (faulthandler_timeout)."""
+    with ended_after(PATIENCE):
+        return (yield)
 
 
 @pytest.hookimpl(tryfirst=True)
@@ -25,7 +63,19 @@ def pytest_runtest_setup(item: pytest.Item) -> None:
         os.environ["TURTLE_LESSON_FOLDER"] = _folders[item.path].name
 
 
-def pytest_sessionfinish() -> None:
-    """Remove them."""
-    for folder in _folders.values():
-        folder.cleanup()
+@pytest.hookimpl(wrapper=True, trylast=True)
+def pytest_sessionfinish(exitstatus: int) -> Generator[None, None, None]:
+    """Remove the folders; after Ctrl-C go on to the list of what failed, also where something was not closed in order.
+
+    Ctrl-C reaches kernels, browsers and their drivers as well, so fixtures may find nothing to close any more.
+    """
+    try:
+        with ended_after(PATIENCE / 10):
+            yield
+    except (Exception, pytest.fail.Exception) as error:
+        if exitstatus != pytest.ExitCode.INTERRUPTED:
+            raise
+        print(f"\nInterrupted; not closed in order: {type(error).__name__}: {error}")
+    finally:
+        for folder in _folders.values():
+            folder.cleanup()
