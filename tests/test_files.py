@@ -211,6 +211,9 @@ OUTSIDE = [
     "ros2 run turtlesim turtlesim_node; ros2 param dump /turtlesim --output-dir ..",
     "colcon build",
     "rm install; mkdir install; mv to_folder install/pkg; colcon build --base-paths src",
+    "rm install; mkdir install; mv to_folder install/pkg; colcon build --base-paths src --symlink-install",
+    "rm install; mkdir -p install build/pkg; echo kept.txt > build/pkg/install_manifest.txt; mv to_folder install/pkg; "
+    "colcon build --base-paths src",
     "rm install; mkdir -p install/pkg/share; mv to_folder install/pkg/share/pkg; colcon build --base-paths src",
     "rm install; mkdir build; mv to_folder build/pkg; colcon build --base-paths src",
     "rm install; mv to_folder log; colcon build --base-paths src",
@@ -255,6 +258,7 @@ def test_a_folder_is_not_deleted_under_ones_feet(line: str, mine: Path, type_lin
         "echo x > lab.ipynb",
         "cd inner; echo x >> ../00_welcome.ipynb",
         "echo x > page",
+        "mkdir inner/mine; mv inner/to_a inner/mine/lab.ipynb; cp -r inner/mine ..",
         "touch lab.ipynb",
         "chmod +x lab.ipynb",
     ],
@@ -326,6 +330,12 @@ def test_a_link_that_colcon_made_leads_out_no_more_than_others(mine: Path, type_
     assert (mine / "install/other/lib/other/node").samefile(mine.parent / "outside/src/other/node.py")
     for line in ("echo x > install/other/lib/other/node", f"rm build/other/install_manifest.txt; {build}"):
         assert "it is outside your folder" in type_line(line)[2]
+    assert state(mine.parent, mine) == before
+
+
+def test_to_source_a_workspace_elsewhere_leaves_it_as_it_is(mine: Path, type_line: Type) -> None:
+    before = state(mine.parent, mine)
+    assert type_line("source ../outside/install/setup.bash; ros2 pkg list | grep pkg") == (0, "pkg\n", "")
     assert state(mine.parent, mine) == before
 
 

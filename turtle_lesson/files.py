@@ -13,7 +13,6 @@ import os
 import shutil
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import TextIO
 
 OPENED = "TURTLE_LESSON_OPENED"
 """The environment variable in which `turtle-lesson open` names the folder that it opens JupyterLab on."""
@@ -39,23 +38,21 @@ def here() -> Path:
 
 def home() -> Path:
     """What `~` is: the folder in which the notebook began; in a Python program, the one that was current at `start()`."""
-    global _home
-    _home = _home or here()
-    return _home
+    if _home is None:
+        begin()
+    return _home or here()
 
 
 def begin(*, notebook: bool = False) -> None:
     """A notebook begins in the current folder, or a Python program begins a world in it; a notebook keeps its folder."""
     global _home, _of_notebook
     if notebook or not _of_notebook:
-        _home, _of_notebook = here(), notebook
+        _home, _of_notebook = Path(os.path.realpath(here())), notebook
 
 
 def folder() -> Path:
     """The learner's folder: the one that `turtle-lesson open` was given, if the notebook is in it, or else `home()`."""
-    began = Path(os.path.realpath(home()))
-    opened = Path(os.path.realpath(_opened)) if _opened else began
-    return opened if began.is_relative_to(opened) else began
+    return Path(_opened) if _opened and home().is_relative_to(_opened) else home()
 
 
 # -- what a command may change -----------------------------------------------------------------------------------------
@@ -79,14 +76,14 @@ def check(path: str | os.PathLike[str], *, follow: bool = True, removes: bool = 
     except UnicodeEncodeError as error:
         why = f"no file can have this name where Python encodes names as {error.encoding}: set PYTHONUTF8=1 and start it again"
         raise OSError(errno.EILSEQ, why, str(path)) from None
-    mine, began = folder(), Path(os.path.realpath(home()))
-    if removes and any(each.is_relative_to(place) for each in (mine, began, here())):
+    mine = folder()
+    if removes and any(each.is_relative_to(place) for each in (mine, home(), here())):
         why = "the current folder or the notebook's is in it"
     elif removes and any(each.is_relative_to(place) for each in in_use):
         why = "a bag is being recorded in it; stop that first (jobs lists it)"
     elif not place.is_relative_to(mine):
         why = f"it is outside your folder ({mine}). To change it on purpose, use Python or !command in a cell"
-    elif place.parent in {mine, began} and _is_page(place):
+    elif place.parent in {mine, home()} and _is_page(place):
         why = "it is a page of the lesson. Change a copy of another name, or use JupyterLab's list of files on purpose"
     else:
         return place
@@ -97,13 +94,6 @@ def _is_page(place: Path) -> bool:
     from .story import PAGES
 
     return place.suffix.lower() == ".ipynb" and place.stem.lower() in {*PAGES, "lab"} and os.path.lexists(place)
-
-
-def opened(path: Path, mode: str) -> TextIO:
-    """A file behind `>` ("w") or `>>` ("a"), opened. Raises OSError, also where `check` refuses."""
-    if path != Path(os.devnull):
-        check(path)
-    return path.open(mode, encoding="utf-8", errors="surrogateescape")  # type: ignore[return-value]
 
 
 def save(path: Path, text: str) -> None:

@@ -48,10 +48,19 @@ class FileOutput(BorrowedStream):
 
     def __init__(self, path: Path, instead_of: TextIO) -> None:
         self._path = path.absolute()
+        self._file = self._identity()
         self.instead_of = instead_of
 
     def write(self, text: str) -> int:
         """Append a text, as it is."""
-        with suppress(FileNotFoundError), files.opened(self._path, "a") as file:
+        if self._identity() != self._file:  # somebody has put another in its place, or a link
+            files.check(self._path)
+        with suppress(FileNotFoundError), self._path.open("a", encoding="utf-8", errors="surrogateescape") as file:
             file.write(text)
         return len(text)
+
+    def _identity(self) -> tuple[int, int] | None:
+        with suppress(OSError):
+            about = self._path.stat()
+            return about.st_dev, about.st_ino
+        return None

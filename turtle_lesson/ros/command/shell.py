@@ -201,8 +201,11 @@ def _redirected(command: Command, out: Any, error: Any) -> tuple[Any, Any]:
 
 
 def _file(name: str, mode: str, instead_of: Any) -> FileOutput:
-    files.opened(Path(name), mode).close()
-    return FileOutput(Path(name), instead_of)
+    path = Path(name)
+    if path != Path(os.devnull):
+        files.check(path)
+    path.open(mode).close()
+    return FileOutput(path, instead_of)
 
 
 def open_terminal() -> None:

@@ -216,7 +216,6 @@ def _listed(word: str, names: list[str]) -> str:
 
 
 def _point(link: Path, target: str) -> None:
-    files.check(link, follow=False)
     try:
         link.unlink(missing_ok=True)
         link.symlink_to(target)
