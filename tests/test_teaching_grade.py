@@ -57,7 +57,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Run]:
     with pytest.MonkeyPatch.context() as patch, redirect_stdout(out), redirect_stderr(err):
         patch.setenv("TEACHERS_TOKEN", "of-the-teacher")
         patch.setattr(grade, "_installed", dict)  # work on the lesson may go on meanwhile
-        code = main(["grade", str(folder), "--json", *reports, "--timeout", "10", "--memory", "1.5"])
+        code = main(["grade", str(folder), "--json", *reports, "--timeout", "8", "--memory", "1.5"])
     graded = {each["path"].removeprefix(f"{folder}{os.sep}"): each for each in json.loads(out.getvalue())["copies"]}
     by_name = {path.removesuffix(".ipynb"): each for path, each in graded.items()}
     yield Run(folder, expected, code, by_name, err.getvalue())
@@ -88,7 +88,7 @@ def test_a_class_is_graded(run: Run) -> None:
     for name, (_, problem) in run.expected.items():
         assert (problem in honest[name]["problem"]) if problem else not honest[name]["problem"], name
     assert honest["typing_error"]["errors"][0].startswith("cell 2 raised SyntaxError")
-    assert honest["endless_cell"]["errors"] == ["cell 2 took more than 4 s, and was stopped"]
+    assert honest["endless_cell"]["errors"] == ["cell 2 took more than 3 s, and was stopped"]
     assert honest["curious"]["errors"] == [], "no variable of the teacher's shell is seen"
     of_the_page = sum(each.points for each in checks_of(copies.PAGE))
     assert {each["points"] for each in honest.values() if each["page"]} == {of_the_page}

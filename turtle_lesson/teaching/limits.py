@@ -9,6 +9,7 @@ import signal
 import site
 from collections.abc import Iterable
 from pathlib import Path
+from threading import Thread
 
 import psutil
 
@@ -64,10 +65,16 @@ def apply(memory: float) -> None:
         "RLIMIT_NPROC": _mine() + PROCESSES,
     }
     for name, value in most.items():
-        if (kind := getattr(resource, name, None)) is not None:
+        with contextlib.suppress(AttributeError, OSError, ValueError):  # macOS refuses some
+            kind = getattr(resource, name)
             _, hard = resource.getrlimit(kind)
             limit = value if hard == resource.RLIM_INFINITY else min(value, hard)
-            with contextlib.suppress(OSError, ValueError):  # macOS refuses some
+            resource.setrlimit(kind, (limit, hard))
+            try:
+                Thread(target=bool).start()
+            except RuntimeError:  # in a container: the user has more processes than are seen from within
+                resource.setrlimit(kind, (hard, hard))
+            else:
                 resource.setrlimit(kind, (limit, limit))
 
 

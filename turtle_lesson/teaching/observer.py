@@ -22,19 +22,10 @@ from typing import Any
 CASES = "turtle_lesson.lab.troubles.case"
 """The one module of the checking code that remembers something: the case that is open."""
 
-USED = (
-    "builtins",
-    "dataclasses",
-    "functools",
-    "hashlib",
-    "hmac",
-    "importlib",
-    "json",
-    "math",
-    "socket",
-    "sys",
-    "typing",
-)
+USED = {
+    *("builtins", "contextlib", "dataclasses", "functools", "hashlib", "hmac", "importlib", "json", "marshal", "math"),
+    *("os", "socket", "sys", "typing"),
+}
 """Python's own modules in which a function of a copy's cells is noticed; so it is in all modules of the lesson."""
 
 MOST = 5
