@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 from .child_streams import News, Pipe, stream_for
 from .core import Process, Strand
-from .core.stdlib import lend
+from .core.patches import replace, replace_function
 from .core.stdlib.home import notebook_here
 from .core.strand import getcurrent
 
@@ -33,8 +33,8 @@ Plan = tuple[Any, list[str]]
 def install() -> None:
     """Put them in the place of the real ones; a second call changes nothing."""
     if subprocess.Popen is _Real:
-        lend.replace(subprocess, "Popen", ClassroomPopen)
-        lend.replace_function(os, "system", _system)
+        replace(subprocess, "Popen", ClassroomPopen)
+        replace_function(os, "system", _system)
 
 
 class ClassroomPopen(_Real):

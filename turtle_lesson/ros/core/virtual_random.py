@@ -13,6 +13,7 @@ import zlib
 from collections.abc import Callable
 from typing import Any
 
+from .patches import is_replaced, replace
 from .strand import Strand, getcurrent
 
 _NUMPY_FUNCTIONS = [
@@ -84,26 +85,20 @@ def _default_rng(real: Callable[..., Any]) -> Callable[..., Any]:
     return default_rng
 
 
-_installed: set[str] = set()
-
-
 def install() -> None:
     """Replace the functions of the standard `random` module; a second call does nothing."""
-    if "random" in _installed:
+    if is_replaced(random, "random"):
         return
-    _installed.add("random")
     for name, real in list(vars(random).items()):
         if getattr(real, "__self__", None) is random._inst:
-            setattr(random, name, _dispatch(name, real, _random))
-    random.random = _draw_one(random._inst.random)
+            replace(random, name, _draw_one(real) if name == "random" else _dispatch(name, real, _random))
 
 
 def install_for_numpy() -> None:
     """Do the same for `numpy.random`, which is imported for it."""
-    if "numpy" in _installed:
-        return
-    _installed.add("numpy")
     module: Any = importlib.import_module("numpy.random")
+    if is_replaced(module, "default_rng"):
+        return
     for name in _NUMPY_FUNCTIONS:
-        setattr(module, name, _dispatch(name, getattr(module, name), _numpy_state))
-    module.default_rng = _default_rng(module.default_rng)
+        replace(module, name, _dispatch(name, getattr(module, name), _numpy_state))
+    replace(module, "default_rng", _default_rng(module.default_rng))

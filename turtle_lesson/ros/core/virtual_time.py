@@ -6,12 +6,11 @@ process gets virtual time, everybody else (Jupyter, the event loop, other thread
 
 from __future__ import annotations
 
-import atexit
 import time
 from collections.abc import Callable
-from types import MethodType
 from typing import Any
 
+from .patches import is_replaced, replace_function
 from .simulation import CLOCK_READ, EPOCH, NANOSECONDS
 from .strand import Strand, getcurrent
 
@@ -61,12 +60,9 @@ def _sleep(real: Callable[[float], None], seconds: float, /) -> None:
     strand.simulation.sleep_until(strand.simulation.now + max(CLOCK_READ, round(seconds * NANOSECONDS)))
 
 
-_originals: dict[str, Any] = {}
-
-
 def install() -> None:
     """Replace the functions of the standard `time` module; a second call does nothing."""
-    if _originals:
+    if is_replaced(time, "sleep"):
         return
     replacements: dict[str, Any] = {
         "time": _seconds(EPOCH),
@@ -78,20 +74,4 @@ def install() -> None:
         "sleep": _sleep,
     }
     for name, function in replacements.items():
-        real = _originals[name] = getattr(time, name)
-        function.__name__ = function.__qualname__ = name
-        function.__doc__ = real.__doc__
-        setattr(time, name, MethodType(function, real))  # as an attribute of a class it is not bound once more
-    atexit.register(_restore)  # nothing may ask which greenlet runs while Python takes itself apart
-
-
-def _restore() -> None:
-    """Python ends: the real functions are back, and who still holds one of ours gets real time from it."""
-    global getcurrent
-    getcurrent = _nothing
-    for name, function in _originals.items():
-        setattr(time, name, function)
-
-
-def _nothing() -> None:
-    """No strand runs any more."""
+        replace_function(time, name, function)

@@ -17,13 +17,13 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Callable
 from concurrent.futures import thread as pool
 from functools import cache, partial
-from types import MethodType, ModuleType
+from types import ModuleType
 from typing import Any
 
 from .. import virtual_time
+from ..patches import add_finder, is_replaced, replace, replace_function, replace_method
 from ..program import ProgramFinder
 from ..program_modules import on_import
 from ..strand import Strand, getcurrent
@@ -47,12 +47,10 @@ from . import (
 from .facade import facade
 from .home import in_no_strand, notebook_here, process_here
 
-_replaced: list[tuple[Any, str, Any]] = []
-
 
 def install() -> None:
     """Replace them; a second call does nothing."""
-    if _replaced:
+    if is_replaced(threading, "Lock"):
         return
     _install_locks()
     _install_threads()
@@ -63,8 +61,7 @@ def install() -> None:
     _install_modules()
     _install_streams()
     _install_times()
-    os.environ.__class__ = environment.ProcessEnviron
-    atexit.register(_restore)  # nothing may ask which greenlet runs while Python takes itself apart
+    replace(os.environ, "__class__", environment.ProcessEnviron)
     replace_function(atexit, "register", exits.register)
     replace_function(atexit, "unregister", exits.unregister)
 
@@ -74,53 +71,6 @@ def _install_times() -> None:
         replace_function(time, function.__name__, function)
     replace(logging.Formatter, "converter", time.localtime)
     replace(virtual_time, "sleeps_in_robot_time", threads.sleep_of_a_cell)
-
-
-def replace(owner: Any, name: str, new: Any) -> None:
-    """Put something in the place of an attribute of a module or class."""
-    _replaced.append((owner, name, vars(owner)[name]))
-    setattr(owner, name, new)
-
-
-def replace_function(owner: Any, name: str, function: Callable[..., Any]) -> None:
-    """Put a function in the place of a module's, if it has one of this name; the real one is its first argument.
-
-    As a method of the real one it is as good an attribute of a class as that: it is not bound once more.
-    """
-    real = getattr(owner, name, None)
-    if real is not None:
-        named(function, name, real)
-        replace(owner, name, MethodType(function, real))
-
-
-def replace_method(owner: type, name: str, method: Callable[..., Any]) -> None:
-    """Put a method in the place of a class's."""
-    replace(owner, name, named(method, name, getattr(owner, name)))
-
-
-def named(function: Any, name: str, real: Any) -> Any:
-    """Give a function the name and docstring of the one that it stands for."""
-    function.__name__, function.__qualname__ = name, getattr(real, "__qualname__", name)
-    function.__module__, function.__doc__ = getattr(real, "__module__", None), real.__doc__
-    return function
-
-
-def _restore() -> None:
-    """Python ends: the real ones are back, and who still holds one of ours gets what the real one gives."""
-    if ProgramFinder in sys.meta_path:
-        sys.meta_path.remove(ProgramFinder)
-    room = __name__.rpartition(".")[0]
-    for name, module in list(sys.modules.items()):
-        if name.startswith(room) and hasattr(module, "getcurrent"):
-            module.getcurrent = _nothing  # type: ignore[attr-defined]
-    for owner, name, real in reversed(_replaced):
-        setattr(owner, name, real)
-    os.environ.__class__ = os._Environ
-    _replaced.clear()
-
-
-def _nothing() -> None:
-    """No strand runs any more."""
 
 
 def _install_locks() -> None:
@@ -203,7 +153,7 @@ def _install_refusals() -> None:
 
 
 def _install_modules() -> None:
-    sys.meta_path.insert(0, ProgramFinder)
+    add_finder(ProgramFinder)
     for owner, name in own_modules.LOOKS_INTO_SYS_MODULES:
         replace_function(owner, name, own_modules.showing())
     dates_module = dates.make_module()
@@ -234,7 +184,7 @@ def _made(name: str) -> ModuleType:
 def _refuse_multiprocessing() -> None:
     """Refuse `multiprocessing` in simulated processes; it is imported for that."""
     kind: Any = importlib.import_module("multiprocessing.process").BaseProcess
-    if (kind, "start") not in [(owner, name) for owner, name, _ in _replaced]:
+    if not is_replaced(kind, "start"):
         replace_method(kind, "start", refused.start_process(kind.start))
 
 
