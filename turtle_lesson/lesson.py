@@ -352,7 +352,11 @@ class Lesson(Shelf, Insight):
 
     @property
     def _recording(self) -> Recorder:
-        assert self._recorder is not None
+        if self._recorder is None:
+            raise RuntimeError(
+                "the lesson's own node, /_lab, did not come up (an error above says why), and it draws and checks from what "
+                "it hears. Run the cell with lesson = start(…) once more"
+            )
         return self._recorder
 
     @cached_property

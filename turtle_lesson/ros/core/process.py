@@ -62,6 +62,7 @@ class Process:
         signal_handlers: what the program has set with `signal.signal`, by the number of the signal.
         signal_hook: what a library does about signals before that.
         signals_handled: how many signals have called one of those.
+        noticed: whether a notice has said that it holds up robot time.
     """
 
     def __init__(
@@ -95,6 +96,7 @@ class Process:
         self.signal_handlers: dict[int, Any] = {}
         self.signal_hook: SignalHook | None = None
         self.signals_handled = 0
+        self.noticed = False
         self.error: BaseException | None = None
         self.is_notebook = False
         self.modules: Any = None

@@ -31,6 +31,7 @@ class Strand(greenlet):
         parked: whether it waits to be woken.
         activity: what it does, for messages that explain why it takes so long.
         warned: whether it was told once that it computes without end.
+        frozen_at: the virtual time (ns) at which it was last frozen in the middle of a computation; -1 before that.
         cell: the cell that it prints to.
         waits_for: what it waits for without a time limit, and without end if all others of its process do so; None otherwise.
         may_act: asks whether anything that it waits for could have it go on; None if that is not known.
@@ -44,6 +45,7 @@ class Strand(greenlet):
     parked: bool
     activity: str
     warned: bool
+    frozen_at: int = -1
     cell: Cell | None = None
     waits_for: Any = None
     may_act: Callable[[], bool] | None = None
