@@ -146,6 +146,8 @@ def state(place: Path, but: Path) -> dict[str, object]:
 def mine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The learner's folder, and current."""
     monkeypatch.setattr(terminal_files, "last_cd", None)
+    for name in ("OUT", "TURTLE_LESSON_OPENED", "OLDPWD"):  # to have them again afterwards
+        monkeypatch.setenv(name, "")
     mine = make(tmp_path)
     monkeypatch.chdir(mine)
     return mine
@@ -176,6 +178,8 @@ OUTSIDE = [
     "echo x > ABOVE/outside/kept.txt",
     "cd ../outside; echo x >> kept.txt",
     "export OUT=ABOVE; touch $OUT/new",
+    "export OUT=ABOVE; echo x > $OUT/new",
+    "echo x > ~/../new",
     "echo x > to_file",
     "echo x > to_new",
     "ls nope 2> to_folder/new",

@@ -23,9 +23,9 @@ class Command:
 
     words: list[Word] = field(default_factory=list)
     given: str | None = None
-    stdin: str | None = None
-    stdout: tuple[str, str] | None = None
-    stderr: str | None = None
+    stdin: Word | None = None
+    stdout: tuple[str, Word] | None = None
+    stderr: Word | None = None
     background: bool = False
 
 
@@ -44,7 +44,7 @@ def pipelines(found: Sequence[Token]) -> Iterator[tuple[str, list[Command]]]:
         elif token.text in {">", ">>", "2>", "&>", "<"}:
             _expect_file(command, token.text)
         elif token.text == "2>&1":
-            command.stderr = "&1"
+            command.stderr = TO_STDOUT
         elif command.words or len(pipeline) > 1:
             _check(command, token.text)
             command.background = token.text == "&"
@@ -56,7 +56,8 @@ def pipelines(found: Sequence[Token]) -> Iterator[tuple[str, list[Command]]]:
         raise ShellSyntaxError(f"there is no command after {condition or '|'!r}")
 
 
-_WANTED = "\0wanted"
+TO_STDOUT = Word("&1", "&1")
+_WANTED = Word("\0wanted", "\0wanted")
 
 
 def _expect_file(command: Command, sign: str) -> None:
@@ -66,17 +67,17 @@ def _expect_file(command: Command, sign: str) -> None:
         command.stderr = _WANTED
     else:
         command.stdout = (sign, _WANTED)
-        command.stderr = "&1" if sign == "&>" else command.stderr
+        command.stderr = TO_STDOUT if sign == "&>" else command.stderr
 
 
 def _take(command: Command, word: Word) -> None:
     """A word is the file that a `<` or `>` waits for, or one more word of the command."""
     if command.stdin == _WANTED:
-        command.stdin = word.text
+        command.stdin = word
     elif command.stdout is not None and command.stdout[1] == _WANTED:
-        command.stdout = (command.stdout[0], word.text)
+        command.stdout = (command.stdout[0], word)
     elif command.stderr == _WANTED:
-        command.stderr = word.text
+        command.stderr = word
     else:
         command.words.append(word)
 
@@ -88,7 +89,7 @@ def _check(command: Command, sign: str) -> None:
         )
     if command.stdin == _WANTED:
         raise ShellSyntaxError("'<' needs the name of a file")
-    if _WANTED in (command.stderr, (command.stdout or ("", ""))[1]):
+    if _WANTED in (command.stderr, *(command.stdout or ())):
         raise ShellSyntaxError("'>' needs the name of a file")
 
 

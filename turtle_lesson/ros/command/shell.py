@@ -24,13 +24,13 @@ from . import run as run_ros2
 from .elsewhere import advice
 from .parser import cut
 from .python_script import names_a_script, run_script
-from .script import Command, ShellSyntaxError, expand, pipelines
+from .script import TO_STDOUT, Command, ShellSyntaxError, expand, pipelines
 from .script_files import NOT_EXECUTABLE, commands_in, with_its_program
 from .streams import cell_streams
 from .terminal import BUILTINS
 from .terminal_io import Terminal
 from .terminal_variables import before_a_command, export, set_for_now
-from .words import UnfinishedError, tokens
+from .words import UnfinishedError, Word, tokens
 
 if TYPE_CHECKING:
     from ..world import World
@@ -103,16 +103,39 @@ class Shell:
         return code
 
     def _one(self, command: Command, given: str | None, out: Any, error: Any) -> int:
-        words = [text for word in command.words for text in expand(word, home=files.home(), exit_code=self.exit_code)]
+        words = [text for word in command.words for text in self._expand(word)]
         try:
             if command.stdin is not None:
-                given = Path(command.stdin).read_text(encoding="utf-8")
-            to, error_to = _redirected(command, out, error)
-            return self._guarded(words, given, to, error_to, command.background)
+                given = Path(self._file_name(command.stdin)).read_text(encoding="utf-8")
+            to, error_to = self._redirected(command, out, error)
+            return self._guarded(words, given, to, error_to, command.background) if words else 0
         except (OSError, ValueError) as mistake:
-            return _said(words[0], mistake, error)
+            return _said(words[0] if words else "bash", mistake, error)
         except KeyboardInterrupt:
             raise CommandInterrupted(words) from None
+
+    def _expand(self, word: Word) -> list[str]:
+        return expand(word, home=files.home(), exit_code=self.exit_code)
+
+    def _file_name(self, word: Word) -> str:
+        """What a `<` or `>` is followed by. Raises ValueError if that is no name or several."""
+        names = self._expand(word)
+        if len(names) != 1:
+            raise ValueError(f"{word.text}: ambiguous redirect: it stands for {len(names)} names, and one is needed")
+        return names[0]
+
+    def _redirected(self, command: Command, out: Any, error: Any) -> tuple[Any, Any]:
+        """The streams of a command, some of which may be files. Raises OSError if a file cannot be written."""
+        to: Any = out
+        error_to: Any = error
+        if command.stdout is not None:
+            sign, word = command.stdout
+            to = _file(self._file_name(word), "a" if sign == ">>" else "w", out)
+        if command.stderr == TO_STDOUT:
+            error_to = to
+        elif command.stderr is not None:
+            error_to = _file(self._file_name(command.stderr), "w", error)
+        return to, error_to
 
     def _guarded(self, words: Sequence[str], given: str | None, out: Any, error: Any, background: bool) -> int:
         try:
@@ -184,20 +207,6 @@ def _explain(error: Exception) -> str:
         named = f"{error.filename}: " if error.filename else ""
         return f"{named}{error.strerror}"
     return str(error)
-
-
-def _redirected(command: Command, out: Any, error: Any) -> tuple[Any, Any]:
-    """The streams of a command, some of which may be files. Raises OSError if a file cannot be written."""
-    to: Any = out
-    error_to: Any = error
-    if command.stdout is not None:
-        sign, name = command.stdout
-        to = _file(name, "a" if sign == ">>" else "w", out)
-    if command.stderr == "&1":
-        error_to = to
-    elif command.stderr is not None:
-        error_to = _file(command.stderr, "w", error)
-    return to, error_to
 
 
 def _file(name: str, mode: str, instead_of: Any) -> FileOutput:
