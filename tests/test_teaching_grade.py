@@ -140,7 +140,11 @@ def test_nothing_that_a_copy_has_started_goes_on(run: Run) -> None:
 def test_each_report_names_the_copies_by_their_paths(run: Run) -> None:
     """Two of them have the same file name."""
     amount = len(run.copies)
-    suites = {each.get("name") for each in ElementTree.parse(run.folder / "junit.xml").getroot()}
+    junit = ElementTree.parse(run.folder / "junit.xml").getroot()
+    suites = {each.get("name") for each in junit}
+    assert len({(case.get("classname"), case.get("name")) for case in junit.iter("testcase")}) == len(
+        list(junit.iter("testcase"))
+    )
     table = list(csv.DictReader(io.StringIO((run.folder / "points.csv").read_text(encoding="utf-8"))))
     assert len(suites) == len(table) == len(run.said.splitlines()) == amount
     for who, points in (("anna", 6), ("ben", 3)):
@@ -149,6 +153,10 @@ def test_each_report_names_the_copies_by_their_paths(run: Run) -> None:
         assert f"{path}  {points} of 10 points" in run.said
         (line,) = [each for each in table if each["path"] == path]
         assert (line["earned"], line["counter"], line["doubler"]) == (str(points), "3", str(points - 3))
+    (forged,) = [each for each in junit if each.get("name", "").endswith("forged_runner_replaced.ipynb")]
+    assert "it replaced turtle_lesson.lab.checks.run" in forged.findtext("system-out", "")
+    (line,) = [each for each in table if each["path"] == forged.get("name")]
+    assert "it replaced turtle_lesson.lab.checks.run" in line["remarks"]
 
 
 def test_no_report_passes_on_what_a_terminal_or_a_browser_obeys(run: Run) -> None:
@@ -203,6 +211,33 @@ def test_a_grader_that_was_changed_meanwhile_says_so(tmp_path: Path, monkeypatch
     graded = Grader(10, 1).grade(tmp_path / "00_welcome.ipynb")
     assert graded.earned == 0
     assert "changed" in graded.problem and "teaching/grade.py" in graded.errors[0]
+
+
+def test_an_interrupt_ends_all_copies_that_still_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    ended = []
+
+    def wait(self: Grader, path: Path) -> Graded:
+        if path.stem != "first":
+            assert self.stopped.wait(60)
+            ended.append(path.stem)
+        return Graded(path)
+
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Grader, "grade", wait)
+    with pytest.raises(KeyboardInterrupt):
+        grade.grade([Path("first"), Path("second"), Path("third")], 10, 2, interrupt)
+    assert "second" in ended
+
+
+def test_a_machine_that_is_full_is_an_answer_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(self: Grader, path: Path, folder: Path) -> Iterator[dict[str, Any]]:
+        yield {"metadata": {}, "asked": []}
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Grader, "_run", full)
+    assert Grader(10, 1).grade(tmp_path / "00_welcome.ipynb").problem == "it could not be run: No space left on device"
 
 
 def test_a_package_beside_a_copy_is_named_and_not_used(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

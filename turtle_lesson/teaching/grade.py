@@ -159,16 +159,19 @@ class Grader:
         said: dict[str, Any] = {"problem": "what ran it was ended from inside, before it was done"}
         rows: dict[str, list[dict[str, str]]] = {}
         errors, replaced = list[str](), list[str]()
-        with tempfile.TemporaryDirectory(prefix="turtle-lesson-", ignore_cleanup_errors=True) as folder:
-            for found in self._run(path.resolve(), Path(folder)):
-                if found.get("end"):
-                    said["problem"] = ""
-                if "check" in found:
-                    replaced += [each for each in found["replaced"] if each not in replaced]
-                    _keep_the_best(rows, found, replaced)
-                elif "error" in found:
-                    errors.append(found["error"])
-                said |= found
+        try:
+            with tempfile.TemporaryDirectory(prefix="turtle-lesson-", ignore_cleanup_errors=True) as folder:
+                for found in self._run(path.resolve(), Path(folder)):
+                    if found.get("end"):
+                        said["problem"] = ""
+                    if "check" in found:
+                        replaced += [each for each in found["replaced"] if each not in replaced]
+                        _keep_the_best(rows, found, replaced)
+                    elif "error" in found:
+                        errors.append(found["error"])
+                    said |= found
+        except OSError as error:  # no more processes, a full disk
+            said["problem"] = f"it could not be run: {error.strerror}"
         changed = sorted({name for name, _ in self._installed.items() ^ _installed().items()})
         if any(name.startswith("teaching/") for name in changed):
             said["problem"], rows = "it cannot be graded by a grader that was changed meanwhile", {}

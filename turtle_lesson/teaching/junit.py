@@ -30,13 +30,17 @@ def _suite(copy: Graded) -> ElementTree.Element:
     for score in copy.scores:
         suite.append(_case(copy, score))
     if copy.problem:
-        case = ElementTree.SubElement(suite, "testcase", classname=plain(copy.path.stem), name="the notebook runs")
+        case = ElementTree.SubElement(
+            suite, "testcase", classname=plain(str(copy.path.with_suffix(""))), name="the notebook runs"
+        )
         ElementTree.SubElement(case, "error", message=plain(copy.problem))
+    if copy.errors:
+        ElementTree.SubElement(suite, "system-out").text = plain("\n".join(copy.errors))
     return suite
 
 
 def _case(copy: Graded, score: CheckScore) -> ElementTree.Element:
-    case = ElementTree.Element("testcase", classname=plain(copy.path.stem), name=score.name)
+    case = ElementTree.Element("testcase", classname=plain(str(copy.path.with_suffix(""))), name=score.name)
     if score.state == "not run":
         ElementTree.SubElement(case, "skipped", message="it was not run")
     elif score.state == "failed":

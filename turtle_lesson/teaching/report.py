@@ -14,7 +14,7 @@ from .grade import CheckScore, Graded
 MARKS = {"passed": "✓", "failed": "✗", "not run": "–"}
 WIDTH = 110
 
-LONGEST = 2000
+LONGEST = 10_000
 """Characters of one text."""
 
 _ESCAPES = re.compile(
