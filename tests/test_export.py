@@ -141,6 +141,11 @@ def test_nothing_is_overwritten_unasked(lesson: Lesson) -> None:
     with pytest.raises(PackageError, match=r"robot/src/robot_controller already exists\. Choose another folder"):
         lesson.export("robot_controller", to="robot")
     lesson.export("robot_controller", to="robot", overwrite=True)
+    Path("README.md").write_text("mine\n")
+    with pytest.raises(PackageError, match=r"README\.md already exists\. Choose another folder"):
+        lesson.export("robot_controller", to=".")
+    assert Path("README.md").read_text() == "mine\n"
+    assert not Path("src").exists()
 
 
 def test_it_never_writes_over_its_source(lesson: Lesson, tmp_path: Path) -> None:

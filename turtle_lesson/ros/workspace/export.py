@@ -108,9 +108,11 @@ def _find(world: World, package: str | Path) -> Found:
 def _check_target(found: Found, target: Path, overwrite: bool) -> None:
     if target == found.path or found.path in target.parents or target in found.path.parents:
         raise PackageError(f"{shown_path(str(target))} is the package's own source; export it to another folder")
-    if target.exists() and not overwrite:
+    readme = target.parent.parent / "README.md"
+    own = readme.exists() and "package from Turtle Lesson" not in readme.read_text(encoding="utf-8", errors="replace")
+    if (target.exists() or own) and not overwrite:
         hint = "Choose another folder, or write overwrite=True."
-        raise PackageError(f"{shown_path(str(target))} already exists", hint=hint)
+        raise PackageError(f"{shown_path(str(readme if own else target))} already exists", hint=hint)
 
 
 def _checked(found: Found) -> Outcome:
