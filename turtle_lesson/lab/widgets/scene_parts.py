@@ -6,6 +6,7 @@ All lies below "lab", where the lower left corner of the world is (0, 0); the vi
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from functools import cache
 
 import numpy as np
 
@@ -24,8 +25,9 @@ SUN = (-5.0, -7.0, 14.0)
 """Where the light comes from that throws the shadows, m."""
 
 
+@cache
 def stage() -> list[bytes]:
-    """What never changes: lights, floor, walls and the turtle itself."""
+    """What never changes, in any scene: lights, floor, walls and the turtle itself."""
     ours = [put("lab", placed(-WORLD / 2, -WORLD / 2)), *_lights(), remove("Grid"), remove("Axes")]
     ours.append(show("lab/floor", world.floor(), color=_number(world.FLOOR)))
     ours += [show("lab/grid", world.grid(), color=_number(world.GRID)), cast_no_shadow("lab/grid")]
