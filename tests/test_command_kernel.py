@@ -33,7 +33,7 @@ def ask(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Ask]:
         timer = threading.Timer(stop_after or 0.0, os.kill, [manager.provisioner.pid, signal.SIGINT])
         if stop_after is not None:
             timer.start()
-        client.execute_interactive(cell, output_hook=hear, timeout=30, allow_stdin=False)
+        client.execute_interactive(cell, output_hook=hear, timeout=540, allow_stdin=False)
         timer.cancel()
         return said["out"], said["error"]
 

@@ -178,7 +178,7 @@ def ask(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Ask]:
                 client.input(given)
 
         client.execute_interactive(
-            dedent(cell), output_hook=hear, stdin_hook=answer, timeout=60, allow_stdin=prompts_shown
+            dedent(cell), output_hook=hear, stdin_hook=answer, timeout=540, allow_stdin=prompts_shown
         )
         return said["out"], said["error"], prompts
 

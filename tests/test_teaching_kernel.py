@@ -35,7 +35,7 @@ def ask(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Ask]:
             said["out"] += content.get("text", "") + content.get("data", {}).get("text/plain", "")
             said["error"] += "\n".join(content.get("traceback", []))
 
-        client.execute_interactive(cell, output_hook=hear, timeout=60, allow_stdin=False)
+        client.execute_interactive(cell, output_hook=hear, timeout=540, allow_stdin=False)
         return said["out"], said["error"]
 
     yield ask

@@ -295,7 +295,7 @@ def test_real_threads_may_use_what_a_program_has_made(world: World) -> None:
     assert counts == [800] and line.qsize() == 4
     threading.Timer(0.05, event.set).start()
     waiter: list[bool] = []
-    thread = threading.Thread(target=lambda: waiter.append(event.wait(5)))
+    thread = threading.Thread(target=lambda: waiter.append(event.wait(500)))
     thread.start()
     thread.join()
     assert waiter == [True]

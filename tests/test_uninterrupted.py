@@ -65,5 +65,5 @@ with style.applied():
 @pytest.mark.parametrize("delay", [0.0, 0.05])
 def test_the_first_picture_can_be_drawn_after_it_was_interrupted(delay: float) -> None:
     program = FIRST_PICTURE.replace("{delay}", str(delay))
-    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=False)
+    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=540, check=False)
     assert ended.stdout.split("\n")[:2] == ["interrupted", "Figure(200x100)"], ended.stderr
