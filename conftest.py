@@ -26,6 +26,15 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     # A job in the background (`nohup … &`) ignores Ctrl-C, and so would the kernels whose cells these tests interrupt.
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
+LONG = ("test_answers.py", "test_teaching_grade.py", "test_real_colcon.py", "browser", "test_pages_restart.py", "test_story.py",
+        "test_pages_interrupt.py", "test_installation.py", "notebooks")  # fmt: skip
+"""Files and folders whose tests take longest: they come first, so that no worker is left with one of them at the end."""
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Put what takes longest first; within a file the order stays."""
+    items.sort(key=lambda item: next((at for at, name in enumerate(LONG) if name in item.path.parts), len(LONG)))
+
 
 @contextmanager
 def ended_after(seconds: float) -> Iterator[None]:

@@ -20,8 +20,11 @@ from turtle_lesson.ros.interfaces.registry import forget_modules
 from turtle_lesson.ros.world import World, open_world
 from turtle_lesson.underlay import underlay_packages
 
-# A busy machine is no reason to fail: what hypothesis would refuse by its clock, CI or not, is taken.
-settings.register_profile("patient", settings(deadline=None, suppress_health_check=[HealthCheck.too_slow]))
+# A busy machine is no reason to fail: what hypothesis would refuse by its clock, CI or not, is taken. Fixtures may serve
+# several examples.
+settings.register_profile(
+    "patient", deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture]
+)
 settings.load_profile("patient")
 
 SECOND = 1_000_000_000

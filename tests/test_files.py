@@ -12,7 +12,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as some
 
 from turtle_lesson import files, start
@@ -483,7 +483,7 @@ LINES = [
 lines = some.builds(str.format, some.sampled_from(LINES), paths, paths, paths)
 
 
-@settings(max_examples=100, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=100)
 @given(some.lists(lines, min_size=1, max_size=8))
 def test_whatever_is_typed_nothing_changes_outside(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, script: list[str]

@@ -79,7 +79,7 @@ def test_services_and_actions_travel_in_parts(robot):
     assert deserialize(serialize(goal), turn.Impl.SendGoalService.Request) == goal
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(any_messages())
 def test_any_message_comes_back_as_it_went(message):
     data = serialize(message)

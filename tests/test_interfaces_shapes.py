@@ -367,7 +367,7 @@ def lines() -> st.SearchStrategy[str]:
     return field.map("{0[0]} {0[1]}{0[2]}{0[3]}".format) | st.text(max_size=20)
 
 
-@settings(max_examples=300, deadline=1000, suppress_health_check=list(HealthCheck))
+@settings(max_examples=300, suppress_health_check=list(HealthCheck))
 @given(st.lists(lines(), max_size=4).map("\n".join))
 def test_any_definition_becomes_a_working_class_or_is_refused(text: str) -> None:
     try:

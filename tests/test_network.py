@@ -166,7 +166,7 @@ def test_a_cable_is_pulled_and_put_in_again() -> None:
         assert radio.run() == [*range(10), *after, *range(30, 60)]
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(
     seed=st.integers(0, 1000),
     latency=st.floats(0, 0.3),

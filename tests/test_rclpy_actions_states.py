@@ -42,7 +42,7 @@ def live(program: Any) -> Any:
     return found[0]
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(st.lists(st.sampled_from([*STEPS, *MORE]), max_size=10))
 def test_a_goal_is_always_in_the_state_of_the_model(steps: list[str]) -> None:
     def program() -> None:
@@ -95,7 +95,7 @@ def take(handle: Any, step: str, state: int) -> int:
     return STEPS[step].get(state, state)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(
     st.lists(
         st.tuples(st.integers(0, 3), st.sampled_from(["succeed", "abort", "nothing", "raise"]), st.booleans()),
@@ -143,7 +143,7 @@ def test_every_goal_gets_its_own_result(goals: list[tuple[int, str, bool]]) -> N
     assert live(program) == expected
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(st.binary(min_size=16, max_size=16))
 def test_any_number_is_a_goals_number(number: bytes) -> None:
     def program() -> Any:

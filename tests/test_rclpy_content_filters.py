@@ -362,7 +362,7 @@ PIECES = st.sampled_from(WORDS.split())
 WRITTEN = st.lists(PIECES | st.text(max_size=3), max_size=12).map(" ".join)
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(WRITTEN, st.lists(WRITTEN, max_size=2))
 def test_whatever_is_written_is_understood_or_refused(expression: str, parameters: list[str]) -> None:
     for message in (POSE, String(data="a"), LaserScan()):
@@ -405,7 +405,7 @@ def combined(part: st.SearchStrategy[Both]) -> st.SearchStrategy[Both]:
     return joined | part.map(lambda one: (f"NOT ({one[0]})", f"(not {one[1]})"))
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(st.recursive(LEAVES, combined, max_leaves=8), NUMBERS, NUMBERS)
 def test_a_filter_agrees_with_python(both: Both, x: int, y: int) -> None:
     written, python = both

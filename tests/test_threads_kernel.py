@@ -47,6 +47,7 @@ def ask(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Ask]:
 def test_a_node_spins_in_a_thread_and_prints_to_the_cell_that_runs_it(ask: Ask) -> None:
     assert ask(
         """
+        lesson = start(package=None, simulator=False)
         rclpy.init()
         node = rclpy.create_node("n")
         node.create_timer(0.5, lambda: print(f"tick at {lesson.now:.1f}"))
