@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 import pytest
-from jupyter_pages import execute, open_notebook
+from jupyter_pages import PATIENCE, execute, open_notebook
 from playwright.sync_api import Browser, Page, expect
 
 NOTEBOOK = "notebooks/lab.ipynb"
@@ -16,7 +16,7 @@ NOTEBOOK = "notebooks/lab.ipynb"
 def window(browser: Browser, lab: str) -> Iterator[Page]:
     """A window in which the page was run: five seconds of robot time, and then it stands still."""
     page = browser.new_page(viewport={"width": 1600, "height": 1000})
-    page.set_default_timeout(60_000)
+    page.set_default_timeout(PATIENCE)
     open_notebook(page, lab, NOTEBOOK)
     execute(page, "notebook:run-all-cells")
     page.wait_for_selector(".tl-dashboard")
@@ -49,7 +49,7 @@ def test_status_and_log_run_when_time_does(window: Page) -> None:
 
 def test_two_windows_are_in_step(window: Page, browser: Browser, lab: str) -> None:
     other = browser.new_page(viewport={"width": 900, "height": 1000})
-    other.set_default_timeout(60_000)
+    other.set_default_timeout(PATIENCE)
     open_notebook(other, lab, NOTEBOOK)
     other.evaluate("() => { window.jupyterapp.shell.currentWidget.content.activeCellIndex = 2 }")
     execute(other, "notebook:run-cell")

@@ -9,7 +9,16 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from jupyter_pages import execute, new_window, open_notebook, python, serious_violations, value, write_notebook
+from jupyter_pages import (
+    PATIENCE,
+    execute,
+    new_window,
+    open_notebook,
+    python,
+    serious_violations,
+    value,
+    write_notebook,
+)
 from playwright.sync_api import Browser, Locator, Page, expect
 
 CELLS = (
@@ -263,7 +272,7 @@ def test_obstacles_are_changed_by_numbers_and_keys(pad: Pad) -> None:
 
 def test_two_windows_are_in_step(pad: Pad, browser: Browser, lab: str) -> None:
     page = browser.new_page(viewport={"width": 800, "height": 1000})
-    page.set_default_timeout(30_000)
+    page.set_default_timeout(PATIENCE)
     open_notebook(page, lab, NAME)
     page.evaluate("() => { window.jupyterapp.shell.currentWidget.content.activeCellIndex = 2 }")
     page.evaluate(

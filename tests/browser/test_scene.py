@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from jupyter_pages import serious_violations
+from jupyter_pages import PATIENCE, serious_violations
 from PIL import Image
 from playwright.sync_api import Browser, Page
 
@@ -51,7 +51,7 @@ def problems() -> list[str]:
 def page(browser: Browser, lab: str, problems: list[str]) -> Iterator[Page]:
     """One window for all tests of this file, which go through its cells from the first to the last."""
     page = browser.new_page(viewport={"width": 1280, "height": 900})
-    page.set_default_timeout(60_000)
+    page.set_default_timeout(PATIENCE)
     page.on("console", lambda message: problems.append(message.text) if message.type == "error" else None)
     page.on("pageerror", lambda error: problems.append(str(error)))
     page.goto(f"{lab}/lab?reset")

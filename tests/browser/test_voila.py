@@ -7,11 +7,11 @@ import shutil
 import socket
 import subprocess
 import sys
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from jupyter_pages import wait_until_it_answers
 from playwright.sync_api import Page, expect
 
 PAGE = Path(__file__).resolve().parents[2] / "notebooks" / "lab.ipynb"
@@ -35,23 +35,12 @@ def voila(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
             stderr=log,
         )
     try:
-        wait_for(port, server, folder / "server.log")
-        yield f"http://127.0.0.1:{port}"
+        address = f"http://127.0.0.1:{port}"
+        wait_until_it_answers(f"{address}/voila/static/", server, folder / "server.log")
+        yield address
     finally:
         server.terminate()
-        server.wait(20)
-
-
-def wait_for(port: int, server: subprocess.Popen[bytes], log: Path, seconds: float = 60) -> None:
-    """Wait until somebody answers the port."""
-    deadline = time.monotonic() + seconds
-    while server.poll() is None and time.monotonic() < deadline:
-        try:
-            socket.create_connection(("127.0.0.1", port), timeout=1).close()
-            return
-        except OSError:
-            time.sleep(0.1)
-    pytest.fail(f"Voila did not start:\n{log.read_text()[-3000:]}")
+        server.wait(100)
 
 
 def test_the_dashboard_lives_without_a_notebook(page: Page, voila: str) -> None:
