@@ -28,8 +28,11 @@ def _button():
         real["setitimer"](signal.ITIMER_REAL, 0.0)
     def alarm(number, frame):
         handled = signal.getsignal(signal.SIGINT) is not signal.default_int_handler  # somebody minds it: a world that runs
-        if frame and (frame.f_code.co_name == "__del__" or frame.f_code.co_filename.endswith("weakref.py")):
-            return real["setitimer"](signal.ITIMER_REAL, 0.001)  # where Python itself would only print the interrupt
+        each = frame
+        while each:
+            if each.f_code.co_name == "__del__" or each.f_code.co_filename.endswith("weakref.py"):
+                return real["setitimer"](signal.ITIMER_REAL, 0.001)  # where Python itself would only print the interrupt
+            each = each.f_back
         while frame and (frame.f_globals is not shell.user_global_ns or frame.f_code in (before.__code__, after.__code__)):
             frame = frame.f_back
         if frame or handled:
