@@ -130,6 +130,15 @@ import rclpy.node
 rclpy.node.Node.get_node_names_and_namespaces = lambda self: [("counter", "/"), ("doubler", "/")]
 """
 
+PLACE_PATCHED = """
+from types import SimpleNamespace
+import turtle_lesson.exam_place, turtle_lesson.live
+space = {}
+exec("def published(self, topic, by): return 9\\ndef run_until(self, end): pass", space)
+turtle_lesson.exam_place.ExamPlace.published = space["published"]
+turtle_lesson.live.CellNodes.run_until = space["run_until"]
+"""
+
 POINTS_EDITED = """
 import json, os
 from pathlib import Path

@@ -6,6 +6,8 @@ import csv
 import io
 import json
 import os
+import subprocess
+import sys
 from collections.abc import Iterator
 from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import dataclass
@@ -119,6 +121,8 @@ def test_a_forged_copy_gets_nothing(run: Run) -> None:
         ("runner_replaced", "turtle_lesson.lab.checks.runner.run"),
         ("lesson_patched", "turtle_lesson.desk.Desk.check"),
         ("exam_patched", "turtle_lesson.lab.checks.exam.Exam.hear"),
+        ("place_patched", "turtle_lesson.exam_place.ExamPlace.published"),
+        ("place_patched", "turtle_lesson.live.CellNodes.run_until"),
         ("node_patched", "rclpy.node.Node.get_node_names_and_namespaces"),
         ("builtins_patched", "builtins.all"),
         ("json_patched", "json.dumps"),
@@ -211,6 +215,30 @@ def test_a_grader_that_was_changed_meanwhile_says_so(tmp_path: Path, monkeypatch
     graded = Grader(10, 1).grade(tmp_path / "00_welcome.ipynb")
     assert graded.earned == 0
     assert "changed" in graded.problem and "teaching/grade.py" in graded.errors[0]
+
+
+CASE = """
+import json
+from turtle_lesson import start
+from turtle_lesson.teaching import grade, observer
+
+lesson = start(seed=0)
+case = lesson.trouble(9, name="topic silent")
+for _ in range(2):
+    question = {**grade.checking_code(), "check": "topic_case", "variable": "lesson", "secret": b""}
+    print(observer.answer(question, globals(), b"key")[32:].decode())
+"""
+
+
+def test_the_open_case_is_known_to_checking_code_that_is_imported_afresh(tmp_path: Path) -> None:
+    """In a process of its own, since all checks are imported again."""
+    done = subprocess.run([sys.executable, "-c", CASE], cwd=tmp_path, capture_output=True, text=True, check=True)
+    for line in done.stdout.splitlines()[-2:]:
+        found = json.loads(line)
+        case, *others = found["rows"]
+        assert (case["expected"], case["mark"]) == ("the case 9, topic silent", "✓")
+        assert len(others) > 2 and any(row["mark"] == "✗" for row in others), "the system is not mended"
+        assert found["replaced"] == []
 
 
 def test_an_interrupt_ends_all_copies_that_still_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -29,7 +29,7 @@ from ..lab.checks.registry import Check, all_checks, checks_of
 from ..lab.checks.rows import BAD, GOOD
 from . import limits
 from .pages import page_of
-from .worker import LARGEST, PATIENCE
+from .worker import LARGEST, real_time
 
 TIMEOUT = 300.0
 """Computing time, s, that one copy may take unless told otherwise."""
@@ -226,7 +226,7 @@ class Grader:
 
     def _heard(self, lines: Queue[bytes], folder: Path) -> Iterator[dict[str, Any]]:
         """What comes, until the end, or until too much time is over or too much is written."""
-        seconds = PATIENCE * self._timeout + GRACE
+        seconds = real_time(self._timeout) + GRACE
         end = time.monotonic() + seconds
         while time.monotonic() < end and not self.stopped.is_set():
             try:

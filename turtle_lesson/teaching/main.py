@@ -10,9 +10,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from . import junit, learner, pages
-from .grade import MEMORY, PATIENCE, TIMEOUT, Graded, grade
+from .grade import MEMORY, TIMEOUT, Graded, grade
 from .report import as_csv, as_json, in_a_line, in_words
 from .server import serve
+from .worker import PATIENCE
 
 GRADE = """\
 Run copies of pages, each in a kernel and a folder of its own, and print the points for each check.
@@ -96,7 +97,7 @@ def _add_grade(commands: argparse._SubParsersAction) -> None:
     grading.add_argument("--json", action="store_true", help="print JSON, with every row of every check")
     grading.add_argument("--junit", type=Path, metavar="FILE", help="also write a JUnit report")
     grading.add_argument("--csv", type=Path, metavar="FILE", help="also write a table with a line for each copy")
-    how_long = f"computing time that one copy may take, s (default: {TIMEOUT:g}); real time, {PATIENCE} times as long"
+    how_long = f"computing time that one copy may take, s (default: {TIMEOUT:g}); waiting, {PATIENCE} times as long"
     grading.add_argument("--timeout", type=_seconds, default=TIMEOUT, metavar="SECONDS", help=how_long)
     how_much = f"memory that each process of a copy may take, where the system limits that (default: {MEMORY:g})"
     grading.add_argument("--memory", type=_gigabytes, default=MEMORY, metavar="GB", help=how_much)

@@ -127,23 +127,22 @@ def strangers(home: str, names: dict[str, Any]) -> list[str]:
         file = getattr(module, "__file__", None) or ""
         if name != "__main__" and (name in USED or file.startswith(home)):
             for key, value in list(vars(module).items()):
-                if _is_strange(value, names, installed if name in USED else (*installed, "<")):
+                if _is_strange(key, value, names, installed):
                     found.append(f"{name}.{key}")
                 elif isinstance(value, type) and value.__module__ == name:
                     inside = list(vars(value).items())
-                    found += [
-                        f"{name}.{key}.{each}" for each, it in inside if _is_strange(it, names, (*installed, "<"))
-                    ]
+                    found += [f"{name}.{key}.{each}" for each, it in inside if _is_strange(each, it, names, installed)]
     return found
 
 
-def _is_strange(value: Any, names: dict[str, Any], installed: tuple[str, ...]) -> bool:
+def _is_strange(name: str, value: Any, names: dict[str, Any], installed: tuple[str, ...]) -> bool:
     if isinstance(value, type):
         return value.__module__ == "__main__"
     function = _function_in(value)
     if not isinstance(function, FunctionType):
         return False
-    return function.__globals__ is names or not function.__code__.co_filename.startswith(installed)
+    generated = name.startswith("__") and function.__code__.co_filename.startswith("<")  # by dataclasses and namedtuple
+    return function.__globals__ is names or not (generated or function.__code__.co_filename.startswith(installed))
 
 
 def _function_in(value: Any) -> Any:
@@ -161,8 +160,10 @@ def _changed(path: str, old: Any, new: Any) -> Iterator[str]:
             continue
         if name not in mine:
             yield f"{path}.{name}"
+        elif isinstance(new, ModuleType) and getattr(mine[name], "__module__", path) != path:
+            continue  # imported from elsewhere: what the cells put in its place is found by `strangers`
         elif isinstance(mine[name], type) and isinstance(value, type):
-            if mine[name].__module__ == getattr(new, "__name__", "") and value is not mine[name]:
+            if isinstance(new, ModuleType):
                 yield from _changed(f"{path}.{name}", value, mine[name])
         elif not _same(value, mine[name]):
             yield f"{path}.{name}"

@@ -32,15 +32,15 @@ from threading import Event
 from typing import Any
 
 import psutil
-from jupyter_client.manager import KernelManager
 
 from . import limits
 
 SHARE = 0.4
 """What part of the copy's time one cell may take."""
 
-PATIENCE = 4
-"""How many seconds of real time count as one of computing: for a cell that waits."""
+PATIENCE, LEAST = 4, 240.0
+"""How many seconds of real time count as one of computing, for a cell that waits; and the least real time, s, for a copy: it
+may have to share the machine with many others."""
 
 LARGEST = 50_000_000
 """Bytes of a notebook, and of an answer, that are read at most."""
@@ -66,6 +66,11 @@ with socket.socket({family}) as line:
 """
 """What the kernel is given to carry a check out. Half of the secret comes with it, half on the line: one that connects in the
 kernel's place has not both."""
+
+
+def real_time(seconds: float) -> float:
+    """Real time, s, that a copy may take which may compute for so many seconds."""
+    return max(PATIENCE * seconds, LEAST)
 
 
 class EndedEarly(Exception):
@@ -184,6 +189,8 @@ class Kernel:
     def __init__(self, folder: Path, seconds: float, sent: dict[str, Any]) -> None:
         self.seconds = seconds
         self._folder, self._sent = folder, sent
+        from jupyter_client.manager import KernelManager  # here, since it takes long to import
+
         self._manager = KernelManager(kernel_name="python3")
         self._client: Any = None
         self._began = time.monotonic()
@@ -232,7 +239,7 @@ class Kernel:
             times = self._process.cpu_times()
         except psutil.NoSuchProcess:
             raise EndedEarly("its kernel died") from None
-        return max(times.user + times.system, (time.monotonic() - self._began) / PATIENCE)
+        return max(times.user + times.system, self.seconds * (time.monotonic() - self._began) / real_time(self.seconds))
 
     # -- checks ----------------------------------------------------------------------------------------------------------
 
