@@ -284,7 +284,7 @@ def test_a_file_cannot_have_the_name_of_a_word_of_python(tmp_path: Path) -> None
 
 
 def test_large_messages_are_made_and_travel_in_reasonable_time() -> None:
-    began = time.perf_counter()
+    began = time.process_time()
     large = message_class(
         "uint8[1000000] image\nfloat64[100000] numbers\nstring[10007] names\ngeometry_msgs/Point[99] p"
     )
@@ -292,7 +292,7 @@ def test_large_messages_are_made_and_travel_in_reasonable_time() -> None:
     message.names[10006], message.p[98].z = "last", 3.0
     received = deserialize(serialize(message), large)
     assert received == message and received.names[10006] == "last"
-    assert time.perf_counter() - began < 2
+    assert time.process_time() - began < 2
 
 
 def test_messages_within_messages_do_not_grow_beyond_measure(tmp_path: Path) -> None:
@@ -302,9 +302,9 @@ def test_messages_within_messages_do_not_grow_beyond_measure(tmp_path: Path) -> 
         files[f"msg/M{level}.msg"] = "".join(f"M{level - 1} m{index}\n" for index in range(10))
     registry = Registry()
     registry.add("deep_msgs", write_package(tmp_path, files))
-    began = time.perf_counter()
+    began = time.process_time()
     kind = registry.get("deep_msgs/M5")
-    assert time.perf_counter() - began < 1
+    assert time.process_time() - began < 1
     message = kind()
     message.m3.m1.m4.m1.m5.n = 9
     received = message._wire_copy()

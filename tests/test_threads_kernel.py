@@ -100,7 +100,7 @@ def test_jupyters_own_loop_and_threads_are_real(ask: Ask) -> None:
         await asyncio.sleep(0.05)
         io = await tornado.ioloop.IOLoop.current().run_in_executor(None, lambda: type(threading.Lock()).__module__)
         real = [each.name for each in threading.enumerate() if each.name.startswith(("IOPub", "Heartbeat", "Control"))]
-        print(type(loop).__module__, name, io, 0.04 < time.monotonic() - began < 5, bool(real))
+        print(type(loop).__module__, name, io, time.monotonic() - began > 0.04, bool(real))
         """
     )
     assert (out, error) == ("asyncio.unix_events asyncio_0 _thread True True\n", "")
