@@ -2,6 +2,7 @@
 
     .venv/bin/python tests/soak/worlds.py rounds            200 times: start, launch, show, play, close
     .venv/bin/python tests/soak/worlds.py rounds --left     the same, but the widgets are left for the next start() to end
+    .venv/bin/python tests/soak/worlds.py rounds --undisplayed  the same, but no cell has a result, and none is drawn
     .venv/bin/python tests/soak/worlds.py hours             two hours of robot time with all widgets shown
     .venv/bin/python tests/soak/worlds.py orders            10,000 orders from a page at once
 
@@ -136,11 +137,13 @@ def kernel() -> Iterator[Kernel]:
             kernels.end(manager, client)
 
 
-def rounds(kernel: Kernel, count: int, every: int, *, close: bool) -> Iterator[tuple[int, Figures]]:
+def rounds(
+    kernel: Kernel, count: int, every: int, *, close: bool, display: bool = True
+) -> Iterator[tuple[int, Figures]]:
     """Go through worlds as a page does, cell by cell; gives the figures of the first and of each `every`th round."""
     for number in range(1, count + 1):
         for cell in (*ROUND, CLOSE) if close else ROUND:
-            kernel.run(cell)
+            kernel.run(cell if display else f"{cell}\nNone")
         if number == 1 or number % every == 0:
             yield number, kernel.figures()
 
@@ -184,11 +187,15 @@ def main() -> None:
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("what", choices=("rounds", "hours", "orders"))
     options.add_argument("--left", action="store_true", help="do not close the widgets")
+    options.add_argument("--undisplayed", action="store_true", help="no cell has a result")
     options.add_argument("--count", type=float, help="how many rounds, hours or orders")
     asked = options.parse_args()
     with kernel() as one:
         if asked.what == "rounds":
-            show("round", rounds(one, int(asked.count or ROUNDS), EVERY, close=not asked.left))
+            show(
+                "round",
+                rounds(one, int(asked.count or ROUNDS), EVERY, close=not asked.left, display=not asked.undisplayed),
+            )
         elif asked.what == "hours":
             show("minute", hours(one, asked.count or HOURS))
         else:
