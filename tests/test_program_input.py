@@ -190,7 +190,7 @@ def ask(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Ask]:
 
 
 def test_the_cell_asks_and_robot_time_stands_still(ask: Ask) -> None:
-    ask("lesson.run(1)")
+    ask("lesson = start(seed=0)\nlesson.run(1)")
     assert ask("python3 asker.py\nprint(lesson.now)", "1", "2") == ("sum 3.0\n1.0\n", "", ["x? ", "y? "])
 
 
