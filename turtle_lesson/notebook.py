@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import _imp
 import os
+from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
 from typing import Any
@@ -20,11 +22,19 @@ def prepare(shell: Any) -> None:
         os.chdir(folder)
     shell.register_magic_function(solution, "cell")
     _guard_the_workspace(shell)
+    shell.events.register("post_run_cell", give_import_lock_back)
     shell.set_custom_exc((Exception, KeyboardInterrupt), _show)
     if not real_ros():
         from .ros.command import magics
 
         magics.install(shell)
+
+
+def give_import_lock_back(*_: object) -> None:
+    """After a cell: an interrupt just when Python has taken its lock of imports leaves that taken, and Jupyter mute."""
+    with suppress(RuntimeError):  # it is another thread's
+        while _imp.lock_held():
+            _imp.release_lock()
 
 
 def solution(line: str, cell: str) -> None:

@@ -138,6 +138,8 @@ class Kernel:
             os.kill(self.manager.provisioner.pid, signal.SIGUSR2)
             time.sleep(5)
             raise TimeoutError(f"{source}\n{self.stacks.read_text()}") from error
+        except ValueError:  # Jupyter itself was interrupted in the middle of a message, as it may be in any notebook
+            ended.append("")
         return "".join(said), "".join(ended)
 
 
