@@ -88,6 +88,12 @@ def check_installed(workspace: Path, programs: list[str], launch_file: str) -> N
     assert {"msg/TurtleStatus.msg", "srv/NavigateTo.srv"} <= set(interfaces)
 
 
+@pytest.fixture(autouse=True)
+def learners_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Our own commands change files in the current folder only."""
+    monkeypatch.chdir(tmp_path)
+
+
 def test_the_finished_package(tmp_path: Path) -> None:
     start(simulator=False).export("robot_controller", to=tmp_path)
     result = build(tmp_path)
@@ -148,9 +154,8 @@ def test_an_ament_python_package(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("line", ["build", "build --symlink-install"])
-def test_a_workspace_that_was_built_here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, line: str) -> None:
+def test_a_workspace_that_was_built_here(tmp_path: Path, line: str) -> None:
     """The whole folder comes to a robot, with the build, install and log of the lesson's own colcon in it."""
-    monkeypatch.chdir(tmp_path)
     start(simulator=False).export("robot_controller", to=tmp_path)
     words = "py_demo --build-type ament_python --node-name hello --destination-directory src"
     create_package(parse(words.split()))
@@ -185,11 +190,8 @@ ALIKE = [
 
 
 @pytest.mark.parametrize("name", ALIKE)
-def test_what_is_wrong_is_said_alike(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, generators: Path, name: str
-) -> None:
+def test_what_is_wrong_is_said_alike(tmp_path: Path, generators: Path, name: str) -> None:
     """Every word of our message, advice and places left out, is in the real one, and the exit codes are the same."""
-    monkeypatch.chdir(tmp_path)
     BROKEN[name](make_package(tmp_path))
     environment = {"PATH": "/usr/bin:/bin", "HOME": str(tmp_path), "LANG": "C.UTF-8"}
     command = ["/bin/bash", "-c", f". {generators}; {PYTHON} /usr/bin/colcon build"]
