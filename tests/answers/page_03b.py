@@ -7,11 +7,8 @@ from . import Answer, Answers, changed, solution
 PAGE = "03b_answer_on_arrival"
 ARRIVAL, ONE = solution(PAGE, "on_arrival"), solution(PAGE, "one_goal")
 
-SENSE = "inside and math.isfinite(request.theta)"
-BEGUN = """\
-        self.goal, self.arrived = request, rclpy.task.Future()
-        self.began = self.get_clock().now()
-"""
+SENSE = "0 <= request.x <= 11.09 and 0 <= request.y <= 11.09 and math.isfinite(request.theta)"
+BEGUN = "        self.goal, self.arrived, self.began = request, rclpy.task.Future(), self.get_clock().now()\n"
 AWAIT = "        response.success = await self.arrived\n"
 TAKEN = "        response.time_taken = (self.get_clock().now() - self.began).nanoseconds / 1e9\n"
 LOG = '        self.get_logger().info(f"Goal: ({request.x:.2f}, {request.y:.2f})")\n'
@@ -93,7 +90,7 @@ ANSWERS = {
             "begins after the wait": (
                 changed(
                     ARRIVAL,
-                    (BEGUN, BEGUN.replace("        self.began = self.get_clock().now()\n", "")),
+                    (BEGUN, BEGUN.replace(", self.began", "").replace(", self.get_clock().now()", "")),
                     (AWAIT, f"{AWAIT}        self.began = self.get_clock().now()\n"),
                 ),
                 "it said 0.00 s",
@@ -101,7 +98,10 @@ ANSWERS = {
             "one box for all goals": (
                 changed(
                     ARRIVAL,
-                    ("self.goal, self.arrived = request, rclpy.task.Future()", "self.goal = request"),
+                    (
+                        "self.goal, self.arrived, self.began = request, rclpy.task.Future(), ",
+                        "self.goal, self.began = request, ",
+                    ),
                     (
                         AWAIT,
                         "        if not hasattr(self, 'arrived'):\n            self.arrived = rclpy.task.Future()\n"
