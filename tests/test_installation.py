@@ -125,4 +125,4 @@ def test_pages_begin_with_the_files_of_those_before_them_without_a_checkout(fres
 
 def test_what_other_pythons_leave_out_is_there() -> None:
     lines = (ROOT / ".ci/every_python").read_text(encoding="utf-8").split()
-    assert [line for line in lines if not (ROOT / line.removeprefix("--ignore=")).exists()] == []
+    assert [line for line in lines if not list(ROOT.glob(line.rpartition("=")[2]))] == []
