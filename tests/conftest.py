@@ -48,9 +48,10 @@ def no_folder_of_another_test(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture
-def world() -> Iterator[World]:
-    """A fresh world, closed after the test."""
+def world(monkeypatch: pytest.MonkeyPatch) -> Iterator[World]:
+    """A fresh world, closed after the test. The test may choose its folder after that."""
     world = open_world()
+    monkeypatch.setattr(files, "_home", None)
     yield world
     world.close()
 

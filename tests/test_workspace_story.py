@@ -317,15 +317,10 @@ def test_the_workspace_is_beside_the_notebook(tmp_path: Path) -> None:
     assert workspace().folder.name == "workspace"
 
 
-@pytest.fixture
-def learners_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The current folder when a world begins."""
-    monkeypatch.chdir(tmp_path)
-
-
 def test_it_is_built_again_after_a_build_by_hand_from_other_sources(
-    tmp_path: Path, learners_folder: None, world: World
+    tmp_path: Path, world: World, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.chdir(tmp_path)
     mine = Workspace(tmp_path / "workspace")
     mine.prepare("04_status_monitor")
     assert not mine.is_built

@@ -233,6 +233,8 @@ def test_a_window_that_opens_the_saved_page_is_in_step(
     open_notebook(page, lab, NAME)
     other = Board(page)  # which no cell had to be run for
     expect(other.states).to_have_text(board.states.all_inner_texts())
+    early = "Error: widget model not found"  # what JupyterLab says of a widget that it draws before the kernel has told of it
+    problems[:] = [problem for problem in problems if not problem.startswith(early)]
     other.click(9.0, 9.0)
     for each in (board, other):
         expect(each.states.first).to_have_text("reached")
