@@ -12,7 +12,9 @@ import socket
 import sys
 import sysconfig
 import threading
+from collections.abc import Callable
 from importlib.machinery import ModuleSpec, SourceFileLoader
+from pathlib import Path
 from types import ModuleType
 from typing import Any
 
@@ -20,7 +22,7 @@ import pytest
 
 from turtle_lesson import start
 from turtle_lesson.lab import recorder
-from turtle_lesson.ros.core import NeverReturns, interrupts, tracebacks
+from turtle_lesson.ros.core import NeverReturns, Process, interrupts, tracebacks
 from turtle_lesson.ros.world import World
 
 SECOND = 1_000_000_000
@@ -197,26 +199,33 @@ def test_an_interrupted_import_goes_on_to_its_end(world: World, slow_library: di
     assert not _imp.lock_held()
 
 
-def test_a_learners_own_module_that_computes_without_end_is_found(
-    world: World, watchdog: Watchdog, tmp_path: Any, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    (tmp_path / "mine.py").write_text("import sys\nsys.watchdog.wait(11, computing=True)\n")
-    (tmp_path / "main.py").write_text("import mine\n")
+@pytest.fixture
+def importing(
+    world: World, watchdog: Watchdog, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Callable[[str], Process]:
+    """Returns `importing(source)`: a program of the learner's that imports a module of theirs with this source."""
     monkeypatch.setattr(sys, "watchdog", watchdog, raising=False)
-    process = world.spawn(tmp_path / "main.py", name="main")
+    monkeypatch.setattr(sys, "press_stop", press_stop, raising=False)
+
+    def importing(source: str) -> Process:
+        (tmp_path / "mine.py").write_text(f"import sys\n{source}\n")
+        (tmp_path / "main.py").write_text("import mine\n")
+        return world.spawn(tmp_path / "main.py", name="main")
+
+    return importing
+
+
+def test_a_learners_own_module_that_computes_without_end_is_found(
+    world: World, importing: Callable[[str], Process]
+) -> None:
+    process = importing("sys.watchdog.wait(11, computing=True)")
     world.sim.run_until(SECOND)
     assert isinstance(process.error, NeverReturns)
 
 
-def test_the_stop_button_ends_it(
-    world: World, watchdog: Watchdog, tmp_path: Any, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_stop_button_ends_it(world: World, importing: Callable[[str], Process]) -> None:
     """Frozen in its middle, it would keep the lock of its module."""
-    (tmp_path / "mine.py").write_text("import sys\nsys.press_stop()\nsys.watchdog.wait(5, computing=True)\n")
-    (tmp_path / "main.py").write_text("import mine\n")
-    monkeypatch.setattr(sys, "watchdog", watchdog, raising=False)
-    monkeypatch.setattr(sys, "press_stop", press_stop, raising=False)
-    process = world.spawn(tmp_path / "main.py", name="main")
+    process = importing("sys.press_stop()\nsys.watchdog.wait(5, computing=True)")
     with pytest.raises(KeyboardInterrupt):
         world.sim.run_until(SECOND)
     assert process.exit_code == -2

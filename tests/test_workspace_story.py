@@ -71,10 +71,10 @@ def pages(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     for page, its in cells.items():
         nbformat.write(nbformat.v4.new_notebook(cells=its), folder / f"{page}.ipynb")
     monkeypatch.setattr(story, "PUBLISHED", folder)
-    for each in (story.versions, story._left_open, story._states, story._code_cells):
+    for each in (story.versions, story._versions_with_open_exercises, story._states, story._code_cells):
         each.cache_clear()
     yield folder
-    for each in (story.versions, story._left_open, story._states, story._code_cells):
+    for each in (story.versions, story._versions_with_open_exercises, story._states, story._code_cells):
         each.cache_clear()
 
 

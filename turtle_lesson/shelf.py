@@ -42,12 +42,14 @@ class Shelf:
     def _widget(self, key: Hashable, make: Callable[[Station], Widget]) -> Widget:
         """The widget of this key; made now if there is none yet."""
         widgets = self.__dict__.setdefault("_widgets", {})
-        if key not in widgets or widgets[key].comm is None:  # not made yet, or closed
+        is_first = key not in widgets
+        if is_first or widgets[key].comm is None:  # not made yet, or closed
             from .lab.widgets.station import Link
 
             station: Any = Link(self._make_station())
             widgets[key] = make(station)
-            station.at_close.append(widgets[key].end)
+            if is_first:  # the closed ones are not kept for that
+                station.at_close.append(lambda: widgets[key].end())
         return widgets[key]
 
     def goal_pad(self) -> LabView:

@@ -71,8 +71,7 @@ def is_published(path: str, text: str, before: str) -> bool:
 
     So does a page whose exercises were left as they are, or some of them.
     """
-    earlier = PAGES[: PAGES.index(before)]
-    return any((path, text) in versions(page) or (path, text) in _left_open(page) for page in earlier)
+    return any((path, text) in _versions_with_open_exercises(page) for page in PAGES[: PAGES.index(before)])
 
 
 @cache
@@ -82,10 +81,10 @@ def versions(page: str) -> tuple[tuple[str, str], ...]:
 
 
 @cache
-def _left_open(page: str) -> frozenset[tuple[str, str]]:
-    """The same where one exercise or more is still as published."""
-    names = sorted({_exercise(cell) for cell in _code_cells(page)} - {""})
-    some = chain.from_iterable(combinations(names, count) for count in range(1, len(names) + 1))
+def _versions_with_open_exercises(page: str) -> frozenset[tuple[str, str]]:
+    """The same, and those where one exercise or more is still as published."""
+    names = sorted({name for name, _, _ in _code_cells(page)} - {""})
+    some = chain.from_iterable(combinations(names, count) for count in range(len(names) + 1))
     states = chain.from_iterable(_states(page, still_open) for still_open in some)
     return frozenset((path, "".join(parts)) for path, parts in states)
 
@@ -133,7 +132,7 @@ def _beginning(part: str) -> tuple[str, ...]:
 
 def _sources(page: str, still_open: tuple[str, ...]) -> Iterator[str]:
     """The sources of a published page's code cells: each exercise as its solution has it, but for those still open."""
-    cells = [(_exercise(cell), cell["metadata"].get("tags", []), _source(cell)) for cell in _code_cells(page)]
+    cells = _code_cells(page)
     solutions = {name: source.partition("\n")[2] for name, tags, source in cells if "solution" in tags}
     for name, tags, source in cells:
         if "exercise" in tags:
@@ -143,12 +142,17 @@ def _sources(page: str, still_open: tuple[str, ...]) -> Iterator[str]:
 
 
 @cache
-def _code_cells(page: str) -> list[dict]:
+def _code_cells(page: str) -> list[tuple[str, list[str], str]]:
+    """Of each code cell of a published page: the exercise that it belongs to, or "", its tags and its source."""
     file = PUBLISHED / f"{page}.ipynb"
     if not file.is_file():
         raise FileNotFoundError(f"the published page {file.name} is missing: it would be in {PUBLISHED}")
     cells = json.loads(file.read_text(encoding="utf-8"))["cells"]
-    return [cell for cell in cells if cell["cell_type"] == "code"]
+    return [
+        (_exercise(cell), cell["metadata"].get("tags", []), _source(cell))
+        for cell in cells
+        if cell["cell_type"] == "code"
+    ]
 
 
 def _exercise(cell: dict) -> str:

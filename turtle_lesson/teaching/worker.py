@@ -127,10 +127,8 @@ def _read(path: Path) -> dict[str, Any]:
         found = json.loads(path.read_text(encoding="utf-8-sig"))
         if found.get("nbformat") == 4 and all({"cell_type", "source"} <= cell.keys() for cell in found["cells"]):
             return dict(found)
-    from .pages import (
-        PageError,
-        read,
-    )  # imports nbformat, which takes seconds: for older formats, and to say what is wrong
+    # For older formats, and to say what is wrong; nbformat, which this imports, takes seconds.
+    from .pages import PageError, read
 
     try:
         return dict(read(path))

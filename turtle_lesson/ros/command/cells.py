@@ -183,9 +183,8 @@ class _Cell:
         self._variables = variables
         self._known: dict[str, bool] = {}
         self._ends: dict[int, int] = {}
-        self._endless: dict[
-            str, int
-        ] = {}  # from which line's end on a string is open until the cell ends, by its quote
+        # From which line's end on a string is open until the cell ends, by its quote.
+        self._endless: dict[str, int] = {}
 
     def has(self, word: str) -> bool:
         """Whether a word is a variable, of the notebook or of this cell."""
