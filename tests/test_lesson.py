@@ -34,6 +34,13 @@ def test_a_world_begins_with_the_simulator_and_nothing_else(lesson: Lesson) -> N
     assert lesson.now == 0.0
 
 
+def test_what_cannot_let_go_of_a_world_fails_once(lesson: Lesson) -> None:
+    lesson._world.at_close.append(lambda: {}["gone"])
+    with pytest.raises(KeyError):
+        start()
+    assert start().now == 0.0
+
+
 def test_a_world_can_be_empty() -> None:
     lesson = start(package=None, simulator=False)
     lesson.run(1)

@@ -41,16 +41,20 @@ class Shelf:
 
     def _widget(self, key: Hashable, make: Callable[[Station], Widget]) -> Widget:
         """The widget of this key; made now if there is none yet."""
-        widgets = self.__dict__.setdefault("_widgets", {})
-        is_first = key not in widgets
-        if is_first or widgets[key].comm is None:  # not made yet, or closed
+        if not hasattr(self, "_widgets"):
+            self._widgets = {}
+            self._make_station().at_close.append(self._end_widgets)
+        widgets = self._widgets
+        if key not in widgets or widgets[key].comm is None:  # not made yet, or closed
             from .lab.widgets.station import Link
 
             station: Any = Link(self._make_station())
             widgets[key] = make(station)
-            if is_first:  # the closed ones are not kept for that
-                station.at_close.append(lambda: widgets[key].end())
         return widgets[key]
+
+    def _end_widgets(self) -> None:
+        for widget in self._widgets.values():
+            widget.end()
 
     def goal_pad(self) -> LabView:
         """A map that is alive: click on it, and the turtle goes there; drag to say how it shall face."""

@@ -100,9 +100,8 @@ class World:
 
     def close(self) -> None:
         """End every process and the simulation; nothing of this world runs again."""
-        for let_go in self.at_close:
-            let_go()
-        self.at_close.clear()
+        while self.at_close:  # one that fails does not keep the world from being closed again
+            self.at_close.pop(0)()
         for process in [*self.processes, self.notebook]:
             process.close()
         self.sim.close()
