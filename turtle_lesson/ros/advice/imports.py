@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 from ..interfaces.registry import INSTALLED_SEPARATELY, SHARE, registry
+from ..workspace.absent import missing_module
 from ..workspace.errors import did_you_mean
 from .devices import KEYS, SCREEN
 
@@ -23,20 +24,6 @@ FROM_ROS_1 = {
     "dynamic_reconfigure": "dynamic_reconfigure is ROS 1's; in ROS 2 nodes have parameters.",
     "rclcpp": "rclcpp is the library of C++; in Python it is rclpy.",
 }
-
-ABSENT = frozenset((
-    "angles", "bond", "can_msgs", "controller_manager_msgs",
-    "diagnostic_updater", "geographic_msgs", "grid_map_msgs", "image_geometry",
-    "image_tools", "image_transport", "interactive_markers", "irobot_create_msgs", "joint_state_publisher",
-    "joy_teleop", "laser_geometry", "launch_pytest", "launch_testing", "launch_testing_ros", "map_msgs", "mavros_msgs",
-    "moveit", "moveit_py", "nav2_common", "nav2_simple_commander",
-    "pcl_msgs", "pcl_ros", "pendulum_msgs", "pointcloud2_msgs", "py_trees_ros", "python_qt_binding",
-    "qt_gui", "rclpy_message_converter", "robot_localization", "robot_state_publisher", "ros2_numpy", "ros2bag",
-    "ros2cli", "ros2node", "ros2param", "ros2pkg", "ros2run", "ros2topic", "ros_gz_interfaces", "rqt_gui",
-    "rqt_gui_py", "slam_toolbox", "smach", "smach_ros", "teleop_twist_keyboard", "test_msgs", "tf2_kdl",
-    "ur_msgs", "vision_msgs", "webots_ros2_driver",
-))  # fmt: skip
-"""Packages that a robot may have, and the simulation does not."""
 
 
 def advice(error: BaseException) -> str:
@@ -57,11 +44,8 @@ def _no_module(name: str) -> str:
         return f"{top} is installed separately from ROS 2 ({_DEVICES[top][1]}). {_DEVICES[top][0]}"
     if top in _FOR_ROBOTS_TOO:
         return f"{top} is a Python package that works here, too, once it is installed: {_pip_install(top)}."
-    if top in ABSENT:
-        return (
-            f"{top} is a package of ROS 2 that is not available here: a program that needs it runs on a robot "
-            f"where it is installed ({_apt(top)})."
-        )
+    if missing := missing_module(top):
+        return missing
     if rest and (parent := _newer(top, name) or _parent(name)):
         return parent
     close = difflib.get_close_matches(top, _known_modules(), n=1, cutoff=0.8)
@@ -70,10 +54,6 @@ def _no_module(name: str) -> str:
 
 def _pip_install(name: str) -> str:
     return f"pip install {_ON_PYPI.get(name, name)} (in a notebook: %pip install {_ON_PYPI.get(name, name)})"
-
-
-def _apt(name: str) -> str:
-    return f"sudo apt install ros-$ROS_DISTRO-{name.replace('_', '-')}"
 
 
 def _parent(name: str) -> str:

@@ -64,7 +64,6 @@ class Bag:
         self.message_count = contents.count
         self.size = sum(file.stat().st_size for file in files)
         self.storage = _storage_of(files[0])
-        self.distro: str = str(metadata.get("ros_distro") or "")
         self.topics = [_topic(key, topic) for key, topic in contents.topics.items()]
         self._flaws = contents.flaws
         promised = metadata.get("message_count")

@@ -100,8 +100,12 @@ def _found(functions: dict[Any, Callable[..., Any]], key: Any) -> Callable[..., 
         return functions[key]
     error = TypeException(f"Type {key} is not loaded or supported")
     clouds = "sensor_msgs" in str(key) and "geometry_msgs" not in str(key)
-    package = "sensor_msgs" if clouds else "geometry_msgs"
-    error.add_note(f"For the types of {package} write: import tf2_{package}")
+    note = (
+        "The types of sensor_msgs are transformed by tf2_sensor_msgs, which is not available here"
+        if clouds
+        else "For the types of geometry_msgs write: import tf2_geometry_msgs"
+    )
+    error.add_note(note)
     raise error
 
 

@@ -1,1 +1,0 @@
-"""`sensor_msgs_py`: point clouds as numpy arrays, and back."""
