@@ -644,17 +644,6 @@ CPP = {
         add_executable(fast src/fast.cpp)
         include(odd_vendor_macros)
         """,
-    "in functions and loops": """
-        function(program name)
-          add_executable(${name} ${ARGN})
-          install(TARGETS ${name} DESTINATION lib/${PROJECT_NAME})
-        endfunction()
-        program(fast src/fast.cpp src/more.cpp)
-        foreach(name arm)
-          add_library(${name} src/${name}.cpp)
-        endforeach()
-        file(GLOB sources LIST_DIRECTORIES false src/*.cpp)
-        """,
     "in a folder": "add_subdirectory(src)",
 }
 
@@ -680,6 +669,28 @@ def test_cpp_is_left_out_and_all_else_is_built(package: Path, world: World, name
     with pytest.raises(CompiledProgramError) as caught:
         world.packages.executable("robot_controller", "fast")
     assert re.match(r"fast is a C\+\+ program \(CMakeLists.txt, line \d+\)", caught.value.hint)
+
+
+def test_loops_and_functions_are_passed_over(package: Path, world: World) -> None:
+    lines = """
+        function(program name)
+          add_executable(${name} ${ARGN})
+        endfunction()
+        program(fast src/fast.cpp)
+        foreach(name arm)
+          install(TARGETS ${name} DESTINATION lib/${PROJECT_NAME})
+        endforeach()
+        file(GLOB sources LIST_DIRECTORIES false src/*.cpp)
+        """
+    change(package / CMAKE, "# line 10", lines)
+    answer = colcon(world)
+    assert answer.code == 0
+    assert (
+        "Warning: CMakeLists.txt: function() in line 11 and foreach() in line 15 cannot be carried out here: what lies "
+        "inside is passed over."
+    ) in answer.err
+    source_in(world)
+    assert list(world.packages.get("robot_controller").executables) == ["navigator"]
 
 
 def test_several_packages_in_cpp_are_named_in_one_warning(package: Path, world: World) -> None:

@@ -7,7 +7,6 @@ build reports, at its line.
 from __future__ import annotations
 
 import os
-import re
 from difflib import get_close_matches
 from pathlib import Path
 
@@ -16,10 +15,18 @@ from ..interfaces.registry import Registry
 from . import manifest_check
 from .absent import why_not_here
 from .cmake import CMakeError, CMakeFile, Command, Program, evaluate
-from .cmake_install import asks_for_python, install_entries, install_items, refused, unreadable
-from .cmake_interfaces import InterfaceCheck, not_found
-from .cmake_refusals import refusal, serves_cpp
-from .cmake_text import SHARE, cmake_message
+from .cmake_commands import (
+    InterfaceCheck,
+    asks_for_python,
+    install_entries,
+    install_items,
+    not_found,
+    refusal,
+    refused,
+    serves_cpp,
+    unreadable,
+)
+from .cmake_syntax import SHARE, cmake_message
 from .discover import Found
 from .errors import did_you_mean
 from .index import package_hint
@@ -28,7 +35,6 @@ from .interface_files import definitions, interface_items
 from .known import CMAKE_COMMANDS, CMAKE_PACKAGES, COMMANDS_OF, brought_by
 from .outcome import PYTHON, BuildFailure, Environment, Item, Outcome, check_targets, with_hint
 
-_DEFINED = re.compile(r"^\s*(?:function|macro)\s*\(\s*(\w+)", re.MULTILINE | re.IGNORECASE)
 _PACKAGE_XML = f"{SHARE}/ament_cmake_core/cmake/core/ament_package_xml.cmake"
 _EXTENSIONS = f"{SHARE}/ament_cmake_core/cmake/core/ament_execute_extensions.cmake"
 _HOOKS = (
@@ -89,8 +95,10 @@ class _Build:
 
     def run(self) -> Outcome:
         cmake = self._read()
-        self.compiled = bool(cmake.compiled())
+        self.compiled = cmake.builds_cpp or bool(cmake.compiled())
+        self.commands |= cmake.defined
         self._warn_of_catkin()
+        self._warn_of_blocks(cmake)
         for command in cmake.commands:
             self._configure(command)
         if not self.finished:
@@ -118,7 +126,6 @@ class _Build:
             raise BuildFailure(text, hint, seconds=0.1)
         try:
             source = file.read_text(encoding="utf-8")
-            self.commands.update(name.lower() for name in _DEFINED.findall(source))
             cmake = evaluate(source, "CMakeLists.txt", self.found.path)
             if not cmake.named("project"):
                 self._warn_of_project()
@@ -349,6 +356,15 @@ class _Build:
             self.hints.append(
                 "package.xml does not say how to build, so colcon takes it for a package of ROS 1. Add "
                 "<export><build_type>ament_cmake</build_type></export>."
+            )
+
+    def _warn_of_blocks(self, cmake: CMakeFile) -> None:
+        """Loops, functions and macros are not carried out, and neither is what stands in them."""
+        if cmake.passed_over:
+            blocks = " and ".join(f"{name}() in line {line}" for name, line in cmake.passed_over)
+            self.warnings.append(
+                f"Warning: CMakeLists.txt: {blocks} cannot be carried out here: what lies inside is passed over. All else "
+                "is built; write out what is missing.\n"
             )
 
     def _warn_of_definitions(self) -> None:

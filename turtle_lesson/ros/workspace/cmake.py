@@ -1,28 +1,33 @@
 """A small honest reader of a package's CMakeLists.txt: variables, `if`, and what ament packages are made of.
 
-It understands what a Python package needs (set, project, if, install, rosidl_generate_interfaces) and says
-so where a file needs more of CMake. Nothing is built or run.
+It understands what a Python package needs (set, list, project, if, file(GLOB), install, rosidl_generate_interfaces). Loops,
+functions and macros are passed over with all that lies inside, and named (`CMakeFile.passed_over`). Nothing is built or run.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from glob import glob
 from pathlib import Path
 
 from ..core.tracebacks import shown_path
-from .cmake_conditions import is_true
-from .cmake_glob import INSTALL_FOLDERS, globbed
-from .cmake_loops import MOST_ROUNDS, body_of, can_be_unrolled, loop_values
-from .cmake_syntax import Argument, Call, CMakeError, check_blocks, read_calls
+from .cmake_syntax import BLOCKS, Argument, Call, CMakeError, check_blocks, condition_holds, read_calls
 
 __all__ = ["CMakeError", "CMakeFile", "Command", "Installed", "Program", "read_cmake"]
 
 _VARIABLE = re.compile(r"\\(.)|\$\{([^${}]*)\}", re.DOTALL)
 _ESCAPES = {"n": "\n", "t": "\t", "r": "\r"}
-_LOOPS = {"foreach", "while", "function", "macro"}
-_MATTERS = {"install", "rosidl_generate_interfaces", "project", "ament_package"}
+_INSTALL_FOLDERS = {
+    f"CMAKE_INSTALL_{name}DIR": folder
+    for name, folder in {
+        "BIN": "bin", "LIB": "lib", "LIBEXEC": "libexec", "INCLUDE": "include", "DATA": "share", "DATAROOT": "share",
+        "DOC": "share/doc", "SYSCONF": "etc", "MAN": "share/man",
+    }.items()
+}  # fmt: skip
+"""The variables that include(GNUInstallDirs) sets."""
+
 _INSTALL_WORDS = {
     "DESTINATION", "RENAME", "PERMISSIONS", "FILE_PERMISSIONS", "DIRECTORY_PERMISSIONS", "CONFIGURATIONS",
     "COMPONENT", "OPTIONAL", "TYPE", "EXCLUDE_FROM_ALL", "USE_SOURCE_PERMISSIONS", "PATTERN", "REGEX",
@@ -79,6 +84,12 @@ class CMakeFile:
     file: str = "CMakeLists.txt"
     folders: dict[int, CMakeFile] = field(default_factory=dict)
     """The files of the folders that `add_subdirectory` names, by its line."""
+    builds_cpp: bool = False
+    """Whether a command of the text builds C++, even where it is passed over."""
+    passed_over: list[tuple[str, int]] = field(default_factory=list)
+    """The loops, functions and macros that would take effect, each with its line."""
+    defined: set[str] = field(default_factory=set)
+    """The names of the functions and macros that the text defines, in lower case."""
 
     def named(self, name: str) -> list[Command]:
         """All commands of a name."""
@@ -203,11 +214,6 @@ def compiled_programs(folder: Path) -> dict[str, int]:
         return {}
 
 
-def builds_cpp(calls: Iterable[Call]) -> bool:
-    """Whether C++ is built by any of the calls."""
-    return any(call.name in COMPILES for call in calls)
-
-
 def evaluate(
     text: str, file: str = "CMakeLists.txt", folder: Path | None = None, variables: dict[str, str] | None = None
 ) -> CMakeFile:
@@ -220,8 +226,10 @@ def evaluate(
     known |= {"CMAKE_CURRENT_SOURCE_DIR": where, "CMAKE_CURRENT_LIST_DIR": where, "BUILD_TESTING": "ON", "UNIX": "1"}
     calls = read_calls(text, file)
     check_blocks(calls, file)
-    evaluator = _Evaluator(known, file, lenient=builds_cpp(calls))
-    read = CMakeFile(list(evaluator.run(calls)), file)
+    cpp = any(call.name in COMPILES for call in calls)
+    evaluator = _Evaluator(known, file, lenient=cpp)
+    read = CMakeFile(list(evaluator.run(calls)), file, builds_cpp=cpp, passed_over=evaluator.passed_over)
+    read.defined = {call.args[0].text.lower() for call in calls if call.name in {"function", "macro"} and call.args}
     for command in read.named("add_subdirectory"):
         inner = Path(where, "".join(command.args[:1])).resolve()
         if Path(where).resolve() in inner.parents:
@@ -246,72 +254,26 @@ class _Evaluator:
         self.file = file
         self._lenient = lenient
         self._branches: list[str] = []  # one per open if: "taken", "waiting" for its branch, or "done"
-        self._loops: list[str] = []
-        self._rounds = 0
-        self._functions: dict[str, tuple[list[str], list[Call]]] = {}
+        self.passed_over: list[tuple[str, int]] = []
 
     def run(self, calls: list[Call]) -> Iterator[Command]:
         """The commands that take effect."""
-        place = 0
-        while place < len(calls):
-            call = calls[place]
-            place += 1
-            if self._loops:
-                self._inside_loop(call)
+        depth = 0  # of the loops, functions and macros that the call stands in
+        for call in calls:
+            if call.name in BLOCKS and self._active:
+                if not depth:
+                    self.passed_over.append((call.name, call.line))
+                depth += 1
+            elif depth:
+                depth -= call.name.startswith("end") and call.name[3:] in BLOCKS
             elif not self._conditional(call) and self._active:
                 if call.name == "return":
                     return
-                if call.name in {"function", "macro"} and builds_cpp(body := body_of(calls, place, call.name)):
-                    name, *parameters = [argument.text for argument in call.args] or [""]
-                    self._functions[name.lower()] = (parameters, body)
-                    place += len(body) + 1
-                elif call.name in self._functions:
-                    yield from self._called(call)
-                elif call.name == "foreach" and can_be_unrolled(call, body := body_of(calls, place)):
-                    yield from self._rounds_of(call, body)
-                    place += len(body) + 1
-                else:
-                    yield from self._effect(call)
-
-    def _called(self, call: Call) -> Iterator[Command]:
-        """The commands of a function or macro that builds C++, for one call of it."""
-        names, body = self._functions[call.name]
-        self._rounds += 1
-        if self._rounds > MOST_ROUNDS:
-            raise CMakeError(f"{call.name}() calls itself endlessly", call.line, self.file)
-        given = self._arguments(call)
-        before = dict(self.variables)
-        self.variables |= {**dict(zip(names, given, strict=False)), "ARGN": ";".join(given[len(names) :])}
-        yield from (Command(each.name, each.args, call.line) for each in self.run(body))
-        self.variables = before
-
-    def _rounds_of(self, call: Call, body: list[Call]) -> Iterator[Command]:
-        """The commands of a loop's body, once for each value."""
-        name, *words = self._arguments(call)
-        before = self.variables.get(name)
-        for value in loop_values(words, self.variables):
-            self._rounds += 1
-            if self._rounds > MOST_ROUNDS:
-                raise CMakeError(f"foreach() runs more than {MOST_ROUNDS} times", call.line, self.file)
-            self.variables[name] = value
-            yield from self.run(body)
-        self.variables.pop(name, None)
-        if before is not None:
-            self.variables[name] = before
+                yield from self._effect(call)
 
     @property
     def _active(self) -> bool:
         return all(branch == "taken" for branch in self._branches)
-
-    def _inside_loop(self, call: Call) -> None:
-        """A loop's or function's body is not run, so nothing that matters may stand in it."""
-        if call.name == f"end{self._loops[-1]}":
-            self._loops.pop()
-        elif call.name in _LOOPS:
-            self._loops.append(call.name)
-        elif call.name in _MATTERS and not self._lenient:
-            reason = f"{call.name}() inside {self._loops[-1]}() is not understood here; write it out"
-            raise CMakeError(reason, call.line, self.file)
 
     def _conditional(self, call: Call) -> bool:
         if call.name == "if":
@@ -334,12 +296,9 @@ class _Evaluator:
 
     def _holds(self, call: Call) -> bool:
         words = [(self.expand(argument, call), argument.quoted) for argument in call.args]
-        return is_true(words, self.variables, call.line, self.file)
+        return condition_holds(words, self.variables, call.line, self.file)
 
     def _effect(self, call: Call) -> Iterator[Command]:
-        if call.name in _LOOPS:
-            self._loops.append(call.name)
-            return
         args = self._arguments(call)
         if call.name == "set" and args:
             self.variables[args[0]] = ";".join(_until(args[1:], {"CACHE", "PARENT_SCOPE"})[0])
@@ -350,9 +309,9 @@ class _Evaluator:
         elif call.name == "project" and args:
             self.variables["PROJECT_NAME"] = self.variables["CMAKE_PROJECT_NAME"] = args[0]
         elif call.name == "include" and args[:1] == ("GNUInstallDirs",):
-            self.variables |= INSTALL_FOLDERS
+            self.variables |= _INSTALL_FOLDERS
         elif call.name == "file" and args[:1] in {("GLOB",), ("GLOB_RECURSE",)}:
-            found = globbed(args, self.variables["CMAKE_CURRENT_SOURCE_DIR"])
+            found = _globbed(args, self.variables["CMAKE_CURRENT_SOURCE_DIR"])
             if found is None and not self._lenient:
                 reason = f"file({args[0]} …) with these arguments is not understood here; name the files one by one"
                 raise CMakeError(reason, call.line, self.file)
@@ -394,6 +353,32 @@ class _Evaluator:
         if escaped == ";":
             return "\\;"  # still to be seen when lists are split
         return _ESCAPES.get(escaped, escaped)
+
+
+def _globbed(args: Sequence[str], here: str) -> list[str] | None:
+    """What `file(GLOB|GLOB_RECURSE variable [RELATIVE folder] pattern …)` puts into its variable, sorted.
+
+    `here` is the folder of the CMakeLists.txt. None if there are words that are not understood.
+    """
+    patterns = [word for word in args[2:] if word != "CONFIGURE_DEPENDS"]
+    beside = None
+    if "RELATIVE" in patterns[:-1]:
+        place = patterns.index("RELATIVE")
+        beside = patterns[place + 1]
+        del patterns[place : place + 2]
+    if len(args) < 2 or "LIST_DIRECTORIES" in patterns or beside not in (None, here):
+        return None
+    found = {
+        path.as_posix() for pattern in patterns for path in _matches(Path(here, pattern), args[0] == "GLOB_RECURSE")
+    }
+    start = "" if beside is None else f"{here}/"
+    return [path.removeprefix(start) for path in sorted(found)]
+
+
+def _matches(pattern: Path, below: bool) -> list[Path]:
+    if not below:
+        return [Path(path) for path in glob(str(pattern))]
+    return [path for path in pattern.parent.rglob(pattern.name) if path.is_file()] if pattern.name else []
 
 
 def _split(text: str) -> list[str]:

@@ -1,12 +1,12 @@
-"""The grammar of CMakeLists.txt: text to commands, each with its arguments and its line.
+"""The language of CMakeLists.txt: text to commands with their arguments and lines, conditions, and CMake's messages.
 
-Facts: https://cmake.org/cmake/help/latest/manual/cmake-language.7.html. Nothing is evaluated here.
+Facts: https://cmake.org/cmake/help/latest/manual/cmake-language.7.html and, for conditions, command/if.html there.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 
@@ -192,7 +192,10 @@ def _shown(rest: str) -> str:
     return cut.replace("\n", "\n\n")
 
 
-_ENDS = {"endif": "if", "endforeach": "foreach", "endwhile": "while", "endfunction": "function", "endmacro": "macro"}
+BLOCKS = ("foreach", "while", "function", "macro")
+"""The commands whose bodies are passed over."""
+
+_ENDS = {f"end{name}": name for name in ("if", *BLOCKS)}
 
 
 def check_blocks(calls: Sequence[Call], file: str) -> None:
@@ -208,7 +211,8 @@ def check_blocks(calls: Sequence[Call], file: str) -> None:
         elif call.name in {*_ENDS, "else", "elseif"}:
             start = _ENDS.get(call.name, "if")
             if not opened or opened[-1].name != start:
-                raise _not_nested(call, f"{call.name}() without {_a(start)}() before it", file)
+                article = "an" if start == "if" else "a"
+                raise _not_nested(call, f"{call.name}() without {article} {start}() before it", file)
             if call.name in _ENDS:
                 opened.pop()
     if opened:
@@ -216,10 +220,154 @@ def check_blocks(calls: Sequence[Call], file: str) -> None:
         raise _not_nested(call, f"this {call.name}() has no end{call.name}()", file)
 
 
-def _a(name: str) -> str:
-    return f"an {name}" if name == "if" else f"a {name}"
-
-
 def _not_nested(call: Call, reason: str, file: str) -> CMakeError:
     words = "Flow control statements are not properly nested."
     return CMakeError(reason, call.line, file, words=words, place=f"{call.line} ({call.name})")
+
+
+_TRUE = {"1", "ON", "YES", "TRUE", "Y"}
+_FALSE = {"", "0", "OFF", "NO", "FALSE", "N", "IGNORE", "NOTFOUND"}
+_BINARY = {
+    "STREQUAL", "EQUAL", "MATCHES", "IN_LIST", "LESS", "GREATER", "LESS_EQUAL", "GREATER_EQUAL", "STRLESS",
+    "STRGREATER", "VERSION_LESS", "VERSION_GREATER", "VERSION_EQUAL", "VERSION_LESS_EQUAL",
+    "VERSION_GREATER_EQUAL", "IS_NEWER_THAN",
+}  # fmt: skip
+_UNARY = {"DEFINED", "TARGET", "EXISTS", "COMMAND", "POLICY", "TEST", "IS_DIRECTORY", "IS_ABSOLUTE"}
+
+Word = tuple[str, bool]
+
+
+def condition_holds(words: Sequence[Word], variables: Mapping[str, str], line: int, file: str) -> bool:
+    """Whether the condition of an `if(…)` holds; each word comes with whether it was quoted.
+
+    Names, NOT, AND, OR, DEFINED, STREQUAL, EQUAL, IN_LIST, MATCHES and parentheses are understood; other tests count as
+    false, as they mostly are for a package of Python files.
+    """
+    if not words:
+        return False  # so does CMake
+    reader = _Condition(list(words), variables)
+    try:
+        value = reader.either()
+    except (re.error, RecursionError):  # no regular expression, or thousands of parentheses
+        reader.broken = True
+    if reader.words or reader.broken:
+        text = " ".join(word for word, _ in words)
+        given = " ".join(f'"{word}"' for word, _ in words)
+        said = f"if given arguments:\n\n  {given}\n\nUnknown arguments specified"
+        raise CMakeError(
+            f"if({text}) is not a condition that CMake knows", line, file, words=said, place=f"{line} (if)"
+        )
+    return value
+
+
+class _Condition:
+    """Takes the words from the left, the operator that binds weakest first."""
+
+    def __init__(self, words: list[Word], variables: Mapping[str, str]) -> None:
+        self.words = words
+        self.variables = variables
+        self.broken = False
+
+    def _accept(self, *expected: str) -> str | None:
+        if self.words and not self.words[0][1] and self.words[0][0] in expected:
+            return self.words.pop(0)[0]
+        return None
+
+    def either(self) -> bool:
+        """a OR b"""
+        value = self.both()
+        while self._accept("OR"):
+            value = self.both() or value
+        return value
+
+    def both(self) -> bool:
+        """a AND b"""
+        value = self.single()
+        while self._accept("AND"):
+            value = self.single() and value
+        return value
+
+    def single(self) -> bool:
+        """NOT a, (a), a test, or one word"""
+        if self._accept("NOT"):
+            return not self.single()
+        if self._accept("("):
+            value = self.either()
+            self.broken |= not self._accept(")")
+            return value
+        if not self.words:
+            self.broken = True
+            return False
+        if test := self._accept(*_UNARY):
+            operand = self.words.pop(0)[0] if self.words else ""
+            return test == "DEFINED" and operand in self.variables
+        return self._comparison()
+
+    def _comparison(self) -> bool:
+        left = self.words.pop(0)
+        operator = self._accept(*_BINARY)
+        if operator is None:
+            return self._truth(left)
+        if not self.words:
+            self.broken = True
+            return False
+        return self._compare(self._value(left), operator, self._value(self.words.pop(0)))
+
+    def _value(self, word: Word) -> str:
+        text, quoted = word
+        return text if quoted else self.variables.get(text, text)
+
+    def _compare(self, left: str, operator: str, right: str) -> bool:
+        if operator in {"STREQUAL", "EQUAL"}:
+            return left == right
+        if operator == "IN_LIST":
+            return left in right.split(";")
+        return operator == "MATCHES" and re.search(right, left) is not None
+
+    def _truth(self, word: Word) -> bool:
+        text, quoted = word
+        if text.upper() in _TRUE:
+            return True
+        if quoted or text.upper() in _FALSE or text.upper().endswith("-NOTFOUND"):
+            return False
+        value = self.variables.get(text, "").upper()
+        return value not in _FALSE and not value.endswith("-NOTFOUND")
+
+
+_WIDTH = 75
+_INDENT = "  "
+SHARE = "/opt/ros/humble/share"
+"""Where the real build's own files are; named in the call stacks of its messages."""
+
+
+def cmake_message(text: str, where: str, stack: Sequence[str] = (), kind: str = "Error") -> str:
+    """`CMake Error at <where>:` and the text; the paragraphs of the text are separated by empty lines.
+
+    The wrapping is CMake's: lines of at most 77 columns, indented by two, two spaces after a full stop, and lines that
+    begin with a space left as they are.
+    """
+    lines = [f"CMake {kind} at {where}:" if where else f"CMake {kind}:", *map(_paragraph, text.split("\n"))]
+    if stack:
+        lines += ["Call Stack (most recent call first):", *(f"{_INDENT}{call}" for call in stack)]
+    return "\n".join(lines) + "\n\n"
+
+
+def _paragraph(line: str) -> str:
+    if not line:
+        return ""
+    if line.startswith(" "):
+        return f"{_INDENT}{line}"
+    return "\n".join(_INDENT + part for part in _wrapped(line))
+
+
+def _wrapped(text: str) -> list[str]:
+    lines: list[str] = []
+    current = ""
+    for word in text.split():
+        new_sentence = current.endswith(".")
+        if current and len(word) >= _WIDTH - len(current) - new_sentence:
+            lines.append(current)
+            current = word
+        else:
+            current += ("  " if new_sentence else " " if current else "") + word
+    return [*lines, current]
