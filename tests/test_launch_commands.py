@@ -188,37 +188,6 @@ def test_what_cannot_be_run_is_refused_with_advice(begin: Launch, cmd: str, reas
     assert reason in caught.value.reason and hint in caught.value.hint
 
 
-def test_a_coroutine_runs_in_robot_time(world: World, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    file = write(
-        tmp_path,
-        """
-        import asyncio
-        from launch import LaunchDescription
-        from launch.actions import LogInfo, OpaqueCoroutine, RegisterEventHandler
-        from launch.event_handlers import OnExecutionComplete
-
-        async def wait(context, seconds, fail=False):
-            await asyncio.sleep(seconds)
-            if fail:
-                raise ValueError('it went wrong')
-
-        def generate_launch_description():
-            first = OpaqueCoroutine(coroutine=wait, args=[1.0])
-            return LaunchDescription([
-                first, OpaqueCoroutine(coroutine=wait, args=[2.0], kwargs={'fail': True}),
-                RegisterEventHandler(OnExecutionComplete(target_action=first, on_completion=[LogInfo(msg='done')])),
-            ])
-        """,
-    )
-    handle = launch_file(world, file)
-    run(world, 1.5)
-    assert console(capsys, tmp_path) == ["[INFO] [launch.user]: done"]
-    assert handle.running
-    run(world, 1)
-    assert console(capsys, tmp_path)[0].endswith("Caught exception in launch (see debug for traceback): it went wrong")
-    assert not handle.running
-
-
 def test_a_launch_by_hand_in_a_cell(world: World, capsys: pytest.CaptureFixture[str]) -> None:
     from launch import LaunchDescription, LaunchService
     from launch.actions import ExecuteProcess, LogInfo, Shutdown, TimerAction

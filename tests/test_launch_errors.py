@@ -205,6 +205,23 @@ def test_a_name_that_was_not_imported(tmp_path: Path) -> None:
             "from launch_ros.descriptions import RosExecutable",
             "launch_ros.descriptions has no 'RosExecutable' here yet: use Node",
         ),
+        (
+            "from launch.actions import ForLoop",
+            "launch.actions has no 'ForLoop' here yet: write the loop in Python: [Node(…) for name in names]",
+        ),
+        (
+            "from launch.substitutions import AnySubstitution",
+            "launch.substitutions has no 'AnySubstitution' here yet: use OrSubstitution",
+        ),
+        (
+            "from launch.event_handlers import OnIncludeLaunchDescription",
+            "launch.event_handlers has no 'OnIncludeLaunchDescription' here yet: launch itself carries an included description "
+            "out",
+        ),
+        (
+            "from launch_ros.actions import SetROSLogDir",
+            "launch_ros.actions has no 'SetROSLogDir' here yet: there are no log files",
+        ),
     ],
 )
 def test_imports_of_what_is_not_here(tmp_path: Path, line: str, said: str) -> None:

@@ -232,8 +232,6 @@ def test_the_sources_have_their_own_names(tmp_path: Path, capsys: pytest.Capture
         ("$(not $(var yes))", "false"),
         ("$(and $(var yes) true)", "true"),
         ("$(or $(var yes) false)", "true"),
-        ("$(any false $(var yes) false)", "true"),
-        ("$(all true $(var yes) false)", "false"),
         ("$(equals $(var x) 1.0)", "true"),
         ("$(not-equals a b)", "true"),
         ("$(if $(var yes) this that)", "this"),
@@ -244,7 +242,6 @@ def test_the_sources_have_their_own_names(tmp_path: Path, capsys: pytest.Capture
         ("$(find-exec ros2)", "ros2"),
         ("$(command 'echo hello there')", "hello there\n"),
         ("$(param shared)", "7"),
-        ("$(string-join . a$(var x) b)", "a1.b"),
         ("$(param nope 3)", "3"),
     ],
 )
@@ -260,24 +257,6 @@ def test_substitutions_in_a_text(
         return
     launched(tmp_path, file)
     assert capsys.readouterr().out.removeprefix(f"{START}\n") == f"[INFO] [launch.user]: {said}\n"
-
-
-def test_loops_repeat_what_is_in_them(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    launched(
-        tmp_path,
-        """
-        <arg name="robots" default="{name: a, id: 1};{name: b}"/>
-        <for_each values="$(var robots)"><log message="$(for-var name) $(for-var id none)"/></for_each>
-        <for len="2" name="i"><for len="2" name="j">
-            <log_warning message="$(index i)$(index j)"/>
-        </for></for>
-        """,
-    )
-    info, warning = "[INFO] [launch.user]: ", "[WARNING] [launch.user]: "
-    assert screen(capsys) == [
-        *[f"{info}a 1", f"{info}b none"],
-        *[f"{warning}{pair}" for pair in ("00", "01", "10", "11")],
-    ]
 
 
 def test_groups_keep_their_settings_to_themselves(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -350,6 +329,21 @@ NODE = '<node pkg="robot_controller" exec="navigator"'
             "`node` can have: env, param, remap.",
         ),
         ("<nod/>", "RuntimeError: Unrecognized entity of the type: nod", "Did you mean 'node'?"),
+        (
+            "<for_each/>",
+            "RuntimeError: Unrecognized entity of the type: for_each",
+            "Loops are not available in XML and YAML files here: write the file in Python, with a loop.",
+        ),
+        (
+            "<set_ros_log_dir/>",
+            "RuntimeError: Unrecognized entity of the type: set_ros_log_dir",
+            "There are no log files here.",
+        ),
+        (
+            '<log message="$(any 1 0)"/>',
+            "RuntimeError: Unknown substitution: any",
+            "$(any …) is not available here: use $(or …).",
+        ),
         (
             '<node package="robot_controller" executable="navigator"/>',
             "AttributeError: Attribute 'exec' of type '<class 'str'>' not found in Entity 'node'",

@@ -122,7 +122,7 @@ def _launch_arguments(parser: ArgumentParser) -> None:
         "--print-description",
         dest="print",
         action="store_true",
-        help="describe what is in the launch file",
+        help="not available here",
     )
     shown.add_argument(
         "-s", "--show-args", "--show-arguments", dest="show", action="store_true", help="list the arguments it takes"
@@ -150,8 +150,7 @@ def _launch(args: Namespace) -> int:
             print(launching.show_arguments(world, path))
             return 0
         if args.print:
-            print(launching.describe(world, path))
-            return 0
+            raise CommandError("--print is not available here", "--show-args lists what the launch file takes.")
         handle = launching.launch_file(world, path, given, show_all_output=args.all)
     except LaunchError as error:
         print("\n".join(filter(None, (error.console, error.advice))))

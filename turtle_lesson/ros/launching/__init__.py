@@ -25,7 +25,6 @@ if TYPE_CHECKING:
 
 __all__ = [
     "LaunchError",
-    "describe",
     "find_launch_file",
     "launch_arguments",
     "launch_description",
@@ -100,16 +99,6 @@ def show_arguments(world: World, path: Path | str) -> str:
     from .arguments import as_shown
 
     return as_shown(launch_arguments(world, path))
-
-
-def describe(world: World, path: Path | str) -> str:
-    """What `ros2 launch … --print` prints: the tree of what is in a launch file.
-
-    Raises:
-        LaunchError: if the file cannot be loaded.
-    """
-    text: str = _start().described(world, Path(path))
-    return text
 
 
 def _start() -> Any:

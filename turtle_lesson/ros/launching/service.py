@@ -6,10 +6,10 @@ error in it starts nothing. Events are handled one after the other, at the insta
 
 from __future__ import annotations
 
-from collections.abc import Callable, Coroutine, Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, redirect_stdout
 from itertools import count
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from launch import Action, Event, LaunchContext, LaunchDescriptionEntity
 from launch.actions import EmitEvent
@@ -29,7 +29,6 @@ from .ros_helper import RosHelper
 if TYPE_CHECKING:
     from launch.actions import ExecuteLocal
 
-    from ..core import Process
     from ..world import World
 
 NANOSECONDS = 1_000_000_000
@@ -50,8 +49,6 @@ class LaunchService:
         self._timers = 0
         self._settling = False
         self._helper: RosHelper | None = None
-        self._coroutines = 0
-        self._coroutine_processes: list[Process] = []
         self._said_level = False
         self._warnings: set[str] = set()
         self._left_out: dict[LaunchDescriptionEntity, str] = {}
@@ -61,8 +58,7 @@ class LaunchService:
     @property
     def running(self) -> bool:
         """Whether a process runs, or something is still to come."""
-        to_come = self._timers > 0 or self._coroutines > 0
-        return bool(self.processes.alive) or (to_come and not self.context.is_shutdown)
+        return bool(self.processes.alive) or (self._timers > 0 and not self.context.is_shutdown)
 
     # -- what actions ask for (launch._host.Host) ---------------------------------------------------------
 
@@ -84,29 +80,6 @@ class LaunchService:
 
         self._timers += 1
         self.world.sim.call_later(round(seconds * NANOSECONDS), due)
-
-    def run_coroutine(self, coroutine: Coroutine[Any, Any, Any], done: Callable[[], None]) -> None:
-        """Have a coroutine run in a process of its own; an error in it ends the launch."""
-        import asyncio
-
-        errors: list[Exception] = []
-
-        def main() -> None:
-            try:
-                asyncio.run(coroutine)
-            except Exception as error:
-                errors.append(error)
-
-        def ended(process: Any) -> None:
-            self._coroutines -= 1
-            self.world.sim.call_later(0, self.carry_on, done if not errors else fail)
-
-        def fail() -> None:
-            raise errors[0]
-
-        self._coroutines += 1
-        process = self.world.spawn(main, name="launch coroutine", stdout=self.world.sim.cell_stdout, on_exit=ended)
-        self._coroutine_processes.append(process)
 
     def ros_helper(self) -> RosHelper:
         """The node of launch's own; it is made when it is first asked for."""
@@ -221,9 +194,6 @@ class LaunchService:
             if self.context.is_shutdown:
                 return
             self.context._set_is_shutdown(True)
-            for process in self._coroutine_processes:
-                if process.exit_code is None:
-                    process.kill()
         if isinstance(event, IncludeLaunchDescription):
             self.visit(event.launch_description)
         for handler in [known for known in self.context._event_handlers if known.matches(event)]:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TypeVar
 
-from launch import LaunchDescription, LaunchDescriptionSource, LaunchIntrospector
+from launch import LaunchDescription, LaunchDescriptionSource
 from launch.actions import IncludeLaunchDescription
 from launch.launch_description_sources import AnyLaunchDescriptionSource
 
@@ -18,8 +17,6 @@ from .arguments import LaunchArgument, as_text, declared_in, unknown_warnings
 from .errors import LaunchError, learners_cause
 from .handle import LaunchHandle
 from .service import LaunchService, as_launch_error
-
-T = TypeVar("T")
 
 
 def launch_file(world: World, path: Path, arguments: Mapping[str, object], show_all_output: bool) -> LaunchHandle:
@@ -36,20 +33,10 @@ def launch_description(world: World, description: LaunchDescription, arguments: 
 
 def launch_arguments(world: World, path: Path) -> list[LaunchArgument]:
     """As `turtle_lesson.ros.launching.launch_arguments`."""
-    return _looked_at(world, path, declared_in)
-
-
-def described(world: World, path: Path) -> str:
-    """As `turtle_lesson.ros.launching.describe`."""
-    return _looked_at(world, path, LaunchIntrospector().format_launch_description)
-
-
-def _looked_at(world: World, path: Path, look: Callable[[LaunchDescription], T]) -> T:
-    """What a function makes of the description in a file, which is not carried out."""
     source = AnyLaunchDescriptionSource(_existing(path))
     try:
         with seeing(LaunchedPackages(world.packages)):
-            return look(source._get_launch_description(str(path)))
+            return declared_in(source._get_launch_description(str(path)))
     except Exception as error:
         raise as_launch_error(error, None, {}) from learners_cause(error)
 

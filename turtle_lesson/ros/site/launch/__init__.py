@@ -28,7 +28,6 @@ from .launch_context import LaunchContext
 from .launch_description import LaunchDescription
 from .launch_description_entity import LaunchDescriptionEntity
 from .launch_description_source import LaunchDescriptionSource
-from .launch_introspector import LaunchIntrospector
 from .launch_service import LaunchService
 from .some_types import (
     SomeActionsType,
@@ -49,7 +48,6 @@ __all__ = [
     "LaunchDescription",
     "LaunchDescriptionEntity",
     "LaunchDescriptionSource",
-    "LaunchIntrospector",
     "LaunchService",
     "SomeActionsType",
     "SomeEntitiesType",
@@ -71,6 +69,5 @@ __all__ = [
 ]
 
 __getattr__ = explain_missing(
-    __name__,
-    {},
+    __name__, {"LaunchIntrospector": "`ros2 launch … --show-args` lists a launch file's arguments"}
 )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
@@ -33,9 +33,6 @@ class Host(Protocol):
 
     def settle_soon(self) -> None:
         """Have the waiting events handled, still at this instant."""
-
-    def run_coroutine(self, coroutine: Coroutine[Any, Any, Any], done: Callable[[], None]) -> None:
-        """Have a coroutine run beside the launch; the function is called when it is done."""
 
     def ros_helper(self) -> RosHelper:
         """The node of launch's own; it is made when it is first asked for."""

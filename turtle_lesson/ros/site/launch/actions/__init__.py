@@ -13,7 +13,6 @@ from .environment import (
 )
 from .execute_local import ExecuteLocal
 from .execute_process import ExecuteProcess
-from .for_loop import ForEach, ForLoop
 from .group_action import GroupAction
 from .include_launch_description import IncludeLaunchDescription
 from .launch_configurations import (
@@ -24,9 +23,8 @@ from .launch_configurations import (
     UnsetLaunchConfiguration,
 )
 from .log import Log, LogDebug, LogError, LogInfo, LogWarning
-from .opaque_coroutine import OpaqueCoroutine
 from .opaque_function import OpaqueFunction
-from .register_event_handler import RegisterEventHandler, UnregisterEventHandler
+from .register_event_handler import RegisterEventHandler
 from .shutdown_action import Shutdown
 from .timer_action import TimerAction
 
@@ -36,8 +34,6 @@ __all__ = [
     "EmitEvent",
     "ExecuteLocal",
     "ExecuteProcess",
-    "ForEach",
-    "ForLoop",
     "GroupAction",
     "IncludeLaunchDescription",
     "Log",
@@ -45,7 +41,6 @@ __all__ = [
     "LogError",
     "LogInfo",
     "LogWarning",
-    "OpaqueCoroutine",
     "OpaqueFunction",
     "PopEnvironment",
     "PopLaunchConfigurations",
@@ -58,7 +53,6 @@ __all__ = [
     "SetLaunchConfiguration",
     "Shutdown",
     "TimerAction",
-    "UnregisterEventHandler",
     "UnsetEnvironmentVariable",
     "UnsetLaunchConfiguration",
 ]
@@ -66,7 +60,10 @@ __all__ = [
 __getattr__ = explain_missing(
     __name__,
     {
-        "SetROSLogDir": "it is in launch_ros: from launch_ros.actions import SetROSLogDir",
+        "ForEach": "write the loop in Python: [Node(…) for name in names]",
+        "ForLoop": "write the loop in Python: [Node(…) for name in names]",
+        "OpaqueCoroutine": "OpaqueFunction calls a function, TimerAction waits",
+        "UnregisterEventHandler": "a handler with handle_once=True reacts only once",
         "Node": "it is in launch_ros: from launch_ros.actions import Node",
     },
 )

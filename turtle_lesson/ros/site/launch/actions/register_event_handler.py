@@ -1,4 +1,4 @@
-"""`RegisterEventHandler` and `UnregisterEventHandler`: begin and stop to react to events."""
+"""`RegisterEventHandler`: begin to react to events."""
 
 from __future__ import annotations
 
@@ -36,16 +36,3 @@ class RegisterEventHandler(Action):
     ) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
         """What the handler will give."""
         return [self.event_handler.describe()]
-
-
-class UnregisterEventHandler(Action):
-    """Has an event handler react no more."""
-
-    def __init__(self, event_handler: BaseEventHandler, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.__event_handler = event_handler
-
-    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Take it out."""
-        context.unregister_event_handler(self.__event_handler)
-        return None

@@ -4,7 +4,6 @@ from .._missing import explain_missing
 from ..event_handler import EventHandler
 from .on_action_event_base import OnActionEventBase
 from .on_execution_complete import OnExecutionComplete
-from .on_include_launch_description import OnIncludeLaunchDescription
 from .on_process_exit import OnProcessExit
 from .on_process_io import OnProcessIO
 from .on_process_start import OnProcessStart
@@ -14,11 +13,12 @@ __all__ = [
     "EventHandler",
     "OnActionEventBase",
     "OnExecutionComplete",
-    "OnIncludeLaunchDescription",
     "OnProcessExit",
     "OnProcessIO",
     "OnProcessStart",
     "OnShutdown",
 ]
 
-__getattr__ = explain_missing(__name__, {})
+__getattr__ = explain_missing(
+    __name__, {"OnIncludeLaunchDescription": "launch itself carries an included description out"}
+)

@@ -17,6 +17,18 @@ Exposed = TypeVar("Exposed")
 action_parse_methods: dict[str, Callable[..., Any]] = {}
 substitution_parse_methods: dict[str, Callable[..., Any]] = {}
 
+_LOOP = "Loops are not available in XML and YAML files here: write the file in Python, with a loop."
+_LOGS = "There are no log files here."
+_NOT_HERE = {
+    **dict.fromkeys(("for", "for_each", "for-var", "index"), _LOOP),
+    **dict.fromkeys(("log_dir", "launch_log_dir", "set_ros_log_dir"), _LOGS),
+    "all": "$(all …) is not available here: use $(and …).",
+    "any": "$(any …) is not available here: use $(or …).",
+    "lifecycle_transition": "It is not available here: give lifecycle_node the attribute autostart.",
+    "string-join": "$(string-join …) is not available here: write the pieces one after the other.",
+}
+"""What a real launch has and this one does not, with what to do instead."""
+
 
 def instantiate_action(entity: Entity, parser: Parser) -> Action:
     """The action that an entity stands for.
@@ -55,7 +67,11 @@ def _known(methods: dict[str, Callable[..., Any]], name: str, complaint: str) ->
     from turtle_lesson.ros.workspace.errors import did_you_mean
 
     error = RuntimeError(f"{complaint}{name}")
-    error.hint = did_you_mean(str(name)[:100], sorted(methods)) or f"There are: {', '.join(sorted(methods))}."  # type: ignore[attr-defined]
+    error.hint = (
+        _NOT_HERE.get(name)
+        or did_you_mean(str(name)[:100], sorted(methods))
+        or f"There are: {', '.join(sorted(methods))}."
+    )  # type: ignore[attr-defined]
     raise error
 
 

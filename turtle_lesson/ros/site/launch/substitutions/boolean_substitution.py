@@ -1,8 +1,7 @@
-"""Substitutions that give `true` or `false`: not, and, or, any, all."""
+"""Substitutions that give `true` or `false`: not, and, or."""
 
 from __future__ import annotations
 
-from functools import partial
 from typing import Any
 
 from ..frontend.expose import expose_substitution
@@ -90,32 +89,6 @@ class OrSubstitution(_Combination):
 
     def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
         super().__init__(left, right)
-
-    def _combine(self, values: list[bool]) -> bool:
-        return any(values)
-
-
-@expose_substitution("all")
-class AllSubstitution(_Combination):
-    """True if all are."""
-
-    @classmethod
-    def parse(cls, data: Any) -> tuple[type, dict[str, Any]]:
-        """Its parts as they stand behind `$(all `."""
-        return partial(cls, *data), {}  # type: ignore[return-value]
-
-    def _combine(self, values: list[bool]) -> bool:
-        return all(values)
-
-
-@expose_substitution("any")
-class AnySubstitution(_Combination):
-    """True if at least one is."""
-
-    @classmethod
-    def parse(cls, data: Any) -> tuple[type, dict[str, Any]]:
-        """Its parts as they stand behind `$(any `."""
-        return partial(cls, *data), {}  # type: ignore[return-value]
 
     def _combine(self, values: list[bool]) -> bool:
         return any(values)

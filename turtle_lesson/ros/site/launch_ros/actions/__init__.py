@@ -3,17 +3,15 @@
 from launch._missing import explain_missing
 
 from .composable import ComposableNodeContainer, LoadComposableNodes
-from .lifecycle_node import LifecycleNode, LifecycleTransition
+from .lifecycle_node import LifecycleNode
 from .node import Node
 from .push_ros_namespace import PushROSNamespace, PushRosNamespace
 from .ros_timer import ROSTimer, RosTimer
 from .set_parameter import SetParameter, SetParametersFromFile, SetRemap, SetUseSimTime
-from .set_ros_log_dir import SetROSLogDir
 
 __all__ = [
     "ComposableNodeContainer",
     "LifecycleNode",
-    "LifecycleTransition",
     "LoadComposableNodes",
     "Node",
     "PushROSNamespace",
@@ -22,9 +20,14 @@ __all__ = [
     "RosTimer",
     "SetParameter",
     "SetParametersFromFile",
-    "SetROSLogDir",
     "SetRemap",
     "SetUseSimTime",
 ]
 
-__getattr__ = explain_missing(__name__, {})
+__getattr__ = explain_missing(
+    __name__,
+    {
+        "LifecycleTransition": "emit launch_ros.events.lifecycle.ChangeState",
+        "SetROSLogDir": "there are no log files",
+    },
+)

@@ -1,13 +1,12 @@
-"""`LifecycleNode` and `LifecycleTransition`: start a managed node, and have managed nodes change their state."""
+"""`LifecycleNode`: start a managed node."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from itertools import pairwise
 from typing import Any
 
 import launch.logging
-from launch import Action, EventHandler, LaunchContext, LaunchDescriptionEntity
+from launch import EventHandler, LaunchContext, LaunchDescriptionEntity
 from launch.actions import EmitEvent, OpaqueFunction, RegisterEventHandler
 from launch.frontend import Entity, Parser, expose_action
 from launch.some_types import SomeSubstitutionsType
@@ -83,7 +82,7 @@ class LifecycleNode(Node):
         if perform_substitutions(context, self.__autostart).lower() not in {"true", "1"}:
             return []
         steps = [Transition.TRANSITION_CONFIGURE, Transition.TRANSITION_ACTIVATE]
-        return [LifecycleTransition(lifecycle_node_names=[self.node_name], transition_ids=steps)]
+        return _chain(self.node_name, steps)
 
     def _changed(self, context: LaunchContext, msg: Any) -> None:
         self.__current_state = ChangeState.valid_states.get(msg.goal_state.id, msg.goal_state.label)
@@ -103,42 +102,6 @@ class LifecycleNode(Node):
         context._host.ros_helper().change_state(self.node_name, event.transition_id, answered)
 
 
-@expose_action("lifecycle_transition")
-class LifecycleTransition(Action):
-    """Leads managed nodes through transitions, one after the other; each begins when the one before is done."""
-
-    def __init__(
-        self,
-        *,
-        lifecycle_node_names: Iterable[SomeSubstitutionsType],
-        transition_ids: Iterable[int | SomeSubstitutionsType],
-        **kwargs: Any,
-    ) -> None:
-        super().__init__(**kwargs)
-        self.__names = [normalize_to_list_of_substitutions(name) for name in lifecycle_node_names]
-        self.__ids = [normalize_to_list_of_substitutions(str(i) if isinstance(i, int) else i) for i in transition_ids]
-        if not self.__names:
-            raise RuntimeError("No lifecycle_node_names provided.")
-        if not self.__ids:
-            raise RuntimeError("No transition_ids provided.")
-
-    @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type, dict[str, Any]]:
-        """Its arguments from nested `lifecycle_node` and `transition` tags."""
-        _, kwargs = super().parse(entity, parser)
-        nodes = entity.get_attr("lifecycle_node", data_type=list[Entity])
-        steps = entity.get_attr("transition", data_type=list[Entity])
-        kwargs["lifecycle_node_names"] = [parser.parse_substitution(node.get_attr("name")) for node in nodes]
-        kwargs["transition_ids"] = [parser.parse_substitution(step.get_attr("id")) for step in steps]
-        return cls, kwargs
-
-    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Ask for the first, and prepare the others."""
-        names = [perform_substitutions(context, name) for name in self.__names]
-        ids = [int(perform_substitutions(context, step)) for step in self.__ids]
-        return [entity for name in names for entity in _chain(name, ids)]
-
-
 _GOALS = {
     Transition.TRANSITION_CONFIGURE: "inactive",
     Transition.TRANSITION_CLEANUP: "unconfigured",
@@ -149,7 +112,7 @@ _GOALS = {
 
 
 def _chain(name: str, ids: list[int]) -> list[LaunchDescriptionEntity]:
-    """The handlers for one node's transitions, and the event that begins the first."""
+    """The handlers that lead a node through transitions, one after the other, and the event that begins the first."""
     matcher = matches_node_name(name)
 
     def ask(step: int) -> EmitEvent:

@@ -84,7 +84,6 @@ class Node(ExecuteProcess):
         self.expanded_node_namespace = "<node_namespace_unspecified>"
         self.expanded_remapping_rules: list[tuple[str, str]] = []
         self._ros_words: list[str] = []
-        self._described_ros_words = [] if name is None else ["'-r'", "LocalVar('node name')"]
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser, ignore: list[str] | None = None) -> tuple[type, dict[str, Any]]:
