@@ -14,7 +14,7 @@ from collections.abc import Callable
 from contextvars import copy_context
 from heapq import heappop, heappush
 from types import FrameType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from .careful import loop_aside
 from .cell_context import Cell
@@ -23,9 +23,6 @@ from .face import Face
 from .interrupts import Guard
 from .keyboard import Keyboard
 from .strand import GreenletExit, Strand, running_greenlet, running_strand
-
-if TYPE_CHECKING:
-    pass
 
 NANOSECONDS = 1_000_000_000
 EPOCH = 1_800_000_000 * NANOSECONDS

@@ -6,8 +6,7 @@ import functools
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-from turtle_lesson.ros import core
-from turtle_lesson.ros.core import NANOSECONDS, running_strand
+from turtle_lesson.ros.core import NANOSECONDS, driving, running_strand
 from turtle_lesson.ros.core.driving import Call
 from turtle_lesson.ros.core.virtual_time import real_monotonic, real_sleep
 from turtle_lesson.ros.world import current_world
@@ -38,7 +37,7 @@ def drives_the_simulation(function: Callable[..., T]) -> Callable[..., T]:
 def drive(function: Callable[..., T], *arguments: Any, **keywords: Any) -> T:
     """Run the simulation until `function(*arguments, **keywords)`, as part of the notebook's process, is done."""
     world = current_world()
-    return core.drive(world.sim, world.notebook, function, *arguments, **keywords)
+    return driving.drive(world.sim, world.notebook, function, *arguments, **keywords)
 
 
 def spin_live(function: Callable[[], None]) -> None:
