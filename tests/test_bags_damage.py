@@ -18,8 +18,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from turtle_lesson.ros.bags import BagError, unpack
-from turtle_lesson.ros.bags.bag import Bag, open_bag
-from turtle_lesson.ros.bags.text import info_text
+from turtle_lesson.ros.bags.bag import Bag, info_text, open_bag
 
 COUNT = 100
 Written = list[tuple[str, int, bytes]]
@@ -67,6 +66,11 @@ def test_a_sound_bag_is_read_as_written(sound: Sound) -> None:
 
 
 def test_half_a_bag_is_half_read_and_the_rest_is_counted(sound: Sound, tmp_path: Path) -> None:
+    """MCAP only: SQLite reads no file that is cut short, and a recorder that is killed leaves a whole one."""
+    if data_file(sound[0]).suffix != ".mcap":
+        with pytest.raises(BagError, match="it is cut short, and SQLite cannot read it"):
+            open_bag(spoil(sound, tmp_path, lambda data: data[:-1]))
+        return
     bag = open_bag(spoil(sound, tmp_path, lambda data: data[: len(data) // 2]))
     messages = read(bag)
     assert 0.35 * len(sound[1]) < len(messages) < 0.6 * len(sound[1])
@@ -93,6 +97,8 @@ def test_one_spoiled_byte_costs_one_chunk(sound: Sound, tmp_path: Path) -> None:
 
 
 def test_cut_short_at_every_twentieth_the_more_there_is_the_more_is_read(sound: Sound, tmp_path: Path) -> None:
+    if data_file(sound[0]).suffix != ".mcap":
+        pytest.skip("SQLite reads no file that is cut short")
     counts = []
     for part in range(20):
         folder = spoil(sound, tmp_path, lambda data, part=part: data[: len(data) * part // 20])
@@ -153,21 +159,6 @@ def test_what_sqlite_says_of_a_spoiled_table_is_told_in_one_line(tmp_path: Path)
     with pytest.raises(BagError, match=r"malformed database schema") as raised:
         open_bag(tmp_path / "run")
     assert str(raised.value).isprintable()
-
-
-def test_a_wrong_length_within_a_chunk_costs_nothing(tmp_path: Path) -> None:
-    written = write_bag(tmp_path / "run", 10, size=10)
-    file = tmp_path / "run" / "run_0.mcap"
-    data = bytearray(file.read_bytes())
-    chunk = data.index(b"\x06", 8)
-    at = data.index(
-        data[chunk + 9 + 16 : chunk + 9 + 24], chunk + 9 + 24
-    )  # the packed size: that of what is not packed
-    data[at] ^= 1
-    file.write_bytes(data)
-    bag = open_bag(tmp_path / "run")
-    assert "gives a wrong length" in bag.damage
-    assert sorted(read(bag)) == sorted(written)
 
 
 def test_a_database_whose_index_is_spoiled_is_read_without_it(tmp_path: Path) -> None:

@@ -21,8 +21,7 @@ from mcap.records import Channel, Chunk, ChunkIndex, MessageIndex, Schema, Stati
 from mcap.stream_reader import StreamReader, breakup_chunk
 
 from turtle_lesson.ros.bags import BagError
-from turtle_lesson.ros.bags.bag import open_bag
-from turtle_lesson.ros.bags.reindex import reindex
+from turtle_lesson.ros.bags.bag import open_bag, reindex
 
 COUNT = 100
 HASH = re.compile(r"RIHS01_[0-9a-f]{64}")

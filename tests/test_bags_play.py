@@ -16,7 +16,7 @@ from std_msgs.msg import Int32, String
 from turtle_lesson.ros.bags import BagError
 from turtle_lesson.ros.bags.bag import open_bag
 from turtle_lesson.ros.bags.player import Playback, parse_remaps, play
-from turtle_lesson.ros.bags.recording import Recording
+from turtle_lesson.ros.bags.recorder import Recording
 from turtle_lesson.ros.bags.writer import BagWriter
 from turtle_lesson.ros.interfaces.registry import registry
 from turtle_lesson.ros.world import World

@@ -15,8 +15,8 @@ from std_msgs.msg import Int32, String
 
 from turtle_lesson import start
 from turtle_lesson.ros.bags import BagError
-from turtle_lesson.ros.bags.recording import Recording
-from turtle_lesson.ros.bags.schema import schema_text, type_hash
+from turtle_lesson.ros.bags.recorder import Recording
+from turtle_lesson.ros.bags.writer import schema_text, type_hash
 from turtle_lesson.ros.interfaces.registry import registry
 from turtle_lesson.ros.world import World
 

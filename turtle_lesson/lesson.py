@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from .lab.obstacle_board import ObstacleBoard
     from .lab.recorder import Recorder
     from .lab.widgets.station import Station
-    from .ros.bags.recording import Recording
+    from .ros.bags.recorder import Recording
     from .ros.graph.network import Conditions
     from .ros.launching import LaunchHandle
     from .ros.workspace.export import Exported
@@ -308,7 +308,7 @@ class Lesson(Shelf, Insight):
 
         Raises BagError, a ValueError, if the folder is there already, or for an unknown storage.
         """
-        from .ros.bags.recording import Recording
+        from .ros.bags.recorder import Recording
 
         return Recording(self._world, path, topics, storage)
 

@@ -10,6 +10,10 @@
 
 from __future__ import annotations
 
-from .errors import BagError, UnrecordableType
 
-__all__ = ["BagError", "UnrecordableType"]
+class BagError(ValueError):
+    """A bag cannot be written or read; the text says why, and what to try."""
+
+
+class UnrecordableType(BagError):
+    """Messages of this type cannot be put into a bag."""

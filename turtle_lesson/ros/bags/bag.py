@@ -1,19 +1,22 @@
-"""Reading a bag: what it holds, its messages, and, if it is damaged, how much of it is lost."""
+"""Reading a bag: what it holds, its messages, how much of a damaged one is lost, `ros2 bag info` and `ros2 bag reindex`.
+
+Facts: rosbag2_py's format_bag_meta_data.cpp (info) and rosbag2_storage's yaml.hpp (metadata.yaml).
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from pathlib import Path, PurePath
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 import yaml
 
-from .contents import Contents, Message, TopicContents, TopicKey
-from .errors import BagError
-from .scan_mcap import scan_mcap
-from .scan_sqlite import scan_sqlite
+from ..core import NANOSECONDS
+from . import BagError
+from .scan import Contents, Message, scan_mcap, scan_sqlite
 from .unpack import TooLargeError, unpack_file, unpack_message
 
 if TYPE_CHECKING:
@@ -28,7 +31,18 @@ LONGEST = 10_000_000
 DEEPEST = 20
 """How many bytes of metadata.yaml are read, and how deeply its lists and mappings may be nested."""
 
+VERSION = 5
+"""The format of a metadata.yaml that is written anew: that of Humble, which asks for nothing that a data file does not say."""
+
+NEVER = (1 << 63) - 1
+"""When an empty bag begins, as rosbag2 writes it."""
+
 LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+
+
+INDENT = 19
+UNITS = ("B", "KiB", "MiB", "GiB", "TiB")
+MONTHS = ("Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec")
 
 
 @dataclass(frozen=True)
@@ -63,8 +77,11 @@ class Bag:
         self.end = contents.end
         self.message_count = contents.count
         self.size = sum(file.stat().st_size for file in files)
-        self.storage = _storage_of(files[0])
-        self.topics = [_topic(key, topic) for key, topic in contents.topics.items()]
+        self.storage = SCANNERS[_kind(files[0])][0]
+        self.topics = [
+            BagTopic(key.name, key.type_name, each.count, each.serialization, each.definition, each.offered)
+            for key, each in contents.topics.items()
+        ]
         self._flaws = contents.flaws
         promised = metadata.get("message_count")
         self._expected = promised if isinstance(promised, int) else contents.expected
@@ -92,16 +109,14 @@ class Bag:
             return ""
         reasons = "; ".join(self._flaws[:3]) or f"{METADATA} lists more than the bag contains"
         more = f"; and {len(self._flaws) - 3} more places" if len(self._flaws) > 3 else ""
-        return f"the bag is damaged: {reasons}{more}. {self._what_is_left()}"
-
-    def _what_is_left(self) -> str:
+        left = f"{self.message_count} of {self._expected} messages can be read, {self.lost} are lost"
         if self.lost is None:
-            return f"{self.message_count} messages can be read; how many there were is not known"
-        return f"{self.message_count} of {self._expected} messages can be read, {self.lost} are lost"
+            left = f"{self.message_count} messages can be read; how many there were is not known"
+        return f"the bag is damaged: {reasons}{more}. {left}"
 
     def messages(self, topics: Sequence[str] | None = None) -> Iterator[Message]:
         """The messages in the order of their times; only those of some topics, if any are named."""
-        every = self._salvaged() if self.damage else self._read()
+        every = iter(_scan_all(self.files, keep=True).messages) if self.damage else self._read()
         for message in every:
             if topics is not None and message.topic not in topics:
                 continue
@@ -129,7 +144,7 @@ class Bag:
             # Messages that are compressed one by one are unpacked here, up to a limit that rosbags does not have.
             reader.storage.metadata = reader.storage.metadata._replace(compression_mode=None)
         except Exception:
-            yield from self._salvaged()
+            yield from _scan_all(self.files, keep=True).messages
             return
         try:
             for connection, time, data in reader.messages(reader.connections):
@@ -138,9 +153,6 @@ class Bag:
             raise BagError(f"the bag '{self.path}' cannot be read to its end: {error}") from error
         finally:
             reader.close()
-
-    def _salvaged(self) -> Iterator[Message]:
-        yield from _scan_all(self.files, keep=True).messages
 
 
 def open_bag(path: str | Path, *, listed_only: bool = True) -> Bag:
@@ -161,17 +173,9 @@ def open_bag(path: str | Path, *, listed_only: bool = True) -> Bag:
     return Bag(path, files, contents, metadata)
 
 
-def _topic(key: TopicKey, topic: TopicContents) -> BagTopic:
-    return BagTopic(key.name, key.type_name, topic.count, topic.serialization, topic.definition, topic.offered)
-
-
 def _kind(file: Path) -> str:
     """`.mcap` of `run_0.mcap` and of `run_0.mcap.zstd`."""
     return Path(file.stem).suffix if file.suffix == ".zstd" else file.suffix
-
-
-def _storage_of(file: Path) -> str:
-    return SCANNERS[_kind(file)][0]
 
 
 def _read_metadata(path: Path) -> tuple[dict[str, Any], list[str]]:
@@ -249,3 +253,84 @@ def _scan_one(file: Path, *, keep: bool) -> Contents:
         unpacked = Path(folder) / file.stem
         unpack_file(file, unpacked)
         return scan(unpacked, keep=keep)
+
+
+def reindex(folder: Path) -> Bag:
+    """Write the metadata.yaml of a bag's folder anew, from all data files that are in it, and return the bag.
+
+    Raises BagError if nothing there can be read.
+    """
+    bag = open_bag(folder, listed_only=False)
+    found = {
+        "version": VERSION,
+        "storage_identifier": bag.storage,
+        **_extent(bag),
+        "topics_with_message_count": [_described(topic) for topic in bag.topics],
+        "compression_format": "zstd" if bag.compression else "",
+        "compression_mode": bag.compression,
+        "relative_file_paths": [file.name for file in bag.files],
+        "files": [{"path": file.name, **_extent(open_bag(file))} for file in bag.files],
+    }
+    (folder / METADATA).write_text(yaml.safe_dump({"rosbag2_bagfile_information": found}, sort_keys=False), "utf-8")
+    return open_bag(folder)
+
+
+def _extent(bag: Bag) -> dict[str, Any]:
+    return {
+        "duration": {"nanoseconds": bag.duration},
+        "starting_time": {"nanoseconds_since_epoch": NEVER if bag.start is None else bag.start},
+        "message_count": bag.message_count,
+    }
+
+
+def _described(topic: BagTopic) -> dict[str, Any]:
+    from rosbags.rosbag2.metadata import dump_qos_v8
+
+    about = {"name": topic.name, "type": topic.type_name, "serialization_format": topic.serialization}
+    about["offered_qos_profiles"] = dump_qos_v8(topic.profiles)
+    return {"topic_metadata": about, "message_count": topic.count}
+
+
+def info_text(bag: Bag) -> str:
+    """What `ros2 bag info` prints: the description of a bag, beginning with an empty line.
+
+    Humble cuts times to milliseconds without leading zeros, so that 12.005 s becomes `12.5s`; here they are whole, with nine
+    digits, as Jazzy prints them. Days and hours are UTC, the same on every machine.
+    """
+    start, end = bag.start or 0, bag.end or 0
+    topics = [
+        f"Topic: {topic.name} | Type: {topic.type_name} | Count: {topic.count} | "
+        f"Serialization Format: {topic.serialization}"
+        for topic in bag.topics
+    ]
+    rows = [
+        ("Files", f"\n{'':{INDENT}}".join(file.name for file in bag.files)),
+        ("Bag size", size_text(bag.size)),
+        ("Storage id", bag.storage),
+        ("Duration", f"{seconds_text(bag.duration)}s"),
+        ("Start", moment_text(start)),
+        ("End", moment_text(end)),
+        ("Messages", str(bag.message_count)),
+        ("Topic information", f"\n{'':{INDENT}}".join(topics)),
+    ]
+    return "\n".join(["", *(f"{name + ':':{INDENT}}{value}" for name, value in rows), ""])
+
+
+def size_text(size: int) -> str:
+    """A number of bytes: `512 B`, `4.0 KiB`."""
+    amount, unit = float(size), 0
+    while amount >= 1024 and unit < len(UNITS) - 1:
+        amount, unit = amount / 1024, unit + 1
+    return f"{amount:.{min(unit, 1)}f} {UNITS[unit]}"
+
+
+def seconds_text(nanoseconds: int) -> str:
+    """Seconds with all nine digits behind the point."""
+    return f"{nanoseconds // NANOSECONDS}.{nanoseconds % NANOSECONDS:09d}"
+
+
+def moment_text(nanoseconds: int) -> str:
+    """A moment since 1970: `Jan 15 2027 08:00:00.000000000 (1800000000.000000000)`."""
+    moment = datetime.fromtimestamp(nanoseconds // NANOSECONDS, UTC)
+    day = f"{MONTHS[moment.month - 1]} {moment.day:2d} {moment.year}"
+    return f"{day} {moment:%H:%M:%S}.{nanoseconds % NANOSECONDS:09d} ({seconds_text(nanoseconds)})"

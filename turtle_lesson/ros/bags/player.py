@@ -1,8 +1,11 @@
-"""Playing a bag: a node that publishes again what was recorded, at the recorded distances on the virtual clock."""
+"""Playing a bag: a node that publishes again what was recorded, at the recorded distances on the virtual clock.
+
+Facts: rosbag2_transport's qos.cpp (adapt_offer_to_recorded_offers).
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -10,12 +13,14 @@ from ..core import NANOSECONDS, running_strand
 from ..graph.latency import LATENCY, LATENCY_SPREAD
 from ..interfaces.names import did_you_mean
 from ..interfaces.registry import registry
-from .contents import Message
-from .errors import BagError
-from .qos import offer_of
-from .schema import schema_text, type_hash
+from . import BagError
+from .scan import Message
+from .writer import schema_text, type_hash
 
 if TYPE_CHECKING:
+    from rclpy.qos import QoSProfile
+    from rosbags.interfaces import Qos
+
     from .bag import Bag, BagTopic
 
 NODE = "rosbag2_player"
@@ -147,6 +152,22 @@ class _Clock:
         self._simulation.sleep_until(time)
 
 
+def offer_of(profiles: Sequence[Qos]) -> QoSProfile:
+    """What a player offers for a topic whose publishers offered `profiles`: the weakest that all of them kept to."""
+    from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+
+    depths = [profile.depth for profile in profiles]
+    reliable = all(profile.reliability.value != ReliabilityPolicy.BEST_EFFORT for profile in profiles)
+    latched = bool(profiles) and all(each.durability.value == DurabilityPolicy.TRANSIENT_LOCAL for each in profiles)
+    keep_all = any(profile.history.value == HistoryPolicy.KEEP_ALL for profile in profiles)
+    return QoSProfile(
+        history=HistoryPolicy.KEEP_ALL if keep_all else HistoryPolicy.KEEP_LAST,
+        depth=max(depths, default=0) or 10,
+        reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE,
+    )
+
+
 def _class_of(topic: BagTopic) -> Any:
     """The class of a recorded topic's messages. Raises BagError if there is none, or if it is another one today."""
     if topic.serialization != "cdr":
@@ -192,12 +213,8 @@ def parse_remaps(rules: list[str]) -> dict[str, str]:
             raise BagError(f"'{rule[:80]}' is not a remapping: write it as /old_topic:=/new_topic")
         validate_topic_name(old)
         validate_topic_name(new)
-        remaps[_absolute(old)] = new
+        remaps[old if old.startswith("/") else f"/{old}"] = new
     return remaps
-
-
-def _absolute(name: str) -> str:
-    return name if name.startswith("/") else f"/{name}"
 
 
 def play(bag: Bag, how: Playback, say: Say, seconds: float | None = None) -> bool:

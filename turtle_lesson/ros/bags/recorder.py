@@ -2,13 +2,17 @@
 
 Its subscriptions are made in the very moment in which a publisher appears (on a robot that takes some milliseconds), so
 that a bag of a whole run misses nothing; and what is still under way at the end belongs into it, too.
+
+Facts: rosbag2_transport's qos.cpp (adapt_request_to_offers).
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable
+import warnings
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..core import EPOCH, NANOSECONDS
@@ -16,15 +20,16 @@ from ..graph.graph import is_hidden
 from ..interfaces.cdr import serialize
 from ..interfaces.names import did_you_mean
 from ..interfaces.registry import registry
-from .errors import BagError, UnrecordableType
-from .qos import request_for
+from . import BagError, UnrecordableType
+from .writer import BagWriter, is_there
 
 if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
 
+    from ..core import Process
     from ..graph import Topic
     from ..graph.topic import Writer
-    from .writer import BagWriter
+    from ..world import World
 
 NODE = "rosbag2_recorder"
 """The node of `ros2 bag record`."""
@@ -124,7 +129,11 @@ class Recorder:
                 heard.writers.append(writer)
                 policy = writer.quality.refusal(heard.subscription._reader.quality)
                 if policy is not None:
-                    self._note("WARN", _too_weak(name, policy))
+                    self._note(
+                        "WARN",
+                        f"A new publisher for subscribed topic '{name}' was found offering incompatible QoS ({policy}), but "
+                        "rosbag already subscribed. Messages from this new publisher will not be recorded.",
+                    )
 
     def _subscribe(self, name: str, topic: Topic) -> None:
         try:
@@ -208,6 +217,22 @@ class Recorder:
         self._bag.close()
 
 
+def request_for(qualities: Sequence[Any]) -> QoSProfile:
+    """What a recorder asks for, so that it hears publishers that offer these (graph `Quality` values), every message.
+
+    A real recorder keeps ten messages and loses the rest of a burst; this one keeps all.
+    """
+    from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+
+    reliable = all(quality.reliable for quality in qualities)
+    latched = bool(qualities) and all(quality.latched for quality in qualities)
+    return QoSProfile(
+        history=HistoryPolicy.KEEP_ALL,
+        reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE,
+    )
+
+
 def _class_of(name: str, types: list[str]) -> Any:
     if len(types) > 1:
         raise BagError(f"Topic '{name}' has more than one type associated. Only topics with one type are supported")
@@ -218,13 +243,6 @@ def _class_of(name: str, types: list[str]) -> Any:
             f"Topic '{name}' has unknown type '{types[0]}' associated. Only topics with known type are supported. "
             f"Reason: {error.args[0] if error.args else error}"
         ) from None
-
-
-def _too_weak(name: str, policy: str) -> str:
-    return (
-        f"A new publisher for subscribed topic '{name}' was found offering incompatible QoS ({policy}), but rosbag "
-        "already subscribed. Messages from this new publisher will not be recorded."
-    )
 
 
 class _TimeIsOver(Exception):
@@ -282,3 +300,72 @@ def checked_names(names: Iterable[str]) -> tuple[str, ...]:
         validate_topic_name(name)
         validate_full_topic_name(expand_topic_name(name, NODE, "/"))
     return checked
+
+
+class Recording:
+    """A bag that is being recorded while the page's cells run the world (`lesson.record(…)`).
+
+    It goes on until `stop()` or the end of a `with` block. `topics`: names of those to record, None for all but the hidden
+    ones. Raises BagError where there is a file or folder of that name.
+    """
+
+    def __init__(
+        self, world: World, path: str | Path, topics: Iterable[str] | None = None, storage: str = "mcap"
+    ) -> None:
+        selection = Selection(() if topics is None else checked_names(topics))
+        if topics is not None and not selection.topics:
+            raise BagError("topics names no topic: leave it out to record all of them")
+        self.path = Path(path).expanduser().absolute()
+        if is_there(self.path):
+            raise BagError(
+                f"Output folder '{path}' already exists. A bag is never overwritten: choose another name, or delete it "
+                f"first, with shutil.rmtree({str(path)!r})"
+            )
+        self._shown = str(path)
+        self._writer = BagWriter(self.path, storage)
+        self._recorder: Recorder | None = None
+        self._process: Process | None = world.spawn(lambda: self._main(selection), name="rosbag2_recorder")
+        world.at_close.append(self._let_go)
+        world.sim.settle()
+
+    def _main(self, selection: Selection) -> None:
+        self._recorder = record(self._writer, selection, _keep_warnings_only, node_name=HIDDEN_NODE)
+
+    def _let_go(self) -> None:
+        """The world is closed: it ends the recording, which this handle then keeps nothing of."""
+        self._process = self._recorder = None
+
+    def __repr__(self) -> str:
+        state = "done" if self.done else "going on"
+        count = self._writer.count
+        return f"<Recording {self._shown}: {count} message{'' if count == 1 else 's'}, {state}>"
+
+    @property
+    def done(self) -> bool:
+        """Whether the bag is complete."""
+        return self._writer.closed
+
+    @property
+    def message_count(self) -> int:
+        """How many messages the bag holds by now."""
+        return self._writer.count
+
+    def stop(self) -> None:
+        """End the recording and complete the bag. A second call does nothing."""
+        if self._process is None or not self._process.alive:
+            return
+        self._process.interrupt()
+        self._writer.close()
+        for sentence in self._recorder.silent() if self._recorder else ():
+            warnings.warn(sentence, stacklevel=2)
+
+    def __enter__(self) -> Recording:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.stop()
+
+
+def _keep_warnings_only(severity: str, text: str) -> None:
+    if severity != "INFO":
+        warnings.warn(text, stacklevel=2)

@@ -4,6 +4,11 @@
 rosbag2_storage's yaml.hpp makes lists of the offered profiles). Added to it here: the real name of the file
 (`run_0.mcap`), the hash of each topic's type in an MCAP file (rosbag2_storage_mcap's `topic_type_hash`), and checksums,
 without which damage cannot be noticed.
+
+A schema is a message's definition and all that it is made of. Facts: rosbag2_cpp's
+message_definitions/local_message_definition_source.cpp and https://mcap.dev/spec/registry (encoding `ros2msg`): the definition
+itself, then for each other message a line of 80 `=`, a line `MSG: package/Name` and its definition. The hash is that of REP
+2011, version 1 (RIHS01).
 """
 
 from __future__ import annotations
@@ -17,13 +22,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from ... import files
-from .errors import BagError
-from .qos import as_recorded
-from .schema import schema_text, type_hash
+from . import BagError, UnrecordableType
 
 if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
-    from rosbags.interfaces import Connection
+    from rosbags.interfaces import Connection, Qos
 
 STORAGES = {"mcap": ".mcap", "sqlite3": ".db3"}
 FORMAT_VERSION: Literal[8] = 8
@@ -33,6 +36,12 @@ CHUNK_SIZE = 1 << 16
 
 CHUNK_CHECKSUM = 1 + 8 + 3 * 8
 """Where, in a chunk's record, its checksum stands: after opcode, length, two times and the size."""
+
+
+SEPARATOR = "=" * 80
+
+INFINITE = (9_223_372_036, 854_775_807)
+"""An endless duration, in s and ns, as rmw writes it: a deadline or lifespan that nobody has set."""
 
 
 class BagWriter:
@@ -175,3 +184,74 @@ def _close(writer: Any, folder: Path) -> None:
     except Exception:
         writer.abort()
         raise
+
+
+def schema_text(message_class: Any) -> str:
+    """The `ros2msg` text of a message class: its definition with those of its fields' messages."""
+    parts = [_own_text(message_class)]
+    for name, part in _messages_within(message_class).items():
+        package, _, base = name.split("/")
+        parts.append(f"MSG: {package}/{base}\n{_own_text(part)}")
+    return f"{SEPARATOR}\n".join(parts)
+
+
+def type_hash(message_class: Any, text: str) -> str:
+    """The RIHS01 hash of a message whose schema text is `text`.
+
+    Raises UnrecordableType for what no bag's reader understands, such as a wstring.
+    """
+    from rosbags.typesys import get_types_from_msg
+    from rosbags.typesys.store import Typestore
+
+    name = message_class._TYPE_NAME
+    try:
+        store = Typestore()
+        store.register(get_types_from_msg(text, name))
+        return str(store.hash_rihs01(name))
+    except Exception as error:
+        wide = " (it has a wstring)" if "wstring" in text else ""
+        raise UnrecordableType(f"messages of type {name} cannot be recorded{wide}: {error}") from error
+
+
+def _messages_within(message_class: Any, found: dict[str, Any] | None = None) -> dict[str, Any]:
+    """The classes of the messages that a message is made of, at any depth, by type name."""
+    found = {} if found is None else found
+    for kind in message_class._KINDS:
+        part = kind.element_class
+        if part is not None and hasattr(part, "_KINDS") and part._TYPE_NAME not in found:
+            found[part._TYPE_NAME] = part
+            _messages_within(part, found)
+    return found
+
+
+def _own_text(message_class: Any) -> str:
+    """The definition as its author wrote it; the rules of definitions keep separator lines out of it."""
+    text: str = message_class._DEFINITION.text.replace("\r\n", "\n")
+    return text if text.endswith("\n") or not text else f"{text}\n"
+
+
+def as_recorded(profile: QoSProfile) -> Qos:
+    """A publisher's profile as a bag holds it, with what it left open filled in."""
+    from rclpy.qos import DurabilityPolicy, HistoryPolicy, LivelinessPolicy, ReliabilityPolicy
+    from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
+
+    policies: dict[str, Any] = vars(profile)
+
+    def duration(name: str) -> QosTime:
+        nanoseconds = policies[name].nanoseconds
+        return QosTime(*divmod(nanoseconds, 1_000_000_000)) if nanoseconds else QosTime(*INFINITE)
+
+    def chosen(name: str, default: int) -> int:
+        return int(policies[name]) or default
+
+    return Qos(
+        QosHistory(chosen("history", HistoryPolicy.KEEP_LAST)),
+        policies["depth"],
+        QosReliability(chosen("reliability", ReliabilityPolicy.RELIABLE)),
+        QosDurability(chosen("durability", DurabilityPolicy.VOLATILE)),
+        duration("deadline"),
+        duration("lifespan"),
+        QosLiveliness(chosen("liveliness", LivelinessPolicy.AUTOMATIC)),
+        duration("liveliness_lease_duration"),
+        policies["avoid_ros_namespace_conventions"],
+    )

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from turtle_lesson import files
-from turtle_lesson.ros.bags.errors import BagError
+from turtle_lesson.ros.bags import BagError
 
 from .bag_arguments import info_arguments, play_arguments, reader_arguments, record_arguments
 from .common import Command, current_process, end_of_stretch, now, remark, stretch_of
@@ -77,8 +77,7 @@ def _name_by_time() -> str:
 
 
 def _info(args: Namespace) -> int:
-    from turtle_lesson.ros.bags.bag import open_bag
-    from turtle_lesson.ros.bags.text import info_text
+    from turtle_lesson.ros.bags.bag import info_text, open_bag
 
     try:
         bag = open_bag(Path(args.bag_path).expanduser())
@@ -121,8 +120,7 @@ def _play(args: Namespace) -> int:
 
 
 def _reindex(args: Namespace) -> int:
-    from turtle_lesson.ros.bags.bag import METADATA
-    from turtle_lesson.ros.bags.reindex import reindex
+    from turtle_lesson.ros.bags.bag import METADATA, reindex
 
     folder = Path(args.bag_path).expanduser()
     if not folder.is_dir():

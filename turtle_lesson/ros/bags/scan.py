@@ -1,39 +1,110 @@
-"""Reading an MCAP file record by record, also one that is cut short or has spoiled parts.
+"""Reading the files of a bag as far as they can be read, also one that is cut short or damaged.
 
-Facts: https://mcap.dev/spec. A record is an opcode (1 byte), a length (8 bytes) and that many bytes. Messages lie in
-chunks, which may be compressed and may have a checksum; behind the last one comes a summary that repeats what topics
-there are and says where each chunk is. Healthy files are played by `rosbags`; it gives up where this one goes on.
+Facts: https://mcap.dev/spec, and rosbag2_storage_sqlite3's sqlite_storage.cpp (tables `topics` and `messages`, and newer ones
+for definitions). Healthy files are played by `rosbags`; what is found here says whether a file is healthy, and how large it
+becomes. A damaged MCAP file is read up to a damaged record, without the chunks whose checksum is wrong; a damaged database up
+to a damaged row, and one that is cut short not at all (a recorder that is killed leaves a whole one).
 """
 
 from __future__ import annotations
 
 import os
+import sqlite3
 import struct
 import zlib
 from collections.abc import Iterator
+from contextlib import closing, suppress
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import BinaryIO
+from typing import BinaryIO, NamedTuple
 
-from .contents import Contents, Message, TopicContents, TopicKey
 from .unpack import DECOMPRESSORS, limit, too_large, unpack
 
+BROKEN = (sqlite3.Error, UnicodeError)
+"""What reading a spoiled database raises; also SQLite's own complaint may not be readable."""
+
 MAGIC = b"\x89MCAP0\r\n"
-FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, CHUNK_INDEX, STATISTICS, DATA_END = (
-    0x02,
-    0x03,
-    0x04,
-    0x05,
-    0x06,
-    0x08,
-    0x0B,
-    0x0F,
-)
+FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK = 2, 3, 4, 5, 6
+CHUNK_INDEX, STATISTICS, DATA_END = 8, 11, 15
 FOOTER_SIZE = 9 + 20
 TAIL_SIZE = FOOTER_SIZE + len(MAGIC)
 HEAD = struct.Struct("<BQ")
 MESSAGE_HEAD = struct.Struct("<HIQQ")
 CHUNK_HEAD = struct.Struct("<QQQI")
 LARGEST = 1 << 32
+
+
+class Message(NamedTuple):
+    """One recorded message: its topic, its time (ns since 1970), its type, and its CDR bytes."""
+
+    topic: str
+    time: int
+    type_name: str
+    data: bytes
+
+
+class TopicKey(NamedTuple):
+    """A topic with its type: a bag may hold one name with several types."""
+
+    name: str
+    type_name: str
+
+
+@dataclass
+class TopicContents:
+    """What is known of a topic: how many messages, the profiles that were offered (YAML), and the type's definition."""
+
+    count: int = 0
+    serialization: str = "cdr"
+    offered: str = ""
+    definition: str = ""
+
+
+@dataclass
+class Contents:
+    """What one or several files hold, as far as it can be read.
+
+    Attributes:
+        topics: by name and type, in the order in which they were found.
+        messages: all messages in the order of their times, if they were asked for.
+        start, end: the times of the first and the last message (ns), None without messages.
+        expected: how many messages the file itself says it holds, None where it does not say.
+        flaws: a sentence for each thing that is wrong.
+    """
+
+    topics: dict[TopicKey, TopicContents] = field(default_factory=dict)
+    messages: list[Message] = field(default_factory=list)
+    start: int | None = None
+    end: int | None = None
+    expected: int | None = None
+    flaws: list[str] = field(default_factory=list)
+
+    @property
+    def count(self) -> int:
+        """How many messages can be read."""
+        return sum(topic.count for topic in self.topics.values())
+
+    def see(self, first: int, last: int) -> None:
+        """There are messages from `first` to `last` (ns)."""
+        self.start = first if self.start is None else min(first, self.start)
+        self.end = last if self.end is None else max(last, self.end)
+
+    def add(self, other: Contents) -> None:
+        """Take in what another file of the same bag holds."""
+        for key, topic in other.topics.items():
+            mine = self.topics.setdefault(key, TopicContents(0, topic.serialization, topic.offered, topic.definition))
+            mine.count += topic.count
+        self.messages = sorted([*self.messages, *other.messages], key=lambda message: message.time)
+        if other.start is not None and other.end is not None:
+            self.see(other.start, other.end)
+        known = self.expected is not None and other.expected is not None
+        self.expected = (self.expected or 0) + (other.expected or 0) if known else None
+        self.flaws += other.flaws
+
+
+# A record of MCAP is an opcode (1 byte), a length (8 bytes) and that many bytes. Messages lie in chunks, which may be
+# compressed and may have a checksum; behind the last one comes a summary that repeats what topics there are and says where
+# each chunk is.
 
 
 class _Spoiled(Exception):
@@ -75,11 +146,8 @@ class _Scan:
             try:
                 place = self._read_record(place)
             except (_Spoiled, struct.error, UnicodeDecodeError) as error:
-                following = [chunk for chunk in self._chunks if chunk > place]
                 self._flaw(str(error) if isinstance(error, _Spoiled) else f"the record at byte {place} is damaged")
-                if not following:
-                    break
-                place = following[0]
+                break
         if self._complete and not self._ends_well:
             self._flaw("its end is missing or damaged")
         if not self._found.flaws and not self._read.issuperset(self._chunks):
@@ -135,20 +203,16 @@ class _Scan:
         begin = CHUNK_HEAD.size + 4 + len(compression) + 8
         (packed_size,) = struct.unpack_from("<Q", body, begin - 8)
         if not cut_short and packed_size != len(body) - begin:
-            self._flaw(f"the chunk at byte {place} gives a wrong length")  # its checksum tells whether that is all
+            raise _Spoiled(f"the chunk at byte {place} gives a wrong length")
         self._read.add(place)
         records, more = self._unpacked(compression, body[begin:], size, place)
-        whole = len(records) == size  # also where only the record's length is spoiled, so that it seems cut short
+        whole = len(records) == size
         if more or (whole and checksum and zlib.crc32(records) != checksum) or not (whole or cut_short):
             why = "it holds more than it says" if more else "its checksum is wrong"
             self._flaw(f"the chunk at byte {place} is damaged ({why}), so its messages are left out")
             return
-        view, at = memoryview(records), 0
-        while at + HEAD.size <= len(records):
-            opcode, length = HEAD.unpack_from(records, at)
-            at += HEAD.size + length
-            if at <= len(records):
-                self._take(opcode, view[at - length : at])
+        for opcode, record in _records(memoryview(records)):
+            self._take(opcode, record)
 
     def _unpacked(self, compression: str, data: bytes, size: int, place: int) -> tuple[bytes, bool]:
         """The records of a chunk, less if it is cut short, none if it is spoiled; and whether there are more."""
@@ -184,7 +248,6 @@ class _Scan:
                     self._take(kind, body)
         except (struct.error, UnicodeDecodeError):
             self._flaw("its summary is damaged")
-        self._chunks = sorted(place for place in self._chunks if place < self._size)
 
     # -- the result --------------------------------------------------------------------------------------------------
 
@@ -207,11 +270,13 @@ class _Scan:
 
 
 def _records(view: memoryview) -> Iterator[tuple[int, memoryview]]:
+    """The whole records that follow each other in a part of the file."""
     at = 0
     while at + HEAD.size <= len(view):
         opcode, length = HEAD.unpack_from(view, at)
         at += HEAD.size + length
-        yield opcode, view[at - length : at]
+        if at <= len(view):
+            yield opcode, view[at - length : at]
 
 
 def _texts(body: memoryview, at: int, count: int) -> list[str]:
@@ -239,3 +304,105 @@ def _offered(body: memoryview) -> str:
             return value
         at += 8 + len(key.encode()) + len(value.encode())
     return ""
+
+
+def scan_sqlite(path: Path, *, keep: bool = False) -> Contents:
+    """What the file holds; with `keep` the messages themselves, too."""
+    found = Contents()
+    if _is_cut_short(path):
+        found.flaws.append(f"{path.name}: it is cut short, and SQLite cannot read it")
+        return found
+    try:
+        database = sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro&immutable=1", uri=True)
+    except BROKEN as error:
+        found.flaws.append(f"{path.name}: it cannot be opened ({_told(error)})")
+        return found
+    with closing(database):
+        database.text_factory = lambda raw: raw.decode(errors="replace")
+        size = path.stat().st_size
+        database.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, max(size, 1_000_000))  # no value is larger than its file
+        if _has_views(database):
+            found.flaws.append(f"{path.name}: its tables are computed, not recorded, so they are not read")
+        else:
+            _scan(database, path.name, found, keep, size)
+    return found
+
+
+def _is_cut_short(path: Path) -> bool:
+    """Whether pages are missing, which SQLite would take for zeros (https://sqlite.org/fileformat.html, 1.3)."""
+    size = path.stat().st_size
+    with path.open("rb") as file:
+        head = file.read(100)
+    page = int.from_bytes(head[16:18], "big")
+    page = 65536 if page == 1 else page
+    if len(head) < 100 or page < 512:
+        return False  # no database at all: SQLite will say so
+    pages = int.from_bytes(head[28:32], "big") if head[24:28] == head[92:96] else 0
+    return size % page != 0 or size < page * pages
+
+
+def _has_views(database: sqlite3.Connection) -> bool:
+    """Whether something else than plain tables bears the name of a bag's table: its rows could be without end."""
+    query = (
+        "SELECT 1 FROM sqlite_master WHERE lower(name) IN ('topics', 'messages', 'message_definitions') "
+        "AND (type = 'view' OR sql LIKE 'CREATE VIRTUAL%')"
+    )
+    with suppress(*BROKEN):
+        return database.execute(query).fetchone() is not None
+    return False  # the file is damaged, and _scan says how
+
+
+def _scan(database: sqlite3.Connection, name: str, found: Contents, keep: bool, size: int) -> None:
+    try:
+        verdict = database.execute("PRAGMA integrity_check(1)").fetchone()[0]
+        if verdict != "ok":
+            found.flaws.append(f"{name}: the database is damaged ({_told(verdict.splitlines()[-1])})")
+    except BROKEN as error:
+        found.flaws.append(f"{name}: the database is damaged ({_told(error)})")
+    topics = _topics(database, name, found)
+    data = "data" if keep else "NULL"
+    query = f"SELECT id, topic_id, timestamp, {data}, length(data) FROM messages"
+    last = 0
+    try:
+        for row, number, time, content, length in database.execute(f"{query} ORDER BY id"):
+            if row <= last:
+                raise sqlite3.DatabaseError("the rows form a cycle")
+            last = row
+            size -= length if isinstance(length, int) else 0
+            if size < 0:
+                found.flaws.append(f"{name}: its messages are computed, not recorded: they are larger than the file")
+                break
+            key = topics.get(number)
+            if key is None or not isinstance(time, int):
+                continue
+            found.topics[key].count += 1
+            found.see(time, time)
+            if keep:
+                found.messages.append(Message(key.name, time, key.type_name, content))
+    except BROKEN:
+        if not found.flaws:
+            found.flaws.append(f"{name}: the database is damaged in the middle")
+    found.messages.sort(key=lambda message: message.time)
+    if not found.flaws:
+        found.expected = found.count
+
+
+def _topics(database: sqlite3.Connection, name: str, found: Contents) -> dict[int, TopicKey]:
+    definitions: dict[str, str] = {}
+    with suppress(*BROKEN):
+        query = "SELECT topic_type, encoded_message_definition FROM message_definitions"
+        definitions = dict(database.execute(query).fetchall())
+    topics: dict[int, TopicKey] = {}
+    try:
+        query = "SELECT id, name, type, serialization_format, offered_qos_profiles FROM topics"
+        for number, topic, type_name, serialization, offered in database.execute(query):
+            topics[number] = key = TopicKey(topic, type_name)
+            found.topics[key] = TopicContents(0, serialization, offered, definitions.get(type_name, ""))
+    except BROKEN as error:
+        found.flaws.append(f"{name}: its topics cannot be read ({_told(error)})")
+    return topics
+
+
+def _told(error: object) -> str:
+    """What SQLite says, in one line that can be printed: it quotes what is spoiled."""
+    return "".join(char if char.isprintable() else "?" for char in " ".join(str(error).split()))
