@@ -67,11 +67,8 @@ def _known(methods: dict[str, Callable[..., Any]], name: str, complaint: str) ->
     from turtle_lesson.ros.workspace.errors import did_you_mean
 
     error = RuntimeError(f"{complaint}{name}")
-    error.hint = (
-        _NOT_HERE.get(name)
-        or did_you_mean(str(name)[:100], sorted(methods))
-        or f"There are: {', '.join(sorted(methods))}."
-    )  # type: ignore[attr-defined]
+    close = did_you_mean(str(name)[:100], sorted(methods)) or f"There are: {', '.join(sorted(methods))}."
+    error.hint = _NOT_HERE.get(name) or close  # type: ignore[attr-defined]
     raise error
 
 
