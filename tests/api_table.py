@@ -8,6 +8,7 @@ holds the names and signatures of a real rclpy (Jazzy's, and what Kilted added),
     = ClockType.(ROS_TIME, SYSTEM_TIME)          short for ClockType.ROS_TIME and ClockType.SYSTEM_TIME
     ~ name : why                                 here, but not in all that it does
     - name : why                                 not here
+    - name : left out                            not here, as no course uses it: all of these share one row
 
 A default that is no plain value is written …; a name without brackets is only looked for.
 """
@@ -29,6 +30,7 @@ HERE = Path(__file__).parent
 LIST = HERE / "data" / "rclpy_api.txt"
 README = HERE.parent / "README.md"
 MARKERS = ("<!-- rclpy: begin -->\n", "<!-- rclpy: end -->\n")
+LEFT_OUT = "left out"
 LINE = re.compile(r"(?P<mark>[=~-]) (?P<name>[\w.]+)(?P<signature>\([^()]*\))?(?: : (?P<why>.+))?")
 
 
@@ -152,11 +154,28 @@ def table(found: list[Entry]) -> str:
     by_module: dict[str, list[Entry]] = {}
     for entry in found:
         by_module.setdefault(entry.module, []).append(entry)
+    left_out = _names_left_out(by_module)
+    by_module = {
+        module: of
+        for module, all_of in by_module.items()
+        if (of := [entry for entry in all_of if entry.why != LEFT_OUT])
+    }
     whole = [f"`{module}` {len(of)}" for module, of in by_module.items() if not any(entry.why for entry in of)]
     rows = ["| module | names here | in part, or not at all |", "|---|---|---|"]
     rows += [_row(module, of) for module, of in by_module.items() if any(entry.why for entry in of)]
+    if left_out:
+        rows.append(f"| left out, as no course uses it | none | {left_out} |")
     rows.append(f"| {', '.join(whole)} | all | |")
     return "\n".join(rows) + "\n"
+
+
+def _names_left_out(by_module: dict[str, list[Entry]]) -> str:
+    """What no course uses, as names: of whole modules, and of members of classes that are here."""
+    names: list[str] = []
+    for module, found in by_module.items():
+        gone = [entry.name for entry in found if entry.why == LEFT_OUT]
+        names += [module] if gone and len(gone) == len(found) else gone
+    return ", ".join(f"`{name}`" for name in names)
 
 
 def _row(module: str, found: list[Entry]) -> str:

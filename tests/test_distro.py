@@ -28,7 +28,6 @@ from rclpy.task import Future
 from rclpy.time import Time
 from sensor_msgs.msg import JointState, LaserScan
 from std_msgs.msg import Float32, String
-from type_description_interfaces.srv import GetTypeDescription
 
 from turtle_lesson import start
 from turtle_lesson.ros.distro import (
@@ -243,23 +242,6 @@ def test_since_kilted_a_forbidden_transition_is_logged_and_answered(
     assert run(program) == ["error" if old else False]
     said = "[managed]: Unable to start transition 2 from current state (1, 'unconfigured')"
     assert (said in capsys.readouterr().err) is not old
-
-
-@of("iron", "jazzy")
-def test_since_jazzy_every_node_describes_its_types(run: Run, world: World) -> None:
-    def program(found: list[Any]) -> None:
-        rclpy.init()
-        node = rclpy.create_node("robot")
-        node.create_publisher(String, "text", 1)
-        request = GetTypeDescription.Request(type_name="std_msgs/msg/String", type_hash=f"RIHS01_{KNOWN_HASH}")
-        client = node.create_client(GetTypeDescription, "/robot/get_type_description")
-        if client.service_is_ready():
-            answer = client.call_async(request)
-            rclpy.spin_until_future_complete(node, answer)
-            found.append(answer.result().type_description.type_description.type_name)
-        found.append(node.has_parameter("start_type_description_service"))
-
-    assert run(program) == ([False] if world.release.name == "iron" else ["std_msgs/msg/String", True])
 
 
 @of("humble", "jazzy")

@@ -93,16 +93,3 @@ def test_a_listener_that_hears_of_lost_messages(terminal: Terminal) -> None:
     assert [each.partition(" ")[2] for each in having(printed, "hear_lost")] == [
         "hear_lost: I heard an Image, True"
     ] * 3
-
-
-def test_the_command_line_overrides_a_profile(terminal: Terminal) -> None:
-    override = "overridable --ros-args -p qos_overrides./topic.subscription.depth:="
-    assert terminal.run(*first("overridable", f"{override}3")) == [
-        "0.0 overridable: depth 10",
-        "0.0 overridable: depth 3",
-    ]
-    assert terminal.run(*first(f"{override}30"))[-2:] == [
-        "rclpy.qos_overriding_options.InvalidQosOverridesError: Provided QoS overrides for subscription `/topic` with id "
-        "`None`, are not valid: expected qos depth less than 10",
-        "[ros2run]: Process exited with failure 1",
-    ]

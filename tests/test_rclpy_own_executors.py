@@ -21,7 +21,6 @@ from rclpy.executors import (
     TimeoutObject,
     await_or_execute,
 )
-from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
 from rclpy.task import Future
 from std_msgs.msg import String
@@ -352,26 +351,6 @@ def test_a_coroutine_keeps_a_group_of_ones_own_while_it_waits(run: Run) -> None:
             rclpy.spin_once(node, timeout_sec=0.05)
 
     assert run(program) == ["begins", "goes on", "same group"]
-
-
-# ---------------------------------------------------------------- the executor of events
-
-
-def test_the_executor_of_events_keeps_to_the_order_in_which_work_comes(run: Run) -> None:
-    def program(found: list[Any]) -> None:
-        rclpy.init(args=[])
-        for executor in (SingleThreadedExecutor(), EventsExecutor()):
-            node = rclpy.create_node("n")
-            executor.add_node(node)
-            node.create_timer(0.2, lambda: found.append("timer"))
-            node.create_subscription(String, "t", lambda message: found.append(message.data), 10)
-            node.create_publisher(String, "t", 10).publish(String(data="message"))
-            time.sleep(0.2)
-            for _ in range(2):
-                executor.spin_once(timeout_sec=0.0)
-            node.destroy_node()
-
-    assert run(program) == ["timer", "message", "message", "timer"]
 
 
 # ---------------------------------------------------------------- futures

@@ -24,7 +24,6 @@ from rclpy.event_handler import (
 )
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, LivelinessPolicy, QoSPolicyKind, QoSProfile, ReliabilityPolicy
-from rclpy.waitable import Waitable
 from std_msgs.msg import Int32, String
 
 from turtle_lesson.ros.world import World, open_world
@@ -361,29 +360,10 @@ def test_each_callback_has_a_handler_of_its_own(world: World) -> None:
     )
     subscription = node.create_subscription(Int32, "x", print, 10, event_callbacks=everything)
     assert {handler.event_type for handler in subscription.event_handlers} == set(QoSSubscriptionEventType)
-    waitables = list(node.waitables)
-    assert all(isinstance(handler, Waitable) and handler in waitables for handler in subscription.event_handlers)
+    assert set(subscription.event_handlers + publisher.event_handlers) <= set(node._ros_entities())
     node.destroy_subscription(subscription)
     node.destroy_publisher(publisher)
-    assert not set(subscription.event_handlers + publisher.event_handlers) & set(node.waitables)
-
-
-def test_a_handler_made_by_hand_hears_what_there_is_already(run: Run) -> None:
-    def program(found: list[Any]) -> None:
-        rclpy.init()
-        node = rclpy.create_node("n")
-        publisher = node.create_publisher(Int32, "x", 10)
-        node.create_subscription(Int32, "x", print, 10)
-        handler = EventHandler(
-            callback_group=node.default_callback_group,
-            callback=lambda event: found.append(event.current_count),
-            event_type=QoSPublisherEventType.RCL_PUBLISHER_MATCHED,
-            parent_impl=publisher.handle,
-        )
-        node.add_waitable(handler)
-        rclpy.spin(node)
-
-    assert run(program) == [1]
+    assert not set(subscription.event_handlers + publisher.event_handlers) & set(node._ros_entities())
 
 
 def test_a_coroutine_may_hear_of_events(run: Run) -> None:

@@ -76,12 +76,6 @@ GOALS_EXPIRE_AFTER_THEIR_END = Change(
     "it is kept for `result_timeout` after the goal was accepted",
     "rcl, pull request 1121",
 )
-NODES_DESCRIBE_TYPES = Change(
-    "jazzy",
-    "every node offers the service `~/get_type_description` and has the parameter `start_type_description_service`",
-    "a node has them if the program makes a `TypeDescriptionService`",
-    "rclpy's node.py",
-)
 TIMES_EQUAL_NO_OTHER_THING = Change(
     "jazzy",
     "`Time == 5` and `Duration == 5` are False",

@@ -11,6 +11,7 @@ from typing import Any
 
 from ..core.tracebacks import learners_frames
 from ..interfaces.registry import registry
+from .left_out import name_left_out
 
 OF_OTHERS = {
     "loginfo": "get_logger().info(…)", "logwarn": "get_logger().warning(…)", "logerr": "get_logger().error(…)",
@@ -69,6 +70,8 @@ def _attribute(error: AttributeError) -> str:
         return _field(owner, name)
     if hasattr(owner, "create_publisher") and name in OF_OTHERS:
         return f"On a node it is: {OF_OTHERS[name]}."
+    if left_out := name_left_out(owner, name):
+        return left_out
     return meant(name, [each for each in dir(owner) if not each.startswith("_")])
 
 

@@ -30,7 +30,6 @@ class Reader(End):
         self.beside: list[deque[Any]] = []
         """Queues in step with `queue`, which somebody keeps beside it."""
         self.wake: Callable[[], object] = nobody
-        self._chooses: Callable[[Any], bool] | None = None
         self._deadline: Watchdog | None = None
 
     def keep_times(self) -> None:
@@ -42,13 +41,7 @@ class Reader(End):
     @property
     def watches(self) -> bool:
         """Whether each message has to be noted here, so that none may simply be put into the queue."""
-        return self._deadline is not None or self._chooses is not None
-
-    def choose(self, chooses: Callable[[Any], bool] | None) -> None:
-        """From now on let in only the messages for which `chooses(message)` is true; None for all."""
-        self._chooses = chooses
-        for writer in self.writers():
-            writer.arrange()
+        return self._deadline is not None
 
     def writers(self) -> list[Writer]:
         """The publishers that this subscription hears."""
@@ -82,8 +75,6 @@ class Reader(End):
 
     def take_in(self, wire: Any, sent: int, lifespan: int | None = None) -> None:
         """A message arrives that was sent at `sent` (ns), and is good for `lifespan` (ns) after that."""
-        if self._chooses is not None and not self._chooses(wire):
-            return
         now = self.topic.simulation.now
         if lifespan is not None:
             if sent + lifespan <= now:

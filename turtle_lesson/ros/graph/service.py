@@ -16,13 +16,6 @@ if TYPE_CHECKING:
     from .network import Conditions, Network
 
 
-REQUEST_SENT, REQUEST_RECEIVED, RESPONSE_SENT, RESPONSE_RECEIVED = range(4)
-"""What a witness is told of; the numbers are those of service_msgs/msg/ServiceEventInfo."""
-
-Witness = Callable[[int, "ClientEnd", int, Any], object]
-"""Called at one end of a service with what happens there: which of these, whose request, its number, the message."""
-
-
 class Request(NamedTuple):
     """A request on its way: who asked whom, the number it has there, and the message."""
 
@@ -34,8 +27,6 @@ class Request(NamedTuple):
 
     def answer(self, message: Any) -> None:
         """Send the answer to the client that asked."""
-        if self.server.witness is not None:
-            self.server.witness(RESPONSE_SENT, self.client, self.number, message)
         self.client.reply(self.number, message)
 
 
@@ -50,7 +41,6 @@ class ServerEnd:
         self.arrivals: deque[int] | None = None
         """When each request that waits has come (ns), where a trace is kept."""
         self.wake: Callable[[], object] = nobody
-        self.witness: Witness | None = None
 
     def receive(self, request: Request) -> None:
         """A request arrives."""
@@ -63,10 +53,7 @@ class ServerEnd:
 
     def take(self) -> Request:
         """The oldest request."""
-        request = self.queue.popleft()
-        if self.witness is not None:
-            self.witness(REQUEST_RECEIVED, request.client, request.number, request.message)
-        return request
+        return self.queue.popleft()
 
 
 class ClientEnd:
@@ -78,7 +65,6 @@ class ClientEnd:
         self.type_name = type_name
         self.queue: deque[tuple[int, Any]] = deque()
         self.wake: Callable[[], object] = nobody
-        self.witness: Witness | None = None
         self.simulation = simulation
         self.latency = latency_of(name)
         self._network = network
@@ -92,8 +78,6 @@ class ClientEnd:
         """Send a request to the servers; returns its number, by which the answer will be known."""
         self._sent += 1
         arrival = self.simulation.now + self.latency
-        if self.witness is not None:
-            self.witness(REQUEST_SENT, self, self._sent, message)
         call = None
         if self.trace is not None:
             call = self._calls[self._sent] = self.trace.asked(self, message._wire_copy())
@@ -118,10 +102,7 @@ class ClientEnd:
 
     def take(self) -> tuple[int, Any]:
         """The oldest answer, with the number of its request."""
-        number, response = self.queue.popleft()
-        if self.witness is not None:
-            self.witness(RESPONSE_RECEIVED, self, number, response)
-        return number, response
+        return self.queue.popleft()
 
     def use(self, conditions: Conditions | None) -> None:
         """Have requests and answers travel under these conditions from now on; None for the usual ones.

@@ -1,17 +1,11 @@
-"""The services and messages that ROS derives from an action (how goal, result and feedback travel) and from a service.
+"""The services and messages that ROS derives from an action: how goal, result and feedback travel.
 
-Which fields they have follows `rosidl_parser.definition.Action` and `.Service`.
+Which fields they have follows `rosidl_parser.definition.Action`.
 """
 
 from __future__ import annotations
 
-from turtle_lesson.ros.interfaces.model import (
-    ActionDefinition,
-    Field,
-    FieldType,
-    MessageDefinition,
-    ServiceDefinition,
-)
+from turtle_lesson.ros.interfaces.model import ActionDefinition, Field, FieldType, MessageDefinition
 
 GOAL_ID = Field(FieldType("UUID", "unique_identifier_msgs"), "goal_id")
 STAMP = Field(FieldType("Time", "builtin_interfaces"), "stamp")
@@ -28,16 +22,6 @@ def derived_parts(action: ActionDefinition) -> tuple[MessageDefinition, ...]:
         _part(action, "GetResult_Response", STATUS, _own(action, "result")),
         _part(action, "FeedbackMessage", GOAL_ID, _own(action, "feedback")),
     )
-
-
-def event_part(service: ServiceDefinition) -> MessageDefinition:
-    """The message that tells of a call (service introspection of newer releases): who, when, and perhaps what."""
-    folder = service.request.folder
-    fields = [Field(FieldType("ServiceEventInfo", "service_msgs"), "info")]
-    for part, name in ((service.request, "request"), (service.response, "response")):
-        fields.append(Field(FieldType(part.name, service.package, "bounded", 1, folder=folder), name))
-    text = "".join(f"{field}\n" for field in fields)
-    return MessageDefinition(service.package, f"{service.name}_Event", tuple(fields), (), text, folder, service.file)
 
 
 def _own(action: ActionDefinition, part: str) -> Field:

@@ -18,7 +18,7 @@ from types import ModuleType
 from typing import Any
 
 from turtle_lesson.ros.interfaces import buildable, message
-from turtle_lesson.ros.interfaces.actions import derived_parts, event_part
+from turtle_lesson.ros.interfaces.actions import derived_parts
 from turtle_lesson.ros.interfaces.errors import InvalidDefinition
 from turtle_lesson.ros.interfaces.kinds import Kind, kind_of, weight_of
 from turtle_lesson.ros.interfaces.model import (
@@ -91,7 +91,6 @@ class _Builder:
         self._globals.update(COMMON)
         self._source = ""
         self._resolve = resolve
-        self._events: dict[str, Callable[[], type]] = {}
 
     def add_message(self, definition: MessageDefinition) -> None:
         """Add the class of a message or of a part of a service or action."""
@@ -148,26 +147,7 @@ class _Builder:
         return self._module
 
     def _add_service_class(self, definition: ServiceDefinition) -> None:
-        def make_event() -> type:
-            event = event_part(definition)
-            if event.name not in self._globals:
-                self._source = "".join(linecache.getlines(self._file))
-                self.add_message(event)
-                self.finish()
-            made: type = self._globals[event.name]
-            return made
-
-        self._globals[f"_event_{definition.name}"] = message.EventClass(make_event)
-        parts = {"Request": definition.request.name, "Response": definition.response.name}
-        self._add_wrapper(definition, {**parts, "Event": f"_event_{definition.name}"})
-        self._events[f"{definition.name}_Event"] = make_event
-        self._globals["__getattr__"] = self._event_by_name
-
-    def _event_by_name(self, name: str) -> type:
-        """Attribute of the module that is not there yet: the class of an event, or nothing."""
-        if name not in self._events:
-            raise AttributeError(f"module {self._module.__name__!r} has no attribute {name!r}", name=name)
-        return self._events[name]()
+        self._add_wrapper(definition, {"Request": definition.request.name, "Response": definition.response.name})
 
     def _add_carrier(self, action: ActionDefinition, name: str) -> None:
         request, response = (self._globals[f"{name}_{part}"]._DEFINITION for part in ("Request", "Response"))

@@ -58,20 +58,6 @@ def same_array(one: Any, other: Any) -> bool:
     return bool(one.shape == other.shape and (one == other).all())
 
 
-class EventClass:
-    """Attribute `Event` of a service: the class of what service introspection publishes, made when first asked for."""
-
-    __slots__ = ("_make",)
-
-    def __init__(self, make: Callable[[], type]) -> None:
-        self._make = make
-
-    def __get__(self, instance: object, owner: type) -> type:
-        made = self._make()
-        owner.Event = made  # type: ignore[attr-defined]
-        return made
-
-
 def refuse_arguments(message_class: type, unknown: Iterable[str]) -> None:
     """Refuse constructor arguments that are no fields, where values are checked.
 

@@ -37,7 +37,6 @@ BORROWED: dict[str, dict[str, str]] = {
         "rclpy.expand_topic_name": "expand_topic_name",
         "rclpy.logging": "get_logger",
         "rclpy.qos": "qos_profile_parameter_events qos_profile_services_default",
-        "rclpy.qos_overriding_options": "QoSOverridingOptions",
         "rclpy.timer": "Rate",
         "rclpy.topic_endpoint_info": "TopicEndpointInfo",
         "rclpy.type_support": "MsgType=MsgT SrvType=SrvT SrvTypeRequest=SrvRequestT SrvTypeResponse=SrvResponseT"
@@ -47,7 +46,6 @@ BORROWED: dict[str, dict[str, str]] = {
         "rclpy.validate_node_name": "validate_node_name",
         "rclpy.validate_parameter_name": "validate_parameter_name",
         "rclpy.validate_topic_name": "validate_topic_name",
-        "rclpy.waitable": "Waitable",
     },
     "rclpy.action.client": {
         "action_msgs.msg": "GoalStatus",
@@ -68,7 +66,6 @@ BORROWED: dict[str, dict[str, str]] = {
         "rclpy.task": "Future Task",
         "rclpy.timer": "Timer TimerInfo",
         "rclpy.utilities": "get_default_context timeout_sec_to_nsec",
-        "rclpy.waitable": "NumberOfEntities Waitable",
     },
     "rclpy.client": _SERVICE | {"rclpy.context": "Context"},
     "rclpy.service": _SERVICE,

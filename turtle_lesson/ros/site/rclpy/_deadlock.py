@@ -238,5 +238,5 @@ def _may_act(entity: Any, taken: Callable[[Any], bool]) -> bool:
     if entity._executor is None or taken(entity.callback_group):
         return False
     if entity._kind in (CLIENT, WAITABLE):
-        return bool(getattr(entity, "_waiting", True))  # who knows what a waitable of the program's own does
+        return bool(entity._waiting)
     return not (getattr(entity.callback, "__module__", None) or "").startswith("rclpy.")

@@ -1,9 +1,9 @@
 """What executors have in common beneath their spinning: they know nodes, choose what is next, and run it.
 
-One *cycle* takes everything that is ready at that moment and runs one callback of each: first waitables and tasks that
-can go on, then node by node timers, subscriptions, guard conditions, clients and services, each kind in order of creation.
-What becomes ready meanwhile waits for the next cycle. These are the rules of rclpy's executors.py; but where the real one
-builds a wait set for every cycle, entities here signal their executor, so that nothing is ever polled.
+One *cycle* takes everything that is ready at that moment and runs one callback of each: first actions, QoS events and
+tasks that can go on, then node by node timers, subscriptions, guard conditions, clients and services, each kind in order
+of creation. What becomes ready meanwhile waits for the next cycle. These are the rules of rclpy's executors.py; but where
+the real one builds a wait set for every cycle, entities here signal their executor, so that nothing is ever polled.
 """
 
 from __future__ import annotations
@@ -33,8 +33,6 @@ Condition = Callable[[], bool] | None
 
 class ExecutorBase:
     """Nodes, tasks, what is ready, and running it."""
-
-    _in_order_of_arrival = False
 
     def __init__(self, *, context: Context | None = None) -> None:
         self._context = get_default_context() if context is None else context
@@ -175,10 +173,7 @@ class ExecutorBase:
     def _begin_cycle(self) -> None:
         """Take all that is ready now as the next batch."""
         self._has_polled = not self._signalled and not self._resumed
-        if self._in_order_of_arrival:
-            batch: list[Job] = self._signalled[::-1]  # taken from the end
-        else:
-            batch = sorted(self._signalled, key=_turn, reverse=True)
+        batch: list[Job] = sorted(self._signalled, key=_turn, reverse=True)
         for entity in batch:
             entity._listed_in = None
         self._signalled.clear()

@@ -33,4 +33,4 @@ def refuse_unbuilt(**arguments: Any) -> None:
     """Raise NotImplementedError if one of these arguments was given, which rclpy has and the simulation does not."""
     for name, value in arguments.items():
         if value:
-            raise NotImplementedError(f"{name} is not available here yet, got {value!r}: leave it out")
+            raise NotImplementedError(f"{name} is not available here, got {value!r}: leave it out")

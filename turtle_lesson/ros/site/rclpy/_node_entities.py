@@ -6,19 +6,19 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from . import type_support
+from ._missing import refuse_unbuilt
 from ._node_graph import NodeGraph
 from ._qos_best_available import choose_for_publisher, choose_for_subscription, is_left_open
 from ._qos_events import QoSEvents
-from ._waitables import WaitableEntity
 from .callback_groups import CallbackGroup, ReentrantCallbackGroup
 from .client import Client
-from .event_handler import EventHandler, PublisherEventCallbacks, SubscriptionEventCallbacks, checked_callbacks
+from .event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks, checked_callbacks
 from .exceptions import RCLError, not_valid, refuse_destroyed, refuse_ended
 from .guard_condition import GuardCondition
 from .publisher import Publisher
 from .qos import QoSProfile, checked_profile, copied, qos_profile_services_default, usable_quality
 from .service import Service
-from .subscription import REFUSED, Subscription
+from .subscription import Subscription
 from .timer import Rate, Timer, period_ns
 
 if TYPE_CHECKING:
@@ -29,9 +29,6 @@ if TYPE_CHECKING:
     from .context import Context
     from .executors import Executor
     from .impl.rcutils_logger import RcutilsLogger
-    from .qos_overriding_options import QoSOverridingOptions
-    from .subscription_content_filter_options import ContentFilterOptions
-    from .waitable import Waitable
 
 
 class NodeEntities(NodeGraph):
@@ -82,18 +79,19 @@ class NodeEntities(NodeGraph):
         *,
         callback_group: CallbackGroup | None = None,
         event_callbacks: PublisherEventCallbacks | None = None,
-        qos_overriding_options: QoSOverridingOptions | None = None,
+        qos_overriding_options: None = None,
         publisher_class: type[Publisher] = Publisher,
     ) -> Publisher:
         """Publish messages of a type on a topic. `qos_profile`: a QoSProfile, or how many to keep for late takers.
 
         Raises InvalidTopicNameException, AttributeError or RuntimeError (no message type), TypeError, ValueError,
-        RCLError, InvalidQosOverridesError.
+        RCLError, and NotImplementedError for QoS overrides.
         """
         self._ros_check_alive("Failed to create publisher: rcl node's")
+        refuse_unbuilt(qos_overriding_options=qos_overriding_options)
         callbacks = checked_callbacks(event_callbacks, PublisherEventCallbacks)
         full_name = self._ros_full_name_of(topic)
-        profile = self._ros_profile(Publisher, full_name, checked_profile(qos_profile), qos_overriding_options)
+        profile = self._ros_chosen(Publisher, full_name, checked_profile(qos_profile))
         quality = usable_quality(profile, "publisher")
         type_support.check_is_valid_msg_type(msg_type)
         self._ros_check_one_type("publisher", full_name, msg_type)
@@ -116,49 +114,34 @@ class NodeEntities(NodeGraph):
         *,
         callback_group: CallbackGroup | None = None,
         event_callbacks: SubscriptionEventCallbacks | None = None,
-        qos_overriding_options: QoSOverridingOptions | None = None,
+        qos_overriding_options: None = None,
         raw: bool = False,
-        content_filter_options: ContentFilterOptions | None = None,
+        content_filter_options: None = None,
     ) -> Subscription:
         """Have `callback(message)` called for each message of a topic; the queue keeps `qos_profile` of them.
 
-        With `content_filter_options` (since Kilted) only those come in that its expression is true for.
-
         Raises InvalidTopicNameException, AttributeError or RuntimeError (no message type), TypeError, ValueError,
-        RCLError, InvalidQosOverridesError.
+        RCLError, and NotImplementedError for QoS overrides and content filters.
         """
         self._ros_check_alive("Failed to create subscription: rcl node's")
+        refuse_unbuilt(qos_overriding_options=qos_overriding_options, content_filter_options=content_filter_options)
         callbacks = checked_callbacks(event_callbacks, SubscriptionEventCallbacks)
         full_name = self._ros_full_name_of(topic)
-        profile = self._ros_profile(Subscription, full_name, checked_profile(qos_profile), qos_overriding_options)
+        profile = self._ros_chosen(Subscription, full_name, checked_profile(qos_profile))
         quality = usable_quality(profile, "subscription")
         type_support.check_is_valid_msg_type(msg_type)
         self._ros_check_one_type("subscription", full_name, msg_type)
-        chosen = _prepared(msg_type, content_filter_options)
         reader = self._ros_graph.add_reader(self._ros_entry, full_name, msg_type._TYPE_NAME, quality)
         reader.profile = profile
         group = callback_group or self._ros_default_callback_group
         subscription = Subscription(reader, msg_type, topic, callback, group, profile, raw, callbacks)
-        if chosen is not None:
-            subscription._use_filter(*chosen)
         self._ros_keep(subscription)
         for handler in subscription.event_handlers:
             self._ros_keep(handler)
         return subscription
 
-    def _ros_profile(
-        self,
-        kind: type[Publisher] | type[Subscription],
-        name: str,
-        profile: QoSProfile,
-        options: QoSOverridingOptions | None,
-    ) -> QoSProfile:
-        """A profile as it is used: overridden by parameters, and with what is left to the others on the topic."""
-        if options is not None:
-            from .qos_overriding_options import _declare_qos_parameters
-
-            profile = copied(profile)
-            _declare_qos_parameters(kind, self, name, profile, options)  # type: ignore[arg-type]
+    def _ros_chosen(self, kind: type[Publisher] | type[Subscription], name: str, profile: QoSProfile) -> QoSProfile:
+        """A profile in which what it leaves to the others on the topic is chosen."""
         if is_left_open(profile):
             profile, topic = copied(profile), self._ros_graph.topic(name)
             if kind is Publisher:
@@ -259,11 +242,6 @@ class NodeEntities(NodeGraph):
         timer = self.create_timer(1.0 / frequency, callback, self._ros_rate_group, clock)
         return Rate(timer, context=self._ros_context)
 
-    def add_waitable(self, waitable: Waitable) -> None:
-        """Have the node's executor wait for something of one's own, too."""
-        self._ros_check_alive("failed to add waitable: rcl node's")
-        self._ros_keep(waitable if isinstance(waitable, EventHandler) else WaitableEntity(waitable))
-
     # -- taking things away ----------------------------------------------------------------------------------------
 
     def _ros_destroy(self, entity: Any) -> bool:
@@ -309,24 +287,7 @@ class NodeEntities(NodeGraph):
         """Take a guard condition away; False if it is not this node's."""
         return self._ros_destroy(guard)
 
-    def remove_waitable(self, waitable: Waitable) -> None:
-        """No longer wait for a waitable. Raises ValueError if it is not this node's."""
-        for entity in list(self._ros_waiting_entities):
-            if isinstance(entity, (WaitableEntity, EventHandler)) and entity.waitable is waitable:
-                self._ros_destroy(entity)
-                return
-        raise ValueError(f"{waitable!r} was never added to this node with add_waitable")
-
     def destroy_rate(self, rate: Rate) -> bool:
         """Take a rate away; False if it is not this node's."""
         rate.destroy()
         return self._ros_destroy(rate._timer)
-
-
-def _prepared(msg_type: Any, options: ContentFilterOptions | None) -> tuple[Any, Any] | None:
-    """A content filter, looked at before anything is made; None where none is asked for."""
-    if options is None:
-        return None
-    from ._content_filter import prepared
-
-    return prepared(msg_type, options, f"Failed to create subscription: {REFUSED}")

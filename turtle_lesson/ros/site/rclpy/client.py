@@ -19,7 +19,6 @@ from ._mistakes import shown
 from ._notebook import is_notebook
 from .callback_groups import CallbackGroup
 from .qos import QoSProfile
-from .service_introspection import ServiceIntrospectionState, forget, introspect
 from .task import Future, at_once
 
 if TYPE_CHECKING:
@@ -73,12 +72,6 @@ class Client(Entity):
     def logger_name(self) -> str:
         """The name of the node's logger."""
         return self._of_node.get_logger().name
-
-    def configure_introspection(
-        self, clock: Any, service_event_qos_profile: QoSProfile, introspection_state: ServiceIntrospectionState
-    ) -> None:
-        """Publish on …/_service_event what is asked and answered here, times being those of `clock`; OFF ends that."""
-        introspect(self, self._end, clock, service_event_qos_profile, introspection_state)
 
     def service_is_ready(self) -> bool:
         """Whether somebody offers the service now."""
@@ -214,7 +207,6 @@ class Client(Entity):
         """Leave the service; answers under way are dropped."""
         if not self._destroyed:
             super().destroy()
-            forget(self._end)
             self._of_node._ros_graph.remove_client(self._end)
 
 

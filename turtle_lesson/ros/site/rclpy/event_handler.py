@@ -5,7 +5,6 @@ rclpy's event_handler.py of today, which in Humble is qos_event.py; `incompatibl
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Callable
 from enum import IntEnum
 from typing import Any
@@ -32,7 +31,6 @@ from ._rclpy_pybind11 import UnsupportedEventTypeError
 from .callback_groups import CallbackGroup
 from .logging import get_logger
 from .qos import QoSPolicyKind, qos_policy_name_from_kind
-from .waitable import NumberOfEntities, Waitable
 
 __all__ = [
     "EventHandler",
@@ -55,7 +53,7 @@ __all__ = [
 ]
 
 
-class EventHandler(Entity, Waitable):
+class EventHandler(Entity):
     """Waits for events of one type of a publisher or subscription, `parent_impl` (in Iron and before `parent_handle`)."""
 
     _kind = WAITABLE
@@ -71,7 +69,6 @@ class EventHandler(Entity, Waitable):
         parent_handle: Any = None,
     ) -> None:
         super().__init__(callback, callback_group)
-        self._futures = []
         self.event_type = event_type
         parent = parent_impl or parent_handle
         parent = getattr(parent, "_entity", parent)  # of a handle
@@ -81,11 +78,6 @@ class EventHandler(Entity, Waitable):
 
     def __repr__(self) -> str:
         return f"<EventHandler of {self.event_type.name}>"
-
-    @property
-    def waitable(self) -> EventHandler:
-        """It stands for itself among a node's waitables."""
-        return self
 
     @property
     def _waiting(self) -> bool:
@@ -103,30 +95,6 @@ class EventHandler(Entity, Waitable):
         if isinstance(info, QoSRequestedIncompatibleQoSInfo):
             info = info._replace(last_policy_kind=rmw_qos_policy_kind_t(QoSPolicyKind[info.last_policy_kind]))  # type: ignore[misc]
         return info
-
-    # What an executor of a real rclpy asks a waitable; the ones here ask an entity.
-
-    def is_ready(self, wait_set: Any) -> bool:
-        """Whether something has happened since the last look."""
-        return self._tally.news
-
-    def take_data(self) -> Any:
-        """What has happened since the last look; None if nothing has."""
-        return self._read() if self._tally.news else None
-
-    async def execute(self, taken_data: Any) -> None:
-        """Call the callback with what was taken."""
-        if taken_data is not None:
-            result = self.callback(taken_data)
-            if inspect.iscoroutine(result):
-                await result
-
-    def get_num_entities(self) -> NumberOfEntities:
-        """One event."""
-        return NumberOfEntities(num_events=1)
-
-    def add_to_wait_set(self, wait_set: Any) -> None:
-        """An executor here hears of events without a wait set."""
 
 
 QoSEventHandler = EventHandler

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from turtle_lesson.ros.distro import NODES_DESCRIBE_TYPES
 from turtle_lesson.ros.graph import NodeEntry
 from turtle_lesson.ros.world import current_process, current_world
 
@@ -20,12 +19,10 @@ from ._node_parameter_setting import ParameterSetting
 from ._node_parameters import NodeParameters
 from ._parameter_rules import TOLERANCE
 from ._qos_events import QoSEvents
-from ._waitables import WaitableEntity
 from .callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup
 from .client import Client
 from .clock import Clock, ROSClock
 from .context import Context
-from .event_handler import EventHandler
 from .exceptions import NodeNameNonExistentError, NotInitializedException, RCLError, RCLInvalidROSArgsError
 from .guard_condition import GuardCondition
 from .impl.rcutils_logger import RcutilsLogger, publish_rosout_no_more
@@ -120,10 +117,6 @@ class Node(NodeEntities, NodeNews, NodeParameters):
             self._ros_parameter_service = ParameterService(self)
         if enable_logger_service:
             self._ros_logger_service = LoggingService(self)
-        if world.release.has(NODES_DESCRIBE_TYPES):
-            from .type_description_service import TypeDescriptionService
-
-            self._type_description_service = TypeDescriptionService(self)
 
     def __repr__(self) -> str:
         entry = vars(self).get("_ros_entry")
@@ -210,11 +203,6 @@ class Node(NodeEntities, NodeNews, NodeParameters):
     def guards(self) -> Iterator[GuardCondition]:
         """The node's guard conditions."""
         return self._ros_of_kind(GuardCondition)
-
-    @property
-    def waitables(self) -> Iterator[Any]:
-        """Other things that the node's executor waits for."""
-        return (entity.waitable for kind in (WaitableEntity, EventHandler) for entity in self._ros_of_kind(kind))
 
     @property
     def context(self) -> Context:  # type: ignore[override]

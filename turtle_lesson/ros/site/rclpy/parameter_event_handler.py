@@ -152,19 +152,6 @@ class ParameterEventHandler:
         """No longer call a callback. Raises RuntimeError if it is not (or no longer) called."""
         self._callbacks.remove_parameter_event_callback(handle)
 
-    def configure_nodes_filter(self, node_names: list[str] | None = None) -> bool:
-        """Hear only of these nodes (full names), by a content filter; None or none: of all again.
-
-        True if that is so now. Raises RCLError where there is no filter to be taken away.
-        """
-        listener = self.parameter_event_subscription
-        if not node_names:
-            listener.set_content_filter("", [])
-            return not listener.is_cft_enabled
-        anyone = " OR ".join(f"node = %{number}" for number in range(len(node_names)))
-        listener.set_content_filter(anyone, [f"'{name}'" for name in node_names])
-        return listener.is_cft_enabled
-
     def _resolve_path(self, node_path: str | None) -> str:
         if not node_path:
             return self.node.get_fully_qualified_name()

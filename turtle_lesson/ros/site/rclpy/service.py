@@ -13,7 +13,6 @@ from ._borrowed import borrowed
 from ._entity import SERVICE, Entity
 from .callback_groups import CallbackGroup
 from .qos import QoSProfile
-from .service_introspection import ServiceIntrospectionState, forget, introspect
 
 
 class Service(Entity):
@@ -52,12 +51,6 @@ class Service(Entity):
         """The name of the node's logger."""
         return self._server.node.logger_name
 
-    def configure_introspection(
-        self, clock: Any, service_event_qos_profile: QoSProfile, introspection_state: ServiceIntrospectionState
-    ) -> None:
-        """Publish on …/_service_event what is asked and answered here, times being those of `clock`; OFF ends that."""
-        introspect(self, self._server, clock, service_event_qos_profile, introspection_state)
-
     def _has_work(self) -> bool:
         return bool(self._server.queue)
 
@@ -85,7 +78,6 @@ class Service(Entity):
         """Stop offering the service."""
         if not self._destroyed:
             super().destroy()
-            forget(self._server)
             self._server.node.process.locals["world"].graph.remove_server(self._server)
 
 

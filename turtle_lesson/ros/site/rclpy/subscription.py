@@ -17,12 +17,7 @@ from ._borrowed import borrowed
 from ._entity import SUBSCRIPTION, Entity
 from .callback_groups import CallbackGroup
 from .event_handler import EventHandler, SubscriptionEventCallbacks
-from .exceptions import RCLError
 from .qos import QoSProfile
-from .subscription_content_filter_options import ContentFilterOptions
-
-REFUSED = "create_contentfilteredtopic() failed to create contentfilteredtopic"
-NOT_SET = "Failed to set cft expression parameters"
 
 
 class Subscription(Entity):
@@ -56,7 +51,6 @@ class Subscription(Entity):
         self.topic = topic
         self.qos_profile = qos_profile
         self.raw = raw
-        self._filter: ContentFilterOptions | None = None
         self._logger_name = subscription_impl.node.logger_name
         if _wants_info(callback):
             current_world().release.note_use(MESSAGE_INFO)
@@ -99,42 +93,6 @@ class Subscription(Entity):
             return (message,)
         sent, received = times.popleft()
         return (message, {"source_timestamp": EPOCH + sent, "received_timestamp": EPOCH + received})
-
-    @property
-    def is_cft_supported(self) -> bool:
-        """Whether there are content filters: here there are (with some middlewares there are none)."""
-        return True
-
-    @property
-    def is_cft_enabled(self) -> bool:
-        """Whether a filter chooses among the messages."""
-        return self._filter is not None
-
-    def set_content_filter(self, filter_expression: str, expression_parameters: list[str]) -> None:
-        """Let in only the messages that an expression is true for; '' lets all in again.
-
-        Raises TypeError, and RCLError for what is no filter for messages of this type.
-        """
-        from ._content_filter import prepared
-
-        wanted = ContentFilterOptions(filter_expression, expression_parameters)
-        refusal = REFUSED if self._filter is None else "failed to set_filter_expression"
-        found = prepared(self.msg_type, wanted, f"{NOT_SET}: {refusal}")
-        if found[0] is None and self._filter is None:
-            raise RCLError(f"{NOT_SET}: current subscriber has no content filter topic")
-        self._use_filter(*found)
-
-    def get_content_filter(self) -> ContentFilterOptions:
-        """The filter as it was given. Raises RCLError if there is none."""
-        if self._filter is None:
-            raise RCLError(
-                "Failed to get cft expression parameters: this subscriber has not created a ContentFilteredTopic"
-            )
-        return self._filter
-
-    def _use_filter(self, options: ContentFilterOptions | None, chooses: Callable[[Any], bool] | None) -> None:
-        self._filter = options
-        self._reader.choose(chooses)
 
     def destroy(self) -> None:
         """Leave the topic."""

@@ -6,7 +6,6 @@ from enum import IntEnum
 from typing import Any
 
 from .qos import HistoryPolicy, QoSProfile, qos_profile_unknown
-from .type_hash import TypeHash
 
 
 class TopicEndpointTypeEnum(IntEnum):
@@ -21,7 +20,6 @@ _KINDS: dict[str, type] = {
     "node_name": str,
     "node_namespace": str,
     "topic_type": str,
-    "topic_type_hash": TypeHash,
     "endpoint_type": TopicEndpointTypeEnum,
     "endpoint_gid": list,
     "qos_profile": QoSProfile,
@@ -37,7 +35,6 @@ class TopicEndpointInfo:
     node_name: str
     node_namespace: str
     topic_type: str
-    topic_type_hash: TypeHash
     endpoint_type: TopicEndpointTypeEnum
     endpoint_gid: list[int]
     qos_profile: QoSProfile
@@ -54,14 +51,9 @@ class TopicEndpointInfo:
             ("qos_profile", qos_profile_unknown),
         ):
             setattr(self, name, fields.get(name, default))
-        if "topic_type_hash" in fields:
-            self.topic_type_hash = fields["topic_type_hash"]
 
     def __getattr__(self, name: str) -> Any:
-        if name != "topic_type_hash":
-            raise AttributeError(f"a TopicEndpointInfo has no {name!r}; it has {', '.join(_KINDS)}")
-        self.topic_type_hash = found = _hash_of(self.topic_type)  # only now, for few want to know it
-        return found
+        raise AttributeError(f"a TopicEndpointInfo has no {name!r}; it has {', '.join(_KINDS)}")
 
     def __setattr__(self, name: str, value: Any) -> None:
         kind = _KINDS.get(name)
@@ -78,7 +70,7 @@ class TopicEndpointInfo:
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, TopicEndpointInfo) and all(
-            getattr(self, name) == getattr(other, name) for name in _KINDS if name != "topic_type_hash"
+            getattr(self, name) == getattr(other, name) for name in _KINDS
         )
 
     __hash__ = None  # type: ignore[assignment]
@@ -109,14 +101,3 @@ class TopicEndpointInfo:
     def __repr__(self) -> str:
         full_name = f"{self.node_namespace.rstrip('/')}/{self.node_name}"
         return f"<TopicEndpointInfo {self.endpoint_type.name} of {full_name}, {self.topic_type}>"
-
-
-def _hash_of(type_name: str) -> TypeHash:
-    """The hash of a type by its name; an invalid one if there is no such type."""
-    from turtle_lesson.ros.interfaces import registry
-    from turtle_lesson.ros.interfaces.description import hash_of
-
-    try:
-        return TypeHash(1, hash_of(registry.get(type_name)))
-    except (LookupError, ImportError, ValueError):
-        return TypeHash()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from importlib import import_module
-from types import ModuleType
 from typing import Any
 
 from rosidl_parser.definition import NamespacedType
@@ -20,14 +19,4 @@ def import_message_from_namespaced_type(message_type: NamespacedType) -> Any:
     owner, underscore, part = message_type.name.rpartition("_")
     if underscore and part == "FeedbackMessage":
         return getattr(module, owner).Impl.FeedbackMessage
-    if underscore and part == "Event":
-        return _service(module, owner).Event
     return getattr(module, message_type.name)
-
-
-def _service(module: ModuleType, name: str) -> Any:
-    """A service, which may be one of an action's."""
-    action, _, part = name.rpartition("_")
-    if action and part in ("SendGoal", "GetResult"):
-        return getattr(getattr(module, action).Impl, f"{part}Service")
-    return getattr(module, name)

@@ -10,9 +10,8 @@ from collections import deque
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from .._entity import Entity
+from .._entity import WAITABLE, Entity
 from .._mistakes import no_node
-from .._waitables import WaitableEntity
 from ..exceptions import NameValidationException
 from ..type_support import check_for_type_support
 
@@ -99,16 +98,19 @@ def _detached(node: Node, part: Any) -> Any:
     return part
 
 
-class ActionEntity(WaitableEntity):
+class ActionEntity(Entity):
     """An action server or client in a node. Its parts go with it: to an executor, and out of the graph."""
 
-    def __init__(self, waitable: Any, parts: dict[str, Any], queues: list[deque[Any]]) -> None:
+    _kind = WAITABLE
+
+    def __init__(self, action: Any, parts: dict[str, Any], queues: list[deque[Any]]) -> None:
+        self._action = action
         self._parts = parts
         self._queues = queues
-        super().__init__(waitable)
+        super().__init__(action.execute, action.callback_group)
 
     def __repr__(self) -> str:
-        return repr(self.waitable)
+        return repr(self._action)
 
     @property
     def _executor(self) -> Executor | None:
@@ -124,20 +126,20 @@ class ActionEntity(WaitableEntity):
     @property
     def _waiting(self) -> bool:
         """Whether it may call something of the program's."""
-        return self.waitable._may_call_back()
+        return self._action._may_call_back()
 
     def _has_work(self) -> bool:
         return any(self._queues)
 
     def _take(self) -> tuple[Any, ...]:
-        data = self.waitable.take_data()
+        data = self._action.take_data()
         if any(self._queues):
             self._signal()
         return (data,)
 
     def _arrive(self) -> None:
         """Something has come."""
-        self.waitable._on_arrival()
+        self._action._on_arrival()
         self._signal()
 
     def destroy(self) -> None:
@@ -146,4 +148,4 @@ class ActionEntity(WaitableEntity):
             super().destroy()
             for part in self._parts.values():
                 part.destroy()
-            self.waitable._end()
+            self._action._end()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from functools import partial
+from types import GenericAlias
 from typing import TYPE_CHECKING, Any
 from weakref import WeakValueDictionary
 
@@ -19,7 +20,6 @@ from ..callback_groups import CallbackGroup
 from ..client import Client
 from ..qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
 from ..task import Future
-from ..waitable import NumberOfEntities, Waitable
 from ._callbacks import call_back
 from ._client_goal_handle import ClientGoalHandle
 from ._ends import ActionEntity, check_action, full_names, make_parts
@@ -30,7 +30,6 @@ from ._ids import new_goal_id
 
 if TYPE_CHECKING:
     from ..node import Node
-    from ..service_introspection import ServiceIntrospectionState
 
 __all__ = ["ActionClient", "ClientGoalHandle"]
 
@@ -38,7 +37,7 @@ FEEDBACK = QoSProfile(depth=10)
 POLL = 0.25  # how often, in s, the real one looks whether a server has appeared (client.py)
 
 
-class ActionClient(Waitable):
+class ActionClient:
     """Sends goals to an action's server.
 
     Args:
@@ -47,6 +46,8 @@ class ActionClient(Waitable):
         action_name: its name.
         callback_group: for the taking of answers and feedback; the node's default one if none is given.
     """
+
+    __class_getitem__: Any = classmethod(GenericAlias)  # newer releases: ActionClient[Goal, Result, Feedback] in a hint
 
     def __init__(
         self,
@@ -62,7 +63,7 @@ class ActionClient(Waitable):
         status_sub_qos_profile: QoSProfile = qos_profile_action_status_default,
     ) -> None:
         check_action("client", node, action_type)
-        super().__init__(node.default_callback_group if callback_group is None else callback_group)
+        self.callback_group = node.default_callback_group if callback_group is None else callback_group
         self._node = node
         self._action_type = action_type
         self._action_name = action_name
@@ -108,13 +109,6 @@ class ActionClient(Waitable):
 
     def __repr__(self) -> str:
         return f"<ActionClient of {self._name}>"
-
-    def configure_introspection(
-        self, clock: Any, service_event_qos_profile: QoSProfile, introspection_state: ServiceIntrospectionState
-    ) -> None:
-        """Publish what the action's three services are asked and answer; OFF ends that (newer than Jazzy)."""
-        for client in self._clients:
-            client.configure_introspection(clock, service_event_qos_profile, introspection_state)
 
     # -- the server ------------------------------------------------------------------------------------------------
 
@@ -214,10 +208,6 @@ class ActionClient(Waitable):
 
     # -- what comes back -------------------------------------------------------------------------------------------
 
-    def is_ready(self, wait_set: Any) -> bool:
-        """Whether something has come."""
-        return any(end.queue for end in self._arrived.values())
-
     def take_data(self) -> dict[str, Any]:
         """Take one thing of each kind."""
         return {kind: end.take() for kind, end in self._arrived.items() if end.queue}
@@ -278,13 +268,6 @@ class ActionClient(Waitable):
 
     def _may_call_back(self) -> bool:
         return bool(self._feedback_callbacks) or any(client._waiting for client in self._clients)
-
-    def get_num_entities(self) -> NumberOfEntities:
-        """Two subscriptions and three clients."""
-        return NumberOfEntities(num_subs=2, num_clients=3)
-
-    def add_to_wait_set(self, wait_set: Any) -> None:
-        """Nothing to do: an executor here is told when something comes."""
 
     def __enter__(self) -> ActionClient:
         return self

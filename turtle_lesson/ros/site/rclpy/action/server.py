@@ -8,6 +8,7 @@ one it holds up everything, the cancelling of its own goal included, unless it i
 from __future__ import annotations
 
 from collections.abc import Callable
+from types import GenericAlias
 from typing import TYPE_CHECKING, Any
 
 from action_msgs.msg import GoalStatusArray
@@ -21,7 +22,6 @@ from .._borrowed import borrowed
 from ..callback_groups import CallbackGroup
 from ..exceptions import RCLError
 from ..qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
-from ..waitable import NumberOfEntities, Waitable
 from ._answers import (
     CancelResponse,
     GoalResponse,
@@ -41,7 +41,6 @@ if TYPE_CHECKING:
     from turtle_lesson.ros.trace import Callback
 
     from ..node import Node
-    from ..service_introspection import ServiceIntrospectionState
 
 __all__ = [
     "ActionServer",
@@ -62,7 +61,7 @@ OVERHEAD = 200_000
 goal hears that it was accepted before there is any feedback."""
 
 
-class ActionServer(Requests, Waitable):
+class ActionServer(Requests):
     """Offers an action.
 
     Args:
@@ -77,6 +76,8 @@ class ActionServer(Requests, Waitable):
         result_timeout: how long, in s, a goal that has ended is remembered, so that its result can be asked for. Until
             Iron this time begins when the goal is accepted.
     """
+
+    __class_getitem__: Any = classmethod(GenericAlias)  # newer releases: ActionServer[Goal, Result, Feedback] in a hint
 
     def __init__(
         self,
@@ -97,7 +98,7 @@ class ActionServer(Requests, Waitable):
         result_timeout: float = 900,
     ) -> None:
         check_action("server", node, action_type)
-        super().__init__(node.default_callback_group if callback_group is None else callback_group)
+        self.callback_group = node.default_callback_group if callback_group is None else callback_group
         self.register_handle_accepted_callback(handle_accepted_callback)
         self.register_goal_callback(goal_callback)
         self.register_cancel_callback(cancel_callback)
@@ -141,13 +142,6 @@ class ActionServer(Requests, Waitable):
         """The action's class."""
         return self._action_type
 
-    def configure_introspection(
-        self, clock: Any, service_event_qos_profile: QoSProfile, introspection_state: ServiceIntrospectionState
-    ) -> None:
-        """Publish what the action's three services are asked and answer; OFF ends that (newer than Jazzy)."""
-        for service in self._services:
-            service.configure_introspection(clock, service_event_qos_profile, introspection_state)
-
     # -- callbacks -------------------------------------------------------------------------------------------------
 
     def register_handle_accepted_callback(
@@ -173,10 +167,6 @@ class ActionServer(Requests, Waitable):
         self._execute_callback = execute_callback
 
     # -- what comes in ---------------------------------------------------------------------------------------------
-
-    def is_ready(self, wait_set: Any) -> bool:
-        """Whether a request waits."""
-        return any(end.queue for end in self._requests.values())
 
     def take_data(self) -> dict[str, Any]:
         """Take one request of each kind."""
@@ -268,13 +258,6 @@ class ActionServer(Requests, Waitable):
 
     def _may_call_back(self) -> bool:
         return True
-
-    def get_num_entities(self) -> NumberOfEntities:
-        """Three services, and a timer in the real one."""
-        return NumberOfEntities(num_timers=1, num_services=3)
-
-    def add_to_wait_set(self, wait_set: Any) -> None:
-        """Nothing to do: an executor here is told when a request comes."""
 
     def __enter__(self) -> ActionServer:
         return self
