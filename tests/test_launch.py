@@ -245,7 +245,7 @@ plain = st.booleans() | st.integers() | st.floats(allow_nan=False) | st.text()
 
 @given(plain | st.lists(st.text(), min_size=1) | st.lists(st.floats(allow_nan=False), min_size=1))
 def test_yaml_reads_any_value_again_as_it_was(value: object) -> None:
-    from launch_ros._values import as_argument
+    from launch_ros.parameter_descriptions import as_argument
 
     again = yaml.safe_load(as_argument(value))
     assert again == value and type(again) is type(value)

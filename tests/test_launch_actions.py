@@ -232,11 +232,7 @@ def test_a_printed_line_is_heard_in_one_piece(tmp_path: Path, capsys: pytest.Cap
 def test_values_of_asked_for_types() -> None:
     from launch import LaunchContext
     from launch.substitutions import TextSubstitution
-    from launch.utilities.type_utils import (
-        get_typed_value,
-        normalize_typed_substitution,
-        perform_typed_substitution,
-    )
+    from launch.utilities import get_typed_value, normalize_typed_substitution, perform_typed_substitution
 
     assert get_typed_value("1.5", float) == 1.5
     assert get_typed_value("yes", None) is True

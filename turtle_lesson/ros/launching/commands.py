@@ -11,13 +11,13 @@ from collections.abc import Callable, Sequence
 from pathlib import Path, PurePath
 from typing import Any
 
-from launch.actions.execute_local import Program
+from launch.actions._processes import Program
 
 from ..core.process import INTERRUPTED
 from ..core.tracebacks import shown_path
-from ..workspace.absent import why_not_here
-from ..workspace.current import current_packages
+from ..workspace.catalog import why_not_here
 from ..workspace.errors import ExecutableNotFoundError, NotHereError, PackageNotFoundError
+from ..workspace.index import current_packages
 
 SHELLS = {"bash", "sh", "dash", "zsh"}
 Main = Callable[[], int | None]

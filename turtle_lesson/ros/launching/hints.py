@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import importlib
 import inspect
 import re
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from ..core.tracebacks import shown_path
-from ..workspace import absent
+from ..workspace import catalog
 from ..workspace.errors import did_you_mean
 from ..workspace.index import is_launch_file
 
@@ -36,7 +37,7 @@ def _own_hint(error: BaseException) -> str:
 
 
 def _known(error: BaseException, given: list[str]) -> str:
-    from launch.actions.include_launch_description import MissingLaunchArgumentError
+    from launch.actions._groups import MissingLaunchArgumentError
 
     if isinstance(error, MissingLaunchArgumentError):
         return _missing_argument(error.argument, given)
@@ -45,7 +46,7 @@ def _known(error: BaseException, given: list[str]) -> str:
     if (
         isinstance(error, ModuleNotFoundError)
         and error.name
-        and (why := absent.why_not_here(error.name.partition(".")[0]))
+        and (why := catalog.why_not_here(error.name.partition(".")[0]))
     ):
         return f"{error.name} is not available here: {why}."
     if isinstance(error, SyntaxError):
@@ -60,8 +61,8 @@ def _known(error: BaseException, given: list[str]) -> str:
 
 def _missing_file(path: Path) -> str:
     """What there is instead of a file that is not there."""
-    if package := absent.package_of(path):
-        return f"{package} is not available here: {absent.why_not_here(package)}."
+    if package := catalog.package_of(path):
+        return f"{package} is not available here: {catalog.why_not_here(package)}."
     if path.is_dir():
         return "That is a folder; name the launch file in it."
     if not path.parent.is_dir():
@@ -95,29 +96,13 @@ def _undefined(match: re.Match[str]) -> str:
 
 def _importable() -> dict[str, list[str]]:
     """The public names of the modules that launch files import from."""
-    import ament_index_python.packages
-    import launch
-    import launch.actions
-    import launch.conditions
-    import launch.event_handlers
-    import launch.launch_description_sources
-    import launch.substitutions
-    import launch_ros.actions
-    import launch_ros.descriptions
-    import launch_ros.event_handlers
-    import launch_ros.events.lifecycle
-    import launch_ros.parameter_descriptions
-    import launch_ros.substitutions
-    import launch_xml.launch_description_sources
-    import launch_yaml.launch_description_sources
-
-    modules = [
-        launch_ros.actions, launch.actions, launch.substitutions, launch.conditions, launch.event_handlers,
-        launch.launch_description_sources, launch_ros.substitutions, ament_index_python.packages, launch,
-        launch_ros.parameter_descriptions, launch_ros.descriptions, launch_ros.event_handlers, launch.events,
-        launch_ros.events.lifecycle, launch_xml.launch_description_sources, launch_yaml.launch_description_sources,
-    ]  # fmt: skip
-    return {module.__name__: list(module.__all__) for module in modules}
+    names = (
+        "launch_ros.actions", "launch.actions", "launch.substitutions", "launch.conditions", "launch.event_handlers",
+        "launch.launch_description_sources", "launch_ros.substitutions", "ament_index_python.packages", "launch",
+        "launch_ros.parameter_descriptions", "launch_ros.descriptions", "launch_ros.event_handlers", "launch.events",
+        "launch_ros.events.lifecycle", "launch_xml.launch_description_sources", "launch_yaml.launch_description_sources",
+    )  # fmt: skip
+    return {name: list(importlib.import_module(name).__all__) for name in names}
 
 
 def _unexpected_keyword(match: re.Match[str]) -> str:

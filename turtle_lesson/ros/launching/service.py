@@ -12,14 +12,13 @@ from itertools import count
 from typing import TYPE_CHECKING
 
 from launch import Action, Event, LaunchContext, LaunchDescriptionEntity
+from launch._context import as_entities
 from launch.actions import EmitEvent
-from launch.event_handler import as_entities
-from launch.event_handlers.on_action_event_base import OnActionEventBase
+from launch.event_handlers import OnActionEventBase
 from launch.events import IncludeLaunchDescription, Shutdown
 
-from ..workspace.current import seeing
 from ..workspace.errors import NotHereError
-from ..workspace.index import LaunchedPackages
+from ..workspace.index import LaunchedPackages, seeing
 from .errors import LaunchError, place_of, reason_of
 from .hints import hint_for
 from .output import Screen

@@ -6,14 +6,14 @@ import os
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
-from ._missing import explain_missing
-from .some_types import SomeSubstitutionsType
-from .substitution import Substitution
+from ._entities import SomeSubstitutionsType, Substitution
+from ._package import explain_missing
 from .utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
-    from .action import Action
-    from .launch_context import LaunchContext
+    from ._context import LaunchContext
+    from ._entities import Action
+
 
 Environment = Mapping[SomeSubstitutionsType, SomeSubstitutionsType]
 

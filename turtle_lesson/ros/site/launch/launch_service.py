@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from .event import Event
+from ._context import Event, LaunchContext
+from ._entities import LaunchDescription
 from .events import IncludeLaunchDescription
-from .launch_context import LaunchContext
-from .launch_description import LaunchDescription
 
 if TYPE_CHECKING:
     from turtle_lesson.ros.launching.by_hand import LaunchByHand

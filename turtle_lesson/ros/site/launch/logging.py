@@ -6,7 +6,7 @@ import logging
 import os
 from pathlib import Path
 
-from ._missing import explain_missing
+from ._package import explain_missing
 
 
 class LaunchConfig:

@@ -1,17 +1,18 @@
-"""Descriptions of nodes and parameters."""
+"""Composable nodes, as launch files describe them."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from typing import Any
 
-from launch._missing import explain_missing
-from launch.some_types import SomeSubstitutionsType
+from launch._entities import SomeSubstitutionsType
+from launch._package import explain_missing
 from launch.utilities import normalize_to_list_of_substitutions
 
 from .parameter_descriptions import Parameter, ParameterFile, ParameterValue
 
 __all__ = ["ComposableLifecycleNode", "ComposableNode", "Parameter", "ParameterFile", "ParameterValue"]
+
 
 COMPOSABLE = "composable nodes are C++ libraries, and only Python nodes run here"
 

@@ -1,32 +1,25 @@
 """Actions: what a launch description can do."""
 
-from .._missing import explain_missing
-from .declare_launch_argument import DeclareLaunchArgument
-from .emit_event import EmitEvent
-from .environment import (
+from __future__ import annotations
+
+from .._package import explain_missing
+from ._configuration import (
     AppendEnvironmentVariable,
+    DeclareLaunchArgument,
     PopEnvironment,
-    PushEnvironment,
-    ResetEnvironment,
-    SetEnvironmentVariable,
-    UnsetEnvironmentVariable,
-)
-from .execute_local import ExecuteLocal
-from .execute_process import ExecuteProcess
-from .group_action import GroupAction
-from .include_launch_description import IncludeLaunchDescription
-from .launch_configurations import (
     PopLaunchConfigurations,
+    PushEnvironment,
     PushLaunchConfigurations,
+    ResetEnvironment,
     ResetLaunchConfigurations,
+    SetEnvironmentVariable,
     SetLaunchConfiguration,
+    UnsetEnvironmentVariable,
     UnsetLaunchConfiguration,
 )
-from .log import Log, LogDebug, LogError, LogInfo, LogWarning
-from .opaque_function import OpaqueFunction
-from .register_event_handler import RegisterEventHandler
-from .shutdown_action import Shutdown
-from .timer_action import TimerAction
+from ._events import EmitEvent, Log, LogDebug, LogError, LogInfo, LogWarning, RegisterEventHandler, Shutdown
+from ._groups import GroupAction, IncludeLaunchDescription, OpaqueFunction, TimerAction
+from ._processes import ExecuteLocal, ExecuteProcess
 
 __all__ = [
     "AppendEnvironmentVariable",
@@ -56,6 +49,7 @@ __all__ = [
     "UnsetEnvironmentVariable",
     "UnsetLaunchConfiguration",
 ]
+
 
 __getattr__ = explain_missing(
     __name__,

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from .._missing import explain_missing
-from ..event import Event
-from . import process
-from .include_launch_description import IncludeLaunchDescription
-from .matchers import matches_action
+from .._context import Event
+from .._package import explain_missing
 
 if TYPE_CHECKING:
-    from ..action import Action
+    from .._entities import Action, LaunchDescription
     from ..actions import TimerAction
 
 __all__ = ["ExecutionComplete", "IncludeLaunchDescription", "Shutdown", "TimerEvent", "matches_action", "process"]
@@ -43,6 +41,25 @@ class ExecutionComplete(Event):
 
     def __init__(self, *, action: Action) -> None:
         self.action = action
+
+
+class IncludeLaunchDescription(Event):
+    """A description is to be taken in."""
+
+    name = "launch.events.IncludeLaunchDescription"
+
+    def __init__(self, launch_description: LaunchDescription) -> None:
+        self.__launch_description = launch_description
+
+    @property
+    def launch_description(self) -> LaunchDescription:
+        """The description."""
+        return self.__launch_description
+
+
+def matches_action(action: Action) -> Callable[[Action], bool]:
+    """Matches this very action."""
+    return lambda other: other is action
 
 
 __getattr__ = explain_missing(__name__, {})

@@ -1,23 +1,27 @@
 """Substitutions: text that is known only when the launch runs."""
 
-from .._missing import explain_missing
-from .anon_name import AnonName
-from .boolean_substitution import (
+from __future__ import annotations
+
+from .._package import explain_missing
+from ._logic import (
     AndSubstitution,
+    EqualsSubstitution,
+    IfElseSubstitution,
+    NotEqualsSubstitution,
     NotSubstitution,
     OrSubstitution,
 )
-from .command import Command
-from .environment_variable import EnvironmentVariable
-from .equals_substitution import EqualsSubstitution, IfElseSubstitution, NotEqualsSubstitution
-from .find_executable import FindExecutable
-from .launch_configuration import LaunchConfiguration
-from .local_substitution import LocalSubstitution
-from .path_join_substitution import PathJoinSubstitution, PathSubstitution
-from .python_expression import PythonExpression
-from .substitution_failure import SubstitutionFailure
-from .text_substitution import TextSubstitution
-from .this_launch_file import ThisLaunchFile, ThisLaunchFileDir
+from ._texts import Command, FindExecutable, PathJoinSubstitution, PathSubstitution, TextSubstitution
+from ._values import (
+    AnonName,
+    EnvironmentVariable,
+    LaunchConfiguration,
+    LocalSubstitution,
+    PythonExpression,
+    SubstitutionFailure,
+    ThisLaunchFile,
+    ThisLaunchFileDir,
+)
 
 __all__ = [
     "AndSubstitution",
@@ -40,6 +44,7 @@ __all__ = [
     "ThisLaunchFile",
     "ThisLaunchFileDir",
 ]
+
 
 __getattr__ = explain_missing(
     __name__,

@@ -1,13 +1,21 @@
 """Actions that start ROS nodes and decide how."""
 
-from launch._missing import explain_missing
+from __future__ import annotations
 
-from .composable import ComposableNodeContainer, LoadComposableNodes
-from .lifecycle_node import LifecycleNode
-from .node import Node
-from .push_ros_namespace import PushROSNamespace, PushRosNamespace
-from .ros_timer import ROSTimer, RosTimer
-from .set_parameter import SetParameter, SetParametersFromFile, SetRemap, SetUseSimTime
+from launch._package import explain_missing
+
+from .._lifecycle import LifecycleNode
+from ._nodes import ComposableNodeContainer, LoadComposableNodes, Node
+from ._settings import (
+    PushROSNamespace,
+    PushRosNamespace,
+    ROSTimer,
+    RosTimer,
+    SetParameter,
+    SetParametersFromFile,
+    SetRemap,
+    SetUseSimTime,
+)
 
 __all__ = [
     "ComposableNodeContainer",
@@ -23,6 +31,7 @@ __all__ = [
     "SetRemap",
     "SetUseSimTime",
 ]
+
 
 __getattr__ = explain_missing(
     __name__,

@@ -1,0 +1,236 @@
+"""What a launch description is made of: entities, actions, conditions and substitutions, and the description itself."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any, Union
+
+from turtle_lesson.ros.core.tracebacks import is_ours
+
+from . import logging
+
+if TYPE_CHECKING:
+    from ._context import LaunchContext
+    from .actions import DeclareLaunchArgument, IncludeLaunchDescription
+    from .frontend import Entity, Parser
+
+    ArgumentWithIncludes = tuple[DeclareLaunchArgument, list[IncludeLaunchDescription] | None]
+
+
+class Substitution:
+    """Base of everything that stands for text in a launch description."""
+
+    def perform(self, context: LaunchContext) -> str:
+        """The text, in this context."""
+        raise NotImplementedError(f"{type(self).__name__} must define perform(self, context)")
+
+    def __repr__(self) -> str:
+        return self.describe()
+
+    def describe(self) -> str:
+        """How `--show-args` shows it."""
+        return f"{type(self).__name__}()"
+
+
+SomeSubstitutionsType = str | Substitution | Iterable[str | Substitution]
+SomeSubstitutionsType_types_tuple = (str, Substitution, Iterable)
+SomeActionsType = Union["Action", Iterable["Action"]]
+SomeEntitiesType = Union["LaunchDescriptionEntity", Iterable["LaunchDescriptionEntity"]]
+
+
+class LaunchDescriptionEntity:
+    """Base of descriptions and actions. Visiting one gives the entities that are to be visited next."""
+
+    def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Do what it stands for; return further entities, or None."""
+        return None
+
+    def describe(self) -> str:
+        """A short text that names it."""
+        return repr(self)
+
+    def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
+        """The entities that it will give, as far as that is known beforehand."""
+        return []
+
+    def describe_conditional_sub_entities(
+        self,
+    ) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+        """The entities that it may give, each group with the condition in words."""
+        return []
+
+
+class Condition:
+    """Wraps a predicate of the context; no predicate always holds."""
+
+    def __init__(self, *, predicate: Callable[[LaunchContext], bool] | None = None) -> None:
+        self._predicate = predicate
+
+    def evaluate(self, context: LaunchContext) -> bool:
+        """Whether it holds now."""
+        return self._predicate(context) if self._predicate is not None else True
+
+
+Place = tuple[str, int]
+"""A file and a line in it, counted from 1."""
+
+
+def written_at() -> Place | None:
+    """The file and line of the innermost caller that is not part of the simulation's own code."""
+    frame = sys._getframe(1)
+    while frame is not None:
+        if not is_ours(frame.f_code.co_filename):
+            return frame.f_code.co_filename, frame.f_lineno
+        frame = frame.f_back  # type: ignore[assignment]
+    return None
+
+
+class Action(LaunchDescriptionEntity):
+    """Base of all actions. A subclass says in `execute` what it does."""
+
+    _completes_later = False
+
+    def __init__(self, *, condition: Condition | None = None) -> None:
+        self.__condition = condition
+        self._written_at = written_at()
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type, dict[str, Any]]:
+        """The class and its arguments for a tag of an XML or YAML file; here those that every action has.
+
+        Raises:
+            RuntimeError: if it has both `if` and `unless`.
+        """
+        from .conditions import IfCondition, UnlessCondition
+
+        if_text = entity.get_attr("if", optional=True)
+        unless_text = entity.get_attr("unless", optional=True)
+        if if_text is not None and unless_text is not None:
+            raise RuntimeError("if and unless conditions can't be used simultaneously")
+        if if_text is not None:
+            return cls, {"condition": IfCondition(parser.parse_substitution(if_text))}
+        if unless_text is not None:
+            return cls, {"condition": UnlessCondition(parser.parse_substitution(unless_text))}
+        return cls, {}
+
+    @property
+    def condition(self) -> Condition | None:
+        """The condition, or None."""
+        return self.__condition
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__module__}.{type(self).__qualname__} object>"
+
+    def describe(self) -> str:
+        """A short text that names it."""
+        return f"{type(self).__name__}()"
+
+    def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Carry it out if its condition holds."""
+        if self.__condition is not None and not self.__condition.evaluate(context):
+            return None
+        entities = self.execute(context)
+        if not self._completes_later:
+            self._complete(context)
+        return entities
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """What the action does; returns further entities to visit, or None."""
+        return None
+
+    def _complete(self, context: LaunchContext) -> None:
+        """Tell the waiting callers that the action is done."""
+        from .events import ExecutionComplete
+
+        event = ExecutionComplete(action=self)
+        if context.would_handle_event(event):
+            context.emit_event_sync(event)
+
+
+class LaunchDescription(LaunchDescriptionEntity):
+    """What a launch file's `generate_launch_description()` returns."""
+
+    def __init__(
+        self,
+        initial_entities: Iterable[LaunchDescriptionEntity] | None = None,
+        *,
+        deprecated_reason: str | None = None,
+    ) -> None:
+        self.__entities = list(initial_entities) if initial_entities is not None else []
+        self.__deprecated_reason = deprecated_reason
+
+    @property
+    def entities(self) -> list[LaunchDescriptionEntity]:
+        """Its entities, in order."""
+        return self.__entities
+
+    @property
+    def deprecated(self) -> bool:
+        """Whether its author says that it should not be used any more."""
+        return self.__deprecated_reason is not None
+
+    @property
+    def deprecated_reason(self) -> str | None:
+        """Why it should not be used any more, or None."""
+        return self.__deprecated_reason
+
+    def add_entity(self, entity: LaunchDescriptionEntity) -> None:
+        """Append an entity."""
+        self.__entities.append(entity)
+
+    def add_action(self, action: Action) -> None:
+        """Append an action."""
+        self.add_entity(action)
+
+    def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
+        """Its entities."""
+        return self.__entities
+
+    def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Give its entities."""
+        if self.__deprecated_reason is not None:
+            path = context.get_locals_as_dict().get("current_launch_file_path")
+            what = f"launch file [{path}] is deprecated" if path else "deprecated launch description"
+            logging.get_logger().warning(f"{what}: {self.__deprecated_reason}")
+        return self.__entities
+
+    def get_launch_arguments(self, conditional_inclusion: bool = False) -> list[DeclareLaunchArgument]:
+        """The arguments that it and what it includes declare."""
+        found = self.get_launch_arguments_with_include_launch_description_actions(conditional_inclusion)
+        return [argument for argument, _ in found]
+
+    def get_launch_arguments_with_include_launch_description_actions(
+        self, conditional_inclusion: bool = False
+    ) -> list[ArgumentWithIncludes]:
+        """Each declared argument, with the includes that lead to it (None at the top level)."""
+        found: dict[str, ArgumentWithIncludes] = {}
+        _collect(self.entities, conditional_inclusion, None, found)
+        return list(found.values())
+
+
+def _collect(
+    entities: Iterable[LaunchDescriptionEntity],
+    conditional: bool,
+    includes: list[IncludeLaunchDescription] | None,
+    found: dict[str, ArgumentWithIncludes],
+) -> None:
+    """Add the arguments declared in `entities` to `found`; the first declaration of a name counts."""
+    from .actions import DeclareLaunchArgument, IncludeLaunchDescription, ResetLaunchConfigurations
+
+    for entity in entities:
+        if isinstance(entity, ResetLaunchConfigurations):
+            return  # from here on, arguments given from outside are not seen any more
+        if isinstance(entity, DeclareLaunchArgument) and entity.name not in found:
+            entity._conditionally_included = conditional or entity.condition is not None
+            found[entity.name] = (entity, includes)
+        inner = includes
+        below = entity.describe_sub_entities()
+        if isinstance(entity, IncludeLaunchDescription):
+            location = entity.launch_description_source.location
+            if location in [outer.launch_description_source.location for outer in includes or []]:
+                continue  # a file that includes itself takes no other arguments within itself
+            inner = [*(includes or []), entity]
+        _collect(below, conditional, inner, found)
+        for _, group in entity.describe_conditional_sub_entities():
+            _collect(group, True, inner, found)

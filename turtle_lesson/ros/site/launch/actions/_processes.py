@@ -1,0 +1,287 @@
+"""Actions that run programs: `ExecuteLocal` and `ExecuteProcess`."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import PurePath
+from typing import Any
+
+from .._context import LaunchContext
+from .._entities import Action, LaunchDescriptionEntity, SomeEntitiesType, SomeSubstitutionsType, Substitution
+from ..conditions import evaluate_condition_expression
+from ..descriptions import Environment, Executable
+from ..event_handlers import OnProcessExit
+from ..events.process import ProcessExited
+from ..frontend import Entity, Parser, expose_action
+from ..substitutions import LaunchConfiguration, TextSubstitution
+from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+OnExit = SomeEntitiesType | Callable[[ProcessExited, LaunchContext], SomeEntitiesType | None] | None
+
+SCREEN = {
+    "screen": {"stdout", "stderr"},
+    "both": {"stdout", "stderr"},
+    "full": {"stdout", "stderr"},
+    "log": {"stderr"},
+    "own_log": set(),
+    "none": set(),
+}
+"""What of a process's output reaches the screen, for each value of `output`."""
+
+
+@dataclass(frozen=True)
+class Program:
+    """What is to be run: a file or a `main()`, its arguments, and how the command reads on a robot."""
+
+    target: Any
+    argv: list[str]
+    shown: str
+
+
+class ExecuteLocal(Action):
+    """Base of the actions that run a program: here a node, a `ros2` command or a Python file."""
+
+    _completes_later = True
+
+    def __init__(
+        self,
+        *,
+        process_description: Executable,
+        shell: bool = False,
+        sigterm_timeout: SomeSubstitutionsType = LaunchConfiguration("sigterm_timeout", default=5),  # noqa: B008
+        sigkill_timeout: SomeSubstitutionsType = LaunchConfiguration("sigkill_timeout", default=5),  # noqa: B008
+        emulate_tty: bool = False,
+        output: SomeSubstitutionsType | Mapping[str, str | Iterable[str]] = "log",
+        output_format: str = "[{this.process_description.final_name}] {line}",
+        cached_output: bool = False,
+        log_cmd: bool = False,
+        on_exit: OnExit = None,
+        respawn: bool | SomeSubstitutionsType = False,
+        respawn_delay: float | None = None,
+        respawn_max_retries: int = -1,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self.__process_description = process_description
+        self.__shell = shell
+        self.sigterm_timeout = normalize_to_list_of_substitutions(sigterm_timeout)
+        self.sigkill_timeout = normalize_to_list_of_substitutions(sigkill_timeout)
+        self.emulate_tty = emulate_tty
+        self.__output = output if isinstance(output, Mapping) else normalize_to_list_of_substitutions(output)
+        self.output_format = output_format
+        self.__on_exit = on_exit
+        self.__respawn = normalize_to_list_of_substitutions(str(respawn) if isinstance(respawn, bool) else respawn)
+        self.respawn_delay = respawn_delay
+        self.respawn_max_retries = respawn_max_retries
+        self.process_details: dict[str, Any] | None = None
+        self.return_code: int | None = None
+        self.prefix_left_out = ""
+        self._program: Program | None = None
+        self._respawns = False
+        self._on_screen: set[str] = set()
+
+    @property
+    def process_description(self) -> Executable:
+        """The command."""
+        return self.__process_description
+
+    @property
+    def output(self) -> Mapping[str, str | Iterable[str]] | list[Substitution]:
+        """Where its output goes."""
+        return self.__output
+
+    @property
+    def shell(self) -> bool:
+        """Whether the command is one for a shell."""
+        return self.__shell
+
+    def prepare(self, context: LaunchContext) -> None:
+        """Make everything text that was not yet."""
+        self.prefix_left_out = self._program_before_it(context)
+        self.process_description.prepare(context, self)
+        self._program = self._find_program(context)
+        self._respawns = evaluate_condition_expression(context, self.__respawn)
+        self._on_screen = _on_screen(context, self._chosen_output(context))
+        self.process_details = {
+            "action": self,
+            "name": self.process_description.final_name,
+            "cmd": self._program.argv,
+            "cwd": self.process_description.final_cwd,
+            "env": self.process_description.final_env,
+        }
+
+    def _chosen_output(self, context: LaunchContext) -> Any:
+        """What `output` says, unless `ros2 launch -a` or an environment variable says it for all."""
+        override = context._output_override or context.environment.get("OVERRIDE_LAUNCH_PROCESS_OUTPUT")
+        return [TextSubstitution(text=override)] if override else self.__output
+
+    def _program_before_it(self, context: LaunchContext) -> str:
+        """The name of the program that `prefix` puts before it, such as a terminal or a debugger; '' without one."""
+        if not self.process_description.prefix:
+            return ""
+        words = perform_substitutions(context, self.process_description.prefix).split()
+        return PurePath(words[0]).name if words else ""
+
+    def _find_program(self, context: LaunchContext) -> Program:
+        """What to run: a command of the simulation, unless a subclass knows better.
+
+        Raises:
+            UnknownCommand: if there is none of this name here.
+        """
+        from turtle_lesson.ros.launching.commands import program
+
+        return program(self.process_description.final_cmd, shell=self.shell)
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Have the process started."""
+        self.prepare(context)
+        if context.is_shutdown or context._host is None:
+            return None
+        if self.__on_exit is not None:
+            context.register_event_handler(OnProcessExit(target_action=self, on_exit=self.__on_exit))
+        context._host.start_process(self)
+        return None
+
+    def describe_conditional_sub_entities(
+        self,
+    ) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+        """What it gives when its process ends."""
+        if self.__on_exit is None or callable(self.__on_exit):
+            return []
+        return [OnProcessExit(target_action=self, on_exit=self.__on_exit).describe()]
+
+
+def _on_screen(context: LaunchContext, output: Any) -> set[str]:
+    """Which of `stdout` and `stderr` reach the screen.
+
+    Raises:
+        ValueError: for a value of `output` that launch does not know.
+    """
+    if isinstance(output, Mapping):
+        return {stream for name, where in output.items() for stream in _streams(name, where)}
+    value = perform_substitutions(context, output)
+    if value not in SCREEN:
+        raise ValueError(f'{value} is not a valid standard output config i.e. "screen", "log" or "both"')
+    return SCREEN[value]
+
+
+def _streams(name: str, where: str | Iterable[str]) -> set[str]:
+    if name not in {"stdout", "stderr", "both"}:
+        raise ValueError(f'{name} is not a valid output source i.e. "stdout", "stderr" or "both"')
+    if "screen" not in ({where} if isinstance(where, str) else set(where)):
+        return set()
+    return {"stdout", "stderr"} if name == "both" else {name}
+
+
+def words_in(pieces: Iterable[Substitution]) -> list[list[Substitution]]:
+    """The words of a text; a substitution belongs to the text that it touches, and is never taken apart."""
+    words: list[list[Substitution]] = []
+    word: list[Substitution] = []
+    for piece in pieces:
+        if not isinstance(piece, TextSubstitution):
+            word.append(piece)
+            continue
+        text = piece.text
+        if text[:1].isspace() and word:
+            words.append(word)
+            word = []
+        for number, token in enumerate(shlex.split(text)):
+            if number > 0:
+                words.append(word)
+                word = []
+            word.append(TextSubstitution(text=token))
+        if text[-1:].isspace() and word:
+            words.append(word)
+            word = []
+    return [*words, word] if word else words
+
+
+_TEXTS = {
+    "cwd": "cwd",
+    "name": "name",
+    "prefix": "launch-prefix",
+    "output": "output",
+    "sigkill_timeout": "sigkill_timeout",
+    "sigterm_timeout": "sigterm_timeout",
+}
+"""Arguments that are text, and what they are called in XML and YAML."""
+
+_TYPED: dict[str, tuple[type, bool]] = {
+    "respawn": (bool, True),
+    "respawn_delay": (float, False),
+    "respawn_max_retries": (int, False),
+    "shell": (bool, False),
+    "emulate_tty": (bool, False),
+    "cached_output": (bool, False),
+    "log_cmd": (bool, False),
+}
+"""Arguments of other types, and whether a substitution may stand for them."""
+
+
+@expose_action("executable")
+class ExecuteProcess(ExecuteLocal):
+    """Runs the words of a command."""
+
+    def __init__(
+        self,
+        *,
+        cmd: Iterable[SomeSubstitutionsType],
+        prefix: SomeSubstitutionsType | None = None,
+        name: SomeSubstitutionsType | None = None,
+        cwd: SomeSubstitutionsType | None = None,
+        env: Environment | None = None,
+        additional_env: Environment | None = None,
+        **kwargs: Any,
+    ) -> None:
+        executable = Executable(cmd=cmd, prefix=prefix, name=name, cwd=cwd, env=env, additional_env=additional_env)
+        super().__init__(process_description=executable, **kwargs)
+
+    @classmethod
+    def _parse_cmdline(cls, cmd: str, parser: Parser) -> list[list[Substitution]]:
+        """The words of a command that is written as one text."""
+        return words_in(parser.parse_substitution(cmd))
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser, ignore: list[str] | None = None) -> tuple[type, dict[str, Any]]:
+        """Its arguments from the attributes of a tag, without those whose names are in `ignore`."""
+        _, kwargs = super().parse(entity, parser)
+        ignore = ignore or []
+        if "cmd" not in ignore:
+            kwargs["cmd"] = cls._parse_cmdline(entity.get_attr("cmd"), parser)
+        for name, attribute in _TEXTS.items():
+            value = None if name in ignore else entity.get_attr(attribute, optional=True)
+            if value is not None:
+                kwargs[name] = parser.parse_substitution(value)
+        for name, (kind, can_be_str) in _TYPED.items():
+            value = (
+                None if name in ignore else entity.get_attr(name, data_type=kind, optional=True, can_be_str=can_be_str)
+            )
+            if value is not None:
+                kwargs[name] = parser.parse_if_substitutions(value)
+        if (delay := kwargs.get("respawn_delay")) is not None and delay < 0.0:
+            raise ValueError(
+                f"Attribute respawn_delay of Entity node expected to be a non-negative value but got `{delay}`"
+            )
+        variables = [] if "env" in ignore else entity.get_attr("env", data_type=list[Entity], optional=True)
+        if variables:
+            kwargs["additional_env"] = dict(_variable(variable, parser) for variable in variables)
+        return cls, kwargs
+
+    @property
+    def cmd(self) -> list[list[Substitution]] | list[str]:
+        """The command's words; text once it is being run."""
+        return self.process_description.final_cmd or self.process_description.cmd
+
+    @property
+    def name(self) -> str | list[Substitution] | None:
+        """The process's name; text once it is being run."""
+        return self.process_description.final_name or self.process_description.name
+
+
+def _variable(entity: Entity, parser: Parser) -> tuple[tuple[Substitution, ...], list[Substitution]]:
+    name = tuple(parser.parse_substitution(entity.get_attr("name")))
+    value = parser.parse_substitution(entity.get_attr("value"))
+    entity.assert_entity_completely_parsed()
+    return name, value

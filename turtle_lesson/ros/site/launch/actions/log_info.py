@@ -1,5 +1,0 @@
-"""`LogInfo` under its real module's name."""
-
-from .log import LogInfo
-
-__all__ = ["LogInfo"]

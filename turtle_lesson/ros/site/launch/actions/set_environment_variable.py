@@ -1,5 +1,0 @@
-"""`SetEnvironmentVariable` under its real module's name."""
-
-from .environment import SetEnvironmentVariable
-
-__all__ = ["SetEnvironmentVariable"]

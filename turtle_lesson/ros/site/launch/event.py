@@ -1,7 +1,0 @@
-"""`Event`: something that happened."""
-
-
-class Event:
-    """Base of all events."""
-
-    name = "launch.Event"

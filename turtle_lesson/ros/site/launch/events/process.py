@@ -1,0 +1,129 @@
+"""Events about single processes."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from .._context import Event
+from .._package import explain_missing
+
+if TYPE_CHECKING:
+    from ..actions import ExecuteLocal
+
+__all__ = [
+    "ProcessExited",
+    "ProcessIO",
+    "ProcessStarted",
+    "ProcessStderr",
+    "ProcessStdout",
+    "ProcessTargetedEvent",
+    "RunningProcessEvent",
+    "ShutdownProcess",
+    "SignalProcess",
+]
+
+
+class RunningProcessEvent(Event):
+    """Something about a process: its action, name (`navigator-1`), command, number."""
+
+    name = "launch.events.process.RunningProcessEvent"
+
+    def __init__(
+        self,
+        *,
+        action: ExecuteLocal,
+        name: str,
+        cmd: list[str],
+        cwd: str | None = None,
+        env: dict[str, str] | None = None,
+        pid: int = 0,
+        **kwargs: Any,
+    ) -> None:
+        self.action = action
+        self.execute_process_action = action
+        self.process_name = name
+        self.cmd = cmd
+        self.cwd = cwd
+        self.env = env
+        self.pid = pid
+
+
+class ProcessStarted(RunningProcessEvent):
+    """A process has been started."""
+
+    name = "launch.events.process.ProcessStarted"
+
+
+class ProcessExited(RunningProcessEvent):
+    """A process has ended, with an exit code."""
+
+    name = "launch.events.process.ProcessExited"
+
+    def __init__(self, *, returncode: int, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.returncode = returncode
+
+
+class ProcessIO(RunningProcessEvent):
+    """A process has printed something; `text` is bytes, as in the real one."""
+
+    name = "launch.events.process.ProcessIO"
+
+    def __init__(self, *, text: bytes, fd: int, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.text = text
+        self.from_stdin = fd == 0
+        self.from_stdout = fd == 1
+        self.from_stderr = fd == 2
+
+
+class ProcessStdout(ProcessIO):
+    """A process has printed to its standard output."""
+
+    name = "launch.events.process.ProcessStdout"
+
+    def __init__(self, *, text: bytes, **kwargs: Any) -> None:
+        super().__init__(text=text, fd=1, **kwargs)
+
+
+class ProcessStderr(ProcessIO):
+    """A process has printed to its standard error."""
+
+    name = "launch.events.process.ProcessStderr"
+
+    def __init__(self, *, text: bytes, **kwargs: Any) -> None:
+        super().__init__(text=text, fd=2, **kwargs)
+
+
+class ProcessTargetedEvent(Event):
+    """Something that is to be done to the processes that match."""
+
+    name = "launch.events.process.ProcessTargetedEvent"
+
+    def __init__(self, *, process_matcher: Callable[[Any], bool]) -> None:
+        self.process_matcher = process_matcher
+
+
+class ShutdownProcess(ProcessTargetedEvent):
+    """The processes that match are to end, first politely."""
+
+    name = "launch.events.process.ShutdownProcess"
+
+
+class SignalProcess(ProcessTargetedEvent):
+    """A signal is to be sent to the processes that match."""
+
+    name = "launch.events.process.SignalProcess"
+
+    def __init__(self, *, signal_number: str | int | signal.Signals, process_matcher: Callable[[Any], bool]) -> None:
+        super().__init__(process_matcher=process_matcher)
+        if isinstance(signal_number, str):
+            self.signal_name = signal_number if signal_number.startswith("SIG") else f"SIG{signal_number}"
+        else:
+            self.signal_name = signal.Signals(signal_number).name
+        self.signal = getattr(signal, self.signal_name, None)
+
+
+__getattr__ = explain_missing(__name__, {"ProcessStdin": "processes here read no standard input"})

@@ -1,0 +1,359 @@
+"""`Node`, which starts a ROS node, and the actions of composable nodes, which a launch leaves out."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, NoReturn
+
+from launch import Action, LaunchContext, LaunchDescriptionEntity, logging
+from launch._entities import SomeSubstitutionsType, Substitution
+from launch.actions import ExecuteProcess
+from launch.actions._processes import Program
+from launch.frontend import Entity, Parser, expose_action
+from launch.substitutions import SubstitutionFailure
+from launch.utilities import ensure_argument_type, normalize_to_list_of_substitutions, perform_substitutions
+
+from turtle_lesson.ros.core.tracebacks import shown_path
+from turtle_lesson.ros.workspace.errors import NotHereError
+
+from ..descriptions import COMPOSABLE, ComposableNode
+from ..parameter_descriptions import (
+    Parameter,
+    ParameterFile,
+    as_argument,
+    file_for_this_launch,
+    nested_parameters,
+    parameters_in,
+    remap_rules,
+)
+from ..substitutions import ExecutableInPackage
+
+
+def in_namespace(context: LaunchContext, namespace: str | None) -> str | None:
+    """A node's full namespace: its own, within what was pushed; None if there is neither."""
+    pushed = context.launch_configurations.get("ros_namespace")
+    if namespace is None:
+        return pushed
+    if namespace.startswith("/") or pushed is None:
+        return absolute(namespace)
+    return absolute(f"{pushed.rstrip('/')}/{namespace}") if namespace else pushed
+
+
+def absolute(namespace: str) -> str:
+    """The same namespace beginning with a slash and not ending with one."""
+    return "/" + namespace.strip("/")
+
+
+def check_namespace(namespace: str) -> None:
+    """Raise rclpy's InvalidNamespaceException unless it is a good one."""
+    from rclpy.validate_namespace import validate_namespace
+
+    validate_namespace(namespace)
+
+
+def check_node_name(name: str) -> None:
+    """Raise rclpy's InvalidNodeNameException unless it is a good one."""
+    from rclpy.validate_node_name import validate_node_name
+
+    validate_node_name(name)
+
+
+Remapping = tuple[SomeSubstitutionsType, SomeSubstitutionsType]
+_FITS_A_RULE = re.compile(r"[A-Za-z_]\w*(\.\w+)*", re.ASCII)
+
+
+@expose_action("node")
+class Node(ExecuteProcess):
+    """Starts an executable of a package, with its name, namespace, parameters and remappings.
+
+    Args:
+        executable: the program; without a package, the path of a Python file.
+        package: the package that has it.
+        name: the node's name, or None for the one that the program chooses.
+        namespace: its namespace; a relative one goes within what PushRosNamespace set.
+        exec_name: what the process is called in the output; the executable's name if it is not given.
+        parameters: a list of dictionaries, paths of YAML files, or both; a later one counts more.
+        remappings: pairs of names, from and to.
+        ros_arguments: further words behind `--ros-args`.
+        arguments: further words before it, for the program itself.
+    """
+
+    def __init__(
+        self,
+        *,
+        executable: SomeSubstitutionsType,
+        package: SomeSubstitutionsType | None = None,
+        name: SomeSubstitutionsType | None = None,
+        namespace: SomeSubstitutionsType | None = None,
+        exec_name: SomeSubstitutionsType | None = None,
+        parameters: Sequence[Any] | None = None,
+        remappings: Iterable[Remapping] | None = None,
+        ros_arguments: Iterable[SomeSubstitutionsType] | None = None,
+        arguments: Iterable[SomeSubstitutionsType] | None = None,
+        **kwargs: Any,
+    ) -> None:
+        if parameters is not None:
+            ensure_argument_type(parameters, list, "parameters", "Node")
+        self.__in_package = None if package is None else ExecutableInPackage(executable, package)
+        program: SomeSubstitutionsType = executable if self.__in_package is None else self.__in_package
+        words = [
+            program,
+            *_words(arguments, "arguments"),
+            "--ros-args",
+            *_words(ros_arguments, "ros_arguments"),
+        ]
+        super().__init__(cmd=words, name=exec_name, **kwargs)
+        self.__package = package
+        self.__executable = executable
+        self.__node_name = name
+        self.__namespace = namespace
+        self.__parameters = [] if parameters is None else list(parameters)
+        self.__remappings = _pairs(remappings)
+        self.expanded_node_name = "<node_name_unspecified>"
+        self.expanded_node_namespace = "<node_namespace_unspecified>"
+        self.expanded_remapping_rules: list[tuple[str, str]] = []
+        self._ros_words: list[str] = []
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser, ignore: list[str] | None = None) -> tuple[type, dict[str, Any]]:
+        """Its arguments from the attributes of a tag and from nested `param`, `remap` and `env` tags."""
+        _, kwargs = super().parse(entity, parser, ignore=[*(ignore or []), "cmd"])
+        for name, attribute in {"arguments": "args", "ros_arguments": "ros_args"}.items():
+            text = entity.get_attr(attribute, optional=True)
+            if text is not None:
+                kwargs[name] = cls._parse_cmdline(text, parser)
+        kwargs["executable"] = parser.parse_substitution(entity.get_attr("exec"))
+        for name, attribute in {"package": "pkg", "namespace": "namespace", "exec_name": "exec_name"}.items():
+            text = entity.get_attr(attribute, optional=True)
+            if text is not None:
+                kwargs[name] = parser.parse_substitution(text)
+        remaps = entity.get_attr("remap", data_type=list[Entity], optional=True)
+        if remaps is not None:
+            kwargs["remappings"] = remap_rules(remaps, parser)
+        parameters = entity.get_attr("param", data_type=list[Entity], optional=True)
+        if parameters is not None:
+            kwargs["parameters"] = nested_parameters(parameters, parser)
+        return cls, kwargs
+
+    UNSPECIFIED_NODE_NAME = "<node_name_unspecified>"
+    UNSPECIFIED_NODE_NAMESPACE = "<node_namespace_unspecified>"
+
+    def is_node_name_fully_specified(self) -> bool:
+        """Whether the launch file has decided name and namespace; known when the node has been started."""
+        return (
+            self.UNSPECIFIED_NODE_NAME not in self.node_name and self.UNSPECIFIED_NODE_NAMESPACE not in self.node_name
+        )
+
+    @property
+    def node_package(self) -> SomeSubstitutionsType | None:
+        """The package, as it was given."""
+        return self.__package
+
+    @property
+    def node_executable(self) -> SomeSubstitutionsType:
+        """The executable, as it was given."""
+        return self.__executable
+
+    @property
+    def node_name(self) -> str:
+        """The node's full name, as far as the launch file decides it."""
+        return f"{self.expanded_node_namespace.rstrip('/')}/{self.expanded_node_name}"
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Have the node started.
+
+        Raises:
+            NotHereError: if only a robot can start it; that is said before its parameters are looked at.
+        """
+        if self.__in_package is not None:
+            self.__in_package.target(context)
+        self._ros_words = [
+            *self._name_words(context),
+            *self._parameter_words(context),
+            *self._remapping_words(context),
+        ]
+        return super().execute(context)
+
+    def _name_words(self, context: LaunchContext) -> list[str]:
+        words = []
+        try:
+            if self.__node_name is not None:
+                self.expanded_node_name = _text(context, self.__node_name)
+                check_node_name(self.expanded_node_name)
+                words += ["-r", f"__node:={self.expanded_node_name}"]
+            own = None if self.__namespace is None else _text(context, self.__namespace)
+            namespace = in_namespace(context, own)
+            if namespace is not None:
+                self.expanded_node_namespace = namespace
+                check_namespace(namespace)
+                words += ["-r", f"__ns:={namespace}"]
+        except Exception:
+            what = f"package={self.__package}, executable={self.__executable}, name={self.__node_name}"
+            logging.get_logger("launch_ros.actions.node").error(
+                f"Error while expanding or validating node name or namespace for '{what}, "
+                f"namespace={self.__namespace}':"
+            )
+            raise
+        return words
+
+    def _parameter_words(self, context: LaunchContext) -> list[str]:
+        words = []
+        for entry in [*context.launch_configurations.get("global_params", []), *self.__parameters]:
+            if isinstance(entry, tuple):  # SetParametersFromFile for nodes of one name
+                if entry[0] == self.expanded_node_name:
+                    words += ["--params-file", str(_parameter_file(context, entry[1]))]
+            elif isinstance(entry, Mapping):
+                for name, value in parameters_in(context, entry):
+                    words += self._words_for(name, value)
+            elif isinstance(entry, Parameter):
+                words += self._words_for(*entry.evaluate(context))
+            else:
+                words += ["--params-file", str(_parameter_file(context, entry))]
+        return words
+
+    def _words_for(self, name: str, value: Any) -> list[str]:
+        """What gives a parameter: a rule that one can read, or for a name that none can hold, as `~speed`, a file."""
+        if _FITS_A_RULE.fullmatch(name):
+            return ["-p", f"{name}:={as_argument(value)}"]
+        import yaml
+
+        text = yaml.safe_dump({"/**": {"ros__parameters": {name: value}}}, allow_unicode=True)
+        return ["--params-file", str(file_for_this_launch(self, "parameter.yaml", text))]
+
+    def _remapping_words(self, context: LaunchContext) -> list[str]:
+        own = [(_text(context, source), _text(context, target)) for source, target in self.__remappings]
+        self.expanded_remapping_rules = [*context.launch_configurations.get("ros_remaps", []), *own]
+        return [word for source, target in self.expanded_remapping_rules for word in ("-r", f"{source}:={target}")]
+
+    def _find_program(self, context: LaunchContext) -> Program:
+        argv = [*self.process_description.final_cmd, *self._ros_words]
+        shown = " ".join([shown_path(argv[0]), *[_shown_word(word) for word in argv[1:] if word.strip()]])
+        if self.__in_package is not None:
+            return Program(self.__in_package.target(context), argv, shown)
+        path = Path(argv[0])
+        if not path.is_file():
+            hint = "Did you leave package='…' out?"
+            raise SubstitutionFailure(f"executable '{argv[0]}' is not a file", hint)
+        return Program(path.resolve(), argv, shown)
+
+
+def _shown_word(word: str) -> str:
+    """A word as it is printed: a file made for this launch lies elsewhere in every run."""
+    return re.sub(r".*/launch_params_\w+/", "launch_params/", word)
+
+
+def _text(context: LaunchContext, text: SomeSubstitutionsType) -> str:
+    return perform_substitutions(context, normalize_to_list_of_substitutions(text))
+
+
+def _words(words: Iterable[SomeSubstitutionsType] | None, name: str) -> list[SomeSubstitutionsType]:
+    if isinstance(words, str | Substitution):
+        raise TypeError(f"Node expected a list for '{name}', got {words!r}; write {name}=[{words!r}]")
+    return list(words or [])
+
+
+def _pairs(remappings: Iterable[Remapping] | None) -> list[Remapping]:
+    pairs = list(remappings or [])
+    for pair in pairs:
+        if isinstance(pair, str) or not isinstance(pair, Sequence) or len(pair) != 2:
+            raise TypeError(
+                f"Node expected 'remappings' to be a list of pairs, got {pair!r} in it; "
+                "write remappings=[('/from', '/to')]"
+            )
+    return pairs
+
+
+def _parameter_file(context: LaunchContext, entry: Any) -> Path:
+    if isinstance(entry, os.PathLike):
+        entry = os.fspath(entry)
+    file = entry if isinstance(entry, ParameterFile) else ParameterFile(entry)
+    path = file.evaluate(context)
+    if not path.is_file():
+        text = f"Parameter file path is not a file: {shown_path(str(path))}"
+        logging.get_logger("launch_ros.actions.node").warning(text)
+    return path
+
+
+@expose_action("node_container")
+class ComposableNodeContainer(Node):
+    """A process that loads C++ nodes; a launch leaves it out."""
+
+    def __init__(
+        self,
+        *,
+        name: SomeSubstitutionsType,
+        namespace: SomeSubstitutionsType,
+        composable_node_descriptions: Iterable[ComposableNode] | None = None,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(name=name, namespace=namespace, **kwargs)
+        self.composable_node_descriptions = list(composable_node_descriptions or [])
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser, ignore: list[str] | None = None) -> tuple[type, dict[str, Any]]:
+        """Its arguments: a node's, and nested `composable_node` tags."""
+        _, kwargs = super().parse(entity, parser, ignore)
+        return cls, kwargs | {"composable_node_descriptions": _nested(entity, parser)}
+
+    def execute(self, context: LaunchContext) -> NoReturn:
+        """Have it left out.
+
+        Raises:
+            NotHereError: always.
+        """
+        raise NotHereError("ComposableNodeContainer", COMPOSABLE)
+
+
+@expose_action("load_composable_node")
+class LoadComposableNodes(Action):
+    """Loads C++ nodes into a container; a launch leaves it out."""
+
+    def __init__(
+        self,
+        *,
+        composable_node_descriptions: Iterable[ComposableNode],
+        target_container: SomeSubstitutionsType | ComposableNodeContainer,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self.composable_node_descriptions = list(composable_node_descriptions)
+        self.target_container = target_container
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type, dict[str, Any]]:
+        """Its arguments: `target`, and nested `composable_node` tags."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["target_container"] = parser.parse_substitution(entity.get_attr("target"))
+        return cls, kwargs | {"composable_node_descriptions": _nested(entity, parser)}
+
+    def execute(self, context: LaunchContext) -> NoReturn:
+        """Have it left out.
+
+        Raises:
+            NotHereError: always.
+        """
+        raise NotHereError("LoadComposableNodes", COMPOSABLE)
+
+
+def _nested(entity: Entity, parser: Parser) -> list[ComposableNode]:
+    """The C++ nodes of `composable_node` tags."""
+    nodes = []
+    for tag in _tags(entity, "composable_node"):
+        texts = {"package": "pkg", "plugin": "plugin", "name": "name", "namespace": "namespace"}
+        given = {name: tag.get_attr(attribute, optional=True) for name, attribute in texts.items()}
+        for conditions in ("if", "unless"):
+            tag.get_attr(conditions, optional=True)
+        kwargs: dict[str, Any] = {k: parser.parse_substitution(v) for k, v in given.items() if v is not None}
+        kwargs["parameters"] = nested_parameters(_tags(tag, "param"), parser)
+        kwargs["remappings"] = remap_rules(_tags(tag, "remap"), parser)
+        kwargs["extra_arguments"] = nested_parameters(_tags(tag, "extra_arg"), parser)
+        tag.assert_entity_completely_parsed()
+        nodes.append(ComposableNode(**kwargs))
+    return nodes
+
+
+def _tags(entity: Entity, name: str) -> list[Entity]:
+    return entity.get_attr(name, data_type=list[Entity], optional=True) or []
