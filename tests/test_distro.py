@@ -41,8 +41,6 @@ from turtle_lesson.ros.distro import (
 from turtle_lesson.ros.world import World, open_world
 
 HERE = Path(__file__).parent
-KNOWN_HASH = "df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
-"""Of std_msgs/msg/String, as ROS 2 publishes it."""
 
 
 @pytest.fixture

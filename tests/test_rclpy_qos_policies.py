@@ -181,32 +181,6 @@ def test_what_stands_for_no_policy_makes_no_publisher(world: World, policies: di
     assert node.count_publishers("x") == node.count_subscribers("x") == 0
 
 
-# ---------------------------------------------------------------- the best that is there
-
-
-def test_best_available_suits_everybody_who_is_there(world: World) -> None:
-    rclpy.init()
-    node = rclpy.create_node("n")
-    alone = node.create_subscription(Int32, "nobody", print, qos.qos_profile_best_available)
-    assert alone.qos_profile.reliability == ReliabilityPolicy.RELIABLE
-    assert alone.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL
-    assert alone.qos_profile.deadline == Duration()
-    for limit, reliability in ((SECOND, ReliabilityPolicy.RELIABLE), (TWO_SECONDS, ReliabilityPolicy.BEST_EFFORT)):
-        node.create_publisher(Int32, "x", QoSProfile(depth=1, reliability=reliability, deadline=limit))
-    hearing = node.create_subscription(Int32, "x", print, qos.qos_profile_best_available)
-    assert hearing.get_publisher_count() == 2
-    assert (hearing.qos_profile.reliability, hearing.qos_profile.deadline) == (
-        ReliabilityPolicy.BEST_EFFORT,
-        TWO_SECONDS,
-    )
-    node.create_subscription(Int32, "y", print, QoSProfile(depth=1, deadline=SECOND))
-    node.create_subscription(Int32, "y", print, QoSProfile(depth=1, liveliness=LivelinessPolicy.MANUAL_BY_TOPIC))
-    speaking = node.create_publisher(Int32, "y", qos.qos_profile_best_available)
-    assert speaking.get_subscription_count() == 2
-    assert speaking.qos_profile.liveliness == LivelinessPolicy.MANUAL_BY_TOPIC
-    assert qos.qos_profile_best_available.reliability == ReliabilityPolicy.BEST_AVAILABLE  # as it was
-
-
 # ---------------------------------------------------------------- what the graph says
 
 

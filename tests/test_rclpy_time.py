@@ -19,7 +19,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.time import Time
 from rclpy.time_source import CLOCK_TOPIC, USE_SIM_TIME_NAME, TimeSource
-from rclpy.timer import Timer, TimerInfo
+from rclpy.timer import Timer
 from rosgraph_msgs.msg import Clock as ClockMessage
 
 from turtle_lesson.ros.core import NeverWakes
@@ -565,72 +565,6 @@ def test_a_cell_may_sleep_at_a_rate_without_spinning(world: World) -> None:
     for _ in range(3):
         rate.sleep()
     assert world.now == 750_000_000
-
-
-# ---------------------------------------------------------------- what a timer tells
-
-
-def test_a_timer_tells_when_it_was_due_to_who_asks_for_it(run: Run) -> None:
-    def program(found: list[Any]) -> None:
-        rclpy.init(args=[])
-        node = rclpy.create_node("n")
-
-        def first(info: TimerInfo) -> None:
-            found.append((info.expected_call_time.nanoseconds, info.actual_call_time.nanoseconds))
-            time.sleep(0.25)
-
-        def second(more: int = 5, *, late: TimerInfo) -> None:
-            found.append((more, round((late.actual_call_time - late.expected_call_time).nanoseconds / 1e9, 2)))
-
-        first.__annotations__["info"] = second.__annotations__["late"] = TimerInfo
-        steady = Clock(clock_type=ClockType.STEADY_TIME)
-        timer = node.create_timer(1.0, first, clock=steady)
-        node.create_timer(1.0, second)
-        rclpy.spin_once(node)
-        timer.cancel()
-        rclpy.spin_once(node)
-
-    assert run(program) == [(1_000_000_000, 1_000_000_000), (5, 0.25)]
-
-
-def test_an_async_callback_may_ask_for_it_as_well(run: Run) -> None:
-    def program(found: list[Any]) -> None:
-        rclpy.init(args=[])
-        node = rclpy.create_node("n")
-
-        async def tick(info: TimerInfo) -> None:
-            found.append(info.actual_call_time.clock_type)
-
-        tick.__annotations__["info"] = TimerInfo
-        node.create_timer(1.0, tick)
-        rclpy.spin_once(node)
-
-    assert run(program) == [ClockType.ROS_TIME]
-
-
-def test_an_annotation_that_is_only_a_word_is_not_understood_as_in_reality_and_explained(run: Run) -> None:
-    def program(found: list[Any]) -> None:
-        rclpy.init(args=[])
-        node = rclpy.create_node("n")
-
-        def tick(info: TimerInfo) -> None:
-            """This module imports annotations from __future__, so that they are words."""
-
-        node.create_timer(1.0, tick)
-        with pytest.raises(TypeError) as caught:
-            rclpy.spin_once(node)
-        found += caught.value.__notes__
-
-    first, second = run(program)
-    assert first.startswith("A TimerInfo is only handed to a parameter that is annotated with the class itself")
-    assert second == "The callback of <Timer, every 1 s> is called with ()."
-
-
-def test_timer_info_is_checked() -> None:
-    with pytest.raises(TypeError, match="Clock type must be a ClockType enum"):
-        TimerInfo(clock_type=1.5)
-    with pytest.raises(ValueError, match="call time values must not be negative"):
-        TimerInfo(expected_call_time=-1)
 
 
 def test_a_timer_is_a_context_manager_and_gone_after_its_block(world: World) -> None:

@@ -24,6 +24,14 @@ _TYPE_DESCRIPTIONS = (
     "Type descriptions and their hashes are not available here (ROS 2 has them since Iron): `ros2 interface show` prints "
     "a type's definition."
 )
+_BEST_AVAILABLE = (
+    "Policies that adapt to the other side are not available here (ROS 2 has them since Iron): name the policy, such as "
+    "ReliabilityPolicy.RELIABLE or BEST_EFFORT; `ros2 topic info -v` shows what the other side has."
+)
+_TIMER_INFO = (
+    "TimerInfo is not available here (in Python, ROS 2 has it since Jazzy): a timer's callback has no parameter, and "
+    "node.get_clock().now() is the time."
+)
 _EXPERIMENTAL = (
     "rclpy.experimental is not available here: use SingleThreadedExecutor instead of EventsExecutor. Callbacks of a Node "
     "may be `async def`, so that no AsyncNode is needed: they can await client.call_async(request)."
@@ -39,9 +47,11 @@ _MODULES = {
     "rclpy.waitable": _WAITABLES,
 }
 _NAMES = {
+    "TimerInfo": _TIMER_INFO,
     "QoSOverridingOptions": _QOS_OVERRIDES,
     "configure_introspection": _INTROSPECTION,
     "topic_type_hash": _TYPE_DESCRIPTIONS,
+    **dict.fromkeys(("BEST_AVAILABLE", "qos_profile_best_available"), _BEST_AVAILABLE),
     **dict.fromkeys(("Waitable", "NumberOfEntities", "add_waitable", "remove_waitable", "waitables"), _WAITABLES),
     **dict.fromkeys(
         ("set_content_filter", "get_content_filter", "is_cft_enabled", "is_cft_supported", "configure_nodes_filter"),
@@ -59,8 +69,9 @@ def name_left_out(owner: object, name: str) -> str:
     """What to do without a name that a real rclpy's module or object has; an empty text for any other name.
 
     Args:
-        owner: the object that was asked for the attribute, or the name of the module.
+        owner: the object or class that was asked for the attribute, or the name of the module.
         name: the attribute.
     """
-    homes = [owner] if isinstance(owner, str) else [kind.__module__ for kind in type(owner).__mro__]
+    kinds = owner.__mro__ if isinstance(owner, type) else type(owner).__mro__
+    homes = [owner] if isinstance(owner, str) else [kind.__module__ for kind in kinds]
     return _NAMES.get(name, "") if any(home.partition(".")[0] == "rclpy" for home in homes) else ""

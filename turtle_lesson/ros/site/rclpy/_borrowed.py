@@ -64,7 +64,7 @@ BORROWED: dict[str, dict[str, str]] = {
         "rclpy.service": "Service",
         "rclpy.subscription": "Subscription",
         "rclpy.task": "Future Task",
-        "rclpy.timer": "Timer TimerInfo",
+        "rclpy.timer": "Timer",
         "rclpy.utilities": "get_default_context timeout_sec_to_nsec",
     },
     "rclpy.client": _SERVICE | {"rclpy.context": "Context"},

@@ -78,11 +78,6 @@ def explain_call(entity: Any, arguments: tuple[Any, ...] | None, error: TypeErro
             "with brackets, as in self.tick(), it is called immediately, and its result is handed over."
         )
     elif arguments is not None:
-        if any(each == "TimerInfo" for each in getattr(entity.callback, "__annotations__", {}).values()):
-            error.add_note(
-                "A TimerInfo is only handed to a parameter that is annotated with the class itself: without "
-                "`from __future__ import annotations`, and without quotation marks."
-            )
         what = ", ".join(_PARTS.get(type(entity).__name__, ())[: len(arguments)])
         error.add_note(f"The callback of {entity!r} is called with ({what}).")
 

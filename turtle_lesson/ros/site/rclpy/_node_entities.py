@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 from . import type_support
 from ._missing import refuse_unbuilt
 from ._node_graph import NodeGraph
-from ._qos_best_available import choose_for_publisher, choose_for_subscription, is_left_open
 from ._qos_events import QoSEvents
 from .callback_groups import CallbackGroup, ReentrantCallbackGroup
 from .client import Client
@@ -16,7 +15,7 @@ from .event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks, 
 from .exceptions import RCLError, not_valid, refuse_destroyed, refuse_ended
 from .guard_condition import GuardCondition
 from .publisher import Publisher
-from .qos import QoSProfile, checked_profile, copied, qos_profile_services_default, usable_quality
+from .qos import QoSProfile, checked_profile, qos_profile_services_default, usable_quality
 from .service import Service
 from .subscription import Subscription
 from .timer import Rate, Timer, period_ns
@@ -91,7 +90,7 @@ class NodeEntities(NodeGraph):
         refuse_unbuilt(qos_overriding_options=qos_overriding_options)
         callbacks = checked_callbacks(event_callbacks, PublisherEventCallbacks)
         full_name = self._ros_full_name_of(topic)
-        profile = self._ros_chosen(Publisher, full_name, checked_profile(qos_profile))
+        profile = checked_profile(qos_profile)
         quality = usable_quality(profile, "publisher")
         type_support.check_is_valid_msg_type(msg_type)
         self._ros_check_one_type("publisher", full_name, msg_type)
@@ -127,7 +126,7 @@ class NodeEntities(NodeGraph):
         refuse_unbuilt(qos_overriding_options=qos_overriding_options, content_filter_options=content_filter_options)
         callbacks = checked_callbacks(event_callbacks, SubscriptionEventCallbacks)
         full_name = self._ros_full_name_of(topic)
-        profile = self._ros_chosen(Subscription, full_name, checked_profile(qos_profile))
+        profile = checked_profile(qos_profile)
         quality = usable_quality(profile, "subscription")
         type_support.check_is_valid_msg_type(msg_type)
         self._ros_check_one_type("subscription", full_name, msg_type)
@@ -139,16 +138,6 @@ class NodeEntities(NodeGraph):
         for handler in subscription.event_handlers:
             self._ros_keep(handler)
         return subscription
-
-    def _ros_chosen(self, kind: type[Publisher] | type[Subscription], name: str, profile: QoSProfile) -> QoSProfile:
-        """A profile in which what it leaves to the others on the topic is chosen."""
-        if is_left_open(profile):
-            profile, topic = copied(profile), self._ros_graph.topic(name)
-            if kind is Publisher:
-                choose_for_publisher(profile, [reader.quality for reader, _ in topic.readers])
-            else:
-                choose_for_subscription(profile, [writer.quality for writer, _ in topic.writers])
-        return profile
 
     def _ros_check_one_type(self, what: str, full_name: str, msg_type: Any) -> None:
         """Within one process ROS refuses a second type on a topic; between processes it only never connects."""

@@ -40,9 +40,8 @@ class _OldName:
 
 def _with_old_names(kind: Any, prefix: str) -> None:
     for policy in list(kind):
-        if policy.name != "BEST_AVAILABLE":
-            old = f"RMW_QOS_POLICY_{prefix}_{policy.name}"
-            setattr(kind, old, _OldName(old, policy.name))
+        old = f"RMW_QOS_POLICY_{prefix}_{policy.name}"
+        setattr(kind, old, _OldName(old, policy.name))
 
 
 class HistoryPolicy(QoSPolicyEnum):
@@ -55,13 +54,12 @@ class HistoryPolicy(QoSPolicyEnum):
 
 
 class ReliabilityPolicy(QoSPolicyEnum):
-    """Whether a lost message is sent again. BEST_AVAILABLE (since Iron): as those on the other side have it."""
+    """Whether a lost message is sent again."""
 
     SYSTEM_DEFAULT = 0
     RELIABLE = 1
     BEST_EFFORT = 2
     UNKNOWN = 3
-    BEST_AVAILABLE = 4
 
 
 class DurabilityPolicy(QoSPolicyEnum):
@@ -71,7 +69,6 @@ class DurabilityPolicy(QoSPolicyEnum):
     TRANSIENT_LOCAL = 1
     VOLATILE = 2
     UNKNOWN = 3
-    BEST_AVAILABLE = 4
 
 
 class LivelinessPolicy(QoSPolicyEnum):
@@ -81,7 +78,6 @@ class LivelinessPolicy(QoSPolicyEnum):
     AUTOMATIC = 1
     MANUAL_BY_TOPIC = 3
     UNKNOWN = 4
-    BEST_AVAILABLE = 5
 
 
 for _kind, _prefix in (

@@ -1,7 +1,4 @@
-"""Quality of service profiles. Numbers and presets are those of rclpy and rmw of Humble (rmw's qos_profiles.h).
-
-BEST_AVAILABLE, and what has it in its name, came with Iron.
-"""
+"""Quality of service profiles. Numbers and presets are those of rclpy and rmw of Humble (rmw's qos_profiles.h)."""
 
 from __future__ import annotations
 
@@ -12,7 +9,6 @@ from typing import Any
 from turtle_lesson.ros.graph import Quality
 
 from ._mistakes import did_you_mean
-from ._qos_best_available import BEST_AVAILABLE_SPAN
 from ._qos_compatibility import QoSCompatibility, qos_check_compatible
 from ._qos_policies import (
     DurabilityPolicy,
@@ -27,11 +23,9 @@ from .duration import Duration, Infinite
 from .exceptions import RCLError
 
 __all__ = [
-    "DeadlineBestAvailable",
     "DurabilityPolicy",
     "HistoryPolicy",
     "InvalidQoSProfileException",
-    "LivelinessLeaseDurationeBestAvailable",
     "LivelinessPolicy",
     "QoSCompatibility",
     "QoSDurabilityPolicy",
@@ -46,7 +40,6 @@ __all__ = [
     "qos_check_compatible",
     "qos_policy_name_from_kind",
     "qos_profile_action_status_default",
-    "qos_profile_best_available",
     "qos_profile_default",
     "qos_profile_parameter_events",
     "qos_profile_parameters",
@@ -61,9 +54,6 @@ QoSHistoryPolicy = HistoryPolicy
 QoSReliabilityPolicy = ReliabilityPolicy
 QoSDurabilityPolicy = DurabilityPolicy
 QoSLivelinessPolicy = LivelinessPolicy
-
-DeadlineBestAvailable = BEST_AVAILABLE_SPAN
-LivelinessLeaseDurationeBestAvailable = BEST_AVAILABLE_SPAN  # so it is spelled in the real one
 
 NO_DEPTH = "A zero depth with KEEP_LAST doesn't make sense; no data could be stored."
 
@@ -194,11 +184,6 @@ def _expectation(name: str, kind: type, value: object) -> str:
     return f"QoS policy {name!r} must be of type {kind.__name__}, got {value!r}: try {name}={example}"
 
 
-def copied(profile: QoSProfile) -> QoSProfile:
-    """A profile of the same policies, so that changing it does not change one that others use, too."""
-    return QoSProfile(**vars(profile))
-
-
 def usable_quality(profile: QoSProfile, what: str) -> Quality:
     """What a profile means for delivery. Raises RCLError where no publisher or subscription (`what`) can be made of it."""
     policies = vars(profile)
@@ -254,14 +239,6 @@ qos_profile_default = _keep_last(10)
 qos_profile_rosout_default = QoSProfile(
     depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL, lifespan=Duration(seconds=10)
 )
-qos_profile_best_available = QoSProfile(
-    depth=10,
-    reliability=ReliabilityPolicy.BEST_AVAILABLE,
-    durability=DurabilityPolicy.BEST_AVAILABLE,
-    deadline=DeadlineBestAvailable,
-    liveliness=LivelinessPolicy.BEST_AVAILABLE,
-    liveliness_lease_duration=LivelinessLeaseDurationeBestAvailable,
-)
 qos_profile_action_status_default = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
@@ -276,7 +253,6 @@ class QoSPresetProfiles(Enum):
     PARAMETERS = qos_profile_parameters
     PARAMETER_EVENTS = qos_profile_parameter_events
     ACTION_STATUS_DEFAULT = qos_profile_action_status_default
-    BEST_AVAILABLE = qos_profile_best_available
     ROSOUT_DEFAULT = qos_profile_rosout_default
 
     @classmethod

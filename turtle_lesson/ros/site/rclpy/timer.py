@@ -7,8 +7,6 @@ clock follows /clock is looked at whenever that clock is set.
 
 from __future__ import annotations
 
-import functools
-import inspect
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +16,6 @@ from ._borrowed import borrowed
 from ._entity import TIMER, Entity
 from ._mistakes import shown
 from ._rate import Rate
-from ._timer_info import TimerInfo
 from .callback_groups import CallbackGroup
 from .clock import ROSClock
 from .constants import S_TO_NS
@@ -28,7 +25,7 @@ if TYPE_CHECKING:
     from .clock import Clock
     from .context import Context
 
-__all__ = ["Rate", "Timer", "TimerInfo"]
+__all__ = ["Rate", "Timer"]
 
 SHORTEST = 47_000
 NOT_BY_THE_SIMULATION = -1
@@ -45,10 +42,7 @@ def period_ns(seconds: Any) -> int:
 
 
 class Timer(Entity):
-    """Made by `Node.create_timer`. `timer_period_ns` can be set; it takes effect after the next tick.
-
-    A callback with a parameter that is annotated as `TimerInfo` gets one (Jazzy and newer).
-    """
+    """Made by `Node.create_timer`. `timer_period_ns` can be set; it takes effect after the next tick."""
 
     _kind = TIMER
 
@@ -79,10 +73,6 @@ class Timer(Entity):
                 self._time, self._armed = clock._followed, NOT_BY_THE_SIMULATION
         self._last = self._time.now
         self._next = self._last + self._period
-        name = _place_of_info(callback)
-        if name is not None and callback is not None:
-            self._take = self._take_with_info  # type: ignore[method-assign]
-            self.callback = _by_name(callback, name) if name else callback
         if autostart:
             self._arm()
 
@@ -175,13 +165,6 @@ class Timer(Entity):
             self._simulation.at(due, self._on_due, due)
         return ()
 
-    def _take_with_info(self) -> tuple[Any, ...]:
-        origin = self._clock._origin if self._time is self._simulation else 0
-        expected, actual = origin + self._next, origin + self._time.now
-        info = TimerInfo(expected_call_time=expected, actual_call_time=actual, clock_type=self._clock.clock_type)
-        Timer._take(self)
-        return (info,)
-
     # -- in the time that is heard on /clock -------------------------------------------------------------------------
 
     def _follow(self, followed: Any, before: int) -> None:
@@ -221,28 +204,6 @@ class Timer(Entity):
         if isinstance(self._clock, ROSClock) and self in self._clock._timers:
             self._clock._timers.remove(self)
         super().destroy()
-
-
-def _place_of_info(callback: Any) -> str | None:
-    """The parameter of a callback that is annotated as a TimerInfo; '' for the first one."""
-    try:
-        parameters = list(inspect.signature(callback).parameters.values()) if callback is not None else []
-    except (TypeError, ValueError):
-        return None
-    for index, parameter in enumerate(parameters):
-        if parameter.annotation is TimerInfo:
-            return parameter.name if index or parameter.kind is parameter.KEYWORD_ONLY else ""
-    return None
-
-
-def _by_name(callback: Callable[..., Any], name: str) -> Callable[[TimerInfo], Any]:
-    """A callback that hands its one argument on as this parameter."""
-
-    @functools.wraps(callback)
-    def call(info: TimerInfo) -> Any:
-        return callback(**{name: info})
-
-    return call
 
 
 __getattr__ = borrowed(__name__)
