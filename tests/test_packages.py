@@ -10,13 +10,13 @@ import pytest
 
 import turtle_lesson
 from turtle_lesson.ros.workspace.cmake import CMakeError
-from turtle_lesson.ros.workspace.current import seeing
 from turtle_lesson.ros.workspace.index import (
     ExecutableNotFoundError,
     LaunchFileNotFoundError,
     PackageIndex,
     PackageNotFoundError,
     find_launch_file,
+    seeing,
 )
 from turtle_lesson.ros.workspace.package import Package, PackageError, read_source_package
 

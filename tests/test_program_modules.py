@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from turtle_lesson.ros.workspace.python_program import PythonProgram
+from turtle_lesson.ros.workspace.package import PythonProgram
 from turtle_lesson.ros.world import World
 
 Capture = pytest.CaptureFixture[str]

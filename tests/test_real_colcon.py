@@ -248,7 +248,7 @@ except InvalidPackage as error:
 def test_our_reader_refuses_what_catkin_pkg_refuses(tmp_path: Path, name: str) -> None:
     from xml.etree import ElementTree
 
-    from turtle_lesson.ros.workspace.manifest_check import faults
+    from turtle_lesson.ros.workspace.manifest import faults_in
 
     text = WRONG[name](XML)
     assert (text == XML) == (name == "nothing")
@@ -257,7 +257,7 @@ def test_our_reader_refuses_what_catkin_pkg_refuses(tmp_path: Path, name: str) -
     theirs = real(f"{PYTHON} {tmp_path}/ask.py {tmp_path}/package.xml", tmp_path)
     assert theirs.returncode == 0, theirs.stderr
     said = theirs.stdout
-    ours = faults(ElementTree.fromstring(text))
+    ours = faults_in(ElementTree.fromstring(text))
     assert bool(ours) == bool(said.strip()), (ours, said)
     for fault in ours:
         assert fault in said

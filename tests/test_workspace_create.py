@@ -12,8 +12,7 @@ from command_cases import cases
 from workspace_cases import colcon, source_in, started
 
 from turtle_lesson.ros.workspace.create import LICENCES, create_package, parse
-from turtle_lesson.ros.workspace.manifest import read_manifest
-from turtle_lesson.ros.workspace.setup_script import install_scripts, read_setup
+from turtle_lesson.ros.workspace.manifest import install_scripts, read_manifest, read_setup
 from turtle_lesson.ros.world import World
 
 

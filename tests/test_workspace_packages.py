@@ -15,7 +15,7 @@ from workspace_cases import XML, change, colcon, make_package, source_in, starte
 import turtle_lesson
 from turtle_lesson.ros.command.shell import run_line
 from turtle_lesson.ros.interfaces.registry import registry
-from turtle_lesson.ros.workspace import setup_script
+from turtle_lesson.ros.workspace import manifest
 from turtle_lesson.ros.workspace.create import create_package, parse
 from turtle_lesson.ros.world import World
 
@@ -374,7 +374,7 @@ SETUP = "from setuptools import setup\nsetup(name='py_demo', {})\n"
 def test_a_setup_py_full_of_nonsense(
     py_demo: Path, world: World, monkeypatch: pytest.MonkeyPatch, text: str, said: str
 ) -> None:
-    monkeypatch.setattr(setup_script, "LONGEST", 3.0)
+    monkeypatch.setattr(manifest, "LONGEST", 3.0)
     (py_demo / "setup.py").write_text(text)
     answer = colcon(world)
     assert (answer.code, said in answer.err) == (1, True), answer.err

@@ -17,8 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import files, story
 from .files import home
-from .ros.workspace import templates
-from .ros.workspace.create import TO_DO_DESCRIPTION
+from .ros.workspace.create import TO_DO_DESCRIPTION, cmake_lists
 
 if TYPE_CHECKING:
     from .ros.world import World
@@ -216,7 +215,7 @@ def _sources(folder: Path) -> list[Path]:
 def _is_template(path: str, text: str) -> bool:
     """Whether a file is still as `ros2 pkg create` made it."""
     if path == "CMakeLists.txt":
-        return text == templates.cmake_lists(PACKAGE, build_type="ament_cmake", dependencies=())
+        return text == cmake_lists(PACKAGE, build_type="ament_cmake", dependencies=())
     return path == "package.xml" and TO_DO_DESCRIPTION in text
 
 

@@ -6,11 +6,13 @@ import difflib
 import re
 import sys
 from pathlib import Path
+from types import ModuleType
 
 from ..interfaces.registry import INSTALLED_SEPARATELY, SHARE, registry
-from ..workspace.absent import missing_module
+from ..workspace.catalog import missing_module
 from ..workspace.errors import did_you_mean
 from .devices import KEYS, SCREEN
+from .left_out import module_left_out, name_left_out
 
 FOLDERS = ("msg", "srv", "action")
 
@@ -46,7 +48,7 @@ def _no_module(name: str) -> str:
         return f"{top} is a Python package that works here, too, once it is installed: {_pip_install(top)}."
     if missing := missing_module(top):
         return missing
-    if rest and (parent := _newer(top, name) or _parent(name)):
+    if rest and (parent := module_left_out(name) or _newer(top, name) or _parent(name)):
         return parent
     close = difflib.get_close_matches(top, _known_modules(), n=1, cutoff=0.8)
     return f"Did you mean '{close[0]}'?" if close else _of_ones_own(top)
@@ -73,7 +75,7 @@ def _parent(name: str) -> str:
 
 def _left_out(above: str, last: str) -> str:
     """What to do about a folder of modules that is there, but that setup.py does not list."""
-    from ..workspace.current import current_packages
+    from ..workspace.index import current_packages
 
     top = above.partition(".")[0]
     packages = current_packages()
@@ -86,9 +88,15 @@ def _left_out(above: str, last: str) -> str:
     )
 
 
-def _submodules(module: object) -> set[str]:
+def _submodules(module: ModuleType) -> set[str]:
     folders = list(getattr(module, "__path__", []))
     found = {path.stem for folder in folders for path in Path(folder).glob("*") if path.suffix in ("", ".py")}
+    inner = [
+        (f"{module.__name__}.{name}", value) for name, value in vars(module).items() if isinstance(value, ModuleType)
+    ]
+    found |= {
+        value.__name__.rpartition(".")[2] for path, value in inner if value.__name__ == path
+    }  # launch's have no file
     return {name for name in found if not name.startswith("_")}
 
 
@@ -149,7 +157,7 @@ def _newer(package: str, path: str) -> str:
 def _no_name(module: str, name: str) -> str:
     """What a module has instead of a name. For a package's interfaces, those of its other folders, too."""
     package, _, folder = module.partition(".")
-    if newer := _newer(package, f"{module}.{name}"):
+    if newer := name_left_out(module, name) or _newer(package, f"{module}.{name}"):
         return newer
     if package in registry.packages() and folder in ("", *FOLDERS):
         owner = registry.package(package)

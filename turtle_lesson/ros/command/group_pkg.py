@@ -10,9 +10,8 @@ from ..core.tracebacks import shown_path
 from ..interfaces.registry import registry
 from ..workspace.create import add_arguments as add_create_arguments
 from ..workspace.create import create_package
-from ..workspace.current import current_packages
 from ..workspace.errors import did_you_mean
-from ..workspace.index import package_hint
+from ..workspace.index import current_packages, package_hint
 from ..workspace.package import Package
 from .in_cell import CellCommand, CommandError
 from .parser import cut

@@ -8,9 +8,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..workspace.current import current_packages
-from ..workspace.installed import python_folders
-from ..workspace.python_program import PythonProgram
+from ..workspace.index import current_packages
+from ..workspace.install_tree import python_folders
+from ..workspace.package import PythonProgram
 from .streams import lasting
 
 if TYPE_CHECKING:

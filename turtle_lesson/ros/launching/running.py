@@ -6,7 +6,7 @@ import signal
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Any
 
-from ..workspace.python_program import PythonProgram
+from ..workspace.package import PythonProgram
 from .output import LineWriter, Screen
 
 if TYPE_CHECKING:

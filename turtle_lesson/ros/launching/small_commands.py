@@ -11,7 +11,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path, PurePath
 
-from ..workspace.absent import why_not_here
+from ..workspace.catalog import why_not_here
 from ..workspace.errors import NotHereError
 
 

@@ -10,8 +10,7 @@ from launch.actions import IncludeLaunchDescription
 from launch.launch_description_sources import AnyLaunchDescriptionSource
 
 from ..core.tracebacks import shown_path
-from ..workspace.current import seeing
-from ..workspace.index import LaunchedPackages, is_launch_file
+from ..workspace.index import LaunchedPackages, is_launch_file, seeing
 from ..world import World
 from .arguments import LaunchArgument, as_text, declared_in, unknown_warnings
 from .errors import LaunchError, learners_cause

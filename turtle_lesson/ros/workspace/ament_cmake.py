@@ -12,8 +12,7 @@ from pathlib import Path
 
 from ..core.tracebacks import shown_path
 from ..interfaces.registry import Registry
-from . import manifest_check
-from .absent import why_not_here
+from .catalog import CMAKE_COMMANDS, CMAKE_PACKAGES, COMMANDS_OF, brought_by, why_not_here
 from .cmake import CMakeError, CMakeFile, Command, Program, evaluate
 from .cmake_commands import (
     InterfaceCheck,
@@ -30,10 +29,19 @@ from .cmake_syntax import SHARE, cmake_message
 from .discover import Found
 from .errors import did_you_mean
 from .index import package_hint
-from .installed import prefix_of
-from .interface_files import definitions, interface_items
-from .known import CMAKE_COMMANDS, CMAKE_PACKAGES, COMMANDS_OF, brought_by
-from .outcome import PYTHON, BuildFailure, Environment, Item, Outcome, check_targets, with_hint
+from .install_tree import (
+    PYTHON,
+    BuildFailure,
+    Environment,
+    Item,
+    Outcome,
+    check_targets,
+    definitions,
+    interface_items,
+    prefix_of,
+    with_hint,
+)
+from .manifest import faults_in, hint_for
 
 _PACKAGE_XML = f"{SHARE}/ament_cmake_core/cmake/core/ament_package_xml.cmake"
 _EXTENSIONS = f"{SHARE}/ament_cmake_core/cmake/core/ament_execute_extensions.cmake"
@@ -270,7 +278,7 @@ class _Build:
     def _check_xml(self, where: str, stack: list[str]) -> None:
         faults = [f"The manifest contains invalid XML:\n{self.found.xml_error}"] if self.found.xml_error else []
         if self.found.root is not None:
-            faults = manifest_check.faults(self.found.root)
+            faults = faults_in(self.found.root)
         if faults:
             raise self._refused_xml(faults, [*stack, where])
         project = self.project
@@ -292,7 +300,7 @@ class _Build:
         text += cmake_message(
             process, f"{_PACKAGE_XML}:95 (message)", [f"{_PACKAGE_XML}:49 (_ament_package_xml)", *stack]
         )
-        hints = [manifest_check.hint(fault) for fault in faults]
+        hints = [hint_for(fault) for fault in faults]
         if self.found.xml_error:
             hints = ["Is every <tag> closed by a </tag>, and is every < in a text written as &lt;?"]
         return BuildFailure(text, " ".join(filter(None, hints)))

@@ -1,4 +1,8 @@
-"""What `colcon build` makes of an `ament_python` package: its modules, its data files, and a program an entry point."""
+"""What `colcon build` makes of an `ament_python` package: its modules, its data files, and a program an entry point.
+
+Of MANIFEST.in, by which `include_package_data=True` goes (facts: setuptools' documentation), what takes files away again
+(`exclude`, `prune`) is not read.
+"""
 
 from __future__ import annotations
 
@@ -11,13 +15,10 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from ..core.tracebacks import shown_path
-from . import manifest_check
 from .discover import Found
-from .entry_points import entry_groups, entry_text, program_lines
 from .errors import did_you_mean
-from .outcome import PYTHON, BuildFailure, Environment, Item, Outcome, check_targets, with_hint
-from .setup_manifest import files_in_manifest
-from .setup_script import SetupError, install_scripts, read_setup
+from .install_tree import PYTHON, BuildFailure, Environment, Item, Outcome, check_targets, with_hint
+from .manifest import SetupError, hint_for, install_scripts, read_setup
 
 SITE = f"lib/{PYTHON}/site-packages"
 _ENTRY = re.compile(r"\s*([\w.-]+)\s*=\s*([\w.]+)\s*:\s*([\w.]+)\s*(\[.*\])?\s*")
@@ -69,7 +70,7 @@ class _Build:
     def _check(self) -> None:
         if self.found.xml_error:
             file = shown_path(str(self.found.path / "package.xml"))
-            hint = f"{file}: {self.found.xml_error}. {manifest_check.hint(self.found.xml_error)}".strip()
+            hint = f"{file}: {self.found.xml_error}. {hint_for(self.found.xml_error)}".strip()
             self.hints.append(f"{hint} Until it is mended, colcon takes the folder for a Python package without ROS.")
         if not (self.found.path / "setup.py").is_file():
             where = shown_path(str(self.found.path))
@@ -281,9 +282,67 @@ def _imports(module: str, function: str) -> str:
     return f"import importlib\nimport sys\n\n{first} = importlib.import_module({module!r}).{first}"
 
 
-__all__ = ["SITE", "build_ament_python"]
-
-
 def _texts(given: Any) -> list[str]:
     """The texts of an option that may be a list, a text or left out."""
     return [given] if isinstance(given, str) else [each for each in given or [] if isinstance(each, str)]
+
+
+PROGRAMS = ("console_scripts", "gui_scripts")
+
+
+def entry_groups(given: Any) -> dict[str, list[str]] | None:
+    """The lines of each group; None if this is neither a dictionary nor a text with a `[group]` above its lines."""
+    groups = _sections(given) if isinstance(given, str) else given
+    if not isinstance(groups, dict):
+        return None
+    return {str(group): _lines(lines or []) for group, lines in groups.items()}
+
+
+def program_lines(groups: dict[str, list[str]]) -> list[str]:
+    """The lines that become programs."""
+    return [line for group in PROGRAMS for line in groups.get(group, [])]
+
+
+def entry_text(groups: dict[str, list[str]]) -> str:
+    """What an installed package's entry_points.txt says, where `importlib.metadata` finds plugins of all packages."""
+    return "\n".join(f"[{group}]\n" + "".join(f"{line.strip()}\n" for line in lines) for group, lines in groups.items())
+
+
+def _lines(given: Any) -> list[str]:
+    if isinstance(given, str):
+        return [line for line in given.splitlines() if line.strip()]
+    return [str(line) for line in given] if isinstance(given, list) else [str(given)]
+
+
+def _sections(text: str) -> dict[str, list[str]]:
+    groups: dict[str, list[str]] = {}
+    for line in filter(None, map(str.strip, text.splitlines())):
+        if line.startswith("[") and line.endswith("]"):
+            groups[line[1:-1].strip()] = []
+        elif groups and not line.startswith(("#", ";")):
+            groups[list(groups)[-1]].append(line)
+    return groups
+
+
+def files_in_manifest(folder: Path) -> list[str]:
+    """The paths of the files that a folder's MANIFEST.in names; none without one."""
+    manifest = folder / "MANIFEST.in"
+    if not manifest.is_file():
+        return []
+    lines = manifest.read_text(encoding="utf-8", errors="replace").splitlines()
+    return [path for line in lines for path in _named(folder, line.partition("#")[0].split())]
+
+
+def _named(folder: Path, words: list[str]) -> list[str]:
+    match words:
+        case ["include", *patterns]:
+            places = [folder / pattern for pattern in patterns]
+        case ["recursive-include", below, *patterns]:
+            places = [folder / below / "**" / pattern for pattern in patterns]
+        case ["graft", below]:
+            places = [folder / below / "**"]
+        case ["global-include", *patterns]:
+            places = [folder / "**" / pattern for pattern in patterns]
+        case _:
+            places = []
+    return [path for place in places for path in glob(str(place), recursive=True)]

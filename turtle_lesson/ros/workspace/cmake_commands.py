@@ -18,13 +18,13 @@ from ..interfaces import names
 from ..interfaces.errors import DuplicateName, InvalidDefinition, UnknownMessageType
 from ..interfaces.model import Definition, MessageDefinition
 from ..interfaces.registry import PARSERS, Registry
+from .catalog import PYTHON_PACKAGES
 from .cmake import INTERFACE_WORDS, CMakeError, CMakeFile, Command, Installed, Program
 from .cmake_syntax import SHARE, cmake_message
 from .discover import Found
 from .errors import did_you_mean
 from .index import package_hint
-from .known import PYTHON_PACKAGES
-from .outcome import BuildFailure, Item
+from .install_tree import BuildFailure, Item
 from .package import GROUP
 
 Entry = Program | Installed

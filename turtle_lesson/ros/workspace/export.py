@@ -14,11 +14,11 @@ from ..core.tracebacks import shown_path
 from ..interfaces.registry import registry
 from .ament_cmake import build_ament_cmake
 from .ament_python import build_ament_python
+from .catalog import CMAKE_PACKAGES, PYTHON_PACKAGES
 from .discover import Found, build_type_hint, discover, read_found
 from .errors import PackageError, did_you_mean
 from .index import is_launch_file
-from .known import CMAKE_PACKAGES, PYTHON_PACKAGES
-from .outcome import Environment, Item, Outcome
+from .install_tree import Environment, Item, Outcome
 
 if TYPE_CHECKING:
     from ..distro import Release

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from difflib import SequenceMatcher
 from pathlib import Path
 
 from ..core.tracebacks import shown_path
-from . import absent
+from .catalog import left_out, place_of, why_not_here
 from .cmake import compiled_programs
 from .errors import (
     CompiledProgramError,
@@ -18,14 +19,6 @@ from .errors import (
     did_you_mean,
 )
 from .package import Package, Target
-
-__all__ = [
-    "ExecutableNotFoundError",
-    "LaunchFileNotFoundError",
-    "PackageIndex",
-    "PackageNotFoundError",
-    "find_launch_file",
-]
 
 
 class PackageIndex:
@@ -117,7 +110,7 @@ class LaunchedPackages(PackageIndex):
     def get(self, name: str) -> Package:
         """The package of this name, an absent one included."""
         if _why_absent(name, self._layers):
-            return Package(name, absent.place_of(name))
+            return Package(name, place_of(name))
         return super().get(name)
 
     def executable(self, package: str, executable: str) -> Target:
@@ -128,7 +121,7 @@ class LaunchedPackages(PackageIndex):
             PackageNotFoundError, ExecutableNotFoundError: as otherwise.
         """
         if _why_absent(package, self._layers):
-            raise absent.left_out(package if package == executable else f"{executable} of {package}", package)
+            raise left_out(package if package == executable else f"{executable} of {package}", package)
         try:
             return super().executable(package, executable)
         except CompiledProgramError as error:
@@ -144,7 +137,7 @@ def package_hint(name: str, known: Iterable[str]) -> str:
 
 def _why_absent(name: str, known: Iterable[str]) -> str:
     """Why a package is only on robots; nothing for one that is known, and for what is the slip of one that is known."""
-    why = "" if name in known else absent.why_not_here(name)
+    why = "" if name in known else why_not_here(name)
     return "" if why and _package_meant(name, known) else why
 
 
@@ -258,3 +251,25 @@ def _launch_file_hint(package: Package, file_name: str) -> str:
     known = sorted({file.name for file in package.shared_files("*launch.*") if is_launch_file(file.name)})
     there_are = f"There are: {', '.join(known)}." if known else "The package installs no launch file."
     return did_you_mean(file_name, known) or there_are
+
+
+_given: list[PackageIndex] = []
+
+
+def current_packages() -> PackageIndex:
+    """The index of packages in force."""
+    if _given:
+        return _given[-1]
+    from ..world import current_world
+
+    return current_world().packages
+
+
+@contextmanager
+def seeing(packages: PackageIndex) -> Iterator[None]:
+    """Have `current_packages()` be this index for a while."""
+    _given.append(packages)
+    try:
+        yield
+    finally:
+        _given.pop()

@@ -1,17 +1,115 @@
-"""Writes what a build installs: the package's own files, the ament index, and the setup files."""
+"""What building a package comes to, and the install folder: written by a build, and read back by `source`.
+
+A build's result is what it prints, how long it takes, and the items that it installs: the package's own files, what is made of
+its interfaces, the ament index, and the setup files.
+"""
 
 from __future__ import annotations
 
 import os
 import shutil
 from collections.abc import Iterable, Iterator
-from pathlib import Path
+from dataclasses import dataclass, field
+from pathlib import Path, PurePosixPath
 
 from ... import files
 from ..core.tracebacks import shown_path
+from ..interfaces.names import module_name
+from ..interfaces.registry import Registry
 from .discover import ColconError, Found
-from .installed import LAYOUT, layout_of, prefix_of
-from .outcome import Environment, Item, Outcome
+from .package import Package
+
+PYTHON = "python3.10"
+"""The Python of ROS 2 Humble, which is in the names of installed folders, whatever Python runs here."""
+
+
+@dataclass(frozen=True)
+class Item:
+    """One file or folder to install.
+
+    Attributes:
+        target: its place below the package's install prefix, with `/`.
+        source: the file or folder that is copied; None where `text` is written.
+        text: the content of a file that the build makes.
+        program: whether it can be run.
+        copied: whether it is copied even by `--symlink-install`.
+    """
+
+    target: str
+    source: Path | None = None
+    text: str = ""
+    program: bool = False
+    copied: bool = False
+
+
+@dataclass
+class Outcome:
+    """How a build went.
+
+    Attributes:
+        code: the exit code, 0 if it went well.
+        stderr: what colcon shows between `--- stderr: name` and `---`.
+        stdout: what CMake or setuptools say meanwhile.
+        seconds: how long it takes, in robot time.
+        items: what is installed if it went well.
+        dependencies: the packages that are needed when it runs.
+        paths: folders below the prefix that hold Python packages of the learner's.
+        colcon_error: what colcon itself says where it does not even begin.
+        left_out: the C++ programs and libraries that are not built here, and scripts that are not Python.
+        lacking: the packages that these need and that are not here.
+    """
+
+    code: int = 0
+    stderr: str = ""
+    stdout: list[str] = field(default_factory=list)
+    seconds: float = 1.0
+    items: list[Item] = field(default_factory=list)
+    dependencies: list[str] = field(default_factory=list)
+    paths: list[str] = field(default_factory=list)
+    colcon_error: str = ""
+    left_out: list[str] = field(default_factory=list)
+    lacking: list[str] = field(default_factory=list)
+
+
+@dataclass
+class Environment:
+    """Where a package is built, and what it finds there."""
+
+    install: Path
+    build: Path
+    findable: frozenset[str] = frozenset()
+    types: Registry = field(default_factory=Registry)
+    symlink: bool = False
+
+
+class BuildFailure(Exception):
+    """A package cannot be built: the text that the real tool prints, the exit code, and what to try."""
+
+    def __init__(self, text: str, hint: str = "", *, code: int = 1, seconds: float = 0.9) -> None:
+        super().__init__(text)
+        self.text = text
+        self.hint = hint
+        self.code = code
+        self.seconds = seconds
+
+
+def with_hint(text: str, hints: Iterable[str]) -> str:
+    """The real tool's text, and below it what to try."""
+    lines = "".join(f"Hint: {hint}\n" for hint in hints if hint)
+    return f"{text}{lines}" if lines else text
+
+
+def check_targets(items: Iterable[Item]) -> None:
+    """Nothing is installed outside of the package's own folder.
+
+    Raises:
+        BuildFailure: something would be.
+    """
+    for item in items:
+        place = PurePosixPath(item.target)
+        if place.is_absolute() or ".." in place.parts or "\0" in item.target:
+            raise BuildFailure(f"error: '{item.target}' lies outside the package's install folder\n")
+
 
 SETUP_FILES = ("setup", "local_setup")
 SHELLS = ("bash", "sh", "zsh")
@@ -180,3 +278,139 @@ def write_setup_files(install: Path, names: Iterable[str]) -> None:
         files.save(install / f"local_setup.{shell}", "".join(lines))
         chain = f'. "$(cd "$(dirname "{place}")" > /dev/null && pwd)/local_setup.{shell}"\n'
         files.save(install / f"setup.{shell}", f"# Made by colcon build.\n{chain}")
+
+
+LAYOUT = ".colcon_install_layout"
+"""The file in which an install folder says `isolated` (a folder a package) or `merged` (one for all)."""
+PYTHON_FOLDERS = (f"lib/{PYTHON}/site-packages", f"local/lib/{PYTHON}/dist-packages")
+_INDEX = "share/ament_index/resource_index"
+
+
+def layout_of(install: Path) -> str:
+    """`isolated`, `merged`, or nothing where colcon has not installed anything yet."""
+    file = install / LAYOUT
+    return file.read_text(encoding="utf-8").strip() if file.is_file() else ""
+
+
+def prefix_of(install: Path, name: str) -> Path:
+    """The folder that a package is installed in."""
+    return install if layout_of(install) == "merged" else install / name
+
+
+def installed_names(install: Path) -> list[str]:
+    """The packages in an install folder, each after those it needs."""
+    pattern = "share/colcon-core/packages/*" if layout_of(install) == "merged" else "*/share/colcon-core/packages/*"
+    files = {file.name: file for file in install.glob(pattern) if file.is_file()}
+    needs = {name: set(file.read_text(encoding="utf-8").split(":")) & set(files) for name, file in files.items()}
+    ordered: list[str] = []
+    while needs:
+        ready = sorted(name for name, others in needs.items() if others <= {*ordered, name}) or sorted(needs)
+        ordered += ready
+        needs = {name: others for name, others in needs.items() if name not in ready}
+    return ordered
+
+
+def read_installed(install: Path, name: str) -> Package:
+    """One package of an install folder."""
+    prefix = prefix_of(install, name)
+    share = prefix / "share" / name
+    return Package(
+        name=name,
+        share=share,
+        executables={path.name: path for path in _programs(prefix / "lib" / name)},
+        interfaces=_interfaces(prefix, name),
+        source=source_of(install, name),
+        prefix=prefix,
+    )
+
+
+def _programs(folder: Path) -> list[Path]:
+    """The programs of a package: files that can be run, as `ros2 pkg executables` counts them."""
+    if not folder.is_dir():
+        return []
+    return sorted(path for path in folder.iterdir() if path.is_file() and (os.name == "nt" or os.access(path, os.X_OK)))
+
+
+def _interfaces(prefix: Path, name: str) -> list[str]:
+    file = prefix / _INDEX / "rosidl_interfaces" / name
+    if not file.is_file():
+        return []
+    lines = file.read_text(encoding="utf-8").splitlines()
+    return [line for line in lines if "_Re" not in line.rpartition("/")[2] and not line.endswith(".idl")]
+
+
+def source_of(install: Path, name: str) -> Path | None:
+    """The folder that an installed package was built from, if it is still there."""
+    file = install.parent / "build" / name / "source_folder.txt"
+    if not file.is_file():
+        return None
+    folder = Path(file.read_text(encoding="utf-8").strip())
+    return folder if folder.is_dir() else None
+
+
+def python_folders(prefix: Path) -> list[Path]:
+    """The folders with Python packages of the learner's own, which are put on the import path."""
+    return [prefix / place for place in PYTHON_FOLDERS if _has_own(prefix / place, prefix)]
+
+
+def _has_own(folder: Path, prefix: Path) -> bool:
+    if not folder.is_dir():
+        return False
+    index = prefix / _INDEX / "rosidl_interfaces"
+    made = {path.name for path in index.iterdir()} if index.is_dir() else set()
+    return any(path.name not in made and not path.name.endswith(".egg-info") for path in folder.iterdir())
+
+
+def definitions(folder: Path) -> Iterator[Path]:
+    """The definition files of a package, where they are looked for."""
+    for kind in ("msg", "srv", "action"):
+        yield from sorted((folder / kind).glob(f"*.{kind}"))
+
+
+def interface_items(found: Found, files: list[str]) -> list[Item]:
+    """What is installed for the interface files of a package, such as `msg/TurtleStatus.msg`."""
+    name = found.name
+    # Copied, as the classes are made from these: with --symlink-install, too, a new field counts after a build.
+    items = [Item(f"share/{name}/{file}", found.path / file, copied=True) for file in files]
+    for file in files:
+        items += _parts(found, file)
+    listed = sorted(item.target.removeprefix(f"share/{name}/") for item in items)
+    items.append(Item(f"share/ament_index/resource_index/rosidl_interfaces/{name}", text="\n".join(listed)))
+    return items + _modules(name, files)
+
+
+def _parts(found: Found, file: str) -> list[Item]:
+    """`NavigateTo_Request.msg` and `NavigateTo_Response.msg` of a service."""
+    path = Path(file)
+    if path.suffix != ".srv":
+        return []
+    request, _, response = (found.path / file).read_text(encoding="utf-8").partition("\n---")
+    texts = {"Request": request.removeprefix("---"), "Response": response.partition("\n")[2]}
+    stem = f"share/{found.name}/{path.with_suffix('').as_posix()}"
+    return [Item(f"{stem}_{part}.msg", text=text.strip("\n") + "\n") for part, text in texts.items()]
+
+
+def _modules(package: str, files: list[str]) -> list[Item]:
+    """The Python package, whose modules get their classes from the simulation."""
+    folder = f"local/lib/{PYTHON}/dist-packages/{package}"
+    items = [Item(f"{folder}/__init__.py")]
+    kinds: dict[str, list[str]] = {}
+    for file in files:
+        kind, _, rest = file.partition("/")
+        kinds.setdefault(kind, []).append(rest.rpartition(".")[0])
+    for kind, names in kinds.items():
+        lines = [f"from {package}.{kind}.{module_name(name)} import {name}  # noqa: F401\n" for name in names]
+        items.append(Item(f"{folder}/{kind}/__init__.py", text="".join(lines)))
+        for name in names:
+            text = _MODULE.format(package=package, kind=kind, name=name)
+            items.append(Item(f"{folder}/{kind}/{module_name(name)}.py", text=text))
+    return items
+
+
+_MODULE = '''\
+"""{package}/{kind}/{name}: made from {kind}/{name}.{kind} by colcon build."""
+
+from turtle_lesson.ros.interfaces.registry import registry
+
+{name} = registry.get("{package}/{kind}/{name}")
+'''

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import shutil
+import sys
+from collections.abc import Callable, Iterable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ... import files
+from ..core.program import run_program
 from ..core.tracebacks import shown_path
-from .cmake import CMakeError, CMakeFile, Program, read_cmake
+from .cmake import CMakeFile, Program, read_cmake
 from .errors import PackageError
 from .manifest import Manifest, read_manifest
-from .python_program import PythonProgram
 
 Target = Path | Callable[[], object]
 """What an executable is: a Python file, or a callable that is its `main()`."""
@@ -86,7 +90,7 @@ def _read_ament_python(folder: Path, manifest: Manifest) -> Package:
     """What a build would install, used where it lies."""
     from .ament_python import SITE, build_ament_python  # not for each start of a lesson
     from .discover import read_found
-    from .outcome import Environment
+    from .install_tree import Environment
 
     outcome = build_ament_python(
         read_found(folder, folder), Environment(folder / "install", folder / "build", symlink=True)
@@ -227,4 +231,36 @@ def _warnings(cmake: CMakeFile, programs: list[Program], folder: Path, file: Pat
     return found
 
 
-__all__ = ["CMakeError", "Package", "PackageError", "Target", "read_source_package"]
+@dataclass(frozen=True)
+class PythonProgram:
+    """What runs such a program.
+
+    Attributes:
+        path: the file, which is read at each start; one that does not exist stands for `text`.
+        folders: the folders of its modules.
+        text: the code of a program that no file holds, as an entry point used without a build.
+    """
+
+    path: Path
+    folders: tuple[Path, ...]
+    text: str | None = None
+
+    def __call__(self) -> None:
+        run_program(self.path, self.folders, self.text)
+
+
+def forget_below(folders: Iterable[Path]) -> None:
+    """Have the modules in these folders be imported anew, from what the files say now.
+
+    Compiled files in the learner's folder are deleted, too: Python takes them for good if the source has the same size and
+    second.
+    """
+    folders = tuple(folders)
+    for name, module in list(sys.modules.items()):
+        file = getattr(module, "__file__", None)
+        if isinstance(file, str) and any(Path(file).is_relative_to(folder) for folder in folders):
+            del sys.modules[name]
+    for folder in folders:
+        for cache in list(folder.rglob("__pycache__")):
+            with suppress(PermissionError):
+                shutil.rmtree(files.check(cache, removes=True), ignore_errors=True)

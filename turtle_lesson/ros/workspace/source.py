@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING, TextIO
 
 from ..interfaces.registry import registry
 from .errors import did_you_mean
-from .installed import LAYOUT, installed_names, python_folders, read_installed
-from .package import Package, Target
-from .python_program import PythonProgram, forget_below
+from .install_tree import LAYOUT, installed_names, python_folders, read_installed
+from .package import Package, PythonProgram, Target, forget_below
 
 if TYPE_CHECKING:
     from ..world import World

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from turtle_lesson.ros.interfaces.registry import FOLDERS, registry
-from turtle_lesson.ros.workspace.current import current_packages
+from turtle_lesson.ros.workspace.index import current_packages
 
 SITE = Path(__file__).resolve().parents[1]
 
