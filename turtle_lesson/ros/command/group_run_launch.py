@@ -29,7 +29,7 @@ from .parser import cut
 from .streams import lasting
 
 if TYPE_CHECKING:
-    from ..launching.handle import LaunchHandle
+    from ..launching.start import LaunchHandle
     from ..world import World
 
 SIGNAL_TEXTS = {-2: "Interrupt", -9: "Killed", -15: "Terminated"}

@@ -10,7 +10,9 @@ start; all others (turtlesim, echo) at once. `handle.wait_until_up()` lets that 
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -20,8 +22,7 @@ if TYPE_CHECKING:
     from launch import LaunchDescription
 
     from ..world import World
-    from .arguments import LaunchArgument
-    from .handle import LaunchHandle
+    from .start import LaunchArgument, LaunchHandle
 
 __all__ = [
     "LaunchError",
@@ -96,16 +97,31 @@ def show_arguments(world: World, path: Path | str) -> str:
     Raises:
         LaunchError: if the file cannot be loaded.
     """
-    from .arguments import as_shown
+    from .start import as_shown
 
     return as_shown(launch_arguments(world, path))
 
 
-def _start() -> Any:
-    """The module that does the work, once it is sure that `import launch` finds the simulation's package."""
-    from . import classroom
+_SITE = Path(__file__).resolve().parents[1] / "site"
 
-    classroom.check()
+
+def _start() -> Any:
+    """The module that does the work, once `import launch` is sure to find the simulation's package.
+
+    Raises:
+        LaunchError: if another package named launch or launch_ros hides the simulation's.
+    """
+    if str(_SITE) not in sys.path:
+        sys.path.append(str(_SITE))  # after all others
+    for name in ("launch", "launch_ros", "launch_xml", "launch_yaml"):
+        spec = find_spec(name)
+        if spec is None or not spec.origin or _SITE not in Path(spec.origin).resolve().parents:
+            raise LaunchError(
+                f"`import {name}` finds {spec.origin if spec else 'nothing'}, not the simulation's package",
+                None,
+                "If a real ROS 2 is sourced, start Jupyter from a terminal without it; if pip installed it, "
+                f"pip uninstall {name}.",
+            )
     from . import start
 
     return start
@@ -113,12 +129,8 @@ def _start() -> Any:
 
 def __getattr__(name: str) -> Any:
     """LaunchHandle and LaunchArgument, imported when first asked for, since they need the package launch."""
-    if name == "LaunchHandle":
-        from .handle import LaunchHandle
+    if name in ("LaunchHandle", "LaunchArgument"):
+        from . import start
 
-        return LaunchHandle
-    if name == "LaunchArgument":
-        from .arguments import LaunchArgument
-
-        return LaunchArgument
+        return getattr(start, name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

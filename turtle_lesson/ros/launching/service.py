@@ -6,10 +6,13 @@ error in it starts nothing. Events are handled one after the other, at the insta
 
 from __future__ import annotations
 
+import asyncio
+import time
+from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, redirect_stdout
 from itertools import count
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from launch import Action, Event, LaunchContext, LaunchDescriptionEntity
 from launch._context import as_entities
@@ -17,18 +20,19 @@ from launch.actions import EmitEvent
 from launch.event_handlers import OnActionEventBase
 from launch.events import IncludeLaunchDescription, Shutdown
 
+from ..core import running_strand
 from ..workspace.errors import NotHereError
 from ..workspace.index import LaunchedPackages, seeing
-from .errors import LaunchError, place_of, reason_of
-from .hints import hint_for
-from .output import Screen
-from .processes import Processes
-from .ros_helper import RosHelper
+from ..world import current_world
+from .errors import LaunchError, hint_for, place_of, reason_of
+from .processes import Processes, Screen
 
 if TYPE_CHECKING:
     from launch.actions import ExecuteLocal
 
+    from ..core import Process
     from ..world import World
+
 
 NANOSECONDS = 1_000_000_000
 
@@ -210,3 +214,174 @@ def as_launch_error(error: BaseException, written_at: tuple[str, int] | None, gi
     if isinstance(error, LaunchError):
         return error
     return LaunchError(reason_of(error), place_of(error, written_at), hint_for(error, given))
+
+
+LOOKS_AGAIN = 0.01
+"""How often, in s, it looks whether a node has its service by now."""
+
+
+class RosHelper:
+    """Listens to managed nodes and asks them for transitions; what it hears is told outside of its process."""
+
+    def __init__(self, world: World, carry_on: Callable[[Callable[[], None]], None]) -> None:
+        self._world = world
+        self._carry_on = carry_on
+        self._orders: list[Callable[[], None]] = []
+        self._node: Any = None
+        self._executor: Any = None
+        self._clients: dict[str, Any] = {}
+        self._ended = False
+        self._process: Process = world.spawn(self._main, name="launch_ros", argv=["launch_ros"])
+
+    def _main(self) -> None:
+        import rclpy
+        from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+
+        rclpy.init(args=[])
+        self._node = rclpy.create_node(f"launch_ros_{self._process.pid}", start_parameter_services=False)
+        self._executor = SingleThreadedExecutor()
+        self._executor.add_node(self._node)
+        self._wakes = self._node.create_guard_condition(self._work)
+        self._work()
+        try:
+            self._executor.spin()
+        except (KeyboardInterrupt, ExternalShutdownException):
+            pass
+        finally:
+            rclpy.try_shutdown()
+
+    def _work(self) -> None:
+        """Carry the orders out, in the helper's own process."""
+        while self._orders:
+            self._orders.pop(0)()
+
+    def _order(self, order: Callable[[], None]) -> None:
+        self._orders.append(order)
+        if self._node is not None:
+            self._wakes.trigger()
+
+    def _tell(self, function: Callable[[], None]) -> None:
+        """Call a function of the launch, outside of this process and at this instant."""
+        if not self._ended:
+            self._world.sim.call_later(0, self._carry_on, function)
+
+    def watch(self, node_name: str, heard: Callable[[Any], None]) -> None:
+        """Have a function called with each TransitionEvent of a node."""
+        from lifecycle_msgs.msg import TransitionEvent
+
+        def subscribe() -> None:
+            topic = f"{node_name}/transition_event"
+            self._node.create_subscription(TransitionEvent, topic, lambda msg: self._tell(lambda: heard(msg)), 10)
+
+        self._order(subscribe)
+
+    def change_state(self, node_name: str, transition_id: int, answered: Callable[[bool], None]) -> None:
+        """Ask a node for a transition, as soon as it has the service; the function is called with the answer."""
+        from lifecycle_msgs.srv import ChangeState
+
+        def call() -> None:
+            client = self._client(node_name, ChangeState)
+            if not client.service_is_ready():  # wait without holding up what other nodes tell
+                timer: Any = self._node.create_timer(LOOKS_AGAIN, lambda: again(timer))
+                return
+            request = ChangeState.Request()
+            request.transition.id = transition_id
+            future = client.call_async(request)
+            future.add_done_callback(lambda done: self._tell(lambda: answered(done.result().success)))
+
+        def again(timer: Any) -> None:
+            self._node.destroy_timer(timer)
+            call()
+
+        self._order(call)
+
+    def _client(self, node_name: str, kind: Any) -> Any:
+        if node_name not in self._clients:
+            self._clients[node_name] = self._node.create_client(kind, f"{node_name}/change_state")
+        return self._clients[node_name]
+
+    def close(self) -> None:
+        """End it."""
+        self._ended = True
+        if self._process.exit_code is None:
+            self._process.kill()
+
+
+LOOKS = 0.01
+"""How often, in s of robot time, it looks whether the launch has ended."""
+
+
+class LaunchByHand:
+    """One launch in the world that the running code lives in."""
+
+    def __init__(self, argv: list[str], noninteractive: bool) -> None:
+        self._service = LaunchService(current_world(), {})
+        self.context: LaunchContext = self._service.context
+        self.context.argv = argv
+        self.context.noninteractive = noninteractive
+        self._early: deque[Event] = deque()
+        self._began = False
+        self._failed = False
+
+    def emit(self, event: Event) -> None:
+        """Emit an event; before the launch has begun, it waits."""
+        if self._began:
+            self.context.emit_event_sync(event)
+        else:
+            self._early.append(event)
+
+    def run(self, shutdown_when_idle: bool) -> int:
+        """Carry all out and wait for the end; the exit code."""
+        if running_strand() is not None:
+            return self._run(shutdown_when_idle)
+        from rclpy._blocking import spin_live
+
+        codes: list[int] = []
+        spin_live(lambda: codes.append(self._run(shutdown_when_idle)))
+        return codes[0] if codes else 0
+
+    def _run(self, shutdown_when_idle: bool) -> int:
+        self._begin()
+        while self._goes_on(shutdown_when_idle):
+            try:
+                time.sleep(LOOKS)
+            except KeyboardInterrupt:
+                self._interrupted()
+        return self._code()
+
+    async def run_async(self, shutdown_when_idle: bool) -> int:
+        """The same as a coroutine."""
+        self._begin()
+        while self._goes_on(shutdown_when_idle):
+            await asyncio.sleep(LOOKS)
+        return self._code()
+
+    def _begin(self) -> None:
+        self._began = True
+        while self._early and not self._failed:
+            try:
+                self._service.begin(EmitEvent(event=self._early.popleft()))
+            except LaunchError as error:
+                self._failed = True
+                for line in filter(None, (error.console, error.advice)):
+                    self._service.screen.line(line)
+
+    def _goes_on(self, shutdown_when_idle: bool) -> bool:
+        service = self._service
+        return service.running or not (shutdown_when_idle or self.context.is_shutdown)
+
+    def _code(self) -> int:
+        if not self.context.is_shutdown:
+            self._service.shut_down("idle")
+        self._began = False
+        return 1 if self._failed or self._service.failed else 0
+
+    def _interrupted(self) -> None:
+        if not self.context.is_shutdown:
+            self._service.screen.say("WARNING", "launch", "user interrupted with ctrl-c (SIGINT)")
+            self._service.shut_down("ctrl-c (SIGINT)", due_to_sigint=True)
+
+    def shut_down(self) -> None:
+        """End it, if it runs."""
+        if self._began and not self.context.is_shutdown:
+            self._service.shut_down("LaunchService.shutdown() called")

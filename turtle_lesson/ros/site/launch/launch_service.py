@@ -10,7 +10,7 @@ from ._entities import LaunchDescription
 from .events import IncludeLaunchDescription
 
 if TYPE_CHECKING:
-    from turtle_lesson.ros.launching.by_hand import LaunchByHand
+    from turtle_lesson.ros.launching.service import LaunchByHand
 
 
 class LaunchService:
@@ -58,6 +58,6 @@ class LaunchService:
 
 
 def _by_hand(argv: list[str], noninteractive: bool) -> LaunchByHand:
-    from turtle_lesson.ros.launching.by_hand import LaunchByHand
+    from turtle_lesson.ros.launching.service import LaunchByHand
 
     return LaunchByHand(argv, noninteractive)

@@ -165,7 +165,7 @@ class Command(Substitution):
             SubstitutionFailure: if it fails, or the simulation does not have it.
             NotHereError: if it needs a Python package that is not installed; then the launch goes on without the action.
         """
-        from turtle_lesson.ros.launching.small_commands import CommandFailure, output_of
+        from turtle_lesson.ros.launching.commands import CommandFailure, output_of
 
         text = perform_substitutions(context, self.command)
         if perform_substitutions(context, self.on_stderr) not in ("fail", "ignore", "warn", "capture"):
