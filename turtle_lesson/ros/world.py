@@ -11,7 +11,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from . import advice, children
+from . import advice, subprocesses
 from .core import EPOCH, Process, Simulation, running_strand, virtual_random, virtual_time
 from .core.process import Output
 from .core.program import run_program
@@ -40,7 +40,7 @@ class World:
         virtual_random.install()
         virtual_random.install_for_numpy()
         lend.install()
-        children.install()
+        subprocesses.install()
         advice.install()
         self.seed = seed
         self.sim = Simulation()

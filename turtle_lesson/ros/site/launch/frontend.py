@@ -22,7 +22,6 @@ __all__ = [
     "expose_substitution",
     "parse_if_substitutions",
     "parse_substitution",
-    "type_utils",
 ]
 
 
