@@ -63,18 +63,17 @@ def unpack_file(source: Path, target: Path) -> None:
     size = source.stat().st_size
     left = limit(size)
     with _zstd().open(source, "rb") as packed, target.open("wb") as unpacked:
-        while piece := _next_piece(packed):
+        while True:
+            try:
+                piece = packed.read(1 << 20)
+            except (EOFError, _zstd().ZstdError):
+                return  # cut short or spoiled
+            if not piece:
+                return
             left -= len(piece)
             if left < 0:
                 raise too_large(source.name, size)
             unpacked.write(piece)
-
-
-def _next_piece(packed: Any) -> bytes:
-    try:
-        return bytes(packed.read(1 << 20))
-    except (EOFError, _zstd().ZstdError):
-        return b""  # cut short or spoiled
 
 
 def _zstd() -> Any:

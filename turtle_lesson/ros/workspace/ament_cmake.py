@@ -110,7 +110,9 @@ class _Build:
         for command in cmake.commands:
             self._configure(command)
         if not self.finished:
-            self._unfinished()
+            self.hints.append(
+                "There is no ament_package() in CMakeLists.txt: without it ROS 2 does not find the package. Write it last."
+            )
         for check in self.checks:
             check.resolve(self._types())
         items = self._items(cmake)
@@ -305,11 +307,6 @@ class _Build:
             hints = ["Is every <tag> closed by a </tag>, and is every < in a text written as &lt;?"]
         return BuildFailure(text, " ".join(filter(None, hints)))
 
-    def _unfinished(self) -> None:
-        self.hints.append(
-            "There is no ament_package() in CMakeLists.txt: without it ROS 2 does not find the package. Write it last."
-        )
-
     def _types(self) -> Registry:
         """All types that exist in this build; of the package's own those alone that CMakeLists.txt names."""
         types = self.environment.types
@@ -405,7 +402,8 @@ class _Build:
     def _outcome(self, items: list[Item]) -> Outcome:
         files = [file for check in self.checks for file in check.files]
         share = prefix_of(self.environment.install, self.found.name) / "share" / self.found.name
-        changed = [file for file in files if not _same(share / file, self.found.path / file)]
+        pairs = [(share / file, self.found.path / file) for file in files]
+        changed = [new for old, new in pairs if not old.is_file() or old.read_bytes() != new.read_bytes()]
         seconds = (0.7 if self.again else 1.2) + 2.0 * len(changed)
         stdout = [f"-- Found {name}" for name in sorted(self.seen)]
         stdout += ["-- Configuring done", "-- Generating done"]
@@ -414,10 +412,3 @@ class _Build:
         outcome = Outcome(0, text, stdout, seconds, items, self.found.runtime_dependencies(), paths)
         outcome.left_out, outcome.lacking = self.left_out, self.lacking
         return outcome
-
-
-def _same(one: Path, other: Path) -> bool:
-    return one.is_file() and one.read_bytes() == other.read_bytes()
-
-
-__all__ = ["build_ament_cmake"]

@@ -220,7 +220,13 @@ class _Build:
 
     def _programs(self) -> list[Item]:
         place = install_scripts(self.found.path)
-        items = [self._script(place, str(name)) for name in _texts(self.setup.get("scripts"))]
+        items = []
+        for name in _texts(self.setup.get("scripts")):
+            source = self.found.path / name
+            if not source.is_file():
+                text = f"error: file '{source}' does not exist\n"
+                raise BuildFailure(text, f"setup.py names {name} in scripts=….", seconds=0.5)
+            items.append(Item(f"{place or 'bin'}/{source.name}", source, program=True))
         for line in program_lines(self._entries()):
             match = _ENTRY.fullmatch(line)
             if match is None:
@@ -237,13 +243,6 @@ class _Build:
                 f"script_dir=$base/lib/{self.found.name} and [install] install_scripts=$base/lib/{self.found.name}."
             )
         return items
-
-    def _script(self, place: str | None, name: str) -> Item:
-        source = self.found.path / name
-        if not source.is_file():
-            text = f"error: file '{source}' does not exist\n"
-            raise BuildFailure(text, f"setup.py names {name} in scripts=….", seconds=0.5)
-        return Item(f"{place or 'bin'}/{source.name}", source, program=True)
 
     def _check_entry(self, name: str, module: str, function: str) -> None:
         """A real build does not look; the program would end with an error when it is run."""
@@ -295,7 +294,13 @@ def entry_groups(given: Any) -> dict[str, list[str]] | None:
     groups = _sections(given) if isinstance(given, str) else given
     if not isinstance(groups, dict):
         return None
-    return {str(group): _lines(lines or []) for group, lines in groups.items()}
+    found: dict[str, list[str]] = {}
+    for group, lines in groups.items():
+        if isinstance(lines, str):
+            found[str(group)] = [line for line in lines.splitlines() if line.strip()]
+        else:
+            found[str(group)] = list(map(str, lines if isinstance(lines, list) else [lines] if lines else []))
+    return found
 
 
 def program_lines(groups: dict[str, list[str]]) -> list[str]:
@@ -306,12 +311,6 @@ def program_lines(groups: dict[str, list[str]]) -> list[str]:
 def entry_text(groups: dict[str, list[str]]) -> str:
     """What an installed package's entry_points.txt says, where `importlib.metadata` finds plugins of all packages."""
     return "\n".join(f"[{group}]\n" + "".join(f"{line.strip()}\n" for line in lines) for group, lines in groups.items())
-
-
-def _lines(given: Any) -> list[str]:
-    if isinstance(given, str):
-        return [line for line in given.splitlines() if line.strip()]
-    return [str(line) for line in given] if isinstance(given, list) else [str(given)]
 
 
 def _sections(text: str) -> dict[str, list[str]]:

@@ -99,7 +99,8 @@ class _Builder:
                 break  # what is left depends on what failed
             self._end(min(self.running, key=lambda job: job.ends))
             if self.code and not self.plan.go_on:
-                self._abort()
+                for job in self.running:
+                    self.console.aborted(job.found.name, self.now - job.began + 0.05)
                 break
         write_setup_files(self.plan.install, installed_names(self.plan.install))
         self._pass(_END)
@@ -181,11 +182,6 @@ class _Builder:
         if lines:
             head = "Warning: C++ is not compiled here. All else of these packages was built"
             self.console.error("\n".join([f"{head} (interfaces, launch files, parameters, Python programs):", *lines]))
-
-    def _abort(self) -> None:
-        for job in self.running:
-            self.console.aborted(job.found.name, self.now - job.began + 0.05)
-        self.running.clear()
 
     def _environment(self, found: Found) -> Environment:
         """What the package may use: what is sourced, and those of this workspace that package.xml names."""

@@ -233,17 +233,16 @@ def evaluate(
     for command in read.named("add_subdirectory"):
         inner = Path(where, "".join(command.args[:1])).resolve()
         if Path(where).resolve() in inner.parents:
-            read.folders[command.line] = _inner(inner, known)
+            try:
+                read.folders[command.line] = evaluate(
+                    (inner / "CMakeLists.txt").read_text(encoding="utf-8"),
+                    str(inner / "CMakeLists.txt"),
+                    inner,
+                    dict(known),
+                )
+            except (CMakeError, OSError, UnicodeDecodeError):
+                read.folders[command.line] = CMakeFile(file=str(inner / "CMakeLists.txt"))  # nothing is known of it
     return read
-
-
-def _inner(folder: Path, variables: dict[str, str]) -> CMakeFile:
-    """What the CMakeLists.txt of an inner folder says; nothing if it cannot be read."""
-    file = folder / "CMakeLists.txt"
-    try:
-        return evaluate(file.read_text(encoding="utf-8"), str(file), folder, dict(variables))
-    except (CMakeError, OSError, UnicodeDecodeError):
-        return CMakeFile(file=str(file))
 
 
 class _Evaluator:
@@ -323,7 +322,10 @@ class _Evaluator:
         values: list[str] = []
         for argument in call.args:
             text = self.expand(argument, call)
-            values += [text] if argument.quoted else [part for part in _split(text) if part]
+            parts = [text] if argument.quoted else re.split(r"(?<!\\);", text)  # a list's elements
+            values += [
+                part if argument.quoted else part.replace("\\;", ";") for part in parts if part or argument.quoted
+            ]
         return tuple(values)
 
     def expand(self, argument: Argument, call: Call) -> str:
@@ -379,8 +381,3 @@ def _matches(pattern: Path, below: bool) -> list[Path]:
     if not below:
         return [Path(path) for path in glob(str(pattern))]
     return [path for path in pattern.parent.rglob(pattern.name) if path.is_file()] if pattern.name else []
-
-
-def _split(text: str) -> list[str]:
-    """The elements of a CMake list."""
-    return [part.replace("\\;", ";") for part in re.split(r"(?<!\\);", text)]

@@ -223,7 +223,11 @@ class _Command:
                 place = f"{each.shown}/package.xml"
                 self.err.write(f"Hint: {place}: the build_type is unknown. {build_type_hint(each.build_type)}\n")
         if not found:
-            self._nothing()
+            where = "its src/" if (self.cwd / "src").is_dir() else "it"
+            above = self.cwd.parent / "src"
+            hint = "Go to the workspace first: cd .." if above.is_dir() and above != self.cwd else ""
+            text = f"Hint: no folder in {where} has a package.xml; ros2 pkg create makes one. {hint}".rstrip()
+            self.err.write(f"{text}\n")
         if text := overridden(self.world, chosen, self.cwd / args.install_base, args.allow_overriding):
             self._warn(text)
         plan = Plan(
@@ -249,13 +253,6 @@ class _Command:
                 "Hint: this is src/, so install/ is made in it. Packages are usually built in the folder above.\n"
             )
         return build(self.world, plan, stdout=self.out, stderr=self.err)
-
-    def _nothing(self) -> None:
-        where = "its src/" if (self.cwd / "src").is_dir() else "it"
-        above = self.cwd.parent / "src"
-        hint = "Go to the workspace first: cd .." if above.is_dir() and above != self.cwd else ""
-        text = f"Hint: no folder in {where} has a package.xml; ros2 pkg create makes one. {hint}".rstrip()
-        self.err.write(f"{text}\n")
 
     def _handlers(self, words: list[str]) -> dict[str, bool]:
         handlers = {}
@@ -364,7 +361,12 @@ def overridden(world: World, chosen: list[Found], install: Path, allowed: list[s
 
 def _needed_in_underlays(world: World, install: Path) -> dict[str, str]:
     """The packages of other install folders on which packages there depend, each with its place."""
-    outside = {each.name: each.prefix for each in world.packages if each.prefix and not _below(each.prefix, install)}
+    install = install.resolve()
+    outside = {
+        each.name: each.prefix
+        for each in world.packages
+        if each.prefix and each.prefix not in {install, prefix_of(install, each.prefix.name)}
+    }
     places = {}
     for name, prefix in outside.items():
         file = prefix / "share" / "colcon-core" / "packages" / name
@@ -372,7 +374,3 @@ def _needed_in_underlays(world: World, install: Path) -> dict[str, str]:
             if other in outside:
                 places[other] = shown_path(str(outside[other]))
     return places
-
-
-def _below(prefix: Path, install: Path) -> bool:
-    return prefix in {install.resolve(), prefix_of(install.resolve(), prefix.name)}

@@ -219,12 +219,15 @@ def choose(args: argparse.Namespace, found: list[Found], warn: Warn) -> list[Fou
     if args.packages_up_to is not None:
         chosen &= needed_by(found, args.packages_up_to)
     if args.packages_above is not None:
-        chosen &= _above(found, args.packages_above)
+        above = set(args.packages_above)
+        chosen &= {each.name for each in found if needed_by(found, [each.name]) & above}
     if args.packages_select_regex is not None:
         chosen &= _matching(names, args.packages_select_regex)
     chosen -= set(args.packages_skip or []) | _matching(names, args.packages_skip_regex or [])
     if args.packages_start or args.packages_end:
-        chosen &= _between(found, args.packages_start, args.packages_end)
+        ordered = [each.name for each in in_order(found)]
+        first = ordered.index(args.packages_start) if args.packages_start else 0
+        chosen &= set(ordered[first : ordered.index(args.packages_end) + 1 if args.packages_end else None])
     return [each for each in found if each.name in chosen]
 
 
@@ -249,18 +252,8 @@ def _check_names(args: argparse.Namespace, names: set[str], warn: Warn) -> None:
                 warn(f"ignoring unknown package '{name[:80]}' in {flag}" + (f"\nHint: {hint}" if hint else ""))
 
 
-def _above(found: list[Found], names: list[str]) -> set[str]:
-    return {each.name for each in found if needed_by(found, [each.name]).intersection(names)}
-
-
 def _matching(names: set[str], patterns: list[str]) -> set[str]:
     try:
         return {name for name in names if any(re.fullmatch(pattern, name) for pattern in patterns)}
     except re.error as error:
         raise ColconError(f"{' '.join(patterns)[:80]} is not a regular expression: {error}") from None
-
-
-def _between(found: list[Found], start: str | None, end: str | None) -> set[str]:
-    ordered = [each.name for each in in_order(found)]
-    first = ordered.index(start) if start else 0
-    return set(ordered[first : ordered.index(end) + 1 if end else None])

@@ -18,7 +18,7 @@ from .catalog import CMAKE_PACKAGES, PYTHON_PACKAGES
 from .discover import Found, build_type_hint, discover, read_found
 from .errors import PackageError, did_you_mean
 from .index import is_launch_file
-from .install_tree import Environment, Item, Outcome
+from .install_tree import Environment, Outcome
 
 if TYPE_CHECKING:
     from ..distro import Release
@@ -76,7 +76,12 @@ def export_package(world: World, package: str | Path, to: str | Path, *, overwri
     target = Path(to).expanduser().resolve() / "src" / found.name
     _check_target(found, target, overwrite)
     outcome = _checked(found)
-    _check_not_ours(found)
+    for file, tree in _sources(found.path):
+        for name, line in _imports(tree):
+            if name == _OURS:
+                raise PackageError(
+                    f"this imports {_OURS}", file, line, "A robot does not have it: use only rclpy and the topics."
+                )
     if target.exists():
         shutil.rmtree(target)
     shutil.copytree(found.path, target, ignore=shutil.ignore_patterns(*_LEFT_OUT))
@@ -149,14 +154,6 @@ def _imports(tree: ast.Module) -> Iterator[tuple[str, int]]:
             yield node.module.partition(".")[0], node.lineno
 
 
-def _check_not_ours(found: Found) -> None:
-    for file, tree in _sources(found.path):
-        for name, line in _imports(tree):
-            if name == _OURS:
-                hint = "A robot does not have it: use only rclpy and the topics."
-                raise PackageError(f"this imports {_OURS}", file, line, hint)
-
-
 def _make_fit(found: Found, target: Path, outcome: Outcome) -> None:
     """Line ends as Linux wants them, and programs that can be run."""
     for file in target.rglob("*"):
@@ -169,7 +166,8 @@ def _make_fit(found: Found, target: Path, outcome: Outcome) -> None:
 
 def _describe(found: Found, target: Path, outcome: Outcome, release: Release) -> Exported:
     programs = [item.target.rpartition("/")[2] for item in outcome.items if item.program]
-    interfaces = [file for item in outcome.items if (file := _interface(item, found))]
+    share = f"share/{found.name}/"
+    interfaces = [item.target.removeprefix(share) for item in outcome.items if item.source and item.copied]
     notes = [line.removeprefix("Hint: ") for line in outcome.stderr.splitlines() if line.startswith("Hint: ")]
     notes += _missing_dependencies(found)
     notes += _newer_than(release, found)
@@ -187,11 +185,6 @@ def _describe(found: Found, target: Path, outcome: Outcome, release: Release) ->
         f"package.xml still says '{word}'" for word in ("TODO: Package description", "TODO: License") if word in text
     ]
     return Exported(target.parent.parent, target, found.name, sorted(programs), sorted(interfaces), notes)
-
-
-def _interface(item: Item, found: Found) -> str:
-    inner = item.target.removeprefix(f"share/{found.name}/")
-    return inner if item.source is not None and Path(inner).suffix in {".msg", ".srv", ".action"} else ""
 
 
 def _missing_dependencies(found: Found) -> list[str]:
@@ -216,12 +209,9 @@ def _newer_than(release: Release, found: Found) -> Iterator[str]:
                 break
 
 
-def _launch_files(package: Path) -> list[str]:
-    return sorted(path.name for path in package.rglob("*") if is_launch_file(path.name))
-
-
 def _readme(result: Exported, found: Found) -> str:
-    run = [f"ros2 launch {result.name} {name}" for name in _launch_files(result.package)]
+    launch_files = sorted(path.name for path in result.package.rglob("*") if is_launch_file(path.name))
+    run = [f"ros2 launch {result.name} {name}" for name in launch_files]
     run = run or [f"ros2 run {result.name} {name}" for name in result.programs]
     if "turtlesim" in found.dependencies:
         run.insert(

@@ -111,7 +111,6 @@ def check_targets(items: Iterable[Item]) -> None:
             raise BuildFailure(f"error: '{item.target}' lies outside the package's install folder\n")
 
 
-SETUP_FILES = ("setup", "local_setup")
 SHELLS = ("bash", "sh", "zsh")
 
 
@@ -227,7 +226,8 @@ def _environment(found: Found, outcome: Outcome) -> Iterator[Item]:
     """What the package adds to the environment, one line a variable, as colcon's own .dsv files have it."""
     share = f"share/{found.name}"
     hooks = {"ament_prefix_path": "prepend-non-duplicate;AMENT_PREFIX_PATH;"}
-    for folder in outcome.paths or _python_folders(outcome):
+    made = [item.target.partition("/dist-packages/")[0] for item in outcome.items if "/dist-packages/" in item.target]
+    for folder in outcome.paths or [f"{place}/dist-packages" for place in made[:1]]:
         hooks["pythonpath"] = f"prepend-non-duplicate;PYTHONPATH;{folder}"
     place = "hook" if found.is_python else "environment"
     for name, line in hooks.items():
@@ -236,11 +236,6 @@ def _environment(found: Found, outcome: Outcome) -> Iterator[Item]:
     yield Item(f"{share}/package.dsv", text="".join(sources))
     for shell in SHELLS:
         yield Item(f"{share}/package.{shell}", text=_shell_lines(found.name, hooks, "$COLCON_CURRENT_PREFIX"))
-
-
-def _python_folders(outcome: Outcome) -> list[str]:
-    folders = [item.target for item in outcome.items if "/dist-packages/" in item.target]
-    return [folders[0].partition("/dist-packages/")[0] + "/dist-packages"] if folders else []
 
 
 def _shell_lines(name: str, hooks: dict[str, str], prefix: str) -> str:
@@ -311,32 +306,21 @@ def installed_names(install: Path) -> list[str]:
 
 
 def read_installed(install: Path, name: str) -> Package:
-    """One package of an install folder."""
+    """One package of an install folder. Its programs are the files that can be run, as `ros2 pkg executables` counts them."""
     prefix = prefix_of(install, name)
-    share = prefix / "share" / name
+    libexec, listed = prefix / "lib" / name, prefix / _INDEX / "rosidl_interfaces" / name
+    lying = sorted(libexec.iterdir()) if libexec.is_dir() else []
+    lines = listed.read_text(encoding="utf-8").splitlines() if listed.is_file() else []
     return Package(
         name=name,
-        share=share,
-        executables={path.name: path for path in _programs(prefix / "lib" / name)},
-        interfaces=_interfaces(prefix, name),
+        share=prefix / "share" / name,
+        executables={
+            path.name: path for path in lying if path.is_file() and (os.name == "nt" or os.access(path, os.X_OK))
+        },
+        interfaces=[line for line in lines if "_Re" not in line.rpartition("/")[2] and not line.endswith(".idl")],
         source=source_of(install, name),
         prefix=prefix,
     )
-
-
-def _programs(folder: Path) -> list[Path]:
-    """The programs of a package: files that can be run, as `ros2 pkg executables` counts them."""
-    if not folder.is_dir():
-        return []
-    return sorted(path for path in folder.iterdir() if path.is_file() and (os.name == "nt" or os.access(path, os.X_OK)))
-
-
-def _interfaces(prefix: Path, name: str) -> list[str]:
-    file = prefix / _INDEX / "rosidl_interfaces" / name
-    if not file.is_file():
-        return []
-    lines = file.read_text(encoding="utf-8").splitlines()
-    return [line for line in lines if "_Re" not in line.rpartition("/")[2] and not line.endswith(".idl")]
 
 
 def source_of(install: Path, name: str) -> Path | None:
@@ -350,15 +334,14 @@ def source_of(install: Path, name: str) -> Path | None:
 
 def python_folders(prefix: Path) -> list[Path]:
     """The folders with Python packages of the learner's own, which are put on the import path."""
-    return [prefix / place for place in PYTHON_FOLDERS if _has_own(prefix / place, prefix)]
-
-
-def _has_own(folder: Path, prefix: Path) -> bool:
-    if not folder.is_dir():
-        return False
     index = prefix / _INDEX / "rosidl_interfaces"
     made = {path.name for path in index.iterdir()} if index.is_dir() else set()
-    return any(path.name not in made and not path.name.endswith(".egg-info") for path in folder.iterdir())
+    return [
+        folder
+        for folder in (prefix / place for place in PYTHON_FOLDERS)
+        if folder.is_dir()
+        and any(path.name not in made and not path.name.endswith(".egg-info") for path in folder.iterdir())
+    ]
 
 
 def definitions(folder: Path) -> Iterator[Path]:

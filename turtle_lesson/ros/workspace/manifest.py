@@ -13,7 +13,7 @@ import re
 import subprocess
 import sys
 import tempfile
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -27,19 +27,12 @@ _NAME = re.compile(r"[a-z][a-z0-9_-]*")
 
 @dataclass
 class Manifest:
-    """The parts of a `package.xml` that a build needs."""
+    """The parts of a `package.xml` by which a package is used as it lies there."""
 
     name: str
-    version: str = "0.0.0"
-    description: str = ""
-    build_type: str = ""
-    dependencies: dict[str, list[str]] = field(default_factory=dict)
-    groups: list[str] = field(default_factory=list)
-    file: Path = Path("package.xml")
-
-    def all_dependencies(self) -> list[str]:
-        """Every package that is named in any kind of dependency, once."""
-        return list(dict.fromkeys(name for names in self.dependencies.values() for name in names))
+    build_type: str
+    groups: list[str]
+    file: Path
 
 
 def read_manifest(file: Path) -> Manifest:
@@ -58,10 +51,7 @@ def read_manifest(file: Path) -> Manifest:
         raise PackageError(reason, file)
     return Manifest(
         name=name,
-        version=_text(root, "version"),
-        description=_text(root, "description"),
         build_type=_build_type(root, file),
-        dependencies=_dependencies(root),
         groups=[(element.text or "").strip() for element in root.findall("member_of_group")],
         file=file,
     )
@@ -98,14 +88,6 @@ def _build_type(root: ElementTree.Element, file: Path) -> str:
         hint = did_you_mean(build_type, BUILD_TYPES) or f"Known are {', '.join(BUILD_TYPES)}."
         raise PackageError(f"the build_type '{build_type}' is unknown", file, hint=hint)
     return build_type
-
-
-def _dependencies(root: ElementTree.Element) -> dict[str, list[str]]:
-    found: dict[str, list[str]] = {}
-    for element in root:
-        if element.tag == "depend" or element.tag.endswith("_depend"):
-            found.setdefault(element.tag, []).append((element.text or "").strip())
-    return found
 
 
 _DEPENDS = ("depend", "build_depend", "build_export_depend", "buildtool_depend", "buildtool_export_depend",

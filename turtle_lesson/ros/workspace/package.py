@@ -168,16 +168,12 @@ def _check_interfaces(cmake: CMakeFile, manifest: Manifest, folder: Path, file: 
         reason = f"Packages installing interfaces must include '{line_of_xml}' in their package.xml"
         raise PackageError(reason, file, line, hint="Add that line to package.xml, before <export>.")
     for name, line in cmake.interfaces():
-        _check_interface(name, line, folder, file)
-
-
-def _check_interface(name: str, line: int, folder: Path, file: Path) -> None:
-    if Path(name).suffix not in {".msg", ".srv", ".action"}:
-        raise PackageError(f"'{name}' is not an interface file: it must end in .msg, .srv or .action", file, line)
-    if not (folder / name).is_file():
-        hint = _others(folder, f"*{Path(name).suffix}")
-        reason = f"rosidl_generate_interfaces names '{name}', which does not exist"
-        raise PackageError(reason, file, line, hint)
+        if Path(name).suffix not in {".msg", ".srv", ".action"}:
+            raise PackageError(f"'{name}' is not an interface file: it must end in .msg, .srv or .action", file, line)
+        if not (folder / name).is_file():
+            hint = _others(folder, f"*{Path(name).suffix}")
+            reason = f"rosidl_generate_interfaces names '{name}', which does not exist"
+            raise PackageError(reason, file, line, hint)
 
 
 def _program_file(program: Program, folder: Path, file: Path) -> Path:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, TextIO
 from ..interfaces.registry import registry
 from .errors import did_you_mean
 from .install_tree import LAYOUT, installed_names, python_folders, read_installed
-from .package import Package, PythonProgram, Target, forget_below
+from .package import Package, PythonProgram, forget_below
 
 if TYPE_CHECKING:
     from ..world import World
@@ -92,8 +92,14 @@ def _add(world: World, install: Path, name: str) -> None:
     prefix = package.prefix or install
     paths = python_folders(prefix)
     if paths:
-        package.executables = {name: _program(target, paths) for name, target in package.executables.items()}
-    hidden = _hidden(package)
+        package.executables = {
+            name: PythonProgram(target, tuple(paths)) if isinstance(target, Path) else target
+            for name, target in package.executables.items()
+        }
+    hidden = None  # the interfaces of this name that were known before
+    if package.interfaces and package.name in registry.packages():
+        before = registry.package(package.name)
+        hidden = before.directory, before.files
     overlays(world).append(_Overlay(install, package, paths, hidden))
     world.packages.add(package)
     if package.interfaces:
@@ -102,18 +108,6 @@ def _add(world: World, install: Path, name: str) -> None:
     for path in paths:
         if str(path) not in sys.path:
             sys.path.append(str(path))
-
-
-def _program(target: Target, paths: list[Path]) -> Target:
-    return PythonProgram(target, tuple(paths)) if isinstance(target, Path) else target
-
-
-def _hidden(package: Package) -> tuple[Path, tuple[str, ...] | None] | None:
-    """The interfaces of this name that were known before."""
-    if not package.interfaces or package.name not in registry.packages():
-        return None
-    before = registry.package(package.name)
-    return before.directory, before.files
 
 
 def _remove(world: World, install: Path, name: str) -> None:
