@@ -5,13 +5,12 @@ from __future__ import annotations
 import re
 import time
 from collections.abc import Callable
-from typing import Any, ClassVar
+from typing import Any
 
 import pytest
 import rclpy
 from rcl_interfaces.msg import Log
-from rclpy.impl import rcutils_logger
-from rclpy.impl.rcutils_logger import CallerId, LoggingFilter, RcutilsLogger
+from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.logging import LoggingSeverity
 from rclpy.node import Node
 
@@ -225,57 +224,6 @@ def test_lines_of_one_name_in_two_places_are_throttled_apart(run: Run, capsys: C
             logger.error("from another", throttle_duration_sec=10.0)
 
     assert logged(run, capsys, program) == ["[ERROR]: from one place", "[ERROR]: from another"]
-
-
-def test_a_filter_of_ones_own_is_asked_like_rclpys(run: Run, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
-    class EveryNth(LoggingFilter):
-        params: ClassVar[dict[str, Any]] = {"every_nth": None}
-
-        @classmethod
-        def initialize_context(cls, context: dict[str, Any], **kwargs: Any) -> None:
-            super().initialize_context(context, **kwargs)
-            context["calls"] = 0
-
-        @staticmethod
-        def should_log(context: dict[str, Any]) -> bool:
-            context["calls"] += 1
-            return bool(context["calls"] % context["every_nth"] == 0)
-
-    monkeypatch.setitem(rcutils_logger.supported_filters, "every_nth", EveryNth)
-
-    def program(logger: RcutilsLogger) -> None:
-        for number in range(7):
-            logger.info(f"call {number}", every_nth=3)
-        for number in range(7):
-            logger.info(f"never {number}", every_nth=2, once=True)  # once is asked first, and lets only the first pass
-
-    assert logged(run, capsys, program) == ["[INFO]: call 2", "[INFO]: call 5"]
-
-
-def test_the_filters_of_a_call_are_told_by_their_names() -> None:
-    asked = rcutils_logger.get_filters_from_kwargs
-    assert asked() == asked(once=False) == []
-    assert asked(once=True, skip_first=True, throttle_duration_sec=1.0) == ["throttle", "skip_first", "once"]
-    assert list(rcutils_logger.supported_filters) == ["throttle", "skip_first", "once"]
-    context: dict[str, Any] = {}
-    with pytest.raises(TypeError, match='Required parameter "once" was not specified for logging filter "Once"'):
-        rcutils_logger.Once.initialize_context(context)
-    rcutils_logger.SkipFirst.initialize_context(context, skip_first=True)
-    assert [rcutils_logger.SkipFirst.should_log(context) for _ in range(3)] == [False, True, True]
-    assert LoggingFilter.should_log({})
-
-
-def test_a_logger_knows_the_places_that_have_used_it(world: World, capsys: Capture) -> None:
-    logger = demo_logger()
-    for _ in range(2):
-        logger.info("here", once=True)
-    ((place, context),) = logger.contexts.items()
-    assert place[:2] == ("test_a_logger_knows_the_places_that_have_used_it", __file__)
-    assert (context["severity"], context["filters"], context["has_been_logged_once"]) == (20, ["once"], True)
-    one, other = CallerId(), CallerId()
-    assert one != other
-    assert one.function_name == other.function_name
-    assert (one.line_number, one.file_path) == (place.line_number + 4, __file__)
 
 
 # ---------------------------------------------------------------- levels and names

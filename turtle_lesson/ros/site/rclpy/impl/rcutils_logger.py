@@ -6,9 +6,7 @@ RCUTILS_LOGGING_USE_STDOUT=1 on a robot, because Jupyter shows stderr as if it w
 
 from __future__ import annotations
 
-import os
 import sys
-from collections import namedtuple
 from collections.abc import Callable
 from types import CodeType, FrameType
 from typing import TYPE_CHECKING, Any
@@ -18,30 +16,13 @@ from turtle_lesson.ros.distro import CHILD_LOGGERS_ON_ROSOUT
 from turtle_lesson.ros.world import current_process, current_world
 
 from ._console import Line, print_line
-from ._log_filters import (
-    CallSite,
-    LoggingFilter,
-    Once,
-    SkipFirst,
-    Throttle,
-    get_filters_from_kwargs,
-    supported_filters,
-)
+from ._log_filters import CallSite
 from .logging_severity import LoggingSeverity
 
 if TYPE_CHECKING:
     from turtle_lesson.ros.core import Process
 
-__all__ = [
-    "CallerId",
-    "LoggingFilter",
-    "Once",
-    "RcutilsLogger",
-    "SkipFirst",
-    "Throttle",
-    "get_filters_from_kwargs",
-    "supported_filters",
-]
+__all__ = ["RcutilsLogger"]
 
 EVERYWHERE: dict[str, Any] = {}
 TWO_OF_A_NAME = (
@@ -49,20 +30,6 @@ TWO_OF_A_NAME = (
     "logs for that logger name will go out over the existing publisher. As soon as any node with that name is destructed "
     "it will unregister the publisher, preventing any further logs for that name from being published on the rosout topic."
 )
-
-
-class CallerId(namedtuple("CallerId", ["function_name", "file_path", "line_number", "last_index"])):
-    """A place in a program: that of a frame, or where this is made."""
-
-    __slots__ = ()
-
-    def __new__(cls, frame: FrameType | None = None) -> CallerId:
-        frame = frame or sys._getframe(1)
-        return cls._of(frame.f_code, frame.f_lineno, frame.f_lasti)
-
-    @classmethod
-    def _of(cls, code: CodeType, line: int, last_index: int) -> CallerId:
-        return super().__new__(cls, code.co_name, os.path.abspath(code.co_filename), line, last_index)
 
 
 class RcutilsLogger:
@@ -74,11 +41,6 @@ class RcutilsLogger:
     def __init__(self, name: str = "") -> None:
         self.name = name
         self._sites: dict[tuple[CodeType, int], CallSite] = {}
-
-    @property
-    def contexts(self) -> dict[CallerId, dict[str, Any]]:
-        """What is remembered of each place that has used this logger."""
-        return {CallerId._of(code, site.line, last): site.context for (code, last), site in self._sites.items()}
 
     def get_child(self, name: str) -> RcutilsLogger:
         """The logger `<this>.<name>`. Since Iron its lines are published on /rosout, too, if this one's are."""
@@ -138,7 +100,7 @@ class RcutilsLogger:
         key = (frame.f_code, frame.f_lasti)  # in a cell each statement of a line has code of its own
         site = self._sites.get(key)
         if site is None:
-            site = self._sites[key] = CallSite(severity, name, options, frame.f_lineno)
+            site = self._sites[key] = CallSite(severity, name, options)
         elif options != site.options or name != site.name or severity != site.severity:
             site.check(severity, name, options)
         if severity < _effective_level(name):
