@@ -22,6 +22,7 @@ from .manifest import SetupError, hint_for, install_scripts, read_setup
 
 SITE = f"lib/{PYTHON}/site-packages"
 _ENTRY = re.compile(r"\s*([\w.-]+)\s*=\s*([\w.]+)\s*:\s*([\w.]+)\s*(\[.*\])?\s*")
+PROGRAMS = ("console_scripts", "gui_scripts")
 
 
 def build_ament_python(found: Found, environment: Environment) -> Outcome:
@@ -284,9 +285,6 @@ def _imports(module: str, function: str) -> str:
 def _texts(given: Any) -> list[str]:
     """The texts of an option that may be a list, a text or left out."""
     return [given] if isinstance(given, str) else [each for each in given or [] if isinstance(each, str)]
-
-
-PROGRAMS = ("console_scripts", "gui_scripts")
 
 
 def entry_groups(given: Any) -> dict[str, list[str]] | None:

@@ -38,6 +38,19 @@ if TYPE_CHECKING:
 
 _BEGIN, _END = 0.1, 0.1
 """What colcon takes before its first package and after its last, in s."""
+DEFAULTS = {
+    "console_cohesion": False,
+    "console_direct": False,
+    "console_package_list": False,
+    "console_start_end": True,
+    "console_stderr": True,
+    "summary": True,
+}
+OTHERS = {
+    "compile_commands", "desktop_notification", "event_log", "log", "log_command", "status", "store_result",
+    "terminal_title",
+}  # fmt: skip
+"""Handlers that exist, and of which nothing is seen in a page."""
 
 
 @dataclass
@@ -259,21 +272,6 @@ def pass_time(world: World, seconds: float) -> None:
         time.sleep(seconds)
     else:
         world.sim.run_until(world.now + round(seconds * NANOSECONDS))
-
-
-DEFAULTS = {
-    "console_cohesion": False,
-    "console_direct": False,
-    "console_package_list": False,
-    "console_start_end": True,
-    "console_stderr": True,
-    "summary": True,
-}
-OTHERS = {
-    "compile_commands", "desktop_notification", "event_log", "log", "log_command", "status", "store_result",
-    "terminal_title",
-}  # fmt: skip
-"""Handlers that exist, and of which nothing is seen in a page."""
 
 
 def as_seconds(seconds: float) -> str:

@@ -27,6 +27,10 @@ USER = "user"
 _GOOD_NAME = re.compile(r"[a-z][a-z0-9_]*")
 _UNWRITABLE = re.compile(r"[/\\\0\n\r]|^\.{0,2}$")
 
+MODEL = "http://download.ros.org/schema/package_format{format}.xsd"
+LINTERS = ("ament_lint_auto", "ament_lint_common")
+PYTHON_LINTERS = ("ament_copyright", "ament_flake8", "ament_pep257", "python3-pytest")
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of `ros2 pkg create`."""
@@ -213,11 +217,6 @@ class _Creation:
             f"\n[WARNING]: Unknown license '{licence}'.  This has been set in the package.xml, but no LICENSE file has "
             "been created.\nIt is recommended to use one of the ament license identitifers:\n" + "\n".join(LICENCES)
         )
-
-
-MODEL = "http://download.ros.org/schema/package_format{format}.xsd"
-LINTERS = ("ament_lint_auto", "ament_lint_common")
-PYTHON_LINTERS = ("ament_copyright", "ament_flake8", "ament_pep257", "python3-pytest")
 
 
 def package_xml(

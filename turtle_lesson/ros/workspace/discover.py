@@ -17,6 +17,7 @@ IGNORE_MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
 _ORDERING = {"depend", "build_depend", "build_export_depend", "buildtool_depend", "buildtool_export_depend",
              "exec_depend", "run_depend", "test_depend"}  # fmt: skip
 _ACCEPTED = re.compile(r"[a-zA-Z0-9][a-zA-Z0-9_-]*")
+Warn = Callable[[str], None]
 
 
 class ColconError(Exception):
@@ -174,9 +175,6 @@ def needed_by(packages: Iterable[Found], names: Iterable[str]) -> set[str]:
 def build_type_hint(build_type: str) -> str:
     """What to try about an unknown build type."""
     return did_you_mean(build_type, BUILD_TYPES) or f"Known are {', '.join(BUILD_TYPES)}."
-
-
-Warn = Callable[[str], None]
 
 
 class UnknownPackageError(ColconError):

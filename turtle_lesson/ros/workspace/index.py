@@ -20,6 +20,8 @@ from .errors import (
 )
 from .package import Package, Target
 
+_given: list[PackageIndex] = []
+
 
 class PackageIndex:
     """Packages by name. One that is added later hides an earlier one of the same name, as an overlay does."""
@@ -251,9 +253,6 @@ def _launch_file_hint(package: Package, file_name: str) -> str:
     known = sorted({file.name for file in package.shared_files("*launch.*") if is_launch_file(file.name)})
     there_are = f"There are: {', '.join(known)}." if known else "The package installs no launch file."
     return did_you_mean(file_name, known) or there_are
-
-
-_given: list[PackageIndex] = []
 
 
 def current_packages() -> PackageIndex:

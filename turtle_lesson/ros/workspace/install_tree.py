@@ -22,6 +22,12 @@ from .package import Package
 PYTHON = "python3.10"
 """The Python of ROS 2 Humble, which is in the names of installed folders, whatever Python runs here."""
 
+SHELLS = ("bash", "sh", "zsh")
+LAYOUT = ".colcon_install_layout"
+"""The file in which an install folder says `isolated` (a folder a package) or `merged` (one for all)."""
+PYTHON_FOLDERS = (f"lib/{PYTHON}/site-packages", f"local/lib/{PYTHON}/dist-packages")
+_INDEX = "share/ament_index/resource_index"
+
 
 @dataclass(frozen=True)
 class Item:
@@ -109,9 +115,6 @@ def check_targets(items: Iterable[Item]) -> None:
         place = PurePosixPath(item.target)
         if place.is_absolute() or ".." in place.parts or "\0" in item.target:
             raise BuildFailure(f"error: '{item.target}' lies outside the package's install folder\n")
-
-
-SHELLS = ("bash", "sh", "zsh")
 
 
 def prepare(install: Path, build: Path, log: Path, layout: str = "isolated") -> None:
@@ -273,12 +276,6 @@ def write_setup_files(install: Path, names: Iterable[str]) -> None:
         files.save(install / f"local_setup.{shell}", "".join(lines))
         chain = f'. "$(cd "$(dirname "{place}")" > /dev/null && pwd)/local_setup.{shell}"\n'
         files.save(install / f"setup.{shell}", f"# Made by colcon build.\n{chain}")
-
-
-LAYOUT = ".colcon_install_layout"
-"""The file in which an install folder says `isolated` (a folder a package) or `merged` (one for all)."""
-PYTHON_FOLDERS = (f"lib/{PYTHON}/site-packages", f"local/lib/{PYTHON}/dist-packages")
-_INDEX = "share/ament_index/resource_index"
 
 
 def layout_of(install: Path) -> str:

@@ -24,6 +24,28 @@ from .errors import PackageError, did_you_mean
 BUILD_TYPES = ("ament_cmake", "ament_python", "cmake")
 _NAME = re.compile(r"[a-z][a-z0-9_-]*")
 
+_DEPENDS = ("depend", "build_depend", "build_export_depend", "buildtool_depend", "buildtool_export_depend",
+            "exec_depend", "test_depend", "doc_depend", "group_depend")  # fmt: skip
+_IN_ALL = {
+    "name", "version", "description", "maintainer", "license", "url", "author", "conflict", "replace", "export",
+    "build_depend", "buildtool_depend", "test_depend",
+}  # fmt: skip
+_SINCE_2 = {"depend", "build_export_depend", "buildtool_export_depend", "exec_depend", "doc_depend"}
+_SINCE_3 = {"group_depend", "member_of_group"}
+_TAGS = {"1": _IN_ALL | {"run_depend"}, "2": _IN_ALL | _SINCE_2, "3": _IN_ALL | _SINCE_2 | _SINCE_3}
+_VERSIONS = {"version_lt", "version_lte", "version_eq", "version_gte", "version_gt"}
+_ATTRIBUTES = {
+    "maintainer": {"email"},
+    "author": {"email"},
+    "url": {"type"},
+    "group_depend": set(),
+    "member_of_group": set(),
+}
+_EMAIL = re.compile(r"[-a-zA-Z0-9_%+]+(\.[-a-zA-Z0-9_%+]+)*@[-a-zA-Z0-9%]+(\.[-a-zA-Z0-9%]+)*\.[a-zA-Z]{2,}")
+_RUNNER = Path(__file__).with_name("setup_runner.py")
+LONGEST = 10.0
+"""What a setup.py may take, in s of real time."""
+
 
 @dataclass
 class Manifest:
@@ -88,26 +110,6 @@ def _build_type(root: ElementTree.Element, file: Path) -> str:
         hint = did_you_mean(build_type, BUILD_TYPES) or f"Known are {', '.join(BUILD_TYPES)}."
         raise PackageError(f"the build_type '{build_type}' is unknown", file, hint=hint)
     return build_type
-
-
-_DEPENDS = ("depend", "build_depend", "build_export_depend", "buildtool_depend", "buildtool_export_depend",
-            "exec_depend", "test_depend", "doc_depend", "group_depend")  # fmt: skip
-_IN_ALL = {
-    "name", "version", "description", "maintainer", "license", "url", "author", "conflict", "replace", "export",
-    "build_depend", "buildtool_depend", "test_depend",
-}  # fmt: skip
-_SINCE_2 = {"depend", "build_export_depend", "buildtool_export_depend", "exec_depend", "doc_depend"}
-_SINCE_3 = {"group_depend", "member_of_group"}
-_TAGS = {"1": _IN_ALL | {"run_depend"}, "2": _IN_ALL | _SINCE_2, "3": _IN_ALL | _SINCE_2 | _SINCE_3}
-_VERSIONS = {"version_lt", "version_lte", "version_eq", "version_gte", "version_gt"}
-_ATTRIBUTES = {
-    "maintainer": {"email"},
-    "author": {"email"},
-    "url": {"type"},
-    "group_depend": set(),
-    "member_of_group": set(),
-}
-_EMAIL = re.compile(r"[-a-zA-Z0-9_%+]+(\.[-a-zA-Z0-9_%+]+)*@[-a-zA-Z0-9%]+(\.[-a-zA-Z0-9%]+)*\.[a-zA-Z]{2,}")
 
 
 def faults_in(root: ElementTree.Element) -> list[str]:
@@ -242,11 +244,6 @@ _HINTS = {
     "redundant with": "<depend> says all of these at once: delete the others.",
     "same name as this package": "Delete that line: a package does not depend on itself.",
 }
-
-
-_RUNNER = Path(__file__).with_name("setup_runner.py")
-LONGEST = 10.0
-"""What a setup.py may take, in s of real time."""
 
 
 class SetupError(Exception):
