@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 from . import type_support
 from ._missing import refuse_unbuilt
 from ._node_graph import NodeGraph
-from ._qos_events import QoSEvents
 from .callback_groups import CallbackGroup, ReentrantCallbackGroup
 from .client import Client
 from .event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks, checked_callbacks
@@ -37,7 +36,6 @@ class NodeEntities(NodeGraph):
     _ros_context: Context
     _ros_default_callback_group: CallbackGroup
     _ros_destroyed: bool
-    _ros_events: QoSEvents | None
     _ros_executor: Executor | None
     _ros_logger: RcutilsLogger
     _ros_made: int
@@ -149,14 +147,6 @@ class NodeEntities(NodeGraph):
                     f"Failed to create {what}: failed to create topic [rt{full_name}] because it's already in use in this "
                     f"context with a different message type: it is {type_name}, asked for was {msg_type._TYPE_NAME}"
                 )
-
-    def _ros_warn(self, text: str) -> None:
-        """Log a warning when the node is spun."""
-        if self._ros_destroyed:
-            return
-        if self._ros_events is None:
-            self._ros_events = self._ros_keep(QoSEvents(self._ros_logger, self._ros_default_callback_group))
-        self._ros_events.add(text)
 
     def create_timer(
         self,

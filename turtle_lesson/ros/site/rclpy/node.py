@@ -18,7 +18,6 @@ from ._node_news import NodeNews
 from ._node_parameter_setting import ParameterSetting
 from ._node_parameters import NodeParameters
 from ._parameter_rules import TOLERANCE
-from ._qos_events import QoSEvents
 from .callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup
 from .client import Client
 from .clock import Clock, ROSClock
@@ -92,7 +91,6 @@ class Node(NodeEntities, NodeNews, NodeParameters):
         self._ros_made = 0
         self._ros_publishers: list[Publisher] = []
         self._ros_waiting_entities: list[Entity] = []
-        self._ros_events: QoSEvents | None = None
         self._ros_destroyed = self._ros_shut_down = False
         self._ros_outlived: list[Any] = []
         self._ros_logs_on_rosout = False  # an interrupted __init__ leaves a node that is destroyed all the same
