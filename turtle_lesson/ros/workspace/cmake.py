@@ -233,15 +233,12 @@ def evaluate(
     for command in read.named("add_subdirectory"):
         inner = Path(where, "".join(command.args[:1])).resolve()
         if Path(where).resolve() in inner.parents:
+            list_file = inner / "CMakeLists.txt"
             try:
-                read.folders[command.line] = evaluate(
-                    (inner / "CMakeLists.txt").read_text(encoding="utf-8"),
-                    str(inner / "CMakeLists.txt"),
-                    inner,
-                    dict(known),
-                )
+                text = list_file.read_text(encoding="utf-8")
+                read.folders[command.line] = evaluate(text, str(list_file), inner, dict(known))
             except (CMakeError, OSError, UnicodeDecodeError):
-                read.folders[command.line] = CMakeFile(file=str(inner / "CMakeLists.txt"))  # nothing is known of it
+                read.folders[command.line] = CMakeFile(file=str(list_file))  # nothing is known of it
     return read
 
 
@@ -322,10 +319,10 @@ class _Evaluator:
         values: list[str] = []
         for argument in call.args:
             text = self.expand(argument, call)
-            parts = [text] if argument.quoted else re.split(r"(?<!\\);", text)  # a list's elements
-            values += [
-                part if argument.quoted else part.replace("\\;", ";") for part in parts if part or argument.quoted
-            ]
+            if argument.quoted:
+                values.append(text)
+            else:  # a list, whose elements are arguments of their own
+                values += [part.replace("\\;", ";") for part in re.split(r"(?<!\\);", text) if part]
         return tuple(values)
 
     def expand(self, argument: Argument, call: Call) -> str:
