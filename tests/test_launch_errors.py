@@ -219,6 +219,10 @@ def test_a_name_that_was_not_imported(tmp_path: Path) -> None:
             "out",
         ),
         (
+            "from launch_ros.substitutions import Parameter",
+            "launch_ros.substitutions has no 'Parameter' here yet: give SetParameter a LaunchConfiguration, and use that",
+        ),
+        (
             "from launch_ros.actions import SetROSLogDir",
             "launch_ros.actions has no 'SetROSLogDir' here yet: there are no log files",
         ),

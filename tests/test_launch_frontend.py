@@ -241,8 +241,6 @@ def test_the_sources_have_their_own_names(tmp_path: Path, capsys: pytest.Capture
         ("$(exec-in-pkg navigator robot_controller)", "install/robot_controller/lib/robot_controller/navigator"),
         ("$(find-exec ros2)", "ros2"),
         ("$(command 'echo hello there')", "hello there\n"),
-        ("$(param shared)", "7"),
-        ("$(param nope 3)", "3"),
     ],
 )
 def test_substitutions_in_a_text(
@@ -250,7 +248,7 @@ def test_substitutions_in_a_text(
 ) -> None:
     from xml.sax.saxutils import quoteattr
 
-    before = "<set_parameter name='shared' value='7'/><let name='x' value='1'/><let name='yes' value='true'/>"
+    before = "<let name='x' value='1'/><let name='yes' value='true'/>"
     file = f"{before}<let name='word' value='fast'/><log message={quoteattr(text)}/>"
     if said is None:
         assert failure(tmp_path, file).hint == r"A dollar sign that begins no $(…) is written \$."
@@ -338,6 +336,11 @@ NODE = '<node pkg="robot_controller" exec="navigator"'
             "<set_ros_log_dir/>",
             "RuntimeError: Unrecognized entity of the type: set_ros_log_dir",
             "There are no log files here.",
+        ),
+        (
+            '<log message="$(param depth)"/>',
+            "RuntimeError: Unknown substitution: param",
+            "$(param …) is not available here: use $(var …) of an argument.",
         ),
         (
             '<log message="$(any 1 0)"/>',

@@ -185,9 +185,7 @@ provide_modules(
         },
         "launch.utilities": {
             "launch.utilities.type_utils": (
-                "SCALARS coerce_to_type extract_type get_typed_value is_instance_of "
-                "is_instance_of_valid_type is_substitution normalize_typed_substitution "
-                "perform_typed_substitution"
+                "SCALARS coerce_to_type extract_type get_typed_value is_instance_of is_instance_of_valid_type"
             ),
         },
     }

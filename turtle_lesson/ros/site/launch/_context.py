@@ -31,16 +31,6 @@ class BaseEventHandler:
         """Whether it handles one event only."""
         return self.__handle_once
 
-    @property
-    def handler_description(self) -> str:
-        """What it does, in words."""
-        return ""
-
-    @property
-    def matcher_description(self) -> str:
-        """What it waits for, in words."""
-        return ""
-
     def matches(self, event: Event) -> bool:
         """Whether it is for this event."""
         return self.__matcher(event)

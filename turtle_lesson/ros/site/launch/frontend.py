@@ -157,6 +157,7 @@ _NOT_HERE = {
     **dict.fromkeys(("log_dir", "launch_log_dir", "set_ros_log_dir"), _LOGS),
     "all": "$(all …) is not available here: use $(and …).",
     "any": "$(any …) is not available here: use $(or …).",
+    "param": "$(param …) is not available here: use $(var …) of an argument.",
     "lifecycle_transition": "It is not available here: give lifecycle_node the attribute autostart.",
     "string-join": "$(string-join …) is not available here: write the pieces one after the other.",
 }
@@ -414,24 +415,6 @@ class Parser:
     def load_launch_extensions(cls) -> None:
         """Make all actions and substitutions known."""
         import launch_ros  # noqa: F401
-
-    @classmethod
-    def get_available_extensions(cls) -> list[str]:
-        """The endings that there are readers for."""
-        return list(_implementations())
-
-    @classmethod
-    def is_extension_valid(cls, extension: str) -> bool:
-        """Whether there is a reader for files that end so."""
-        return extension in _implementations()
-
-    @classmethod
-    def get_parser_from_extension(cls, extension: str) -> type[Parser]:
-        """The reader for files that end so."""
-        try:
-            return _implementations()[extension]
-        except KeyError:
-            raise RuntimeError("Not recognized frontend implementation") from None
 
     def parse_action(self, entity: Entity) -> Action:
         """The action that an entity stands for."""

@@ -192,53 +192,10 @@ def get_typed_value(value: str | list[str], data_type: Any, can_be_str: bool = F
     return items
 
 
-def is_substitution(value: Any) -> bool:
-    """Whether it is a substitution, or a list of texts and substitutions with at least one of the latter."""
-    if isinstance(value, Substitution):
-        return True
-    if isinstance(value, str) or not isinstance(value, Iterable):
-        return False
-    items = list(value)
-    return all(isinstance(item, Substitution | str) for item in items) and any(
-        isinstance(item, Substitution) for item in items
-    )
-
-
-def normalize_typed_substitution(value: Any, data_type: Any) -> Any:
-    """A value as it is, or the list of substitutions that gives one.
-
-    Raises:
-        TypeError: if it can never be of the type.
-    """
-
-    if is_substitution(value):
-        return normalize_to_list_of_substitutions(value)
-    if isinstance(value, SCALARS):
-        if not is_instance_of(value, data_type):
-            raise TypeError(f"value='{value}' is not an instance of {data_type}")
-        return value
-    if not isinstance(value, Iterable):
-        raise TypeError(
-            "value should be either a scalar, a substitutions, or a mixed list of scalars and substitutions. "
-            f"Got `value={value}` of type `{type(value)}`. "
-        )
-    return [normalize_to_list_of_substitutions(item) if is_substitution(item) else item for item in value]
-
-
-def perform_typed_substitution(context: LaunchContext, value: Any, data_type: Any) -> Any:
-    """The value of what `normalize_typed_substitution` gave, of the type.
-
-    Raises:
-        ValueError: if a substitution's text is no such value.
-    """
-    if isinstance(value, list) and value and all(isinstance(item, Substitution) for item in value):
-        return coerce_to_type(perform_substitutions(context, value), data_type)
-    if not isinstance(value, list):
-        return value
-    kind = None if data_type is None else extract_type(data_type)[0]
-    return [
-        coerce_to_type(perform_substitutions(context, item), kind) if isinstance(item, list) else item for item in value
-    ]
-
-
-__getattr__ = explain_missing(__name__, {"create_future": "", "create_futures": ""})
+__getattr__ = explain_missing(
+    __name__,
+    {
+        "create_future": "",
+        "create_futures": "",
+    },
+)

@@ -12,8 +12,6 @@ __all__ = [
     "event_handlers",
     "events",
     "parameter_descriptions",
-    "parameters_type",
-    "remap_rule_type",
     "substitutions",
 ]
 
@@ -37,19 +35,14 @@ provide_modules(
             "launch_ros.actions.set_parameter": "SetParameter SetParametersFromFile SetRemap SetUseSimTime",
             "launch_ros.actions.set_remap": "SetRemap",
         },
-        "launch_ros.parameter_descriptions": {
-            "launch_ros.parameters_type": (
-                "EvaluatedParameterValue EvaluatedParameters ParameterName Parameters ParametersDict "
-                "SomeParameterFile SomeParameterName SomeParameterValue SomeParameters SomeParametersDict"
-            ),
-            "launch_ros.remap_rule_type": "RemapRule RemapRules SomeRemapRule SomeRemapRules",
-        },
         "launch_ros.substitutions": {
             "launch_ros.substitutions.executable_in_package": "ExecutableInPackage",
             "launch_ros.substitutions.find_package": "FindPackage FindPackagePrefix FindPackageShare",
-            "launch_ros.substitutions.parameter": "Parameter",
         },
     }
 )
 
-__getattr__ = explain_missing(__name__, {"utilities": ""})
+__getattr__ = explain_missing(
+    __name__,
+    {"parameters_type": "it has type hints only", "remap_rule_type": "it has type hints only", "utilities": ""},
+)

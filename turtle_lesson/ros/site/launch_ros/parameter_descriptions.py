@@ -21,10 +21,8 @@ from launch.frontend import Entity, Parser, parse_substitution
 from launch.substitutions import TextSubstitution
 from launch.utilities import (
     normalize_to_list_of_substitutions,
-    normalize_typed_substitution,
     perform_substitutions,
     perform_text_as,
-    perform_typed_substitution,
 )
 
 __all__ = ["Parameter", "ParameterFile", "ParameterValue"]
@@ -213,7 +211,9 @@ class ParameterFile:
         if isinstance(param_file, PathLike):
             param_file = fspath(param_file)
         self.param_file = normalize_to_list_of_substitutions(param_file)
-        self.__allow_substs = normalize_typed_substitution(allow_substs, bool)
+        self.__allow_substs = (
+            allow_substs if isinstance(allow_substs, bool) else normalize_to_list_of_substitutions(allow_substs)
+        )
 
     @property
     def allow_substs(self) -> Any:
@@ -227,7 +227,7 @@ class ParameterFile:
             SubstitutionFailure: if one of them has no value.
         """
         path = Path(perform_substitutions(context, self.param_file))
-        if not perform_typed_substitution(context, self.__allow_substs, bool) or not path.is_file():
+        if not perform_text_as(context, self.__allow_substs, bool) or not path.is_file():
             return path
         text = perform_substitutions(context, parse_substitution(path.read_text(encoding="utf-8")))
         return file_for_this_launch(self, path.name, text)
@@ -240,31 +240,6 @@ def file_for_this_launch(owner: object, name: str, text: str) -> Path:
     file = Path(folder) / name
     file.write_text(text, encoding="utf-8")
     return file
-
-
-SomeParameterFile = SomeSubstitutionsType | PathLike
-SomeParameterName = SomeSubstitutionsType
-SomeParameterValue = ParameterValue | SomeSubstitutionsType | Sequence[Any] | str | int | float | bool
-SomeParametersDict = Mapping[SomeParameterName, Any]
-SomeParameters = Sequence[SomeParameterFile | Parameter | ParameterFile | SomeParametersDict]
-"""What a launch file may write."""
-
-ParameterName = Sequence[Substitution]
-ParametersDict = Mapping[ParameterName, Any]
-Parameters = Sequence[ParameterFile | Parameter | ParametersDict]
-"""The same when every text has become a substitution."""
-
-EvaluatedParameterValue = (
-    str | int | float | bool | Sequence[str] | Sequence[int] | Sequence[float] | Sequence[bool] | bytes
-)
-EvaluatedParameters = Sequence[Path | Parameter | dict[str, EvaluatedParameterValue]]
-"""The same when the substitutions have been performed."""
-
-
-SomeRemapRule = tuple[SomeSubstitutionsType, SomeSubstitutionsType]
-SomeRemapRules = Iterable[SomeRemapRule]
-RemapRule = tuple[Sequence[Substitution], Sequence[Substitution]]
-RemapRules = Sequence[RemapRule]
 
 
 TYPES: dict[str, Any] = {

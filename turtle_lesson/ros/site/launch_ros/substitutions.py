@@ -1,4 +1,4 @@
-"""Substitutions that find packages, what is in them, and parameters."""
+"""Substitutions that find packages and what is in them."""
 
 from __future__ import annotations
 
@@ -16,12 +16,10 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 from turtle_lesson.ros.workspace.errors import ExecutableNotFoundError
 from turtle_lesson.ros.workspace.index import current_packages
 
-from .parameter_descriptions import parameters_in
-
 if TYPE_CHECKING:
     from turtle_lesson.ros.workspace.package import Target
 
-__all__ = ["ExecutableInPackage", "FindPackage", "FindPackagePrefix", "FindPackageShare", "Parameter"]
+__all__ = ["ExecutableInPackage", "FindPackage", "FindPackagePrefix", "FindPackageShare"]
 
 
 @expose_substitution("exec-in-pkg")
@@ -120,43 +118,10 @@ class FindPackageShare(FindPackage):
         return get_package_share_directory(package_name)
 
 
-@expose_substitution("param")
-class Parameter(Substitution):
-    """Stands for the value of a parameter that was set for all nodes."""
-
-    def __init__(self, name: SomeSubstitutionsType, *, default: SomeSubstitutionsType | None = None) -> None:
-        self.__name = normalize_to_list_of_substitutions(name)
-        self.__default = None if default is None else normalize_to_list_of_substitutions(default)
-
-    @classmethod
-    def parse(cls, data: Any) -> tuple[type, dict[str, Any]]:
-        """Its arguments as they stand behind `$(param `."""
-        return cls, arguments("param", data, ["name", "default"], 1)
-
-    @property
-    def name(self) -> list[Substitution]:
-        """The parameter's name."""
-        return self.__name
-
-    def describe(self) -> str:
-        """As in `Parameter('use_sim_time')`."""
-        return f"Parameter({' + '.join(piece.describe() for piece in self.name)})"
-
-    def perform(self, context: LaunchContext) -> str:
-        """The value as text, or the default.
-
-        Raises:
-            SubstitutionFailure: if it has neither.
-        """
-        name = perform_substitutions(context, self.name)
-        for entry in reversed(context.launch_configurations.get("global_params", [])):
-            for known, value in parameters_in(context, entry) if isinstance(entry, dict) else ():
-                if known == name:
-                    return str(value)
-        if self.__default is None:
-            hint = f"Put SetParameter('{name}', …) before it."
-            raise SubstitutionFailure(f"parameter '{name}' not found", hint)
-        return perform_substitutions(context, self.__default)
-
-
-__getattr__ = explain_missing(__name__, {"FindPackageShareDirectory": "use FindPackageShare"})
+__getattr__ = explain_missing(
+    __name__,
+    {
+        "FindPackageShareDirectory": "use FindPackageShare",
+        "Parameter": "give SetParameter a LaunchConfiguration, and use that",
+    },
+)

@@ -10,12 +10,10 @@ from .. import logging
 from .._context import LaunchContext
 from .._entities import Action, LaunchDescriptionEntity, SomeSubstitutionsType, Substitution
 from ..frontend import Entity, Parser, expose_action
-from ..substitutions import TextSubstitution
 from ..utilities import (
     normalize_to_list_of_substitutions,
-    normalize_typed_substitution,
     perform_substitutions,
-    perform_typed_substitution,
+    perform_text_as,
 )
 
 
@@ -304,9 +302,7 @@ class AppendEnvironmentVariable(Action):
         super().__init__(**kwargs)
         self.__name = normalize_to_list_of_substitutions(name)
         self.__value = normalize_to_list_of_substitutions(value)
-        self.__prepend = normalize_typed_substitution(
-            TextSubstitution(text=prepend) if isinstance(prepend, str) else prepend, bool
-        )
+        self.__prepend = prepend if isinstance(prepend, bool) else normalize_to_list_of_substitutions(prepend)
         self.__separator = normalize_to_list_of_substitutions(separator)
 
     @property
@@ -348,7 +344,7 @@ class AppendEnvironmentVariable(Action):
         name = perform_substitutions(context, self.__name)
         parts = [perform_substitutions(context, self.__value)]
         if name in context.environment:
-            first = perform_typed_substitution(context, self.__prepend, bool)
+            first = perform_text_as(context, self.__prepend, bool)
             parts.insert(1 if first else 0, context.environment[name])
         context.environment[name] = perform_substitutions(context, self.__separator).join(parts)
         return None
