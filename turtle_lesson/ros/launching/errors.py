@@ -11,7 +11,7 @@ from pathlib import Path
 
 from ..core.tracebacks import is_ours, learners_frames, shorten, shown_path
 from ..workspace import catalog
-from ..workspace.errors import did_you_mean
+from ..workspace.errors import PackageNotFoundError, did_you_mean
 from ..workspace.index import is_launch_file
 
 Place = tuple[str, int]
@@ -96,8 +96,6 @@ def _causes(error: BaseException | None) -> list[BaseException]:
 
 def reason_of(error: BaseException) -> str:
     """What the real tool would print of an error."""
-    from ..workspace.errors import PackageNotFoundError
-
     if isinstance(error, PackageNotFoundError):
         return repr(error.text)
     return str(error)

@@ -79,6 +79,7 @@ provide_modules(
                 "SomeActionsType SomeEntitiesType SomeSubstitutionsType SomeSubstitutionsType_types_tuple"
             ),
             "launch.substitution": "Substitution",
+            "launch.substitutions.text_substitution": "TextSubstitution",
         },
         "launch.actions._configuration": {
             "launch.actions.declare_launch_argument": "DeclareLaunchArgument",
@@ -177,11 +178,10 @@ provide_modules(
             "launch.substitutions.boolean_substitution": "AndSubstitution NotSubstitution OrSubstitution",
             "launch.substitutions.equals_substitution": "EqualsSubstitution IfElseSubstitution NotEqualsSubstitution",
         },
-        "launch.substitutions._texts": {
+        "launch.substitutions._paths": {
             "launch.substitutions.command": "Command",
             "launch.substitutions.find_executable": "FindExecutable",
             "launch.substitutions.path_join_substitution": "PathJoinSubstitution PathSubstitution",
-            "launch.substitutions.text_substitution": "TextSubstitution",
         },
         "launch.utilities": {
             "launch.utilities.type_utils": (

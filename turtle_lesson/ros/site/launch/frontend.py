@@ -8,11 +8,11 @@ from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO, TypeVar, get_args, get_origin
 
-from ._entities import Place, Substitution
+from ._entities import LaunchDescription, Place, Substitution, TextSubstitution
 from ._package import explain_missing
 
 if TYPE_CHECKING:
-    from ._entities import Action, LaunchDescription
+    from ._entities import Action
 
 __all__ = [
     "Entity",
@@ -257,8 +257,6 @@ def parse_substitution(string_value: str) -> list[Substitution]:
     Raises:
         SubstitutionSyntaxError: if a `$(` is not closed, or is otherwise wrong.
     """
-    from .substitutions._texts import TextSubstitution
-
     if not isinstance(string_value, str):
         raise TypeError(f"expected text, got {string_value!r} of type {type(string_value).__name__}")
     try:
@@ -283,8 +281,6 @@ def parse_if_substitutions(value: Any) -> Any:
 
 
 def _parsed(value: Any, kinds: set[type]) -> Any:
-    from .substitutions._texts import TextSubstitution
-
     if not isinstance(value, str):
         kinds.add(type(value))
         return value
@@ -313,8 +309,6 @@ class _Reader:
 
     def _plain(self, stop: str, *, argument: bool = False) -> list[Substitution]:
         """Text up to a substitution or a character of `stop`; in an argument spaces and brackets end it, too."""
-        from .substitutions._texts import TextSubstitution
-
         stops = f"{stop} ()" if argument else stop
         found = ""
         while self._here and self._here not in stops and not self._begins_one:
@@ -343,8 +337,6 @@ class _Reader:
         return instantiate_substitution(name[0], arguments)
 
     def _argument(self, quote: str) -> list[Substitution]:
-        from .substitutions._texts import TextSubstitution
-
         if not quote and self._here in {"'", '"'}:
             mark = self._here
             self._at += 1
@@ -431,7 +423,6 @@ class Parser:
 
     def parse_if_substitutions(self, value: Any) -> Any:
         """A value, with substitutions where its texts have any."""
-
         self.load_launch_extensions()
         return parse_if_substitutions(value)
 
@@ -445,8 +436,6 @@ class Parser:
         Raises:
             RuntimeError: if the root is not `launch`; and whatever is wrong below it.
         """
-        from ._entities import LaunchDescription
-
         if entity.type_name != "launch":
             error = RuntimeError("Expected 'launch' as root tag")
             error.place = entity.place  # type: ignore[attr-defined]

@@ -5,18 +5,15 @@ from __future__ import annotations
 import os
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING
 
 from turtle_lesson.ros.core.tracebacks import shown_path
 from turtle_lesson.ros.workspace.errors import PackageNotFoundError
 
+from ._context import LaunchContext
 from ._entities import LaunchDescription, SomeSubstitutionsType
 from ._package import explain_missing
 from .frontend import InvalidFrontendLaunchFileError, InvalidLaunchFileError, Parser
 from .utilities import normalize_to_list_of_substitutions, perform_substitutions
-
-if TYPE_CHECKING:
-    from ._context import LaunchContext
 
 __all__ = ["AnyLaunchDescriptionSource", "FrontendLaunchDescriptionSource", "PythonLaunchDescriptionSource"]
 
@@ -57,8 +54,6 @@ class LaunchDescriptionSource:
 
     def try_get_launch_description_without_context(self) -> LaunchDescription | None:
         """The description if it can be had before the launch runs, otherwise None."""
-        from ._context import LaunchContext
-
         if self.__launch_description is not None:
             return self.__launch_description
         try:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, get_args, get_origin
 
-from ._entities import SomeSubstitutionsType, Substitution
+from ._entities import SomeSubstitutionsType, Substitution, TextSubstitution
 from ._package import explain_missing
 
 if TYPE_CHECKING:
@@ -50,8 +50,6 @@ def normalize_to_list_of_substitutions(subs: SomeSubstitutionsType) -> list[Subs
 
 
 def _as_substitution(part: object) -> Substitution:
-    from .substitutions._texts import TextSubstitution
-
     if isinstance(part, Substitution):
         return part
     if isinstance(part, str):

@@ -115,8 +115,6 @@ def matches_node_name(node_name: str) -> Callable[[Any], bool]:
     wanted = node_name if node_name.startswith("/") else f"/{node_name}"
 
     def matches(action: Any) -> bool:
-        from .actions import Node
-
         return isinstance(action, Node) and action.node_name == wanted
 
     return matches
@@ -145,8 +143,6 @@ class OnStateTransition(EventHandler):
         matcher: Callable[[Event], bool] | None = None,
         **kwargs: Any,
     ) -> None:
-        from .actions import LifecycleNode
-
         if target_lifecycle_node is not None and not isinstance(target_lifecycle_node, LifecycleNode):
             raise RuntimeError(
                 'OnStateTransition requires a "LifecycleNode" action as the target, '

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from .._entities import TextSubstitution
 from .._package import explain_missing
 from ._logic import (
     AndSubstitution,
@@ -11,7 +12,7 @@ from ._logic import (
     NotSubstitution,
     OrSubstitution,
 )
-from ._texts import Command, FindExecutable, PathJoinSubstitution, PathSubstitution, TextSubstitution
+from ._paths import Command, FindExecutable, PathJoinSubstitution, PathSubstitution
 from ._values import (
     AnonName,
     EnvironmentVariable,

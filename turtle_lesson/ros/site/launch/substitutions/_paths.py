@@ -1,4 +1,4 @@
-"""Substitutions for fixed text, paths, and what commands print."""
+"""Substitutions for paths, and for what commands print."""
 
 from __future__ import annotations
 
@@ -12,31 +12,6 @@ from .._entities import SomeSubstitutionsType, Substitution
 from ..frontend import expose_substitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
 from ._values import SubstitutionFailure, arguments
-
-
-class TextSubstitution(Substitution):
-    """Text that is known beforehand."""
-
-    def __init__(self, *, text: str) -> None:
-        if not isinstance(text, str):
-            what = f"TextSubstitution expected Text object got '{type(text)}' instead."
-            error = TypeError(what)
-            error.add_note(f"Write it as text: TextSubstitution(text='{text}')")
-            raise error
-        self.__text = text
-
-    @property
-    def text(self) -> str:
-        """The text."""
-        return self.__text
-
-    def describe(self) -> str:
-        """The text in quotation marks."""
-        return f"'{self.text}'"
-
-    def perform(self, context: LaunchContext) -> str:
-        """The text."""
-        return self.text
 
 
 class PathSubstitution(Substitution):
