@@ -10,6 +10,7 @@ from typing import Any
 # in the middle of a simulated process would be a look at its clock.
 import hypothesis.internal.conjecture.junkdrawer  # noqa: F401
 import pytest
+from answers.client import PageServer
 from hypothesis import HealthCheck, settings
 from program_terminal import Terminal
 
@@ -45,6 +46,14 @@ def no_folder_of_another_test(monkeypatch: pytest.MonkeyPatch) -> None:
     """The learner's folder is the one that is current when a test first asks for it, or calls `start()`."""
     monkeypatch.setattr(files, "_home", None)
     monkeypatch.setattr(files, "_of_notebook", False)
+
+
+@pytest.fixture(scope="session")
+def page_server() -> Iterator[PageServer]:
+    """Runs pages in forks of one process."""
+    server = PageServer()
+    yield server
+    server.close()
 
 
 @pytest.fixture

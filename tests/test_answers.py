@@ -6,10 +6,7 @@ One page, or one check: pytest tests/test_answers.py -k "page_03 and short_way"
 from __future__ import annotations
 
 import importlib
-import json
 import os
-import subprocess
-import sys
 from collections.abc import Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
@@ -17,6 +14,7 @@ from typing import Any
 
 import pytest
 from answers import NOTEBOOKS, Answer, Answers, answer, code_cells, solution, stub
+from answers.client import PageServer
 
 from turtle_lesson.lab.checks import all_checks
 from turtle_lesson.story import PAGES
@@ -41,37 +39,6 @@ def answers_to(page: str, exercise: str) -> Answers:
     return found
 
 
-class Server:
-    """The process that runs one page."""
-
-    def __init__(self, page: str) -> None:
-        self.page = page
-        environ = {**os.environ, "PYTHONPATH": os.pathsep.join([str(TESTS), str(TESTS.parent)])}
-        self.process = subprocess.Popen(
-            [sys.executable, "-m", "answers.server", page],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            text=True,
-            env=environ,
-            cwd=TESTS,
-        )
-
-    def ask(self, exercise: str, given: Answer) -> Verdict:
-        """The verdict on an answer; where the page or the answer could not be run, what happened, as "broken"."""
-        assert self.process.stdin is not None
-        assert self.process.stdout is not None
-        request = {"exercise": exercise, "sources": given.sources, "cells": dict(given.cells)}
-        self.process.stdin.write(json.dumps(request) + "\n")
-        self.process.stdin.flush()
-        line = self.process.stdout.readline()
-        reply: Verdict = json.loads(line) if line else {"broken": "the process that runs the page has ended"}
-        return reply
-
-    def close(self) -> None:
-        """End it."""
-        self.process.communicate("")
-
-
 def wanted(page: str, exercise: str) -> dict[str, tuple[Answer, str | None]]:
     """All answers to an exercise, by their labels, each with what is to be said of it; None of a right one."""
     kept = answers_to(page, exercise)
@@ -83,22 +50,29 @@ def wanted(page: str, exercise: str) -> dict[str, tuple[Answer, str | None]]:
     }
 
 
-def run_page(page: str, exercises: dict[str, Future[dict[str, Verdict]]]) -> None:
+def request(exercise: str, given: Answer) -> dict[str, Any]:
+    """What the server is asked of an answer."""
+    return {"exercise": exercise, "sources": given.sources, "cells": dict(given.cells)}
+
+
+def run_page(server: PageServer, page: str, exercises: dict[str, Future[dict[str, Verdict]]]) -> None:
     """Run a page as far as these exercises want it, and give each the verdicts on its answers."""
-    server = Server(page)
+    running = server.page(page)
     try:
         for exercise, future in exercises.items():
             try:
                 given = wanted(page, exercise)
-                future.set_result({label: server.ask(exercise, each) for label, (each, _) in given.items()})
+                future.set_result({label: running.ask(request(exercise, each)) for label, (each, _) in given.items()})
             except Exception as error:
                 future.set_exception(error)
     finally:
-        server.close()
+        running.close()
 
 
 @pytest.fixture(scope="module")
-def verdicts(request: pytest.FixtureRequest) -> Iterator[dict[tuple[str, str], Future[dict[str, Verdict]]]]:
+def verdicts(
+    request: pytest.FixtureRequest, page_server: PageServer
+) -> Iterator[dict[tuple[str, str], Future[dict[str, Verdict]]]]:
     """The verdicts on the answers to each exercise that a selected test wants, from two pages at a time."""
     by_page: dict[str, dict[str, Future[dict[str, Verdict]]]] = {}
     for item in request.session.items:
@@ -107,7 +81,7 @@ def verdicts(request: pytest.FixtureRequest) -> Iterator[dict[tuple[str, str], F
             by_page.setdefault(values["page"], {})[values["exercise"]] = Future()
     with ThreadPoolExecutor(AT_ONCE) as pool:
         for page, exercises in by_page.items():
-            pool.submit(run_page, page, exercises)
+            pool.submit(run_page, page_server, page, exercises)
         yield {(page, name): future for page, exercises in by_page.items() for name, future in exercises.items()}
         pool.shutdown(cancel_futures=True)
 

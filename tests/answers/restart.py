@@ -1,7 +1,5 @@
 """Runs each section of a page as after a restart of its kernel: the set-up cell, and then the section alone.
 
-    python -m answers.restart PAGE    (in tests/; prints what went wrong, as JSON: {title of the section: text})
-
 The sections follow one another in one folder, on the files that earlier ones left. Each has a process of its own, forked from
 one that has only imported the lesson.
 """
@@ -11,18 +9,9 @@ from __future__ import annotations
 import contextlib
 import io
 import json
-import os
-import sys
-import tempfile
-from pathlib import Path
 
 from . import NOTEBOOKS
 from .server import Page, forked
-
-IMPORTS = (
-    "import launch_ros.actions, matplotlib.figure, rclpy, turtle_lesson.lab.widgets.dashboard, turtle_lesson.lesson"
-)
-"""What most sections import: once here, instead of once a section."""
 
 
 def sections(page: str) -> list[tuple[str, list[tuple[str, bool]]]]:
@@ -55,19 +44,9 @@ def problem_in_a_child(page: Page, cells: list[tuple[str, bool]]) -> str:
     return said or (f"the process ended with status {status}" if status else "")
 
 
-def main() -> None:
-    """Run the page that the command line names, in a fresh folder."""
-    with tempfile.TemporaryDirectory() as folder:
-        os.environ["TURTLE_LESSON_FOLDER"] = folder
-        os.chdir(folder)
-        page = Page(sys.argv[1], Path(folder))
-        page.run(IMPORTS)
-        (title, opening), *later = sections(sys.argv[1])
-        found = {title: problem_in_a_child(page, opening)}
-        found |= {name: problem_in_a_child(page, [opening[0], *cells]) for name, cells in later}
-        print(json.dumps({name: text for name, text in found.items() if text}))
-        os.chdir("/")
-
-
-if __name__ == "__main__":
-    main()
+def problems(page: Page, name: str) -> dict[str, str]:
+    """What went wrong in a page, by the titles of its sections."""
+    (title, opening), *later = sections(name)
+    found = {title: problem_in_a_child(page, opening)}
+    found |= {title: problem_in_a_child(page, [opening[0], *cells]) for title, cells in later}
+    return {title: text for title, text in found.items() if text}

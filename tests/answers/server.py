@@ -1,6 +1,4 @@
-"""Runs a page in a process of its own, and each answer to an exercise in a fork of it.
-
-    python -m answers.server PAGE    (in tests/; reads a request a line, and writes a reply a line)
+"""Runs a page, and each answer to an exercise in a fork of the process.
 
 The page's cells are run in an IPython shell up to the exercise, earlier exercises by their solutions. An answer is then run
 in a child: in place of the exercise's cell, with the cells between that and the check, and the check itself. So the page
@@ -16,19 +14,14 @@ import json
 import os
 import resource
 import shutil
-import sys
-import tempfile
 import traceback
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
-
-os.environ["TURTLE_LESSON_PROGRESS"] = "off"
+from typing import IO, Any
 
 from IPython.core.history import HistoryManager
 from IPython.core.interactiveshell import InteractiveShell
 
-from turtle_lesson.lab.checks import exam
 from turtle_lesson.ros.core import interrupts
 
 from . import code_cells
@@ -36,15 +29,17 @@ from . import code_cells
 MOST_WORK = 300
 """CPU time, s, after which a child is ended that nothing else has stopped."""
 
-PATIENCE = 2.0
-"""CPU time, s, after which a callback that lets no time pass is stopped: less than a learner is given, for the tests' sake."""
-
-WORK = 12.0
-"""CPU time, s, that a check may take here: three times what the longest one needs."""
-
 
 class PageError(Exception):
     """A cell of the page itself raised something."""
+
+
+def the_shell() -> Any:
+    """The shell of this process, which keeps no history of it in a file."""
+    HistoryManager.enabled = False  # type: ignore[assignment]  # a trait, which may be replaced by its value
+    shell: Any = InteractiveShell.instance()
+    shell.display_formatter.active_types = ["text/plain"]  # nobody sees the pictures
+    return shell
 
 
 class Page:
@@ -55,10 +50,7 @@ class Page:
         self.folder = folder
         self.next = 0
         """The index of the first cell that was not run."""
-        HistoryManager.enabled = False  # type: ignore[assignment]  # a trait, which may be replaced by its value
-        shell: Any = InteractiveShell.instance()
-        self.shell = shell
-        shell.display_formatter.active_types = ["text/plain"]  # nobody sees the pictures
+        self.shell = the_shell()
         self.solutions = {
             cell["exercise"]: cell["source"].partition("\n")[2] for cell in self.cells if "solution" in cell["tags"]
         }
@@ -132,15 +124,38 @@ class Page:
 # -- a child for each answer ---------------------------------------------------------------------------------------------
 
 
-def in_a_child(page: Page, exercise: str, sources: list[str], replaced: dict[str, str]) -> dict[str, Any]:
+class Kept:
+    """A copy of a folder, which is made anew only when the folder has changed since."""
+
+    def __init__(self, folder: Path, place: Path) -> None:
+        self.folder, self.place = folder, place
+        self.state: dict[str, tuple[int, int]] | None = None
+
+    def keep(self) -> None:
+        """Have the copy hold what the folder holds."""
+        state = _state(self.folder)
+        if state != self.state:
+            shutil.rmtree(self.place, ignore_errors=True)
+            shutil.copytree(self.folder, self.place, symlinks=True)
+            self.state = state
+
+    def put_back(self) -> None:
+        """Have the folder hold what its copy holds; the folder itself stays, since it is the current one of this process."""
+        if _state(self.folder) == self.state:
+            return
+        for each in self.folder.iterdir():
+            if each.is_dir() and not each.is_symlink():
+                shutil.rmtree(each)
+            else:
+                each.unlink()
+        shutil.copytree(self.place, self.folder, symlinks=True, dirs_exist_ok=True)
+
+
+def in_a_child(page: Page, kept: Kept, exercise: str, sources: list[str], replaced: dict[str, str]) -> dict[str, Any]:
     """The verdict on an answer, from a fork of this process, whose files are put back afterwards."""
-    with tempfile.TemporaryDirectory() as kept:
-        copy = Path(kept) / "folder"
-        shutil.copytree(page.folder, copy, symlinks=True)
-        before = _state(page.folder)
-        said, status = forked(lambda: _reply(page, exercise, sources, replaced))
-        if _state(page.folder) != before:
-            _put_back(page.folder, copy)
+    kept.keep()
+    said, status = forked(lambda: _reply(page, exercise, sources, replaced))
+    kept.put_back()
     if not said:
         return {"broken": f"the child ended with status {status} and said nothing"}
     found: dict[str, Any] = json.loads(said)
@@ -191,48 +206,20 @@ def _state(folder: Path) -> dict[str, tuple[int, int]]:
     return found
 
 
-def _put_back(folder: Path, copy: Path) -> None:
-    """Have a folder hold what its copy holds; the folder itself stays, since it is the current one of this process."""
-    for each in folder.iterdir():
-        if each.is_dir() and not each.is_symlink():
-            shutil.rmtree(each)
-        else:
-            each.unlink()
-    shutil.copytree(copy, folder, symlinks=True, dirs_exist_ok=True)
+# -- requests ------------------------------------------------------------------------------------------------------------
 
 
-# -- the service ---------------------------------------------------------------------------------------------------------
-
-
-def serve(name: str, folder: Path) -> None:
+def serve(page: Page, kept: Kept, requests: IO[str], replies: IO[str]) -> None:
     """Answer requests until there are no more. A request for an exercise that is behind is refused."""
-    replies = os.fdopen(os.dup(1), "w", encoding="utf-8")
-    os.dup2(2, 1)  # what else is printed belongs to the log
     printed = io.StringIO()
-    page = Page(name, folder)
-    for line in sys.stdin:
+    for line in requests:
         request = json.loads(line)
         try:
             with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):
                 page.go_to(request["exercise"])
             gc.freeze()
-            reply = in_a_child(page, request["exercise"], request["sources"], request["cells"])
+            reply = in_a_child(page, kept, request["exercise"], request["sources"], request["cells"])
         except PageError as error:
             reply = {"broken": str(error)}
         replies.write(json.dumps(reply) + "\n")
         replies.flush()
-
-
-def main() -> None:
-    """Serve the page that the command line names, in a fresh folder."""
-    interrupts.patience = PATIENCE
-    exam.WORK = WORK
-    with tempfile.TemporaryDirectory() as folder:
-        os.environ["TURTLE_LESSON_FOLDER"] = folder
-        os.chdir(folder)
-        serve(sys.argv[1], Path(folder))
-        os.chdir("/")
-
-
-if __name__ == "__main__":
-    main()

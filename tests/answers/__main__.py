@@ -1,0 +1,92 @@
+"""Runs pages of the lesson, each in a fork of one process that has imported it.
+
+    python -m answers SOCKET    (in tests/; the number of a Unix socket that listens; `client.py` starts it)
+
+Each connection runs one page, which its first line names: {"page": …}. It then reads a request a line, and writes a reply a
+line (`server.py`); with {"restart": true} the one reply says what went wrong after restarts (`restart.py`). It ends when
+the connection does.
+"""
+
+from __future__ import annotations
+
+import gc
+import importlib
+import json
+import os
+import signal
+import socket
+import sys
+import tempfile
+import traceback
+from pathlib import Path
+
+os.environ["TURTLE_LESSON_PROGRESS"] = "off"
+
+from turtle_lesson.lab.checks import exam
+from turtle_lesson.ros.core import interrupts
+
+from . import restart
+from .server import Kept, Page, serve, the_shell
+
+PATIENCE = 2.0
+"""CPU time, s, after which a callback that lets no time pass is stopped: less than a learner is given, for the tests' sake."""
+
+WORK = 7.0
+"""CPU time, s, that a check may take here: three times what the longest one needs."""
+
+IMPORTS = (
+    "launch_ros.actions",
+    "matplotlib.backends.backend_agg",
+    "matplotlib.figure",
+    "rclpy",
+    "turtle_lesson.lab.widgets.dashboard",
+    "turtle_lesson.lesson",
+)
+"""What most pages import: once here, instead of once a page."""
+
+
+def run_page(connection: socket.socket) -> None:
+    """Run the page that the first line names, in a fresh folder."""
+    with connection, connection.makefile("rw", encoding="utf-8") as stream, tempfile.TemporaryDirectory() as scratch:
+        wanted = json.loads(stream.readline())
+        folder = Path(scratch, "folder")
+        folder.mkdir()
+        os.environ["TURTLE_LESSON_FOLDER"] = str(folder)
+        os.chdir(folder)
+        page = Page(wanted["page"], folder)
+        if wanted.get("restart"):
+            stream.write(json.dumps(restart.problems(page, wanted["page"])) + "\n")
+        else:
+            serve(page, Kept(folder, Path(scratch, "kept")), stream, stream)
+        os.chdir("/")
+
+
+def main() -> None:
+    """Serve each connection to the socket in a fork of this process, until that is ended."""
+    interrupts.patience = PATIENCE
+    exam.WORK = WORK
+    the_shell()
+    for name in IMPORTS:
+        importlib.import_module(name)
+    os.dup2(2, 1)  # what is printed belongs to the log
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # nobody waits for a page's process
+    gc.freeze()
+    with socket.socket(fileno=int(sys.argv[1])) as listener:
+        while True:
+            connection, _ = listener.accept()
+            if os.fork() == 0:
+                status = 1
+                try:
+                    listener.close()
+                    signal.signal(signal.SIGCHLD, signal.SIG_DFL)
+                    run_page(connection)
+                    status = 0
+                except BaseException:
+                    traceback.print_exc()
+                finally:
+                    os._exit(status)
+            connection.close()
+
+
+if __name__ == "__main__":
+    main()
