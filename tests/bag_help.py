@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from turtle_lesson.ros.bags.writer import BagWriter
-from turtle_lesson.ros.interfaces.registry import registry
+from turtle_lesson.ros.idl.registry import registry
 
 
 @pytest.fixture(scope="module", autouse=True)

@@ -14,8 +14,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from turtle_lesson.ros.command import run
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.cli.run_command import run
+from turtle_lesson.ros.runtime.world import World
 
 FOLDER = Path(__file__).with_name("data") / "command"
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import pytest
 from node_files import PACKAGE
 
-from turtle_lesson.ros.interfaces import registry
+from turtle_lesson.ros.idl.registry import registry
 
 
 @pytest.fixture

@@ -15,11 +15,10 @@ from hypothesis import HealthCheck, settings
 from program_terminal import Terminal
 
 import turtle_lesson  # noqa: F401  (makes rclpy and the interface packages importable in every test)
-from turtle_lesson import files
-from turtle_lesson.ros.interfaces import registry
-from turtle_lesson.ros.interfaces.registry import forget_modules
-from turtle_lesson.ros.world import World, open_world
-from turtle_lesson.underlay import underlay_packages
+from turtle_lesson.ros.idl.registry import forget_modules, registry
+from turtle_lesson.ros.runtime import files
+from turtle_lesson.ros.runtime.world import World, open_world
+from turtle_lesson.session.ros_detection import underlay_packages
 
 # A busy machine is no reason to fail: what hypothesis would refuse by its clock, CI or not, is taken. Fixtures may serve
 # several examples.

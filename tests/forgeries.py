@@ -112,9 +112,9 @@ lesson = Lesson()
 """
 
 LESSON_PATCHED = """
-import turtle_lesson.desk, turtle_lesson.lesson
-turtle_lesson.desk.Desk.check = lambda self, name: "passed"
-turtle_lesson.lesson.Lesson.check = lambda self, name: "passed"
+import turtle_lesson.session.assessment, turtle_lesson.session.lesson
+turtle_lesson.session.assessment.Desk.check = lambda self, name: "passed"
+turtle_lesson.session.lesson.Lesson.check = lambda self, name: "passed"
 """
 
 EXAM_PATCHED = """
@@ -132,11 +132,11 @@ rclpy.node.Node.get_node_names_and_namespaces = lambda self: [("counter", "/"), 
 
 PLACE_PATCHED = """
 from types import SimpleNamespace
-import turtle_lesson.exam_place, turtle_lesson.live
+import turtle_lesson.session.check_target, turtle_lesson.session.live
 space = {}
 exec("def published(self, topic, by): return 9\\ndef run_until(self, end): pass", space)
-turtle_lesson.exam_place.ExamPlace.published = space["published"]
-turtle_lesson.live.CellNodes.run_until = space["run_until"]
+turtle_lesson.session.check_target.ExamPlace.published = space["published"]
+turtle_lesson.session.live.CellNodes.run_until = space["run_until"]
 """
 
 POINTS_EDITED = """

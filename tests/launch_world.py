@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any, cast
 
 import turtle_lesson  # noqa: F401  (makes launch and launch_ros importable)
+from turtle_lesson.ros.build.index import PackageIndex
+from turtle_lesson.ros.build.package import Package
 from turtle_lesson.ros.launching import LaunchHandle, launch_file
-from turtle_lesson.ros.workspace.index import PackageIndex
-from turtle_lesson.ros.workspace.package import Package
 
 
 class FakeSimulation:

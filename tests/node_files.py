@@ -8,7 +8,7 @@ from pathlib import Path
 from types import ModuleType
 
 import turtle_lesson
-from turtle_lesson.ros.interfaces import registry
+from turtle_lesson.ros.idl.registry import registry
 
 PACKAGE = Path(turtle_lesson.__file__).parent / "robot_controller"
 

@@ -17,7 +17,7 @@ from answers import NOTEBOOKS, Answer, Answers, answer, code_cells, solution, st
 from answers.client import PageServer
 
 from turtle_lesson.lab.checks import all_checks
-from turtle_lesson.story import PAGES
+from turtle_lesson.learner.story import PAGES
 
 LEAST_WRONG, LEAST_RIGHT = 6, 4
 TESTS = Path(__file__).resolve().parent

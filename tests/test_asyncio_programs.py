@@ -14,7 +14,7 @@ import numpy
 import pytest
 import rclpy
 
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.runtime.world import World
 
 Run = Callable[..., list[Any]]
 SECOND = 1_000_000_000

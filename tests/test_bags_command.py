@@ -18,8 +18,8 @@ from bag_help import no_package_is_left, write_bag  # noqa: F401
 from std_msgs.msg import Int32
 
 from turtle_lesson.ros.bags.bag import moment_text, size_text
-from turtle_lesson.ros.command import run
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.cli.run_command import run
+from turtle_lesson.ros.runtime.world import World
 
 
 class Terminal:

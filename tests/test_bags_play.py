@@ -18,8 +18,8 @@ from turtle_lesson.ros.bags.bag import open_bag
 from turtle_lesson.ros.bags.player import Playback, parse_remaps, play
 from turtle_lesson.ros.bags.recorder import Recording
 from turtle_lesson.ros.bags.writer import BagWriter
-from turtle_lesson.ros.interfaces.registry import registry
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.idl.registry import registry
+from turtle_lesson.ros.runtime.world import World
 
 PERIOD = 10_000_000  # of the bag that `write_bag` writes, in ns
 

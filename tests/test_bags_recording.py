@@ -17,8 +17,8 @@ from turtle_lesson import start
 from turtle_lesson.ros.bags import BagError
 from turtle_lesson.ros.bags.recorder import Recording
 from turtle_lesson.ros.bags.writer import schema_text, type_hash
-from turtle_lesson.ros.interfaces.registry import registry
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.idl.registry import registry
+from turtle_lesson.ros.runtime.world import World
 
 Heard = dict[str, list[tuple[int, Any]]]
 TOPICS = {
@@ -150,7 +150,7 @@ def test_no_gap_at_the_end(tmp_path: Path, ending: str) -> None:
     from turtle_lesson.ros.bags.bag import open_bag
     from turtle_lesson.ros.bags.recorder import Selection, record
     from turtle_lesson.ros.bags.writer import BagWriter
-    from turtle_lesson.ros.world import open_world
+    from turtle_lesson.ros.runtime.world import open_world
 
     world = open_world()
     times = [0, 999_899_000, 999_990_000, 999_999_999, 1_000_000_000, 1_000_000_001]

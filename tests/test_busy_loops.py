@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from turtle_lesson.ros.core.busy_loops import without_busy_loops
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.runtime.world import World
+from turtle_lesson.ros.stdlib.polling import without_busy_loops
 
 SECOND = 1_000_000_000
 PROGRAM = """

@@ -13,8 +13,8 @@ import pytest
 from turtle_lesson import Lesson, start
 from turtle_lesson.lab.checks import CheckResult, Exam, Expectation
 from turtle_lesson.lab.checks.functions import learner_function, returns
-from turtle_lesson.lab.checks.rows import CannotLook
-from turtle_lesson.workspace import workspace
+from turtle_lesson.lab.checks.results import CannotLook
+from turtle_lesson.learner.workspace import workspace
 
 # isort: split
 # Importing turtle_lesson made these importable.

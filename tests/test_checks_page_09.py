@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from turtle_lesson import files, start
-from turtle_lesson.ros.command.shell import run_line
+from turtle_lesson import start
+from turtle_lesson.ros.cli.shell import run_line
+from turtle_lesson.ros.runtime import files
 
 CASES = {
     "topic_case": (9, "topic silent"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from turtle_lesson import Lesson, start
-from turtle_lesson.ros.command.shell import run_line
+from turtle_lesson.ros.cli.shell import run_line
 
 
 @pytest.fixture

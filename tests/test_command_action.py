@@ -14,9 +14,9 @@ from example_interfaces.action import Fibonacci
 from fibonacci_action import Result, count_up, serving
 from rclpy.action import ActionClient, CancelResponse
 
-from turtle_lesson.ros.command.completion import complete
-from turtle_lesson.ros.command.shell import run_line
-from turtle_lesson.ros.world import World, current_world, open_world
+from turtle_lesson.ros.cli.completion import complete
+from turtle_lesson.ros.cli.shell import run_line
+from turtle_lesson.ros.runtime.world import World, current_world, open_world
 from turtle_lesson.turtlesim.node import main as turtlesim
 
 SEND = "ros2 action send_goal /fibonacci example_interfaces/action/Fibonacci '{order: 2}'"

@@ -9,9 +9,9 @@ import pytest
 from command_cases import cases, check, type_in
 from workspace_on_disk import install_robot_controller
 
-from turtle_lesson.ros.interfaces.names import did_you_mean
-from turtle_lesson.ros.interfaces.registry import registry
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.idl.names import did_you_mean
+from turtle_lesson.ros.idl.registry import registry
+from turtle_lesson.ros.runtime.world import World
 
 
 @pytest.fixture(autouse=True)

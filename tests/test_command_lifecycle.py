@@ -8,8 +8,8 @@ import rclpy
 from command_cases import type_in
 from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
 
-from turtle_lesson.ros.command.completion import complete
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.cli.completion import complete
+from turtle_lesson.ros.runtime.world import World
 
 
 def simple() -> None:

@@ -11,12 +11,11 @@ from types import SimpleNamespace
 
 import pytest
 
-from turtle_lesson.ros.command import live_rate
-from turtle_lesson.ros.command.driving import set_player
-from turtle_lesson.ros.command.shell import CommandInterrupted, Shell, run_line
-from turtle_lesson.ros.core.virtual_time import real_monotonic
-from turtle_lesson.ros.workspace.package import Package
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.build.package import Package
+from turtle_lesson.ros.cli.run_world import live_rate, set_player
+from turtle_lesson.ros.cli.shell import CommandInterrupted, Shell, run_line
+from turtle_lesson.ros.runtime.world import World
+from turtle_lesson.ros.stdlib.clocks import real_monotonic
 
 
 @pytest.fixture

@@ -15,13 +15,15 @@ from IPython.core.completer import provisionalcompleter
 from IPython.core.interactiveshell import InteractiveShell
 from traitlets.config import Config
 
-from turtle_lesson import files, start
-from turtle_lesson.ros.command import terminal_files
-from turtle_lesson.ros.command.cells import COMMANDS, UNSURE, translate
-from turtle_lesson.ros.command.completion import complete
-from turtle_lesson.ros.command.elsewhere import ELSEWHERE, advice
-from turtle_lesson.ros.command.shell import BUILTINS, PROGRAMS
-from turtle_lesson.ros.world import current_world
+from turtle_lesson import start
+from turtle_lesson.ros.cli import terminal_files
+from turtle_lesson.ros.cli.cells import COMMANDS, UNSURE, translate
+from turtle_lesson.ros.cli.command_hints import ELSEWHERE, advice
+from turtle_lesson.ros.cli.completion import complete
+from turtle_lesson.ros.cli.shell import PROGRAMS
+from turtle_lesson.ros.cli.terminal import BUILTINS
+from turtle_lesson.ros.runtime import files
+from turtle_lesson.ros.runtime.world import current_world
 
 Run = Callable[..., str]
 

@@ -12,10 +12,9 @@ from command_cases import type_in
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from turtle_lesson.ros.command import run
-from turtle_lesson.ros.command.groups import GROUPS
-from turtle_lesson.ros.command.parser import verb_parser
-from turtle_lesson.ros.world import World, open_world
+from turtle_lesson.ros.cli.parser import GROUPS, verb_parser
+from turtle_lesson.ros.cli.run_command import run
+from turtle_lesson.ros.runtime.world import World, open_world
 
 VERBS = [
     (group, verb)

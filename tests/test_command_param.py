@@ -10,9 +10,9 @@ import pytest
 from command_cases import check, type_in
 from command_interfaces import interfaces  # noqa: F401
 
-from turtle_lesson.ros.command.common import CommandError
-from turtle_lesson.ros.command.param_values import TYPES, flat, from_text, nested
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.cli.param_values import TYPES, flat, from_text, nested
+from turtle_lesson.ros.cli.verb import CommandError
+from turtle_lesson.ros.runtime.world import World
 
 pytestmark = pytest.mark.usefixtures("interfaces")
 

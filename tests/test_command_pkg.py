@@ -9,8 +9,8 @@ import pytest
 from command_cases import check, type_in
 from workspace_on_disk import install_robot_controller
 
-from turtle_lesson.ros.interfaces.registry import registry
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.idl.registry import registry
+from turtle_lesson.ros.runtime.world import World
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ import rclpy
 from command_cases import check, type_in
 from command_interfaces import interfaces  # noqa: F401
 
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.runtime.world import World
 
 pytestmark = pytest.mark.usefixtures("interfaces")
 

@@ -12,14 +12,12 @@ from command_cases import FOLDER, check, type_in
 from hypothesis import given, settings
 from hypothesis import strategies as some
 
-from turtle_lesson.ros.command import run
-from turtle_lesson.ros.command.groups import GROUPS, NOT_HERE
-from turtle_lesson.ros.command.parser import verb_parser
-from turtle_lesson.ros.command.shell import run_line
-from turtle_lesson.ros.command.streams import CellErrors, Errors
-from turtle_lesson.ros.command.usage import WIDTH, group_help, top_help
-from turtle_lesson.ros.command.words import Operator, UnfinishedError, Word, command_end, tokens
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.cli.jobs import CellErrors, Errors
+from turtle_lesson.ros.cli.lexer import Operator, UnfinishedError, Word, command_end, tokens
+from turtle_lesson.ros.cli.parser import GROUPS, NOT_HERE, WIDTH, group_help, top_help, verb_parser
+from turtle_lesson.ros.cli.run_command import run
+from turtle_lesson.ros.cli.shell import run_line
+from turtle_lesson.ros.runtime.world import World
 
 
 @pytest.fixture(autouse=True)
@@ -416,7 +414,7 @@ def test_a_command_works_in_the_folder_that_it_is_given(world: World, folder: Pa
 
 
 def test_what_can_never_end_is_ended_and_explained(world: World, monkeypatch: pytest.MonkeyPatch) -> None:
-    import turtle_lesson.ros.command.group_doctor as group
+    import turtle_lesson.ros.cli.group_doctor as group
 
     def wait(args: object) -> int:
         import rclpy
@@ -433,7 +431,7 @@ def test_what_can_never_end_is_ended_and_explained(world: World, monkeypatch: py
 
 
 def test_a_verb_that_breaks_is_one_line(world: World, monkeypatch: pytest.MonkeyPatch) -> None:
-    import turtle_lesson.ros.command.group_doctor as group
+    import turtle_lesson.ros.cli.group_doctor as group
 
     def break_down(args: object) -> int:
         raise ZeroDivisionError("this is a bug")

@@ -11,9 +11,9 @@ import rclpy
 from command_cases import cases, check, shape, type_in
 from command_interfaces import interfaces  # noqa: F401
 
-from turtle_lesson.ros.command import run
-from turtle_lesson.ros.command.parser import parse
-from turtle_lesson.ros.world import World, current_world
+from turtle_lesson.ros.cli.parser import parse
+from turtle_lesson.ros.cli.run_command import run
+from turtle_lesson.ros.runtime.world import World, current_world
 
 pytestmark = pytest.mark.usefixtures("interfaces")
 

@@ -15,11 +15,11 @@ from command_cases import FOLDER, type_in
 from command_interfaces import interfaces  # noqa: F401
 from rosidl_runtime_py import message_to_csv, message_to_yaml, set_message_fields
 
-from turtle_lesson.ros.command.common import CommandError
-from turtle_lesson.ros.command.types import message_class, service_class
-from turtle_lesson.ros.command.values import NoYaml, populate, read_yaml
-from turtle_lesson.ros.interfaces import InvalidDefinition, registry
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.cli.typed_values import NoYaml, message_class, populate, read_yaml, service_class
+from turtle_lesson.ros.cli.verb import CommandError
+from turtle_lesson.ros.idl.errors import InvalidDefinition
+from turtle_lesson.ros.idl.registry import registry
+from turtle_lesson.ros.runtime.world import World
 
 CUT = 200
 """Recorded lines that are longer than this may have been cut off."""

@@ -10,10 +10,10 @@ from unittest.mock import patch
 import pytest
 from launch_world import write
 
-from turtle_lesson.ros.command.cells import translate
-from turtle_lesson.ros.command.shell import run_line
-from turtle_lesson.ros.workspace.package import Package
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.build.package import Package
+from turtle_lesson.ros.cli.cells import translate
+from turtle_lesson.ros.cli.shell import run_line
+from turtle_lesson.ros.runtime.world import World
 
 Type = Callable[[str], tuple[int, str, str]]
 

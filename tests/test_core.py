@@ -13,17 +13,11 @@ from pathlib import Path
 
 import pytest
 
-from turtle_lesson.ros.core import (
-    EPOCH,
-    DriveTimeout,
-    NeverReturns,
-    NeverWakes,
-    SimulationError,
-    WorldClosed,
-    drive,
-    interrupts,
-)
-from turtle_lesson.ros.world import World, open_world
+from turtle_lesson.ros.runtime.world import World, open_world
+from turtle_lesson.ros.sim import interrupts
+from turtle_lesson.ros.sim.errors import DriveTimeout, NeverReturns, NeverWakes, SimulationError, WorldClosed
+from turtle_lesson.ros.sim.run_blocking import drive
+from turtle_lesson.ros.sim.simulation import EPOCH
 
 SECOND = 1_000_000_000
 
@@ -320,7 +314,7 @@ def test_a_cell_can_drive_the_world_until_a_call_is_done(world: World) -> None:
 
 def test_a_cell_that_waits_for_nothing_is_told_so(world: World) -> None:
     def waits() -> None:
-        from turtle_lesson.ros.core import running_strand
+        from turtle_lesson.ros.sim.strand import running_strand
 
         strand = running_strand()
         assert strand is not None

@@ -12,7 +12,7 @@ from typing import Any
 import numpy
 import pytest
 
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.runtime.world import World
 
 Run = Callable[..., list[Any]]
 SECOND = 1_000_000_000

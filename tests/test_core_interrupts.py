@@ -22,8 +22,10 @@ import pytest
 
 from turtle_lesson import start
 from turtle_lesson.lab import recorder
-from turtle_lesson.ros.core import NeverReturns, Process, interrupts, tracebacks
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.runtime.world import World
+from turtle_lesson.ros.sim import errors, interrupts
+from turtle_lesson.ros.sim.errors import NeverReturns
+from turtle_lesson.ros.sim.process import Process
 
 SECOND = 1_000_000_000
 LIBRARY = f"{sysconfig.get_path('purelib')}/slow_library.py"
@@ -355,7 +357,7 @@ def test_what_the_cell_itself_computes_can_be_interrupted(world: World, watchdog
 def test_what_jupyter_does_with_its_locks_is_not_frozen(world: World, watchdog: Watchdog, inner: str) -> None:
     """As it would be if a print were frozen: Jupyter's thread would wait for ever for the lock that the print holds."""
     source = "def compute():\n    for _ in range(8): tick(True), look()\ndef late(each): compute()"
-    library = in_a_file(f"{tracebacks.LIBRARY_FOLDER}json/encoder.py", source, tick=watchdog.tick, look=watchdog.look)
+    library = in_a_file(f"{errors.LIBRARY_FOLDER}json/encoder.py", source, tick=watchdog.tick, look=watchdog.look)
     call = "late(None)" if "json" in inner else "compute()"
     jupyter = in_a_file(LIBRARY, f"def flush(): {call}", __name__="ipykernel.iostream", **library)
     log: list[str] = []
@@ -371,7 +373,7 @@ def test_what_jupyter_does_with_its_locks_is_not_frozen(world: World, watchdog: 
 def test_the_lessons_own_nodes_are_never_ended(world: World, watchdog: Watchdog) -> None:
     said = Said()
     source = "def main():\n    for _ in range(200): tick(True), look()"
-    node = in_a_file(f"{tracebacks.OUR_FOLDER}turtlesim/node.py", source, tick=watchdog.tick, look=watchdog.look)
+    node = in_a_file(f"{errors.OUR_FOLDER}turtlesim/node.py", source, tick=watchdog.tick, look=watchdog.look)
     process = world.spawn(node["main"], name="turtlesim", stderr=said)
     world.sim.run_until(SECOND)
     assert process.exit_code == 0

@@ -14,7 +14,7 @@ from typing import Any
 
 import pytest
 
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.runtime.world import World
 
 Run = Callable[..., list[Any]]
 Capture = pytest.CaptureFixture[str]

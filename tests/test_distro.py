@@ -38,7 +38,7 @@ from turtle_lesson.ros.distro import (
     Release,
     changes,
 )
-from turtle_lesson.ros.world import World, open_world
+from turtle_lesson.ros.runtime.world import World, open_world
 
 HERE = Path(__file__).parent
 

@@ -15,12 +15,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as some
 
-from turtle_lesson import files, start
-from turtle_lesson.ros.command import terminal_files
-from turtle_lesson.ros.command.shell import begin_here, open_terminal, run_line
-from turtle_lesson.ros.world import World, open_world
-from turtle_lesson.teaching import server
-from turtle_lesson.underlay import underlay_packages
+from turtle_lesson import start
+from turtle_lesson.ros.cli import terminal_files
+from turtle_lesson.ros.cli.shell import begin_here, open_terminal, run_line
+from turtle_lesson.ros.runtime import files
+from turtle_lesson.ros.runtime.world import World, open_world
+from turtle_lesson.session.ros_detection import underlay_packages
+from turtle_lesson.teaching import learner
 
 Type = Callable[[str], tuple[int, str, str]]
 
@@ -383,9 +384,9 @@ def test_jupyterlabs_folder_is_the_learners_where_the_notebook_is_in_it(
 
 def test_open_says_which_folder_it_opens(mine: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     given: list[dict[str, str]] = []
-    monkeypatch.setattr(server.os, "execve", lambda program, words, environment: given.append(environment))
-    monkeypatch.setattr(server.subprocess, "call", lambda words, env: given.append(env))
-    server.serve(Path("inner/.."), None, False, [])
+    monkeypatch.setattr(learner.os, "execve", lambda program, words, environment: given.append(environment))
+    monkeypatch.setattr(learner.subprocess, "call", lambda words, env: given.append(env))
+    learner.serve(Path("inner/.."), None, False, [])
     assert given[0][files.OPENED] == str(mine)
 
 
@@ -394,7 +395,7 @@ def test_open_says_which_folder_it_opens(mine: Path, monkeypatch: pytest.MonkeyP
 )
 def test_a_name_that_this_computer_cannot_write_is_refused_with_the_way_out(line: str, mine: Path) -> None:
     program = (
-        "import sys; from turtle_lesson.ros.command.shell import run_line; from turtle_lesson.ros.world import open_world; "
+        "import sys; from turtle_lesson.ros.cli.shell import run_line; from turtle_lesson.ros.runtime.world import open_world; "
         f"print(sys.getfilesystemencoding()); sys.exit(run_line(open_world(), {line!a}))"
     )
     environment = os.environ | {

@@ -7,8 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from interface_cases import ROBOT_CONTROLLER, any_messages, built_in, message_class, write_package
 
-from turtle_lesson.ros.interfaces import Registry
-from turtle_lesson.ros.interfaces.cdr import deserialize, serialize
+from turtle_lesson.ros.idl.cdr import deserialize, serialize
+from turtle_lesson.ros.idl.registry import Registry
 
 CODES = {
     "bool": "?", "byte": "c", "char": "B", "float32": "f", "float64": "d", "int8": "b", "uint8": "B",

@@ -8,7 +8,9 @@ import sys
 import pytest
 from interface_cases import write_package
 
-from turtle_lesson.ros.interfaces import InvalidDefinition, Registry, finder
+from turtle_lesson.ros.idl import finder
+from turtle_lesson.ros.idl.errors import InvalidDefinition
+from turtle_lesson.ros.idl.registry import Registry
 
 DEMO = {
     "msg/Status.msg": "float32 battery\n",

@@ -21,9 +21,9 @@ from interface_cases import (
     write_package,
 )
 
-from turtle_lesson.ros.interfaces import InvalidDefinition, Registry, finder
-from turtle_lesson.ros.interfaces.registry import forget_modules
-from turtle_lesson.ros.interfaces.slot_types import (
+from turtle_lesson.ros.idl import finder
+from turtle_lesson.ros.idl.errors import InvalidDefinition
+from turtle_lesson.ros.idl.message import (
     Array,
     BasicType,
     BoundedSequence,
@@ -32,6 +32,7 @@ from turtle_lesson.ros.interfaces.slot_types import (
     UnboundedSequence,
     UnboundedString,
 )
+from turtle_lesson.ros.idl.registry import Registry, forget_modules
 
 RECORDED = recorded("interface_messages.json")
 

@@ -14,8 +14,8 @@ from interface_cases import built_in, messages, words
 from rosbags.interfaces import Nodetype
 from rosbags.typesys import Stores, get_typestore
 
-from turtle_lesson.ros.interfaces.cdr import PLACEHOLDER, deserialize, serialize
-from turtle_lesson.ros.interfaces.registry import PARSERS, SHARE, registry
+from turtle_lesson.ros.idl.cdr import PLACEHOLDER, deserialize, serialize
+from turtle_lesson.ros.idl.registry import PARSERS, SHARE, registry
 
 HUMBLE, KILTED = get_typestore(Stores.ROS2_HUMBLE), get_typestore(Stores.ROS2_KILTED)
 OF_THE_RECORDER = "rosbag2_interfaces/"  # what `ros2 bag` tells of its own files

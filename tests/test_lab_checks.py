@@ -11,11 +11,12 @@ from typing import Any
 import pytest
 
 from turtle_lesson import Lesson, start
-from turtle_lesson.lab.checks import Advice, Check, CheckResult, Expectation, Row, Seen, all_checks, exam, registry
-from turtle_lesson.lab.checks.registry import PAGES, check
-from turtle_lesson.lab.checks.result import POINTER
-from turtle_lesson.lesson import FINISHED
-from turtle_lesson.ros.core import interrupts
+from turtle_lesson.lab.checks import Advice, Check, CheckResult, Expectation, Row, Seen, all_checks, probe, registry
+from turtle_lesson.lab.checks.registry import check
+from turtle_lesson.lab.checks.results import POINTER
+from turtle_lesson.learner.story import PAGES
+from turtle_lesson.ros.sim import interrupts
+from turtle_lesson.session.lesson import FINISHED
 
 # isort: split
 # Importing turtle_lesson made this one importable.
@@ -343,8 +344,8 @@ def test_messages_that_are_no_numbers() -> None:
 
 
 def test_a_timer_without_end_is_stopped(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(exam, "WORK", 0.1)
-    monkeypatch.setattr(exam, "SLACK", 0.1)
+    monkeypatch.setattr(probe, "WORK", 0.1)
+    monkeypatch.setattr(probe, "SLACK", 0.1)
 
     def counter() -> Any:
         from std_msgs.msg import Int32
@@ -410,7 +411,7 @@ def test_a_loop_that_only_looks_at_the_clock_is_stopped_and_named(
     monkeypatch: pytest.MonkeyPatch, in_a_cell: bool
 ) -> None:
     """Time passes in it, a microsecond a look."""
-    monkeypatch.setattr(exam, "WORK", 0.3)
+    monkeypatch.setattr(probe, "WORK", 0.3)
 
     def counter() -> Any:
         from std_msgs.msg import Int32

@@ -15,13 +15,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from turtle_lesson import Lesson, start
-from turtle_lesson.lab.beams import read_beams
-from turtle_lesson.lab.widgets import panel_log
+from turtle_lesson.lab.laser_plot import read_beams
+from turtle_lesson.lab.widgets import panels_system
 from turtle_lesson.lab.widgets.dashboard import Dashboard
-from turtle_lesson.lab.widgets.frequency import frequency, verdict
-from turtle_lesson.lab.widgets.pace import Pace
-from turtle_lesson.lab.widgets.panel_scan import direction, in_words
-from turtle_lesson.ros.command.shell import run_line
+from turtle_lesson.lab.widgets.live_data import Pace, frequency, verdict
+from turtle_lesson.lab.widgets.panels_system import direction, in_words
+from turtle_lesson.ros.cli.shell import run_line
 
 # isort: split
 # Importing turtle_lesson made this one importable.
@@ -398,9 +397,9 @@ def test_a_log_that_was_closed_goes_on_without_a_line_twice(lesson: Lesson, dash
 def test_the_log_keeps_the_newest_lines_and_sends_few_again(dashboard: Dashboard) -> None:
     for number in range(1200):
         dashboard._add_lines([(number * SECOND, "INFO", "chatter", f"line {number}")])
-        assert len(dashboard.log_new) <= panel_log.BLOCK
+        assert len(dashboard.log_new) <= panels_system.BLOCK
     texts = log_texts(dashboard)
-    assert panel_log.KEPT <= len(texts) <= panel_log.KEPT + panel_log.BLOCK
+    assert panels_system.KEPT <= len(texts) <= panels_system.KEPT + panels_system.BLOCK
     assert texts[-1] == "line 1199"
 
 
@@ -414,7 +413,7 @@ def test_the_level_is_the_same_in_all_windows(dashboard: Dashboard) -> None:
 
 @pytest.mark.parametrize(("level", "name"), [(10, "DEBUG"), (20, "INFO"), (25, "INFO"), (b"(", "ERROR"), (50, "FATAL")])
 def test_levels_have_names(level: Any, name: str) -> None:
-    assert panel_log.level_name(level) == name
+    assert panels_system.level_name(level) == name
 
 
 # -- the page ----------------------------------------------------------------------------------------------------------

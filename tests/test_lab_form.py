@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from turtle_lesson import Lesson, start
+from turtle_lesson.lab.widgets.form import publish_line
 from turtle_lesson.lab.widgets.form_fields import FieldError, Group, Rows, Single, find_part
 from turtle_lesson.lab.widgets.message_types import (
     Kind,
@@ -20,7 +21,6 @@ from turtle_lesson.lab.widgets.message_types import (
     plain,
     read_kind,
 )
-from turtle_lesson.lab.widgets.typed_line import publish_line
 
 
 @pytest.fixture
@@ -220,8 +220,8 @@ def test_the_line_holds_what_differs_from_the_default() -> None:
 
 @given(st.text(max_size=40))
 def test_any_text_survives_the_shell_and_yaml(text: str) -> None:
-    from turtle_lesson.ros.command.values import read_yaml
-    from turtle_lesson.ros.command.words import Word, tokens
+    from turtle_lesson.ros.cli.lexer import Word, tokens
+    from turtle_lesson.ros.cli.typed_values import read_yaml
 
     whole = group("std_msgs/msg/String")
     put(whole, "data", text)

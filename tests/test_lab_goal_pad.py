@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 
 from turtle_lesson import start
-from turtle_lesson.lab.table import Table
-from turtle_lesson.lab.widgets.goals import WORLD
-from turtle_lesson.lab.widgets.trail import POINTS, SPACING, TAIL, Trail
-from turtle_lesson.lesson import Lesson
-from turtle_lesson.live import Stopwatch
+from turtle_lesson.lab.recording import Table
+from turtle_lesson.lab.widgets.goal_client import WORLD
+from turtle_lesson.lab.widgets.panels_world import POINTS, SPACING, TAIL, Trail
+from turtle_lesson.session.lesson import Lesson
+from turtle_lesson.session.live import Stopwatch
 from turtle_lesson.turtlesim.obstacles import WORLDS, Box, Circle
 
 MIDDLE = 5.544445

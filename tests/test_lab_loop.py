@@ -5,8 +5,8 @@ from __future__ import annotations
 import asyncio
 import threading
 
-from turtle_lesson.lab.widgets.loop import Loop
-from turtle_lesson.ros.world import World
+from turtle_lesson.lab.widgets.backend import Loop
+from turtle_lesson.ros.runtime.world import World
 
 
 def test_a_callback_in_a_robot_process_is_in_the_notebooks_thread(world: World) -> None:

@@ -135,7 +135,7 @@ def test_what_cannot_be_read_is_never_sent(lesson: Lesson) -> None:
 
 
 def test_changes_from_elsewhere_are_followed(lesson: Lesson) -> None:
-    from turtle_lesson.ros.command.shell import run_line
+    from turtle_lesson.ros.cli.shell import run_line
 
     panel = lesson.parameters("/navigator")
     order(panel, "ask")

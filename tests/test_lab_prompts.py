@@ -8,8 +8,7 @@ from pathlib import Path
 import pytest
 
 from turtle_lesson import Lesson, start
-from turtle_lesson.lab.code_of import code_of
-from turtle_lesson.lab.prompts import compose
+from turtle_lesson.lab.prompts import code_of, compose
 
 
 @pytest.fixture
@@ -68,7 +67,7 @@ def test_the_notebooks_last_error_is_there(lesson: Lesson, monkeypatch: pytest.M
 def test_the_learners_own_package_is_taken_unless_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     import shutil
 
-    from turtle_lesson.lesson import FINISHED
+    from turtle_lesson.session.lesson import FINISHED
 
     shutil.copytree(FINISHED, tmp_path / "robot_controller")
     shutil.copytree(Path(__file__).parent / "data" / "simple_stage", tmp_path / "robot_controller", dirs_exist_ok=True)

@@ -7,10 +7,10 @@ from typing import Any
 import pytest
 
 from turtle_lesson.lab import Obstacle, Recorder, plot_path, plot_scan, plot_status
-from turtle_lesson.lab.channel import with_time
-from turtle_lesson.ros.core import EPOCH
-from turtle_lesson.ros.interfaces.registry import registry
-from turtle_lesson.ros.world import World, open_world
+from turtle_lesson.lab.recorder import with_time
+from turtle_lesson.ros.idl.registry import registry
+from turtle_lesson.ros.runtime.world import World, open_world
+from turtle_lesson.ros.sim.simulation import EPOCH
 
 # isort: split
 # Importing turtle_lesson made these packages importable.

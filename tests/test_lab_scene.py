@@ -21,13 +21,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from turtle_lesson import Lesson, start
-from turtle_lesson.lab.beams import read_beams
-from turtle_lesson.lab.table import Table
-from turtle_lesson.lab.widgets import scene_turtle
+from turtle_lesson.lab.laser_plot import read_beams
+from turtle_lesson.lab.recording import Table
+from turtle_lesson.lab.widgets import scene_mesh
 from turtle_lesson.lab.widgets.scene import Scene
 from turtle_lesson.lab.widgets.scene_commands import viewer_bundle
-from turtle_lesson.lab.widgets.scene_trail import MOST, Trail
-from turtle_lesson.lab.widgets.scene_world import fan, ribbon
+from turtle_lesson.lab.widgets.scene_mesh import fan, ribbon
+from turtle_lesson.lab.widgets.scene_picture import MOST, Trail
 from turtle_lesson.turtlesim.obstacles import Box, Circle
 
 # isort: split
@@ -218,12 +218,12 @@ def test_meshcats_server_never_runs_and_the_tunnel_that_it_could_open_is_never_i
 
 
 def test_the_turtle_stands_on_the_floor_and_is_as_long_as_in_the_plots() -> None:
-    body = scene_turtle.body()
+    body = scene_mesh.body()
     low, high = body.corners.reshape(-1, 3).min(axis=0), body.corners.reshape(-1, 3).max(axis=0)
     assert low[2] > 0 and high[2] < 0.4
-    assert high[0] - low[0] == pytest.approx(scene_turtle.LENGTH, abs=0.12)
+    assert high[0] - low[0] == pytest.approx(scene_mesh.LENGTH, abs=0.12)
     assert low[1] == pytest.approx(-high[1], abs=1e-9)
-    assert len(scene_turtle.legs()) == 4
+    assert len(scene_mesh.legs()) == 4
 
 
 @given(st.lists(st.one_of(st.floats(0.05, 9.9), st.sampled_from([float("nan"), float("inf"), 0.0])), max_size=40))

@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from turtle_lesson.lab.table import Table
+from turtle_lesson.lab.recording import Table
 
 
 def test_a_listener_takes_the_numbers_out_of_a_message_and_the_time_out_of_its_information():

@@ -149,7 +149,7 @@ def simple(tmp_path: Path) -> Iterator[Lesson]:
     """The navigator that sleeps in its service's callback."""
     import shutil
 
-    from turtle_lesson.lesson import FINISHED
+    from turtle_lesson.session.lesson import FINISHED
 
     shutil.copytree(FINISHED, tmp_path / "robot_controller")
     shutil.copytree(SIMPLE, tmp_path / "robot_controller", dirs_exist_ok=True)
@@ -206,7 +206,7 @@ def test_a_call_that_is_not_answered_yet(simple: Lesson) -> None:
 
 
 def test_a_command_is_named_by_its_words(lesson: Lesson, capsys: pytest.CaptureFixture[str]) -> None:
-    from turtle_lesson.ros.command.shell import run_line
+    from turtle_lesson.ros.cli.shell import run_line
 
     run_line(lesson._world, 'ros2 service call /spawn turtlesim/srv/Spawn "{x: 2.0, y: 2.0, name: end}"')
     picture = lesson.plot_sequence()
@@ -215,7 +215,7 @@ def test_a_command_is_named_by_its_words(lesson: Lesson, capsys: pytest.CaptureF
 
 
 def test_nothing_was_called_yet_or_not_in_these_seconds(lesson: Lesson, capsys: pytest.CaptureFixture[str]) -> None:
-    from turtle_lesson.ros.command.shell import run_line
+    from turtle_lesson.ros.cli.shell import run_line
 
     assert lesson.plot_sequence().text == "No node has called a service yet. Try: ros2 service call /navigate_to …"
     run_line(lesson._world, "ros2 service call /clear std_srvs/srv/Empty")
@@ -228,7 +228,7 @@ def test_nothing_was_called_yet_or_not_in_these_seconds(lesson: Lesson, capsys: 
 
 
 def test_parameters_are_left_out_unless_asked_for(lesson: Lesson, capsys: pytest.CaptureFixture[str]) -> None:
-    from turtle_lesson.ros.command.shell import run_line
+    from turtle_lesson.ros.cli.shell import run_line
 
     run_line(lesson._world, "ros2 param set /turtlesim background_r 3")
     assert "No node has called a service yet" in lesson.plot_sequence().text
@@ -240,7 +240,7 @@ def test_parameters_are_left_out_unless_asked_for(lesson: Lesson, capsys: pytest
 
 
 def test_a_world_without_a_trace_notes_nothing() -> None:
-    from turtle_lesson.ros.world import open_world
+    from turtle_lesson.ros.runtime.world import open_world
 
     world = open_world()
     world.spawn(sleepy, name="sleepy")

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 from launch_world import write, write_launch_file
 
+from turtle_lesson.ros.build.package import Package
 from turtle_lesson.ros.launching import LaunchError, LaunchHandle, launch_file
-from turtle_lesson.ros.workspace.package import Package
-from turtle_lesson.ros.world import World, open_world
+from turtle_lesson.ros.runtime.world import World, open_world
 
 SECOND = 1_000_000_000
 LISTENER = """\

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 from launch_world import FakeWorld, launch, node, write, write_launch_file
 
-from turtle_lesson.ros.core.tracebacks import learners_frames
+from turtle_lesson.ros.build.package import Package
 from turtle_lesson.ros.launching import LaunchError, find_launch_file, launch_file
-from turtle_lesson.ros.workspace.package import Package
+from turtle_lesson.ros.sim.errors import learners_frames
 
 NO_FRONTEND = " - InvalidFrontendLaunchFileError: The launch file may have a syntax error, or its format is unknown"
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from launch_world import FakeWorld, launch, node, write, write_launch_file
 
+from turtle_lesson.ros.build.package import Package
 from turtle_lesson.ros.launching import LaunchError, launch_file, show_arguments
-from turtle_lesson.ros.workspace.package import Package
 
 OTHERS = "Node(package='robot_controller', executable='obstacle_detector'),"
 

@@ -40,7 +40,7 @@ def test_a_module_has_the_same_classes_as_its_package(path: str) -> None:
     ],
 )
 def test_a_program_may_begin_with_any_of_them(line: str) -> None:
-    before = f"import sys; sys.path[:0] = {sys.path!r}; import turtle_lesson.ros.world; "
+    before = f"import sys; sys.path[:0] = {sys.path!r}; import turtle_lesson.ros.runtime.world; "
     subprocess.run([sys.executable, "-c", before + line], check=True, capture_output=True, text=True)
 
 

@@ -10,9 +10,9 @@ import pytest
 from launch_world import write_launch_file
 
 from turtle_lesson import Lesson, start
-from turtle_lesson.ros.command.shell import run_line
+from turtle_lesson.ros.build.package import Package
+from turtle_lesson.ros.cli.shell import run_line
 from turtle_lesson.ros.launching import LaunchHandle, launch_file
-from turtle_lesson.ros.workspace.package import Package
 
 UP = "import time\nprint(f'up at {time.time() - 1.8e9:.1f}')\n"
 PROGRAMS = {

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from workshop import Workshop, built, distance
 
-from turtle_lesson.ros.command.shell import run_line
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.cli.shell import run_line
+from turtle_lesson.ros.runtime.world import World
 
 KINDS = ("py", "xml", "yaml")
 

@@ -14,9 +14,10 @@ from typing import Any
 import pytest
 
 from turtle_lesson import Lesson, start
-from turtle_lesson.ros.command.shell import run_line
-from turtle_lesson.ros.core import EPOCH, WorldClosed
+from turtle_lesson.ros.cli.shell import run_line
 from turtle_lesson.ros.launching import LaunchError
+from turtle_lesson.ros.sim.errors import WorldClosed
+from turtle_lesson.ros.sim.simulation import EPOCH
 from turtle_lesson.turtlesim.obstacles import Box, Circle
 
 
@@ -133,7 +134,7 @@ def test_the_world_before_is_closed(lesson: Lesson) -> None:
 def test_twenty_worlds_leave_nothing_behind() -> None:
     import gc
 
-    from turtle_lesson.ros.core import Strand
+    from turtle_lesson.ros.sim.strand import Strand
 
     def strands() -> int:
         gc.collect()

@@ -10,19 +10,12 @@ import rclpy
 from builtin_interfaces.msg import Time as Stamp
 from hypothesis import given
 from hypothesis import strategies as st
-from message_filters import (
-    ApproximateTimeSynchronizer,
-    Cache,
-    Chain,
-    SimpleFilter,
-    Subscriber,
-    TimeSynchronizer,
-)
+from message_filters import ApproximateTimeSynchronizer, Cache, Chain, SimpleFilter, Subscriber, TimeSynchronizer
 from rclpy.time import Time
 from sensor_msgs.msg import Image
 from std_msgs.msg import Header, String
 
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.runtime.world import World
 
 Run = Callable[..., list[Any]]
 

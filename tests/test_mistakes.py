@@ -12,11 +12,10 @@ from pathlib import Path
 
 import pytest
 
-from turtle_lesson.ros.command.shell import run_line
-from turtle_lesson.ros.core.tracebacks import format_error
-from turtle_lesson.ros.interfaces import registry
-from turtle_lesson.ros.interfaces.registry import forget_modules
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.cli.shell import run_line
+from turtle_lesson.ros.idl.registry import forget_modules, registry
+from turtle_lesson.ros.runtime.world import World
+from turtle_lesson.ros.sim.errors import format_error
 
 FILE = Path(__file__).parent / "data" / "mistakes.txt"
 HEAD = """\

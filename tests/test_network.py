@@ -16,10 +16,11 @@ from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from std_msgs.msg import Int32
 
-from turtle_lesson.ros.core import NeverWakes, Simulation
-from turtle_lesson.ros.graph.network import Network, conditions
-from turtle_lesson.ros.graph.watchdog import Watchdog
-from turtle_lesson.ros.world import World, open_world
+from turtle_lesson.ros.rmw.endpoint import Watchdog
+from turtle_lesson.ros.rmw.network import Network, conditions
+from turtle_lesson.ros.runtime.world import World, open_world
+from turtle_lesson.ros.sim.errors import NeverWakes
+from turtle_lesson.ros.sim.simulation import Simulation
 
 Run = Callable[..., list[Any]]
 SECOND = 1_000_000_000

@@ -18,9 +18,9 @@ from sensor_msgs.msg import LaserScan
 import turtle_lesson
 from turtle_lesson import Lesson
 from turtle_lesson.ros.bags import bag as bags
-from turtle_lesson.ros.core import EPOCH
-from turtle_lesson.ros.graph.network import Conditions, checked_name, conditions
-from turtle_lesson.ros.world import current_world
+from turtle_lesson.ros.rmw.network import Conditions, checked_name, conditions
+from turtle_lesson.ros.runtime.world import current_world
+from turtle_lesson.ros.sim.simulation import EPOCH
 
 SECOND = 1_000_000_000
 
@@ -179,7 +179,7 @@ def test_no_number_breaks_anything(value: Any) -> None:
 
 @given(name=st.text(alphabet="/*?[]{}~ab1_ .é", max_size=12))
 def test_no_name_breaks_anything(name: str) -> None:
-    from turtle_lesson.ros.graph.network import Network
+    from turtle_lesson.ros.rmw.network import Network
 
     try:
         network = Network()

@@ -19,7 +19,7 @@ from turtle_lesson.turtlesim.obstacles import (
     to_marker_array,
     world_named,
 )
-from turtle_lesson.turtlesim.world import HEIGHT, WIDTH
+from turtle_lesson.turtlesim.turtle import HEIGHT, WIDTH
 
 # isort: split
 # Importing turtle_lesson made the message packages importable.

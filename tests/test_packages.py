@@ -9,16 +9,15 @@ from pathlib import Path
 import pytest
 
 import turtle_lesson
-from turtle_lesson.ros.workspace.cmake import CMakeError
-from turtle_lesson.ros.workspace.index import (
+from turtle_lesson.ros.build.cmake_syntax import CMakeError
+from turtle_lesson.ros.build.errors import (
     ExecutableNotFoundError,
     LaunchFileNotFoundError,
-    PackageIndex,
+    PackageError,
     PackageNotFoundError,
-    find_launch_file,
-    seeing,
 )
-from turtle_lesson.ros.workspace.package import Package, PackageError, read_source_package
+from turtle_lesson.ros.build.index import PackageIndex, find_launch_file, seeing
+from turtle_lesson.ros.build.package import Package, read_source_package
 
 XML = """\
 <?xml version="1.0"?>

@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 
 from turtle_lesson import Lesson, start
-from turtle_lesson.ros.core import Process
-from turtle_lesson.ros.core.stdlib import terminals
+from turtle_lesson.ros.sim.process import Process
+from turtle_lesson.ros.stdlib import terminals
 
 Begin = Callable[..., Process]
 
@@ -192,7 +192,7 @@ def test_of_two_programs_the_newer_one_gets_the_keys(lesson: Lesson, begin: Begi
 
 
 def test_a_program_on_windows(lesson: Lesson, begin: Begin, capsys: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    from turtle_lesson.ros.core.program_modules import on_import
+    from turtle_lesson.ros.stdlib.program import on_import
 
     windows = terminals.make_msvcrt()
     monkeypatch.setitem(on_import, "msvcrt", lambda: windows)

@@ -13,8 +13,8 @@ from pathlib import Path
 
 import pytest
 
-from turtle_lesson.ros.workspace.package import PythonProgram
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.build.package import PythonProgram
+from turtle_lesson.ros.runtime.world import World
 
 Capture = pytest.CaptureFixture[str]
 Write = Callable[[str, str], Path]

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from turtle_lesson.ros.command.shell import run_line
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.cli.shell import run_line
+from turtle_lesson.ros.runtime.world import World
 
 
 @pytest.fixture

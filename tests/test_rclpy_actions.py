@@ -48,7 +48,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.task import Future
 from unique_identifier_msgs.msg import UUID
 
-from turtle_lesson.ros.world import World, open_world
+from turtle_lesson.ros.runtime.world import World, open_world
 
 ONE, TWO = UUID(uuid=[1] * 16), UUID(uuid=[2] * 16)
 SECOND = 1_000_000_000

@@ -9,10 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from turtle_lesson.ros.command.shell import run_line
-from turtle_lesson.ros.interfaces import registry
-from turtle_lesson.ros.interfaces.registry import forget_modules
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.cli.shell import run_line
+from turtle_lesson.ros.idl.registry import forget_modules, registry
+from turtle_lesson.ros.runtime.world import World
 
 PACKAGES = Path(__file__).parent / "data" / "action_programs"
 SECOND = 1_000_000_000

@@ -18,7 +18,7 @@ from rclpy.exceptions import RCLError
 from rclpy.task import Future
 from unique_identifier_msgs.msg import UUID
 
-from turtle_lesson.ros.world import World, open_world
+from turtle_lesson.ros.runtime.world import World, open_world
 
 ACCEPTED, EXECUTING, CANCELING = 1, 2, 3
 STEPS = {

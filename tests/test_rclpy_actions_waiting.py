@@ -20,8 +20,8 @@ from rclpy.task import Future
 from turtlesim.action import RotateAbsolute
 
 from turtle_lesson.lab.timeline import plot_timeline
-from turtle_lesson.ros.core import NeverWakes
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.runtime.world import World
+from turtle_lesson.ros.sim.errors import NeverWakes
 
 SECOND = 1_000_000_000
 

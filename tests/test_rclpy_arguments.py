@@ -14,9 +14,8 @@ from example_interfaces.srv import AddTwoInts
 from hypothesis import given
 from hypothesis import strategies as st
 from rcl_interfaces.msg import ParameterDescriptor
-from rclpy._arguments import ArgumentError, parse_arguments, pattern_matches
-from rclpy._params_file import read_parameter_file
-from rclpy._yaml_values import YamlValueError, scalar, tree, value_of
+from rclpy._params_file import YamlValueError, read_parameter_file, scalar, tree, value_of
+from rclpy._ros_args import ArgumentError, parse_arguments, pattern_matches
 from rclpy.exceptions import (
     InvalidParameterTypeException,
     RCLError,
@@ -28,7 +27,7 @@ from rclpy.parameter import Parameter
 from rclpy.utilities import remove_ros_args
 from std_msgs.msg import String
 
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.runtime.world import World
 
 Capture = pytest.CaptureFixture[str]
 

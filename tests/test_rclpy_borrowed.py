@@ -6,7 +6,7 @@ import importlib
 
 import pytest
 import rclpy
-from rclpy._borrowed import BORROWED
+from rclpy._reexports import BORROWED
 
 LENT = [
     (module, *name.partition("=")[::2], origin)

@@ -23,8 +23,8 @@ from rclpy.node import Node
 from rclpy.task import Future
 from std_msgs.msg import String
 
-from turtle_lesson.ros.core import NeverWakes
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.runtime.world import World
+from turtle_lesson.ros.sim.errors import NeverWakes
 
 Run = Callable[..., list[Any]]
 

@@ -22,7 +22,7 @@ from rclpy.lifecycle import (
 from rclpy.node import Node
 from std_msgs.msg import String
 
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.runtime.world import World
 
 Run = Callable[..., list[Any]]
 Capture = pytest.CaptureFixture[str]

@@ -35,8 +35,8 @@ from rclpy.validate_node_name import validate_node_name
 from rclpy.validate_topic_name import validate_topic_name
 from std_msgs.msg import Int32, String
 
-from turtle_lesson.ros.graph.names import expand, full_topic_name_flaw, node_name_flaw, topic_name_flaw
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.rmw.names import expand, full_topic_name_flaw, node_name_flaw, topic_name_flaw
+from turtle_lesson.ros.runtime.world import World
 
 LETTERS = "node name must not contain characters other than alphanumerics or '_'"
 TOPIC_LETTERS = "topic name must not contain characters other than alphanumerics, '_', '~', '{', or '}'"

@@ -26,7 +26,7 @@ from rclpy.task import Future
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.runtime.world import World
 
 Run = Callable[..., list[Any]]
 Capture = pytest.CaptureFixture[str]

@@ -37,7 +37,7 @@ from rclpy.exceptions import (
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.runtime.world import World
 
 Type = Parameter.Type
 

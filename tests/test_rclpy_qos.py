@@ -24,7 +24,7 @@ from rclpy.qos import (
 )
 from std_msgs.msg import Int32, String
 
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.runtime.world import World
 
 Run = Callable[..., list[Any]]
 Capture = pytest.CaptureFixture[str]

@@ -26,7 +26,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, LivelinessPolicy, QoSPolicyKind, QoSProfile, ReliabilityPolicy
 from std_msgs.msg import Int32, String
 
-from turtle_lesson.ros.world import World, open_world
+from turtle_lesson.ros.runtime.world import World, open_world
 
 Run = Callable[..., list[Any]]
 Capture = pytest.CaptureFixture[str]

@@ -27,7 +27,7 @@ from rclpy.qos import (
 )
 from std_msgs.msg import Int32
 
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.runtime.world import World
 
 SECOND, TWO_SECONDS = Duration(seconds=1), Duration(seconds=2)
 

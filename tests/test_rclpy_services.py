@@ -18,8 +18,8 @@ from rclpy.task import Future
 from std_msgs.msg import String
 from std_srvs.srv import Empty
 
-from turtle_lesson.ros.core import NeverWakes
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.runtime.world import World
+from turtle_lesson.ros.sim.errors import NeverWakes
 
 
 def start() -> tuple[Node, Any]:

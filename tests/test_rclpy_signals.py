@@ -15,8 +15,8 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.signals import SignalHandlerOptions, get_current_signal_handlers_options
 from std_msgs.msg import String
 
-from turtle_lesson.ros.core import Process
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.runtime.world import World
+from turtle_lesson.ros.sim.process import Process
 
 Capture = pytest.CaptureFixture[str]
 SIGNALS = {"SIGINT": signal.SIGINT, "SIGTERM": signal.SIGTERM}

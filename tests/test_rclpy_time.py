@@ -22,8 +22,8 @@ from rclpy.time_source import CLOCK_TOPIC, USE_SIM_TIME_NAME, TimeSource
 from rclpy.timer import Timer
 from rosgraph_msgs.msg import Clock as ClockMessage
 
-from turtle_lesson.ros.core import NeverWakes
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.runtime.world import World
+from turtle_lesson.ros.sim.errors import NeverWakes
 
 Run = Callable[..., list[Any]]
 Capture = pytest.CaptureFixture[str]

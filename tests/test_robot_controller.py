@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import pytest
 
 from turtle_lesson import start
-from turtle_lesson.ros.world import current_world
+from turtle_lesson.ros.runtime.world import current_world
 from turtle_lesson.turtlesim.obstacles import Box, Circle
 
 # isort: split

@@ -39,7 +39,7 @@ from rosidl_parser.definition import (
 from rosidl_runtime_py import message_to_csv, message_to_ordereddict, message_to_yaml, set_message_fields
 from rosidl_runtime_py import utilities as by_name
 
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.runtime.world import World
 
 # -- by name -------------------------------------------------------------------------------------------------------------
 

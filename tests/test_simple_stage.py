@@ -16,7 +16,7 @@ import lesson_listings
 import pytest
 
 from turtle_lesson import Lesson, start
-from turtle_lesson.lesson import FINISHED
+from turtle_lesson.session.lesson import FINISHED
 
 OWN = Path(__file__).parent / "data" / "simple_stage"
 NODES = {

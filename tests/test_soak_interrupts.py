@@ -12,7 +12,7 @@ import pytest
 from soak import interrupts
 
 from turtle_lesson import start
-from turtle_lesson.lesson import Lesson
+from turtle_lesson.session.lesson import Lesson
 
 
 def test_a_kernel_is_as_before_after_interrupts_of_all_kinds_of_cell() -> None:

@@ -16,7 +16,7 @@ from test_pages import run
 from test_real_colcon import build, check_installed
 from test_real_colcon import pytestmark as with_colcon
 
-from turtle_lesson.story import PAGES
+from turtle_lesson.learner.story import PAGES
 from turtle_lesson.teaching.learner import LearnersFolder
 
 EXAMINATION = (

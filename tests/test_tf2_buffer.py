@@ -39,7 +39,7 @@ from tf2_ros import (
     TypeException,
 )
 
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.runtime.world import World
 
 LATEST = Time()
 numbers = st.floats(-10.0, 10.0)

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from workshop import Workshop, built, distance
 
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.runtime.world import World
 
 
 @pytest.fixture

@@ -16,8 +16,8 @@ from rclpy.time import Time
 from tf2_ros import Buffer, StaticTransformBroadcaster, TransformBroadcaster, TransformListener
 from workshop import Workshop, distance
 
-from turtle_lesson.ros.world import World
-from turtle_lesson.underlay import underlay_packages
+from turtle_lesson.ros.runtime.world import World
+from turtle_lesson.session.ros_detection import underlay_packages
 
 Run = Callable[..., list[Any]]
 
@@ -358,7 +358,7 @@ def test_teleop_drives_and_turns_by_keys(shop: Workshop) -> None:
 
 def test_a_cell_may_have_a_listener_with_a_thread() -> None:
     """What a learner types in a cell, run as one: the thread is the simulation's, wherever the listener starts it."""
-    from turtle_lesson.ros.world import open_world
+    from turtle_lesson.ros.runtime.world import open_world
 
     world = open_world()
 

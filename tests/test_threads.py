@@ -21,7 +21,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as some
 
-from turtle_lesson.ros.world import World, open_world
+from turtle_lesson.ros.runtime.world import World, open_world
 
 Run = Callable[..., list[Any]]
 Capture = pytest.CaptureFixture[str]

@@ -16,9 +16,9 @@ from typing import Any
 import pytest
 import rclpy
 
-from turtle_lesson.ros.core import NeverWakes, SimulationError, WorldClosed
-from turtle_lesson.ros.core.stdlib.locks import VirtualLock
-from turtle_lesson.ros.world import World, open_world
+from turtle_lesson.ros.runtime.world import World, open_world
+from turtle_lesson.ros.sim.errors import NeverWakes, SimulationError, WorldClosed
+from turtle_lesson.ros.stdlib.locks import VirtualLock
 
 SECOND = 1_000_000_000
 Cell = Callable[..., dict[str, Any]]

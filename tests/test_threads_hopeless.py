@@ -13,8 +13,8 @@ from typing import Any
 
 import pytest
 
-from turtle_lesson.ros.core import NeverWakes
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.runtime.world import World
+from turtle_lesson.ros.sim.errors import NeverWakes
 
 SECOND = 1_000_000_000
 Capture = pytest.CaptureFixture[str]

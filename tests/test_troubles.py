@@ -9,9 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from turtle_lesson import Lesson, files, start
+from turtle_lesson import Lesson, start
 from turtle_lesson.lab.troubles import TROUBLES, Case
-from turtle_lesson.ros.command.shell import run_line
+from turtle_lesson.ros.cli.shell import run_line
+from turtle_lesson.ros.runtime import files
 
 SEEDS = range(10)
 RUN_NAVIGATOR, RUN_MONITOR = "ros2 run robot_controller navigator", "ros2 run robot_controller status_monitor"

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from workshop import Place, Workshop, built, distance
 
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.runtime.world import World
 
 SIMULATOR = "ros2 run turtlesim turtlesim_node"
 MIDDLE = 5.544445

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from workspace_cases import XML, Answer, change, colcon, make_package, timeless
 
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.runtime.world import World
 
 RECORDED = json.loads((Path(__file__).with_name("data") / "cmake_mistakes.json").read_text(encoding="utf-8"))
 

@@ -12,9 +12,9 @@ import pytest
 from command_cases import cases
 from workspace_cases import colcon, source_in, started
 
-from turtle_lesson.ros.workspace.create import LICENCES, create_package, parse
-from turtle_lesson.ros.workspace.manifest import install_scripts, read_manifest, read_setup
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.build.create import LICENCES, create_package, parse
+from turtle_lesson.ros.build.manifest import install_scripts, read_manifest, read_setup
+from turtle_lesson.ros.runtime.world import World
 
 
 @pytest.fixture(autouse=True)

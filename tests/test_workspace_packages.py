@@ -13,11 +13,11 @@ from command_cases import cases
 from workspace_cases import XML, change, colcon, make_package, source_in, started, timeless
 
 import turtle_lesson
-from turtle_lesson.ros.command.shell import run_line
-from turtle_lesson.ros.interfaces.registry import registry
-from turtle_lesson.ros.workspace import manifest
-from turtle_lesson.ros.workspace.create import create_package, parse
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.build import manifest
+from turtle_lesson.ros.build.create import create_package, parse
+from turtle_lesson.ros.cli.shell import run_line
+from turtle_lesson.ros.idl.registry import registry
+from turtle_lesson.ros.runtime.world import World
 
 CMAKE = "cmake_minimum_required(VERSION 3.8)\nproject({0})\nfind_package(ament_cmake REQUIRED)\nament_package()\n"
 

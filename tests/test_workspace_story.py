@@ -10,10 +10,10 @@ from typing import Any
 import nbformat
 import pytest
 
-from turtle_lesson import story
-from turtle_lesson.ros.workspace import colcon, create
-from turtle_lesson.ros.world import World
-from turtle_lesson.workspace import Workspace, workspace
+from turtle_lesson.learner import story
+from turtle_lesson.learner.workspace import Workspace, workspace
+from turtle_lesson.ros.build import colcon, create
+from turtle_lesson.ros.runtime.world import World
 
 NODE = "robot_controller/navigator_node.py"
 CMAKE = "cmake_minimum_required(VERSION 3.8)\nproject(robot_controller)\nament_package()\n"

@@ -7,9 +7,9 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from turtle_lesson.ros.workspace.colcon import run
-from turtle_lesson.ros.workspace.source import source
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.build.colcon import run
+from turtle_lesson.ros.build.source import source
+from turtle_lesson.ros.runtime.world import World
 
 XML = """\
 <?xml version="1.0"?>

@@ -5,9 +5,9 @@ from __future__ import annotations
 import textwrap
 from pathlib import Path
 
-from turtle_lesson.ros.interfaces.registry import registry
-from turtle_lesson.ros.workspace.package import Package
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.build.package import Package
+from turtle_lesson.ros.idl.registry import registry
+from turtle_lesson.ros.runtime.world import World
 
 HEAD = """\
 from launch import LaunchDescription

@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, Any
 from .uninterrupted import uninterrupted
 
 with uninterrupted():
-    from .ros.core import virtual_random, virtual_time
-    from .ros.interfaces import finder
+    from .ros.idl import finder
+    from .ros.stdlib import clocks, random_numbers
 
 if TYPE_CHECKING:
-    from .lesson import Lesson, start
-    from .robot import Robot, connect
+    from .session.lesson import Lesson, start
+    from .session.robot import Robot, connect
 
 __version__ = "0.1.0"
 __all__ = ["Lesson", "Robot", "connect", "load_ipython_extension", "start"]
@@ -31,14 +31,14 @@ def _make_importable() -> None:
     if SITE not in sys.path:
         sys.path.append(SITE)
     finder.install()
-    virtual_time.install()
-    virtual_random.install()
+    clocks.install()
+    random_numbers.install()
 
 
 def load_ipython_extension(shell: Any) -> None:
     """What `%load_ext turtle_lesson` does: errors are shown from the learner's point of view, commands are understood."""
     with uninterrupted():
-        from .notebook import prepare
+        from .notebook.ipython_shell import prepare
 
         prepare(shell)
 
@@ -46,12 +46,12 @@ def load_ipython_extension(shell: Any) -> None:
 def __getattr__(name: str) -> Any:
     if name in {"Lesson", "start"}:
         with uninterrupted():
-            from . import lesson
+            from .session import lesson
 
         return getattr(lesson, name)
     if name in {"Robot", "connect"}:
         with uninterrupted():
-            from . import robot
+            from .session import robot
 
         return getattr(robot, name)
     raise AttributeError(f"module 'turtle_lesson' has no attribute {name!r}")

@@ -22,8 +22,8 @@ from pathlib import Path
 
 os.environ["TURTLE_LESSON_PROGRESS"] = "off"
 
-from turtle_lesson.lab.checks import exam
-from turtle_lesson.ros.core import interrupts
+from turtle_lesson.lab.checks import probe
+from turtle_lesson.ros.sim import interrupts
 
 from . import restart
 from .server import Kept, Page, serve, the_shell
@@ -40,7 +40,7 @@ IMPORTS = (
     "matplotlib.figure",
     "rclpy",
     "turtle_lesson.lab.widgets.dashboard",
-    "turtle_lesson.lesson",
+    "turtle_lesson.session.lesson",
 )
 """What most pages import: once here, instead of once a page."""
 
@@ -64,7 +64,7 @@ def run_page(connection: socket.socket) -> None:
 def main() -> None:
     """Serve each connection to the socket in a fork of this process, until that is ended."""
     interrupts.patience = PATIENCE
-    exam.WORK = WORK
+    probe.WORK = WORK
     the_shell()
     for name in IMPORTS:
         importlib.import_module(name)

@@ -22,7 +22,7 @@ from typing import IO, Any
 from IPython.core.history import HistoryManager
 from IPython.core.interactiveshell import InteractiveShell
 
-from turtle_lesson.ros.core import interrupts
+from turtle_lesson.ros.sim import interrupts
 
 from . import code_cells
 

@@ -19,8 +19,8 @@ from typing import Any
 import simpy
 
 from turtle_lesson import start
-from turtle_lesson.ros.core.patches import original
-from turtle_lesson.ros.world import World, open_world
+from turtle_lesson.ros.runtime.world import World, open_world
+from turtle_lesson.ros.stdlib.patches import original
 
 clock = original(time, "perf_counter")
 ROUNDS = 5
@@ -250,7 +250,7 @@ def own_package(folder: Path) -> Path:
     """The simple stage of the nodes, with what makes it a package."""
     import shutil
 
-    from turtle_lesson.lesson import FINISHED
+    from turtle_lesson.session.lesson import FINISHED
 
     shutil.copytree(FINISHED, folder, dirs_exist_ok=True)
     shutil.copytree(SIMPLE_STAGE, folder, dirs_exist_ok=True)

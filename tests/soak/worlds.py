@@ -42,7 +42,7 @@ sys.path.insert(0, {str(ROOT)!r})
 import comm, greenlet, psutil
 from ipywidgets.widgets import widget as _registry
 from turtle_lesson import start
-from turtle_lesson.ros.world import World
+from turtle_lesson.ros.runtime.world import World
 
 def say(widget, order, /, **content):
     content = {{"do": order, "view": "v", **content}}

@@ -7,8 +7,7 @@ from typing import Any
 
 from ..turtlesim.obstacles import WORLDS, Box, Circle, to_marker_array
 from . import recording
-from .markers import apply
-from .recorder import Recorder
+from .recorder import Recorder, apply
 from .recording import NANOSECONDS, OBSTACLE_TOPIC
 
 PATIENCE = 1.5 * NANOSECONDS

@@ -9,11 +9,9 @@ import numpy as np
 
 from . import style
 from .drawing import draw_obstacles, draw_turtle, turtle_points
-from .goals import Goal, draw_goal, goal_points, read_goals
+from .path_geometry import WORLD, Goal, distance_driven, draw_goal, draw_trail, find_jumps, goal_points, read_goals
 from .picture import Picture
 from .recording import Obstacle, Recording
-from .track import WORLD, distance_driven, find_jumps
-from .trail import draw_trail
 from .words import angle, count, number, point, turned
 
 if TYPE_CHECKING:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from . import style, svg
-from .goals import TOLERANCE, Goal
-from .track import WORLD
+from . import drawing as svg
+from . import style
+from .path_geometry import TOLERANCE, WORLD, Goal
 from .words import number, point
 
 SCALE = 24.0

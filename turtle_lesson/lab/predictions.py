@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from numbers import Real
 from typing import TYPE_CHECKING, Any, Protocol
 
-from .goals import Goal
+from .path_geometry import Goal
 from .prediction_map import draw_map
 from .words import listed, number
 
@@ -237,7 +237,7 @@ def ask(
 def tell(name: str, value: Any) -> Outcome:
     """Say what came of it. Raises ValueError for a name that was never asked, and for a value that the question cannot have."""
     if name not in _questions:
-        from .typed_names import did_you_mean, enumerated
+        from .words import did_you_mean, enumerated
 
         hint = did_you_mean(str(name), _questions) or f"Asked were: {enumerated(_questions)}."
         raise ValueError(

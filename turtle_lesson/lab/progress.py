@@ -14,9 +14,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from .. import files
+from ..ros.runtime import files
 from .checks.registry import Check
-from .checks.result import CheckResult
+from .checks.results import CheckResult
 from .words import count
 
 FILE = ".turtle_lesson_progress.json"

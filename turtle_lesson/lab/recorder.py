@@ -7,15 +7,17 @@ while a simulator listens to it).
 
 from __future__ import annotations
 
+import importlib
+import importlib.util
+import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from .channel import Channel
-from .markers import apply
-from .recording import OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, STATUS_TYPE, Recording
-from .table import LIMIT, Listener
-from .track import WORLD
+from .path_geometry import WORLD
+from .recording import LIMIT, OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, STATUS_TYPE, Listener, Obstacle, Recording
+from .words import listed
 
 GLANCE_PERIOD = 1.0
 """Seconds between two glances at the graph, for publishers that come late in a node's life."""
@@ -142,3 +144,176 @@ class Recorder(Recording):
 
 
 _NUMBERS = {"float", "double", "int", "uint"}
+
+
+# -- channel ------------------------------------------------------------------------------------------------------
+# A channel: one topic that the recorder wants to hear, subscribed to while there is somebody to hear.
+
+DEPTH = 1000
+"""Messages that wait if the recorder's node is not spun for a while: 16 seconds of a turtle's pose."""
+
+
+class Channel:
+    """Follows one topic of one type.
+
+    `make_listener` is given the message class and returns the two-argument callback. With `driven`, it
+    subscribes while somebody else subscribes (a topic that drives a machine); otherwise while somebody
+    publishes. `latched` asks for the last message from before, too. `remedy` is what to try where no node publishes,
+    `patience` where somebody does, who has said nothing yet.
+    """
+
+    def __init__(
+        self,
+        node: Any,
+        topic: str,
+        type_name: str,
+        make_listener: Callable[[Any], Listener],
+        remedy: str,
+        *,
+        driven: bool = False,
+        latched: bool = False,
+        patience: str = "Let time pass: lesson.run(1.0)",
+    ) -> None:
+        self.node = node
+        self.topic = topic
+        self.type_name = type_name
+        self.remedy = remedy
+        self.patience = patience
+        self.driven = driven
+        self.latched = latched
+        self._make_listener = make_listener
+        self._message_type: Any = None
+        self._subscription: Any = None
+        self._count = -1
+
+    def __repr__(self) -> str:
+        state = "listening" if self._subscription else "waiting"
+        return f"<Channel {self.topic} [{self.type_name}], {state}>"
+
+    def glance(self) -> None:
+        """Follow, if the number of ends has changed since the last time: a cheap look, made often."""
+        count = self.node.count_subscribers if self.driven else self.node.count_publishers
+        if (number := count(self.topic)) != self._count:
+            self._count = number
+            self.follow()
+
+    def follow(self) -> None:
+        """Subscribe if there is a publisher, unsubscribe if there is none any more."""
+        message_type = self._find_message_type() if self._wanted() else None
+        if message_type is not self._message_type:
+            self.close()
+            if message_type is not None:
+                self._open(message_type)
+
+    def close(self) -> None:
+        """Unsubscribe."""
+        if self._subscription is not None:
+            self.node.destroy_subscription(self._subscription)
+        self._subscription = self._message_type = None
+
+    def why_silent(self) -> str:
+        """Why nothing was heard, and what to try."""
+        publishers = self.node.get_publishers_info_by_topic(self.topic)
+        if not publishers:
+            return f"No node publishes {self.topic}. {self.remedy}"
+        types = sorted({publisher.topic_type for publisher in publishers})
+        if self.type_name not in types:
+            mismatch = f"{self.topic} is published as {listed(types)}, but this plot reads {self.type_name}"
+            return f"{mismatch}: compare the types in ros2 topic info {self.topic} --verbose"
+        if self._find_message_type() is None:
+            package = self.type_name.split("/")[0]
+            unknown = f"{self.topic} is published as {self.type_name}, but that type cannot be imported here"
+            return f"{unknown}: try colcon build --packages-select {package}, then source install/setup.bash"
+        names = listed(sorted({_full_name(publisher) for publisher in publishers}))
+        return f"{names} can publish {self.topic}, but no message has come yet. {self.patience}"
+
+    def _wanted(self) -> bool:
+        """Whether somebody else is there at the other end (or, of a driven topic, at this end)."""
+        if not self.driven:
+            ends = self.node.get_publishers_info_by_topic(self.topic)
+            return any(end.topic_type == self.type_name for end in ends)
+        me = (self.node.get_name(), self.node.get_namespace())
+        others = [
+            end
+            for end in self.node.get_subscriptions_info_by_topic(self.topic)
+            if (end.node_name, end.node_namespace) != me
+        ]
+        return any(end.topic_type == self.type_name for end in others)
+
+    def _find_message_type(self) -> Any:
+        """The message class, or None if it cannot be imported (a package that is not built and sourced)."""
+        package, _, name = self.type_name.split("/")
+        try:
+            return getattr(importlib.import_module(f"{package}.msg"), name, None)
+        except ImportError:
+            return None
+
+    def _open(self, message_type: Any) -> None:
+        self._message_type = message_type
+        listener = with_time(self.node, self._make_listener(message_type))
+        quality = self._quality()
+        self._subscription = self.node.create_subscription(message_type, self.topic, listener, quality)
+
+    def _quality(self) -> Any:
+        """Best effort matches every publisher; only a latched topic has to be reliable to give its past."""
+        from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+
+        if self.latched:
+            return QoSProfile(depth=DEPTH, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        return QoSProfile(depth=DEPTH, reliability=ReliabilityPolicy.BEST_EFFORT)
+
+
+def with_time(node: Any, listener: Listener) -> Callable[..., None]:
+    """Return a callback for any rclpy. Since Iron it tells a message's time; Humble's own does not yet.
+
+    There the node's clock is read, which costs more, and tells when a message was handled, not when it was sent. The
+    lab's node on a robot sees to that itself (see session/robot_backend.py).
+    """
+    if getattr(node, "hears_times", False):
+        return listener
+    from rclpy.subscription import Subscription
+
+    compiled = importlib.util.find_spec("rclpy._rclpy_pybind11") is not None
+    if hasattr(Subscription, "CallbackType") or not compiled:
+        return listener
+    clock = node.get_clock()
+    return lambda message: listener(message, {"source_timestamp": clock.now().nanoseconds})
+
+
+def _full_name(end: Any) -> str:
+    return f"{end.node_namespace.rstrip('/')}/{end.node_name}"
+
+
+# -- markers ------------------------------------------------------------------------------------------------------
+# Obstacles out of a visualization_msgs/msg/MarkerArray, by the rules that RViz keeps.
+
+# visualization_msgs/msg/Marker: its types and actions
+CUBE, SPHERE, CYLINDER = 1, 2, 3
+DELETE, DELETEALL = 2, 3
+
+
+def apply(message: Any, obstacles: dict[tuple[str, int], Obstacle]) -> None:
+    """Bring `obstacles` up to date with a MarkerArray: markers add, change and delete, one after the other.
+
+    A marker is known by its namespace and number. Shapes that no turtle could run into (text, arrows, …) are
+    left out.
+    """
+    for marker in message.markers:
+        key = (marker.ns, marker.id)
+        if marker.action == DELETEALL:
+            obstacles.clear()
+        elif marker.action == DELETE:
+            obstacles.pop(key, None)
+        elif marker.type in (CUBE, SPHERE, CYLINDER):
+            obstacles[key] = _obstacle(marker)
+
+
+def _obstacle(marker: Any) -> Obstacle:
+    place, size, turn = marker.pose.position, marker.scale, marker.pose.orientation
+    shape = "box" if marker.type == CUBE else "circle"
+    return Obstacle(shape, place.x, place.y, size.x, size.y, _yaw(turn))
+
+
+def _yaw(turn: Any) -> float:
+    """The turn about the vertical axis, in radians, of any quaternion."""
+    return math.atan2(2 * (turn.w * turn.z + turn.x * turn.y), 1 - 2 * (turn.y * turn.y + turn.z * turn.z))

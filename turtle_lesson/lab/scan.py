@@ -6,9 +6,8 @@ import math
 from typing import TYPE_CHECKING
 
 from . import style
-from .beams import Beams, read_beams
 from .drawing import draw_turtle
-from .fan import draw_beams, draw_rings, reach_of
+from .laser_plot import Beams, draw_beams, draw_rings, reach_of, read_beams
 from .picture import Picture
 from .recording import SCAN_TOPIC, Recording
 from .words import angle, count, number, rate

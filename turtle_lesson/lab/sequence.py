@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import difflib
+import re
+import textwrap
 from collections.abc import Sequence
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, NamedTuple
 
-from .call_steps import Step, after, clock, fields, step_of, waits_of
-from .graph import GraphPicture
-from .lanes import SHORT, Window, window_of
+from . import drawing, style
+from .graph import LOOKS, THEME, GraphPicture
 from .recording import NANOSECONDS
-from .sequence_drawing import draw_sequence
-from .sequence_text import sequence_diagram
 from .system import PARAMETER_SERVICES
+from .timeline import SHORT, Window, window_of
 from .words import count, listed, number
 
 MOST = 8
@@ -90,3 +91,275 @@ def _sentence(step: Step) -> str:
     if meanwhile:
         parts.append(f"had to wait meanwhile: {listed(meanwhile)}")
     return f"{'; '.join(filter(None, parts))}."
+
+
+# -- call steps ---------------------------------------------------------------------------------------------------
+# Service calls, each with what the trace of callbacks knows of it, and their figures in words.
+
+
+@dataclass(frozen=True)
+class Step:
+    """One call, with what the trace of callbacks knows of it. Times are in ns since the lesson's start.
+
+    Attributes:
+        call: the call itself.
+        callback: the function that served it, if it has begun.
+        began, ended: when that ran; None for what has not happened.
+        waited: of the same program's other callbacks those that were ready meanwhile and had to wait: how many runs, and
+            the longest wait.
+    """
+
+    call: Any
+    callback: str
+    began: int | None
+    ended: int | None
+    waited: dict[str, tuple[int, int]]
+
+
+def step_of(trace: Any, call: Any) -> Step:
+    """What the trace tells of a call: of those that a server received at one instant, the first was served first."""
+    same = [each for each in trace.calls if _received(each) == _received(call)]
+    place = same.index(call)
+    for callback in trace.callbacks:
+        if (callback.process, callback.node, callback.source) != (call.process, call.server, call.service):
+            continue
+        runs = [*callback.ended, *((*run, None) for run in callback.open)]
+        mine = sorted(
+            ((began, ended) for ready, began, ended in runs if ready == call.received), key=lambda run: run[0]
+        )
+        if place < len(mine):
+            began, ended = mine[place]
+            return Step(call, callback.name, began, ended, _waited(trace, callback, began, ended or trace.now))
+    return Step(call, "", None, None, {})
+
+
+def _received(call: Any) -> tuple[Any, ...]:
+    return call.process, call.server, call.service, call.received
+
+
+def _waited(trace: Any, server: Any, began: int, ended: int) -> dict[str, tuple[int, int]]:
+    """The callbacks of the same program that became ready while this one ran, and had to wait for a while."""
+    found: dict[str, tuple[int, int]] = {}
+    for callback in trace.callbacks:
+        if callback.process != server.process:
+            continue
+        waits = [begin - ready for ready, begin, _ in callback.ended if began <= ready <= ended]
+        waits += [trace.now - ready for ready in callback.arrivals or () if began <= ready <= ended]
+        if late := [wait for wait in waits if wait >= SHORT]:
+            source = callback.source or f"every {callback.period / NANOSECONDS:g} s"
+            found[f"{callback.name} ({source})"] = (len(late), max(late))
+    return found
+
+
+def waits_of(step: Step) -> list[tuple[str, tuple[str, int]]]:
+    """What had to wait meanwhile: a callback, how often in words, and the longest wait in ns."""
+    return [(name, (count(runs, "time"), longest)) for name, (runs, longest) in step.waited.items()]
+
+
+def clock(time: int) -> str:
+    """A time in s of robot time, to the millisecond: "1.000 s"."""
+    return f"{number(time / NANOSECONDS, 3)} s"
+
+
+def after(begin: int, end: int) -> str:
+    """How long, in the unit that suits: "0.11 ms", "35.36 s"."""
+    lasted = end - begin
+    return f"{number(lasted / 1e6)} ms" if lasted < NANOSECONDS // 10 else f"{number(lasted / NANOSECONDS)} s"
+
+
+def fields(message: Any) -> str:
+    """A message's fields and values: "x 5.0, y 5.0, theta 0.0"."""
+    values = [f"{name} {_value(getattr(message, name))}" for name in message.get_fields_and_field_types()]
+    text = ", ".join(values) or "empty"
+    return text if len(text) <= 90 else f"{text[:89]}…"
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    if isinstance(value, str):
+        return f'"{value}"'
+    if hasattr(value, "get_fields_and_field_types"):
+        return f"({fields(value)})"
+    if hasattr(value, "__len__"):
+        return f"[{count(len(value), 'value')}]"
+    return str(value)
+
+
+# -- sequence drawing ---------------------------------------------------------------------------------------------
+# Service calls as a drawing: a line downwards for each program, an arrow for each message, a note for each callback.
+
+SIZE, LINE = 12.0, 15.0
+"""Pixels of a text, and from line to line."""
+APART, EDGE, TOP = 290.0, 120.0, 44.0
+"""Pixels between two programs, beside the outer ones, and above the first event."""
+LONGEST = 38
+"""Characters of a line."""
+
+
+def draw_sequence(steps: Sequence[Step], title: str, description: str) -> str:
+    """Return the drawing of these calls as SVG; its title and description are for readers who cannot see it."""
+    programs = programs_of(steps)
+    places = {name: EDGE + APART * at for at, name in enumerate(programs)}
+    busy: dict[str, list[float]] = {}
+    parts, bars, y = [], [], TOP
+    for event in events_of(steps):
+        x = places[event.of]
+        if event.kind == "activate":
+            busy.setdefault(event.of, []).append(y)
+        elif event.kind == "deactivate":
+            bars.append(_bar(x, busy[event.of].pop(), y))
+        else:
+            lines = [line for part in event.text.split("<br/>") for line in textwrap.wrap(part, LONGEST)]
+            y += LINE * len(lines) + 14
+            parts.append(_draw(event, x, places.get(event.to, x), y, lines))
+            y += 6
+    y += 12
+    columns = [
+        f'<path d="M{x:g},30V{number(y, 1)}" stroke="{style.EDGE}" stroke-width="1.2"/>' for x in places.values()
+    ]
+    heads = [_box(x, 6, drawing.text_width(name, 12.5) + 24, 24, [name], "nodes") for name, x in places.items()]
+    width = 2 * EDGE + APART * (len(programs) - 1)
+    return drawing.document(round(width), round(y + 4), title, description, [*columns, *bars, *parts, *heads])
+
+
+def _draw(event: Event, x: float, to: float, y: float, lines: list[str]) -> str:
+    """One event; `y` is where its arrow is, or where its note ends."""
+    if event.kind == "note":
+        width = max(drawing.text_width(line, SIZE) for line in lines) + 16
+        top = y - LINE * len(lines) - 4
+        return _box(x, top, width, LINE * len(lines) + 8, lines, "services")
+    if event.kind == "lost":
+        end = x + APART / 2
+        cross = f"M{end - 5:g},{number(y - 5, 1)}l10,10m0,-10l-10,10"
+        arrow = f'<path d="M{x:g},{number(y, 1)}H{end:g}{cross}" stroke="{style.VERMILLION}" stroke-width="1.6" fill="none"/>'
+    else:
+        end = to
+        side = 1 if to > x else -1
+        dash = ' stroke-dasharray="5 4"' if event.kind == "answer" else ""
+        stop = to - 12 * side
+        head = f"M{to - 4 * side:g},{number(y, 1)}l{-9 * side},-4.5v9Z"
+        arrow = (
+            f'<path d="M{x + 4 * side:g},{number(y, 1)}H{stop:g}" stroke="{style.INK}" stroke-width="1.5"{dash}/>'
+            f'<path d="{head}" fill="{style.INK}"/>'
+        )
+    first = y - 6 - LINE * (len(lines) - 1)
+    return arrow + "".join(drawing.text((x + end) / 2, first + LINE * at, line, SIZE) for at, line in enumerate(lines))
+
+
+def _bar(x: float, begin: float, end: float) -> str:
+    """While a callback runs, or waits."""
+    size = f'y="{number(begin, 1)}" width="8" height="{number(end - begin, 1)}"'
+    return f'<rect x="{x - 4:g}" {size} fill="{style.GREEN}" opacity="0.7"/>'
+
+
+def _box(x: float, top: float, width: float, height: float, lines: list[str], kind: str) -> str:
+    """Lines of text in a box that looks like those of this kind in the graph, with the same dark text in both kinds."""
+    fill, edge, _ = LOOKS[kind]
+    ink = LOOKS["nodes"][2]
+    frame = (
+        f'x="{number(x - width / 2, 1)}" y="{number(top, 1)}" width="{number(width, 1)}" height="{number(height, 1)}"'
+    )
+    first = top + height / 2 + 4.5 - LINE * (len(lines) - 1) / 2
+    written = "".join(drawing.text(x, first + LINE * at, line, SIZE, fill=ink) for at, line in enumerate(lines))
+    return f'<rect {frame} rx="4" fill="{fill}" stroke="{edge}"/>{written}'
+
+
+# -- sequence text ------------------------------------------------------------------------------------------------
+# A Mermaid sequence diagram of service calls. The language: https://mermaid.js.org/syntax/sequenceDiagram.html.
+
+SETTINGS = (
+    f'%%{{init: {{{THEME}, "sequence": {{"actorMargin": 60, "width": 150, "height": 44, "boxMargin": 6, "noteMargin": 8, '
+    '"messageMargin": 34, "mirrorActors": false, "wrap": true}}}%%'
+)
+"""Closer together than Mermaid's own, so that two or three programs fit beside one another on a narrow page."""
+
+
+ARROWS = {"call": "{0}->>{1}: {2}", "answer": "{0}-->>{1}: {2}", "lost": "{0}-x{0}: {2}", "note": "Note over {0}: {2}"}
+"""How each kind of event is written, besides "activate" and "deactivate"."""
+
+
+class Event(NamedTuple):
+    """One line of the diagram. `kind` is "call", "answer", "lost", "note", "activate" or "deactivate".
+
+    <br/> separates the lines of `text`.
+    """
+
+    kind: str
+    of: str
+    to: str = ""
+    text: str = ""
+
+
+def sequence_diagram(steps: Sequence[Step], title: str, description: str) -> str:
+    """Return the Mermaid text: a lifeline for each program, an arrow for each message. `title` and `description` are for
+    readers who cannot see it.
+    """
+    letters = {name: f"p{number}" for number, name in enumerate(programs_of(steps))}
+    lines = [SETTINGS, "sequenceDiagram", f"accTitle: {_plain(title)}", f"accDescr: {_plain(description)}"]
+    lines += [f"participant {letters[name]} as {_escaped(name)}" for name in letters]
+    for kind, of, to, text in events_of(steps):
+        form = ARROWS.get(kind, f"{kind} {{0}}")
+        lines.append(form.format(letters[of], letters.get(to), _label(text)))
+    return "\n".join([*lines, ""])
+
+
+def programs_of(steps: Sequence[Step]) -> list[str]:
+    """The names of the programs that take part, in the order in which they first do."""
+    return list(dict.fromkeys(name for step in steps for name in (step.call.caller, step.call.server) if name))
+
+
+def events_of(steps: Sequence[Step]) -> list[Event]:
+    """All events in the order of their times; those of one call at the same time stay together."""
+    timed = [each for step in steps for each in _events(step)]
+    return [event for _, event in sorted(timed, key=lambda each: each[0])]
+
+
+def _events(step: Step) -> list[tuple[int, Event]]:
+    """The events of one call with their times (ns)."""
+    call = step.call
+    asked = f"{clock(call.asked)}: {call.service}<br/>{fields(call.request)}"
+    if not call.server:
+        lost = Event("lost", call.caller, text=asked)
+        return [(call.asked, lost), (call.asked, Event("note", call.caller, text="no node received it"))]
+    events = [(call.asked, Event("call", call.caller, call.server, asked))]
+    if step.began is None:
+        return [*events, (call.asked, Event("note", call.server, text="waits: no callback has begun yet"))]
+    events.append((step.began, Event("activate", call.server)))
+    events.append((step.began, Event("note", call.server, text=_begin(step))))
+    return events + _end(step)
+
+
+def _begin(step: Step) -> str:
+    waited = (step.began or 0) - step.call.received
+    return f"{step.callback} begins" + (f", after a wait of {after(0, waited)}" if waited >= SHORT else "")
+
+
+def _end(step: Step) -> list[tuple[int, Event]]:
+    call = step.call
+    end = call.answered if call.answered is not None else 2**62
+    events = [
+        Event("note", call.server, text=f"{name} waits {times}, at most {after(0, longest)}")
+        for name, (times, longest) in waits_of(step)
+    ]
+    if call.answered is None:
+        events.append(Event("note", call.server, text="no answer yet"))
+    else:
+        answer = f"{clock(call.answered)}: answer after {after(call.asked, call.answered)}<br/>{fields(call.response)}"
+        events.append(Event("answer", call.server, call.caller, answer))
+    return [(end, event) for event in [*events, Event("deactivate", call.server)]]
+
+
+def _label(text: str) -> str:
+    """Text of a message or a note: line breaks stay, what has a meaning in Mermaid becomes a code."""
+    return "<br/>".join(_escaped(line) for line in text.split("<br/>"))
+
+
+def _escaped(text: str) -> str:
+    """Text in which what has a meaning in Mermaid is a code: signs, and the first letter of the word `end`."""
+    return re.sub(r"[^A-Za-z0-9/ _.,:()-]|\be(?=nd\b)", lambda match: f"#{ord(match.group())};", text)
+
+
+def _plain(text: str) -> str:
+    """Text for a line of its own, in which `#` and `;` would have a meaning."""
+    return re.sub(r"[#;{}<>\n]+", ",", text)

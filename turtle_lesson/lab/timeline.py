@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+import difflib
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from numbers import Real
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..ros.rmw.trace import TOPICS
 from . import style
-from .lanes import Lane, Window, lanes_of, window_of
 from .picture import Picture
 from .recording import NANOSECONDS
-from .words import count
+from .system import EVERYWHERE, PARAMETER_SERVICES, is_hidden
+from .words import count, listed, number, rate
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
 
 WIDTH, LEFT, RIGHT = 6.4, 1.95, 0.25
 """The card and what is left and right of the axes, in inches."""
@@ -142,3 +149,234 @@ def _legend(figure: Figure, lanes: list[Lane]) -> None:
     if signs:
         look: dict[str, Any] = {"frameon": False, "fontsize": 8.0, "handlelength": 1.6, "columnspacing": 1.3}
         figure.legend(handles=signs, loc="lower left", bbox_to_anchor=(0.02, 0.0), ncols=len(signs), **look)
+
+
+# -- lanes --------------------------------------------------------------------------------------------------------
+# What a timeline shows, as numbers: a lane for each topic (its messages) and for each callback (its runs).
+
+SHORT = 1_000_000
+"""What lasts less (ns) is told as no time: looking at a clock costs a microsecond, a message under way a tenth of this."""
+
+
+@dataclass(frozen=True)
+class Window:
+    """The stretch of robot time that is shown, both ends included: ns since the lesson's start."""
+
+    begin: int
+    end: int
+
+    @property
+    def seconds(self) -> str:
+        """In words: "0.00 s to 5.00 s of robot time"."""
+        return f"{number(self.begin / NANOSECONDS)} s to {number(self.end / NANOSECONDS)} s of robot time"
+
+    def holds(self, times: np.ndarray) -> np.ndarray:
+        """Which of these times (ns) are within it."""
+        return (times >= self.begin) & (times <= self.end)
+
+
+@dataclass(frozen=True)
+class Lane:
+    """One row of a timeline.
+
+    Attributes:
+        name: a topic's full name, or a callback's.
+        about: what stands beneath it, smaller.
+        text: what it shows, as a sentence.
+        marks: when something happened that took no time (ns).
+        bars: from when to when something lasted (ns), one a row.
+        waits: from when to when something was ready and had to wait (ns), one a row.
+        awaits: whether the bars are those of an `async def`, which leaves its thread to others.
+        callback: whether it is one.
+    """
+
+    name: str
+    about: str
+    text: str
+    marks: np.ndarray
+    bars: np.ndarray
+    waits: np.ndarray
+    awaits: bool = False
+    callback: bool = False
+
+
+NOTHING = np.empty((0, 2), np.int64)
+
+
+def window_of(now: int, since: float | None, until: float | None) -> Window:
+    """The stretch from `since` to `until` (s). Raises ValueError for what is no time, or no stretch."""
+    begin = 0 if since is None else _time("since", since)
+    end = now if until is None else min(now, _time("until", until))
+    if begin > end:
+        raise ValueError(
+            f"there is nothing to show from {begin / NANOSECONDS:g} s to {end / NANOSECONDS:g} s: "
+            f"robot time is {now / NANOSECONDS:g} s now, and since must come before until"
+        )
+    return Window(begin, end)
+
+
+def _time(name: str, seconds: Any) -> int:
+    if isinstance(seconds, bool) or not isinstance(seconds, Real) or not math.isfinite(seconds) or seconds < 0:
+        raise ValueError(f"{name} must be a time in seconds since the lesson's start, got {seconds!r}: try {name}=10.0")
+    return round(float(seconds) * NANOSECONDS)
+
+
+def lanes_of(
+    trace: Any, names: Sequence[str], known_topics: Iterable[str], alive: Iterable[str], window: Window
+) -> list[Lane]:
+    """The lanes for some names of topics, nodes and callbacks ("/navigator.on_pose"); for none, of all nodes.
+
+    `known_topics` and `alive` (nodes) are in the graph now.
+
+    Raises TypeError for what is no name, ValueError for one that is unknown, with the names that are perhaps meant.
+    """
+    nodes = list(dict.fromkeys(callback.node for callback in trace.callbacks))
+    topics = trace.not_noted.union(topic for topic, _ in trace.published) | {
+        each for each in known_topics if not is_hidden(each) and each not in EVERYWHERE
+    }
+    lanes: list[Lane] = []
+    here = set(alive)
+    for name in names or nodes:
+        full = _full_name(name)
+        node, _, function = full.partition(".")
+        if node in nodes:
+            lanes += _callback_lanes(trace, node, function, window, node in here)
+        elif full in topics:
+            lanes.append(_topic_lane(trace, full, window))
+        else:
+            raise ValueError(_unknown(full, nodes, sorted(each for each in topics if not is_hidden(each))))
+    return lanes
+
+
+def _full_name(name: Any) -> str:
+    if not isinstance(name, str) or not name.strip("/ "):
+        raise TypeError(
+            f'a row is the name of a topic or of a node, such as "/robot/status" or "/navigator", got {name!r}'
+        )
+    return f"/{name.strip().lstrip('/')}"
+
+
+def _unknown(name: str, nodes: list[str], topics: list[str]) -> str:
+    known = [*nodes, *topics]
+    close = difflib.get_close_matches(name, known, 3, 0.6)
+    meant = f"Did you mean {' or '.join(close)}? " if close else ""
+    there = f"There are the nodes {listed(nodes) or 'none'} and the topics {listed(topics) or 'none'}"
+    return f"{name} is neither a topic nor a node that has run here. {meant}{there}."
+
+
+# -- topics ------------------------------------------------------------------------------------------------------------
+
+
+def _topic_lane(trace: Any, topic: str, window: Window) -> Lane:
+    if topic in trace.not_noted:
+        raise ValueError(
+            f"{topic} is not recorded: only the first {TOPICS} topics of each node are. `ros2 topic hz {topic}` "
+            "measures any."
+        )
+    by_node = {
+        node: times[window.holds(times)]
+        for (name, node), stamps in sorted(trace.published.items())
+        if name == topic and len(times := np.array(stamps, np.int64))
+    }
+    times = np.sort(np.concatenate([*by_node.values(), np.empty(0, np.int64)]))
+    publishers = [node for node, some in by_node.items() if len(some)]
+    text = f"{topic}: {rate(times)}"
+    if len(publishers) > 1:
+        text += f"; {listed([f'{len(by_node[node])} from {node}' for node in publishers])}"
+    if len(times):
+        silent = window.end - int(times[-1])
+        text += f"; the last at {number(times[-1] / NANOSECONDS)} s"
+        text += f", then nothing for {number(silent / NANOSECONDS)} s" if silent > _usual(times) else ""
+    return Lane(topic, _frequency(times, "message"), f"{text}.", times, NOTHING, NOTHING)
+
+
+def _usual(times: np.ndarray) -> float:
+    """How long a silence (ns) may last before it is worth a word: three usual intervals."""
+    return max(3 * float(np.median(np.diff(times))), SHORT) if len(times) > 2 else NANOSECONDS
+
+
+def _frequency(times: np.ndarray, noun: str) -> str:
+    if len(times) < 2 or times[-1] == times[0]:
+        return count(len(times), noun)
+    hertz = (len(times) - 1) / (times[-1] - times[0]) * NANOSECONDS
+    return f"{count(len(times), noun)}, {number(hertz, 1)} Hz"
+
+
+# -- callbacks ---------------------------------------------------------------------------------------------------------
+
+
+def _callback_lanes(trace: Any, node: str, function: str, window: Window, alive: bool) -> list[Lane]:
+    """One lane for each callback of a node that ran or waited; those of a twin or an earlier start of it join in."""
+    groups: dict[tuple[str, str], list[Any]] = {}
+    for callback in trace.callbacks:
+        if callback.node == node and function in ("", callback.name):
+            groups.setdefault((callback.name, _called_by(callback)), []).append(callback)
+    if function and not groups:
+        own = [each for each in trace.callbacks if each.source.split("/")[-1] not in PARAMETER_SERVICES]
+        names = sorted({each.name for each in own if each.node == node})
+        raise ValueError(f"{node} has no callback {function}. It has: {listed(names)}.")
+    lanes = []
+    for (name, called_by), callbacks in groups.items():
+        runs = np.concatenate([callback.runs(trace.now) for callback in callbacks])
+        shown = runs[(runs["ended"] >= window.begin) & (runs["ready"] <= window.end)]
+        waiting = _waiting(callbacks, trace.now, window) if alive else NOTHING
+        if (
+            len(shown) or len(waiting) or function or callbacks[0].kind != "service"
+        ):  # a node has many services that nobody calls
+            lanes.append(_callback_lane(name, called_by, callbacks, shown, waiting, window))
+    return lanes
+
+
+def _called_by(callback: Any) -> str:
+    return callback.source or f"every {callback.period / NANOSECONDS:g} s"
+
+
+def _waiting(callbacks: list[Any], now: int, window: Window) -> np.ndarray:
+    """Since when messages and requests wait that no callback has taken yet, and until now (ns)."""
+    since = [time for callback in callbacks for time in callback.arrivals or () if time <= window.end]
+    return np.array([(time, now) for time in since if now - time >= SHORT], np.int64).reshape(-1, 2)
+
+
+def _callback_lane(
+    name: str, called_by: str, callbacks: list[Any], runs: np.ndarray, waiting: np.ndarray, window: Window
+) -> Lane:
+    node, began = callbacks[0].node, runs["began"]
+    lasted, waited = runs["ended"] - began, began - runs["ready"]
+    within, begun = window.holds(began), began <= window.end
+    long, late = (lasted >= SHORT) & begun, waited >= SHORT
+    inside = np.minimum(runs["ended"], window.end) - np.maximum(began, window.begin)
+    kept_waiting = waited[late & within]
+    verb = "awaited" if callbacks[0].awaits else "lasted"
+    text = f"{node}.{name} ({called_by}): {_calls(began[within])}"
+    if long.any():
+        longest, total = (number(float(each) / NANOSECONDS) for each in (lasted[long].max(), inside[long].sum()))
+        text += f"; it {verb} {total} s" if len(runs) == 1 else f"; {verb} at most {longest} s, {total} s in all"
+    elif begun.any():
+        text += "; none took any robot time"
+    if len(kept_waiting):
+        text += f"; {len(kept_waiting)} had to wait, at most {number(float(kept_waiting.max()) / NANOSECONDS)} s"
+    if missed := _missed(callbacks[0].period, waited[within]):
+        text += f"; {count(missed, 'tick')} {'was' if missed == 1 else 'were'} skipped"
+    if going_on := sum(len(callback.open) for callback in callbacks):
+        text += f"; {going_on} continues" if going_on == 1 else f"; {going_on} continue"
+    if len(waiting):
+        first = number(waiting[0, 0] / NANOSECONDS)
+        text += f"; {len(waiting)} {'waits' if len(waiting) == 1 else 'wait'} now, the first since {first} s"
+    bars = np.column_stack([began, runs["ended"]])[long].clip(window.begin, window.end)
+    waits = np.column_stack([runs["ready"], began])[late]
+    waits = np.concatenate([waits, waiting]).clip(window.begin, window.end)
+    about = f"{node.rpartition('/')[2]} · {called_by}"
+    return Lane(name, about, f"{text}.", began[within & (lasted < SHORT)], bars, waits, callbacks[0].awaits, True)
+
+
+def _calls(began: np.ndarray) -> str:
+    if len(began) < 2:
+        return count(len(began), "call")
+    gaps = np.diff(began) / 1e6
+    mean, longest = number(float(gaps.mean()), 1), number(float(gaps.max()), 1)
+    return f"{count(len(began), 'call')}, one every {mean} ms on average, the longest gap {longest} ms"
+
+
+def _missed(period: int, waited: np.ndarray) -> int:
+    """How many ticks a timer left out because it could not run: those that were due before the one that waited began."""
+    return int(((waited - 1) // period).clip(0).sum()) if period else 0

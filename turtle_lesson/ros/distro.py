@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import total_ordering
 
-from .core.tracebacks import is_library
+from .sim.errors import is_library
 
 RELEASES = ("humble", "iron", "jazzy", "kilted")
 """The releases that a world can behave as, the oldest first."""

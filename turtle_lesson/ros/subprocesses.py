@@ -17,10 +17,13 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any, NoReturn
 
-from .core import NANOSECONDS, Process, Strand, running_strand
-from .core.patches import replace, replace_function
-from .core.stdlib.home import notebook_here
-from .core.strand import getcurrent
+from greenlet import getcurrent
+
+from .sim.process import Process
+from .sim.simulation import NANOSECONDS
+from .sim.strand import Strand, running_strand
+from .stdlib.ownership import notebook_here
+from .stdlib.patches import replace, replace_function
 
 _Real = subprocess.Popen
 _STEP = 10_000_000  # how far (ns) the world is run between two looks, for a cell that waits
@@ -50,7 +53,7 @@ class WorldPopen(_Real):
             self._begin(args, *plan, everything)
 
     def _begin(self, args: Any, target: Any, argv: list[str], given: dict[str, Any]) -> None:
-        from .world import current_process, current_world
+        from .runtime.world import current_process, current_world
 
         if given.get("stdin") not in (None, subprocess.DEVNULL):
             raise NotImplementedError("stdin= is not available here: a program's child has no input")
@@ -145,7 +148,7 @@ class _Condition:
 
     def wait_for(self, predicate: Callable[[], bool], seconds: float | None = None) -> bool:
         """Wait until the predicate holds, at most some seconds of robot time; whether it does."""
-        from .world import current_world
+        from .runtime.world import current_world
 
         strand, simulation = running_strand(), current_world().sim
         deadline = None if seconds is None else simulation.now + round(seconds * NANOSECONDS)
@@ -220,8 +223,8 @@ def _plan(args: Any, shell: bool) -> tuple[Any, list[str]] | None:
     Raises:
         NotImplementedError: for a command that the computer could not run, and the world cannot.
     """
+    from .build.errors import PackageNotFoundError
     from .launching import commands
-    from .workspace.errors import PackageNotFoundError
 
     one = isinstance(args, (str, bytes, os.PathLike))
     words = [os.fsdecode(args)] if one else [os.fsdecode(word) for word in args][: 1 if shell else None]
@@ -264,7 +267,7 @@ def _launch(words: list[str]) -> None:
 
     from .launching import find_launch_file
     from .launching.errors import LaunchError
-    from .world import current_world
+    from .runtime.world import current_world
 
     given = [(name, value) for name, sign, value in (word.partition(":=") for word in words) if sign]
     names = [word for word in words if ":=" not in word and not word.startswith("-")]

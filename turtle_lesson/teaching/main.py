@@ -9,10 +9,10 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from . import junit, learner, pages
+from . import learner, pages, report
 from .grade import MEMORY, TIMEOUT, Graded, grade
+from .learner import serve
 from .report import as_csv, as_json, in_a_line, in_words
-from .server import serve
 from .worker import PATIENCE
 
 GRADE = """\
@@ -150,7 +150,7 @@ def _grade(options: argparse.Namespace) -> int:
         raise pages.PageError(f"there is no notebook in {', '.join(map(str, options.paths))}")
     graded = grade(copies, options.timeout, options.jobs, _tell, options.memory)
     print(json.dumps(as_json(graded), indent=1, ensure_ascii=False) if options.json else in_words(graded))
-    for file, text in ((options.junit, junit.report), (options.csv, as_csv)):
+    for file, text in ((options.junit, report.report), (options.csv, as_csv)):
         if file is not None:
             try:
                 file.write_text(text(graded), encoding="utf-8")

@@ -19,7 +19,7 @@ from importlib.machinery import ModuleSpec
 from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
-CASES = "turtle_lesson.lab.troubles.case"
+CASES = "turtle_lesson.lab.troubles.cases"
 """The one module of the checking code that remembers something: the case that is open."""
 
 USED = {
@@ -72,7 +72,10 @@ def _look(question: dict[str, Any], names: dict[str, Any], before: dict[str, Mod
 
 
 def _is_lesson(value: Any) -> bool:
-    return "turtle_lesson.lesson" in sys.modules and type(value) is sys.modules["turtle_lesson.lesson"].Lesson
+    return (
+        "turtle_lesson.session.lesson" in sys.modules
+        and type(value) is sys.modules["turtle_lesson.session.lesson"].Lesson
+    )
 
 
 # -- importing afresh ----------------------------------------------------------------------------------------------------

@@ -10,7 +10,7 @@ from typing import Any
 
 import nbformat
 
-from ..story import PAGES, PUBLISHED
+from ..learner.story import PAGES, PUBLISHED
 
 CHECKOUT = PUBLISHED.parent
 """Where the project lies, if it was installed from its checkout (as README says)."""

@@ -14,8 +14,8 @@ from rclpy.action import ActionClient
 from rclpy.node import Node
 from turtlesim.action import RotateAbsolute
 
-from ..ros.core.program_input import ProgramInput
-from ..ros.world import current_process
+from ..ros.runtime.world import current_process
+from ..ros.stdlib.program_input import ProgramInput
 
 HELP = """\
 Reading from keyboard

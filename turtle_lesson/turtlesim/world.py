@@ -8,7 +8,9 @@ import re
 from typing import NamedTuple
 
 from turtle_lesson.turtlesim.canvas import Canvas
-from turtle_lesson.turtlesim.turtle import HEIGHT, LARGEST, TICK, WIDTH, Turtle, TurtleError, float32
+
+from .rotation import float32
+from .turtle import HEIGHT, LARGEST, TICK, WIDTH, Turtle, TurtleError
 
 __all__ = ["HEIGHT", "TICK", "WIDTH", "Turtle", "TurtleError", "TurtleWorld", "WallHit"]
 

@@ -54,11 +54,10 @@ Texts are for learners and are compared by nbval: figures with fixed decimals (`
 Nodes that live in a notebook cell, and that no executor spins, are spun while a check lets time pass.
 '''
 
-from .exam import Answer, Exam, Heard
-from .fields import field, interface
+from .graph_view import field, interface
+from .probe import Answer, Exam, Heard
 from .registry import Check, Expectation, all_checks, check, checks_of, find
-from .result import METADATA, CheckResult
-from .rows import Advice, CannotLook, OutOfTime, Row, Seen, Stopped
+from .results import METADATA, Advice, CannotLook, CheckResult, OutOfTime, Row, Seen, Stopped
 from .runner import run
 
 __all__ = [

@@ -6,9 +6,9 @@ import traceback
 from types import FrameType, TracebackType
 from typing import Any
 
-from ...ros.core import tracebacks
-from ...ros.core.errors import DriveTimeout, NeverReturns
-from .rows import BAD, STOPPED, Advice, Row
+from ...ros.sim import errors
+from ...ros.sim.errors import DriveTimeout, NeverReturns
+from .results import BAD, STOPPED, Advice, Row
 
 MOST_FRAMES = 4
 """Lines of a learner's code that are shown of one error: the innermost ones."""
@@ -33,9 +33,9 @@ def in_words(error: BaseException) -> str:
 
 def trace_of(error: BaseException) -> str:
     """The learner's lines that led to an error, outermost first, and the advice that the error carries."""
-    if tracebacks.before_showing is not None:
-        tracebacks.before_showing(error)
-    lines = [place(entry) for entry in tracebacks.learners_frames(error.__traceback__)[-MOST_FRAMES:]]
+    if errors.before_showing is not None:
+        errors.before_showing(error)
+    lines = [place(entry) for entry in errors.learners_frames(error.__traceback__)[-MOST_FRAMES:]]
     return "\n".join([*lines, *(str(note) for note in getattr(error, "__notes__", ()))])
 
 
@@ -46,7 +46,7 @@ def place(entry: TracebackType) -> str:
 
 def _place(frame: FrameType, number: int) -> str:
     code = frame.f_code
-    file = tracebacks.shown_path(code.co_filename)
+    file = errors.shown_path(code.co_filename)
     where = f"line {number}" if file == CELL else f"{file}, line {number}"
     inside = "" if code.co_name == "<module>" else f" in {code.co_name}"
     return f"{where}{inside}: {_line(frame, number)}"
@@ -59,12 +59,12 @@ def _line(frame: FrameType, number: int) -> str:
 
 def is_learners(frame: FrameType) -> bool:
     """Whether a frame runs a learner's own code."""
-    return tracebacks.is_learners(frame.f_code.co_filename)
+    return errors.is_learners(frame.f_code.co_filename)
 
 
 def never_returned(error: BaseException) -> str:
     """Which callback went on without end, and in which line it was stopped."""
-    calls = [(each.tb_frame, each.tb_lineno) for each in tracebacks.traceback_entries(error.__traceback__)]
+    calls = [(each.tb_frame, each.tb_lineno) for each in errors.traceback_entries(error.__traceback__)]
     inside = _in_a_callback(calls) or [call for call in calls if is_learners(call[0])]
     if not inside:
         return "something that was called has not returned, and was stopped"
@@ -115,4 +115,4 @@ def unreturned(strands: list[Any]) -> list[str]:
 
 
 def _is_executor(frame: FrameType) -> bool:
-    return str(frame.f_globals.get("__name__", "")).startswith("rclpy._executor")
+    return str(frame.f_globals.get("__name__", "")).startswith(("rclpy._executor", "rclpy.executors"))

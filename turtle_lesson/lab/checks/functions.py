@@ -6,10 +6,10 @@ import sys
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-from ..typed_names import did_you_mean
-from .exam import Exam
+from ..words import did_you_mean
+from .probe import Exam
 from .registry import Expectation
-from .rows import Advice, CannotLook, Seen
+from .results import Advice, CannotLook, Seen
 
 Example = tuple[Sequence[Any], Any]
 """The arguments of a call, and what it should return."""
@@ -88,7 +88,7 @@ def _names_in_cells() -> dict[str, Any]:
 
 def _names_in(exam: Exam, file: str) -> dict[str, Any]:
     """All names that a file of the package makes when it is read; its `main` is not started."""
-    from ...workspace import workspace
+    from ...learner.workspace import workspace
 
     mine = workspace()
     path = mine.package / mine.package.name / file

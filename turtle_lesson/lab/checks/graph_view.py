@@ -1,12 +1,17 @@
-"""What the graph shows of the others: their nodes, publishers, subscriptions and services."""
+"""What a probe sees of the others: their nodes, publishers, subscriptions and services, and their messages' fields."""
 
 from __future__ import annotations
 
+import importlib
 from collections import Counter
 from typing import Any
 
 from ..system import is_hidden
-from ..typed_names import nearest
+from ..words import nearest
+from .results import CannotLook
+
+# -- graph view ---------------------------------------------------------------------------------------------------
+# What the graph shows of the others: their nodes, publishers, subscriptions and services.
 
 
 class GraphView:
@@ -74,3 +79,43 @@ class GraphView:
         """ ", but there is /robot/staus": a known name that is nearly the one that was looked for; "" if there is none."""
         found = nearest(name, [each for each in known if each != name], cutoff=0.75)
         return f", but there is {found}" if found else ""
+
+
+# -- fields -------------------------------------------------------------------------------------------------------
+# Messages by their type's name: the class, setting fields, reading fields; what is not there cannot be looked at.
+
+
+def interface(type_name: str) -> Any:
+    """The class of a type such as "std_msgs/msg/String". Raises CannotLook where it cannot be imported."""
+    package, kind, name = type_name.split("/")
+    try:
+        return getattr(importlib.import_module(f"{package}.{kind}"), name)
+    except Exception as error:  # a package that was built badly can raise anything
+        reason = " ".join(str(error).split())[:160]
+        raise CannotLook(f"the type {type_name} cannot be imported here ({reason})") from None
+
+
+def filled(message: Any, fields: dict[str, Any], type_name: str) -> Any:
+    """The message with its fields set. Raises CannotLook for a field that it does not have."""
+    for path, value in fields.items():
+        *way, last = path.split("__")
+        target = message
+        try:
+            for part in way:
+                target = getattr(target, part)
+            setattr(target, last, value)
+        except (AttributeError, AssertionError, TypeError) as error:
+            reason = " ".join(str(error).split())[:120]
+            raise CannotLook(f"{type_name} cannot hold {path.replace('__', '.')} = {value!r} ({reason})") from None
+    return message
+
+
+def field(message: Any, path: str) -> Any:
+    """What a message has in a field such as "linear.x". Raises CannotLook where there is none."""
+    value = message
+    for part in path.split("."):
+        try:
+            value = getattr(value, part)
+        except AttributeError:
+            raise CannotLook(f"{type(message).__name__} has no field {path}") from None
+    return value

@@ -9,10 +9,10 @@ import numpy as np
 
 from ..recording import NANOSECONDS
 from ..words import angle, number, point, turned
-from .drives import NEAR, where
-from .exam import Exam
+from .navigation import NEAR, where
+from .probe import Exam
 from .registry import Expectation, check
-from .rows import Advice, Seen
+from .results import Advice, Seen
 
 PAGE = "00_welcome"
 CORNER = (2.0, 2.0)

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections import Counter
 
 from ..words import count, number
-from .drives import COMMAND_TYPE, COMMANDS, POSE, POSE_TYPE
-from .exam import Exam, Heard
-from .fields import field
-from .parts import no_errors, node, publishes, subscribes
+from .assertions import no_errors, node, publishes, subscribes
+from .graph_view import field
+from .navigation import COMMAND_TYPE, COMMANDS, POSE, POSE_TYPE
+from .probe import Exam, Heard
 from .registry import Expectation, check
-from .rows import Advice, CannotLook, Seen
+from .results import Advice, CannotLook, Seen
 from .streams import rate, relays, some
 
 PAGE = "01_publish_and_subscribe"

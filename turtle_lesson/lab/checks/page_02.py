@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from .exam import Exam
-from .fields import interface
-from .parts import no_errors, node, offers
-from .questions import answers
+from .assertions import answers, no_errors, node, offers
+from .graph_view import interface
+from .probe import Exam
 from .registry import Expectation, check
-from .rows import Advice, CannotLook, Seen
+from .results import Advice, CannotLook, Seen
 
 PAGE = "02_services_and_interfaces"
 ADD = "example_interfaces/srv/AddTwoInts"
@@ -88,7 +87,7 @@ def has_fields(
 
 def _cause(type_name: str) -> str:
     """Which of the three causes keeps a type of the learner's package from being found."""
-    from ...workspace import workspace
+    from ...learner.workspace import workspace
 
     package, kind, name = type_name.split("/")
     mine, file = workspace(), f"{kind}/{name}.{kind}"

@@ -7,7 +7,9 @@ import re
 from typing import Any
 
 from ..words import number, point, turned
-from .drives import (
+from .assertions import no_answer, no_errors, node, offers, publishes
+from .functions import learner_function, returns
+from .navigation import (
     COMMAND_TYPE,
     COMMANDS,
     LONGEST,
@@ -35,12 +37,9 @@ from .drives import (
     turns_little,
     where,
 )
-from .exam import Exam
-from .functions import learner_function, returns
-from .parts import no_errors, node, offers, publishes
-from .questions import no_answer
+from .probe import Exam
 from .registry import Expectation, check
-from .rows import Advice, CannotLook, Seen
+from .results import Advice, CannotLook, Seen
 
 PAGE = "03_navigator"
 RUN = "ros2 run robot_controller navigator"

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 
 from ..words import number, point
-from .drives import (
+from .assertions import no_answer, no_errors
+from .navigation import (
     MIDDLE,
     NEAR,
     Way,
@@ -23,12 +24,10 @@ from .drives import (
     stopped,
     where,
 )
-from .exam import Exam
 from .page_03 import A_GOAL, TO_THE_LEFT, navigator_is_there
-from .parts import no_errors
-from .questions import no_answer
+from .probe import Exam
 from .registry import Expectation, check
-from .rows import Advice, CannotLook, Seen
+from .results import Advice, CannotLook, Seen
 
 PAGE = "03b_answer_on_arrival"
 NEAR_GOAL = Way("a near goal", MIDDLE, (6.0, 5.5, 0.0))

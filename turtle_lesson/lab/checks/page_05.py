@@ -8,15 +8,15 @@ from collections.abc import Iterable
 from typing import Any
 
 from ...turtlesim.obstacles import Circle
-from ..track import WORLD
+from ..path_geometry import WORLD
 from ..words import angle, count, number
-from .drives import where
-from .exam import Exam, Heard
-from .fields import field, interface
+from .assertions import no_errors, node, publishes
 from .functions import agrees, learner_function, returns
-from .parts import no_errors, node, publishes
+from .graph_view import field, interface
+from .navigation import where
+from .probe import Exam, Heard
 from .registry import Expectation, check
-from .rows import Advice, CannotLook, Seen
+from .results import Advice, CannotLook, Seen
 from .streams import messages, rate, some
 
 PAGE = "05_obstacle_detector"

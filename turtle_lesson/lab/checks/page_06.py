@@ -7,12 +7,11 @@ from typing import Any
 
 from ..words import listed
 from . import page_03, page_04, page_05
-from .drives import COMMANDS, NAVIGATE, ask_for, far_away, where
-from .exam import Answer, Exam
-from .parts import get_parameter, no_errors, node, parameter, publishes
-from .questions import gives_up, rate_follows
+from .assertions import get_parameter, gives_up, no_errors, node, parameter, publishes, rate_follows
+from .navigation import COMMANDS, NAVIGATE, ask_for, far_away, where
+from .probe import Answer, Exam
 from .registry import Expectation, check
-from .rows import Advice, CannotLook, Seen
+from .results import Advice, CannotLook, Seen
 from .streams import rate
 
 PAGE = "06_parameters_and_launch"

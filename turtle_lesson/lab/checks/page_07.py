@@ -6,11 +6,11 @@ import math
 
 from ..words import angle, number, point, turned
 from . import page_04
-from .drives import COMMAND_TYPE, COMMANDS, POSE, POSE_TYPE
-from .exam import Exam
-from .parts import no_errors, node, parameter
+from .assertions import no_errors, node, parameter
+from .navigation import COMMAND_TYPE, COMMANDS, POSE, POSE_TYPE
+from .probe import Exam
 from .registry import Expectation, check
-from .rows import Advice, CannotLook, Seen
+from .results import Advice, CannotLook, Seen
 from .streams import rate, some
 
 PAGE = "07_command_line"

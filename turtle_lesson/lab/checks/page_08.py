@@ -7,12 +7,11 @@ import math
 from typing import Any
 
 from ..words import number, point
-from .drives import NAVIGATE, NEAR, ask_for, where
-from .exam import Exam, Heard
-from .parts import get_parameter, no_errors, node, offers, publishes, set_parameter
-from .questions import no_answer
+from .assertions import get_parameter, no_answer, no_errors, node, offers, publishes, set_parameter
+from .navigation import NAVIGATE, NEAR, ask_for, where
+from .probe import Exam, Heard
 from .registry import Expectation, check
-from .rows import Advice, CannotLook, Seen
+from .results import Advice, CannotLook, Seen
 from .streams import rate
 
 PAGE = "08_executors"

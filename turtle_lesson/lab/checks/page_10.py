@@ -10,16 +10,16 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ..track import WORLD
+from ..path_geometry import WORLD
 from ..words import count, listed, number, point
 from . import page_04, page_05, page_06
-from .drives import NEAR, Drive, Goal, ask_for, drive, where
-from .exam import Exam, Heard
-from .fields import interface
+from .assertions import no_errors, publishes, subscribes
 from .functions import learner_function
-from .parts import no_errors, publishes, subscribes
+from .graph_view import interface
+from .navigation import NEAR, Drive, Goal, ask_for, drive, where
+from .probe import Exam, Heard
 from .registry import Expectation, check
-from .rows import Advice, CannotLook, Seen
+from .results import Advice, CannotLook, Seen
 from .streams import judge_rate, relays
 
 PAGE = "10_test_and_validate"
@@ -247,7 +247,7 @@ def running(exam: Exam, program: str) -> list[str]:
 
 
 def _from_workspace(exam: Exam) -> Seen:
-    from ...workspace import workspace
+    from ...learner.workspace import workspace
 
     mine = workspace().folder / "install"
     others = [name for name in PROGRAMS if not Path(running(exam, name)[0]).is_relative_to(mine)]

@@ -9,12 +9,12 @@ from typing import Any
 
 from ..words import listed, number
 from . import page_04, page_05, page_06, page_10
-from .drives import COMMAND_TYPE, COMMANDS
-from .exam import Exam
+from .assertions import no_errors, node, parameter, publishes, subscribes
 from .functions import Example, returns
-from .parts import no_errors, node, parameter, publishes, subscribes
+from .navigation import COMMAND_TYPE, COMMANDS
+from .probe import Exam
 from .registry import Expectation, check
-from .rows import Advice, CannotLook, Seen
+from .results import Advice, CannotLook, Seen
 from .streams import rate
 
 PAGE = "11_to_a_real_robot"
@@ -55,8 +55,8 @@ def on_site() -> list[Expectation]:
 
 
 def _exported(exam: Exam) -> Seen:
-    from ...lesson import FINISHED
-    from ...workspace import workspace
+    from ...learner.workspace import workspace
+    from ...session.lesson import FINISHED
 
     elsewhere = {"your workspace": workspace().folder, "the finished package": FINISHED}
     for program in page_10.PROGRAMS:
@@ -73,7 +73,7 @@ def _exported(exam: Exam) -> Seen:
 
 def _unchanged(exam: Exam) -> Seen:
     """Whether each program has the text of the learner's own file, which is in the workspace."""
-    from ...workspace import workspace
+    from ...learner.workspace import workspace
 
     for program in page_10.PROGRAMS:
         runs = Path(page_10.running(exam, program)[0])

@@ -7,12 +7,12 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ...story import PAGES
-from ..typed_names import did_you_mean, enumerated
-from .rows import Seen
+from ...learner.story import PAGES
+from ..words import did_you_mean, enumerated
+from .results import Seen
 
 if TYPE_CHECKING:
-    from .exam import Exam
+    from .probe import Exam
 
 MODULES = tuple(f"page_{page.partition('_')[0]}" for page in PAGES)
 """The modules beside this one that define checks, one a page; they are imported when a check is first asked for."""

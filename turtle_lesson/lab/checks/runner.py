@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from ...ros.core.tracebacks import learners_frames
-from .exam import Exam, Place
+from ...ros.sim.errors import learners_frames
+from .assertions import NO_ERROR
 from .failures import STOP_ADVICE, in_words, row_of
-from .parts import NO_ERROR
+from .probe import Exam, Place
 from .registry import Check, Expectation
-from .result import CheckResult
-from .rows import BAD, GOOD, OPEN, STOPPED, Advice, CannotLook, Row, Seen, Stopped
+from .results import BAD, GOOD, OPEN, STOPPED, Advice, CannotLook, CheckResult, Row, Seen, Stopped
 
 ENDS = "every callback returns"
 

@@ -8,9 +8,9 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from ..words import count, number
-from .exam import Exam, Heard
+from .probe import Exam, Heard
 from .registry import Expectation
-from .rows import Advice, CannotLook, Seen
+from .results import Advice, CannotLook, Seen
 
 Judge = Callable[[list[Heard]], Seen]
 

@@ -4,9 +4,8 @@ Each trouble is a symptom with several faults behind it; a seed chooses one. Fau
 that was not started, a remapping, a parameter, a quality of service, a type, a bug in a node of `robot_draft`.
 """
 
-from .case import Case, current_expectations, expectations_of, open_case
-from .cases import TROUBLES
-from .model import Fault, Program, Stage, Trouble
+from .cases import TROUBLES, Case, current_expectations, expectations_of, open_case
+from .faults import Fault, Program, Stage, Trouble
 
 __all__ = [
     "TROUBLES",

@@ -1,9 +1,18 @@
-"""The troubles: four of the lesson, and bugs that were found in published teaching code."""
+"""The troubles, and the case file of one: what a user reports of a broken system, and hints for finding the cause."""
 
 from __future__ import annotations
 
+import difflib
+from collections.abc import Callable
+from random import Random
+from typing import Any
+
+from ..checks import CannotLook, CheckResult, Exam, Expectation, Seen
 from . import faults
-from .model import Trouble
+from .faults import Fault, Stage, Trouble
+
+# -- cases --------------------------------------------------------------------------------------------------------
+# The troubles: four of the lesson, and bugs that were found in published teaching code.
 
 TROUBLES: dict[str, Trouble] = {
     trouble.name: trouble
@@ -97,3 +106,153 @@ TROUBLES: dict[str, Trouble] = {
         ),
     )
 }  # fmt: skip
+
+
+# -- case ---------------------------------------------------------------------------------------------------------
+# A case file: what a user reports of a broken system, and hints for finding the cause.
+
+LEVELS = 3
+
+
+class Case:
+    """One broken system. It does not say what is wrong until that is mended.
+
+    Attributes:
+        number: by which `lesson.trouble(number)` brings it back.
+        report: what a user says.
+        trouble: the name under which it was asked for; None if it was drawn by its number.
+    """
+
+    def __init__(
+        self, number: int, named: bool, trouble: Trouble, fault: Fault, check: Callable[[], CheckResult]
+    ) -> None:
+        self.number = number
+        self.report = trouble.report
+        self.trouble = trouble.name if named else None
+        self._title = f"Case {number}, {trouble.name}" if named else f"Case {number}"
+        self._trouble, self._fault = trouble, fault
+        self._check = check
+
+    def __repr__(self) -> str:
+        return (
+            f"{self._title}. A user reports: “{self.report}” Look at the running system, mend it, then: case.check(). "
+            f"If you are stuck: case.hint(1), up to {LEVELS}."
+        )
+
+    def _repr_markdown_(self) -> str:
+        lines = (
+            f"**{self._title}.** A user reports:",
+            f"> {self.report}",
+            f"Look at the running system, mend it, then: `case.check()`. If you are stuck: `case.hint(1)`, up to {LEVELS}.",
+        )
+        return "\n\n".join(lines)
+
+    def hint(self, level: int = 1) -> str:
+        """A hint: 1 says where to look, 2 with what, 3 nearly tells."""
+        if isinstance(level, bool) or not isinstance(level, int) or not 1 <= level <= LEVELS:
+            raise ValueError(f"hints have levels from 1 to {LEVELS}, got {level!r}: try case.hint(1)")
+        return (*self._trouble.hints, self._fault.hint)[level - 1]
+
+    @property
+    def commands(self) -> tuple[str, ...]:
+        """Commands that show what is wrong, whichever of the causes of this symptom it is."""
+        return self._trouble.commands
+
+    def check(self) -> CheckResult:
+        """Whether the system is well now, from the running graph alone: the same as `lesson.check("trouble")`."""
+        return self._check()
+
+    @property
+    def mended(self) -> bool:
+        """Whether a check finds the system well. Robot time goes by meanwhile."""
+        return self.check().passed
+
+    @property
+    def cause(self) -> str:
+        """What was wrong: told once the system is mended, which is looked at now."""
+        return self._fault.cause if self.mended else "It is not mended yet; case.check() says what is still wrong."
+
+
+_current: tuple[Case, Stage] | None = None
+
+
+def open_case(stage: Stage, seed: int | None, name: str | None, check: Callable[[], CheckResult]) -> Case:
+    """Put a trouble into a world and return its case.
+
+    Args:
+        stage: the world.
+        seed: chooses the trouble, or, of a named one, the fault behind it.
+        name: the trouble's name.
+        check: looks at the system and says whether it is mended.
+
+    Raises ValueError for a name that does not exist, with the one that may be meant, and for a seed that is not a number.
+    """
+    global _current
+    number = 0 if seed is None else seed
+    if isinstance(number, bool) or not isinstance(number, int):
+        raise ValueError(f"a seed is a whole number, got {seed!r}: try lesson.trouble(1), or lesson.trouble(name=…)")
+    chance = Random(f"trouble {number}")
+    trouble = TROUBLES[chance.choice(sorted(TROUBLES))] if name is None else _named(name)
+    fault = trouble.choose(Random(f"{trouble.name} {number}"))
+    _put_on(stage, fault)
+    case = Case(number, name is not None, trouble, fault, check)
+    _current = (case, stage)
+    return case
+
+
+def _named(name: Any) -> Trouble:
+    key = str(name).replace("_", " ").strip().lower()
+    if key not in TROUBLES:
+        close = difflib.get_close_matches(key, TROUBLES, 1, 0.5)
+        meant = f' Did you mean "{close[0]}"?' if close else ""
+        raise ValueError(f"there is no trouble {name!r}.{meant} There are: {', '.join(TROUBLES)}.")
+    return TROUBLES[key]
+
+
+def _put_on(stage: Stage, fault: Fault) -> None:
+    stage.clear()
+    if fault.workspace:
+        stage.make_workspace(fault.workspace)
+    stage.start(fault.programs)
+    if not fault.simulator:
+        stage.stop_simulator()
+
+
+def carry_over(before: Any) -> None:
+    """Take over the open case of an earlier import of this module, `before`; what it expects is what is written here."""
+    global _current
+    if before._current is not None:
+        case, stage = before._current
+        _current = (
+            Case(case.number, case.trouble is not None, TROUBLES[case._trouble.name], case._fault, case._check),
+            stage,
+        )
+
+
+def current_expectations() -> list[Expectation]:
+    """What is expected of the system once the current case is mended."""
+    if _current is None or _current[1].ended:
+        return [Expectation("a case that was opened", _no_case)]
+    return _current[0]._trouble.expectations()
+
+
+def expectations_of(number: int, name: str) -> list[Expectation]:
+    """The same, and that the current case is this one."""
+    wanted = f'case = lesson.trouble({number}, name="{name}")'
+
+    def look(exam: Exam) -> Seen:
+        if _current is None or _current[1].ended:
+            return Seen(False, "there is none in this world yet", f"Run the cell with {wanted} first.")
+        return Seen(is_open(), f"it is {_current[0]._title}", f"Another one is asked for: {wanted}")
+
+    def is_open() -> bool:
+        if _current is None or _current[1].ended:
+            return False
+        return (_current[0].number, _current[0].trouble) == (number, name)
+
+    case = Expectation(f"the case {number}, {name}", look)
+    return [case, *TROUBLES[name].expectations()] if is_open() else [case]
+
+
+def _no_case(exam: Exam) -> Seen:
+    raise CannotLook("there is none in this world yet: case = lesson.trouble(1)")

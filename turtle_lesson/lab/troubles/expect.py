@@ -6,8 +6,8 @@ import math
 from pathlib import Path
 
 from ..checks import CannotLook, Exam, Expectation, Seen, interface
-from ..checks.drives import COMMANDS, NAVIGATE, NAVIGATE_TYPE, NEAR, POSE, POSE_TYPE, Drive, drive, where
-from ..checks.parts import node, publishes
+from ..checks.assertions import node, publishes
+from ..checks.navigation import COMMANDS, NAVIGATE, NAVIGATE_TYPE, NEAR, POSE, POSE_TYPE, Drive, drive, where
 from ..checks.streams import rate
 from ..words import number, point
 

@@ -6,8 +6,8 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
-from ..table import Table
-from ..typed_names import did_you_mean, enumerated, is_hidden, nearest
+from ..recording import Table
+from ..words import did_you_mean, enumerated, is_hidden, nearest
 from .message_types import find_class, kinds_of
 
 KEPT = 20_000

@@ -1,21 +1,110 @@
-"""The dashboard: everything about a running system at once."""
+"""The dashboard, which shows everything about a running system at once, and the goal pad, which is a part of it."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..beams import read_beams
+import numpy as np
+import traitlets
+
+from .. import style
+from ..laser_plot import read_beams
+from ..path import plot_path
+from ..picture import SHARPNESS, Picture
+from ..recording import Recording
+from ..status import plot_status
 from ..words import angle, count, listed, number, point
-from .lab_view import LabView
-from .panel_lights import LightsPanel, look, missing
-from .panel_log import LogPanel
-from .panel_rates import RatesPanel
-from .panel_scan import ScanPanel, in_words
-from .panel_status import StatusPanel
+from .live_widget import script, styles
+from .panels_system import LightsPanel, LogPanel, RatesPanel, ScanPanel, StatusPanel, in_words, look, missing
+from .panels_world import ClockPanel, EditorPanel, GoalsPanel, MapPanel
 
 if TYPE_CHECKING:
-    from ..picture import Picture
-    from .station import Station
+    from matplotlib.figure import Figure
+
+    from .backend import Station
+    from .goal_client import Goal
+
+
+# -- dashboard picture --------------------------------------------------------------------------------------------
+# The dashboard as a picture that stays, for readers of a page without a kernel.
+
+GAP = 12
+"""Pixels shown between two cards."""
+
+
+def dashboard_picture(recording: Recording, text: str, goal: Goal | None) -> Picture:
+    """Path, with the newest goal, and status side by side, as far as there is anything to draw."""
+    place = None if goal is None else (goal.x, goal.y, goal.theta)
+    cards = [plot_path(recording, goal=place), plot_status(recording)]
+    drawn = [card.pixels() for card in cards if card.figure is not None]
+    return Picture(text, _sheet(drawn) if drawn else None)
+
+
+def _sheet(cards: list[np.ndarray]) -> Figure:
+    """A figure on which pictures (rows of pixels) stand side by side, pixel for pixel, their tops in line."""
+    from matplotlib.figure import Figure
+
+    gap = GAP * SHARPNESS
+    width = sum(card.shape[1] + gap for card in cards) - gap
+    height = max(len(card) for card in cards)
+    figure = Figure(
+        figsize=(width / style.DPI / SHARPNESS, height / style.DPI / SHARPNESS), dpi=style.DPI, facecolor="none"
+    )
+    left = 0
+    for card in cards:
+        figure.figimage(card, left, height - len(card), origin="upper")
+        left += card.shape[1] + gap
+    return figure
+
+
+# -- lab view -----------------------------------------------------------------------------------------------------
+# The goal pad, and what the dashboard has in common with it: panels on one running system.
+
+GOAL_PAD = ["clock", "map", "goals", "editor"]
+SCRIPTS = ("clock", "map", "goals", "editor", "signs", "status", "log", "scan", "rates", "lights")
+LAYOUTS = ("dashboard", "goal_pad", "lab_view")
+STYLES = ("base", "dashboard", "lab_view", "map", "clock", "goals", "editor")
+
+
+class LabView(GoalsPanel, EditorPanel, MapPanel, ClockPanel):
+    """Panels on one running system, all drawn from the same state.
+
+    Each kind of panel is a class of its own, with its traits, its `tick` and its orders, and a file of its own in `js`.
+    """
+
+    title = traitlets.Unicode("Goal pad").tag(sync=True)
+    panels = traitlets.List(traitlets.Unicode()).tag(sync=True)
+
+    def __init__(self, station: Station, panels: list[str]) -> None:
+        self._esm = script("dom", *SCRIPTS, *LAYOUTS)
+        self._css = styles(*STYLES)
+        super().__init__(station, panels=panels)
+        self.tick()
+
+    def text(self) -> str:
+        """Where the turtle is, what became of the goals, and how many obstacles there are."""
+        sentences = [
+            f"{self.title} at {number(self.station.now)} s of robot time: {self._place()}.",
+            self.goals_in_words(),
+            self.obstacles_in_words(),
+        ]
+        return " ".join(sentences)
+
+    def picture(self) -> Picture | None:
+        """The map with the path so far."""
+        goals = [(goal.x, goal.y, goal.theta) for goal in self.desk.goals if goal.state in ("on its way", "reached")]
+        return plot_path(self.station.recorder, goal=goals[-1:] or None)
+
+    def _place(self) -> str:
+        poses = self.station.recorder.poses.newest(1)
+        if not len(poses):
+            return "no pose heard yet"
+        x, y, theta = (poses[0][name] for name in ("x", "y", "theta"))
+        return f"the turtle is at {point(x, y)} m facing {angle(theta)}"
+
+
+# -- dashboard ----------------------------------------------------------------------------------------------------
+# The dashboard: everything about a running system at once.
 
 DASHBOARD = ["clock", "map", "goals", "editor", "status", "log", "scan", "rates", "lights"]
 
@@ -34,7 +123,7 @@ class Dashboard(LogPanel, LightsPanel, RatesPanel, ScanPanel, StatusPanel, LabVi
 
     def picture(self) -> Picture | None:
         """Path and status side by side."""
-        from .dashboard_picture import dashboard_picture
+        pass  # HOUSE: was an import of this file
 
         kept = [goal for goal in self.desk.goals if goal.was_taken]
         return dashboard_picture(self.station.recorder, self.text(), kept[-1] if kept else None)

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
+import shlex
 from typing import Any
 
 import traitlets
 
-from ..typed_names import did_you_mean, enumerated, is_hidden
-from ..words import count, listed
-from .caller import Caller
+from ..words import count, did_you_mean, enumerated, is_hidden, listed
+from .backend import Station
 from .form_fields import FieldError, Group, Rows, Single, find_part
+from .lazy_endpoints import Caller, Outlet, let_time_go_on
+from .live_data import Pace
 from .live_widget import LiveWidget, script, styles
 from .message_types import find_class
-from .outlet import Outlet, let_time_go_on
-from .pace import Pace
-from .station import Station
-from .typed_line import call_line, publish_line
 
 FASTEST = 100.0
 """How many messages a second a form publishes at most."""
@@ -266,3 +264,32 @@ def _within(what: str, value: Any, low: float, high: float) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not low <= value <= high:
         raise ValueError(f"The {what} must be a number from {low:g} to {high:g}, got {value!r}.")
     return float(value)
+
+
+# -- typed line ---------------------------------------------------------------------------------------------------
+# What a form does, as a line for the terminal.
+
+
+def publish_line(topic: str, type_name: str, values: dict[str, Any], rate: float | None) -> str:
+    """The `ros2 topic pub` that publishes these values: once, or so often a second."""
+    how = "--once" if rate is None else f"--rate {rate:g}"
+    return f"ros2 topic pub {how} {topic} {type_name} {_yaml(values)}"
+
+
+def call_line(service: str, type_name: str, values: dict[str, Any]) -> str:
+    """The `ros2 service call` that asks with these values."""
+    return f"ros2 service call {service} {type_name} {_yaml(values)}"
+
+
+def _yaml(values: dict[str, Any]) -> str:
+    """Values as one word of a shell: in double quotes as in ROS's own examples, unless a sign there has a meaning."""
+    import yaml
+
+    def dumped(allow_unicode: bool) -> str:
+        options: dict[str, Any] = {"default_flow_style": True, "width": float("inf"), "sort_keys": False}
+        return yaml.safe_dump(values, allow_unicode=allow_unicode, **options).strip()
+
+    text = dumped(allow_unicode=True)
+    if yaml.safe_load(text) != values:  # some rare signs, such as U+0085, come back as blanks if they are not escaped
+        text = dumped(allow_unicode=False)
+    return shlex.quote(text) if set(text) & set('"$`\\!') else f'"{text}"'

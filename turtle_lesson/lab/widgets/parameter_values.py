@@ -125,7 +125,7 @@ def _guessed(typed: Any) -> tuple[Any, int]:
 def _yaml(text: str) -> Any:
     import yaml
 
-    from turtle_lesson.ros.bounded_yaml import safe_load
+    from ...ros.runtime.files import safe_load
 
     try:
         return safe_load(text)

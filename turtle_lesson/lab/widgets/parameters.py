@@ -6,13 +6,12 @@ from typing import Any
 
 import traitlets
 
-from ..typed_names import did_you_mean, enumerated, is_hidden
-from ..words import count
+from ..words import count, did_you_mean, enumerated, is_hidden
+from .backend import Station
+from .live_data import Pace
 from .live_widget import LiveWidget, script, styles
-from .pace import Pace
-from .parameter_desk import Found, ParameterDesk, node_names
+from .parameter_client import Found, ParameterDesk, node_names
 from .parameter_values import BOOL, DOUBLE, INTEGER, TYPES, read, shown
-from .station import Station
 
 
 class ParametersPanel(LiveWidget):

@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import traitlets
 
-from ..track import WORLD
+from ..path_geometry import WORLD
+from .backend import Link, Loop
 from .live_widget import LiveWidget, script, styles
-from .loop import Loop
-from .station import Link
 
 if TYPE_CHECKING:
     from ..predictions import Question

@@ -6,21 +6,19 @@ from typing import TYPE_CHECKING, Any
 
 import traitlets
 
-from ...ros.core.virtual_time import real_monotonic
+from ...ros.stdlib.clocks import real_monotonic
 from ..recording import UNDER_WAY
 from ..words import point
-from . import scene_parts as parts
-from .goals import Goal, goals_from
+from . import scene_commands as parts
+from .goal_client import Goal, goals_from
 from .live_widget import LiveWidget, script, styles
 from .scene_commands import viewer_bundle
-from .scene_picture import draw_scene
-from .scene_trail import Trail
-from .scene_words import brief, describe, newest_pose
+from .scene_picture import Trail, brief, describe, draw_scene, newest_pose
 
 if TYPE_CHECKING:
     from ..picture import Picture
+    from .backend import Station
     from .scene_page import ScenePage
-    from .station import Station
 
 SCRIPTS = ("dom", "scene_theme", "scene_quality", "scene_stage", "scene_camera", "scene_view")
 TRAIL_PERIOD = 0.1
@@ -81,7 +79,7 @@ class Scene(LiveWidget):
 
         Raises ValueError where no pose was heard in that time.
         """
-        from .scene_replay import replay_page
+        from .scene_page import replay_page
 
         return replay_page(self, since, until)
 

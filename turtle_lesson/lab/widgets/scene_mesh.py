@@ -10,6 +10,12 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .. import style
+from ..drawing import BACK, BODY, HEAD, LEGS, OUTLINE, RIM, SHELL, SKIN, TAIL
+from ..laser_plot import Beams, reach_of
+from ..path_geometry import TOLERANCE, WORLD
+from ..recording import Obstacle
+
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
@@ -93,3 +99,276 @@ def placed(x: float = 0.0, y: float = 0.0, z: float = 0.0, turn: float = 0.0, si
     """The 4 by 4 matrix that makes something `size` times as large, turns it about z (rad) and shifts it."""
     cos, sin = size * math.cos(turn), size * math.sin(turn)
     return np.array([[cos, -sin, 0, x], [sin, cos, 0, y], [0, 0, size, z], [0, 0, 0, 1.0]])
+
+
+# -- scene turtle -------------------------------------------------------------------------------------------------
+# The turtle in three dimensions, of few flat faces: the same turtle as in the plots, which shows it from above.
+
+LENGTH = 0.95
+"""From its nose to its tail, m. All that follows is in parts of this length: it looks along +x, its middle is (0, 0)."""
+
+CREST = "#2fb98f"
+"""The plates along the middle of its back."""
+SEAM = "#d8f3e6"
+BELLY, EDGE, TOP = 0.075, 0.145, 0.36
+"""Heights of the belly, of the shell's edge and of its highest point."""
+
+HIPS = ((0.17, 0.16), (-0.19, 0.15))
+"""About these points its legs swing, the front one and the hind one on the left."""
+
+
+def body() -> Mesh:
+    """All of it but the legs."""
+    return joined([_rim(), _seams(), _plates(), _head(), _tail()]).moved(placed(size=LENGTH))
+
+
+def legs() -> dict[str, tuple[tuple[float, float], Mesh]]:
+    """By name, the point (m) about which each leg swings, and the leg as seen from there."""
+    made = {}
+    for name, hip, shape in zip(("front", "hind"), HIPS, LEGS, strict=True):
+        left = _leg(shape, hip)
+        x, y = (LENGTH * each for each in hip)
+        made[f"{name}_left"] = ((x, y), left)
+        made[f"{name}_right"] = ((x, -y), left.mirrored())
+    return made
+
+
+def layers(head_in_front: bool) -> list[Mesh]:
+    """The turtle standing still, as pieces, each of which hides the pieces before it when seen from above."""
+    standing = joined([_tail(), *(leg.moved(placed(x, y, size=1 / LENGTH)) for (x, y), leg in legs().values())])
+    order = [_rim(), _seams(), _plates()]
+    pieces = [standing, *order, _head()] if head_in_front else [standing, _head(), *order]
+    return [piece.moved(placed(size=LENGTH)) for piece in pieces]
+
+
+def _leg(shape: tuple[float, ...], hip: tuple[float, float]) -> Mesh:
+    x, y, width, height, turn = shape
+    foot = ellipsoid((width / 2, height / 2, 0.06), SKIN, sides=8, levels=4)
+    return foot.moved(placed(x - hip[0], y - hip[1], 0.062, math.radians(turn))).moved(placed(size=LENGTH))
+
+
+def _rim() -> Mesh:
+    """The belt around the shell, and the belly below it."""
+    middle, across, along = BODY[0], BODY[2] / 2, BODY[3] / 2
+    belt = [
+        ring((middle, 0, BELLY), 0.86 * across, 0.84 * along, 12),
+        ring((middle, 0, BELLY + 0.03), across, along, 12),
+        ring((middle, 0, EDGE), 0.93 * across, 0.92 * along, 12),
+        ring((middle, 0, EDGE + 0.01), 0.6 * across, 0.6 * along, 12),
+    ]
+    return joined([loft(belt, RIM), polygon(belt[0][::-1], SKIN)])
+
+
+def _seams() -> Mesh:
+    """A pale dome just below the plates: it is seen between them."""
+    dome = [_ring_of_shell(radius, 12, -0.013) for radius in (1.12, 0.98, 0.56)]
+    dome[2][1::2] = (dome[2][0::2] + np.roll(dome[2][0::2], -1, axis=0)) / 2  # a hexagon, as the plates have it
+    return joined([loft(dome, SEAM), polygon(dome[-1], SEAM)])
+
+
+def _plates() -> Mesh:
+    """The shell: six plates around a hexagon."""
+    crest = polygon(_shrunk(_ring_of_shell(0.56, 6)), CREST)
+    return joined([crest, *(_plate(number) for number in range(6))])
+
+
+def _plate(number: int) -> Mesh:
+    """One of the six plates around the hexagon: flatter above and steep at the edge, with a fold along its middle."""
+    rings = [_ring_of_shell(radius, 12) for radius in (0.56, 0.98, 1.12)]
+    left, middle, right = ([ring[(2 * number + step) % 12] for ring in rings] for step in (0, 1, 2))
+    middle[0] = (left[0] + right[0]) / 2  # the hexagon's side is straight
+    points = _shrunk(np.array([left, middle, right]).reshape(-1, 3), 0.93).reshape(3, 3, 3)
+    quads = [
+        [points[side, step], points[side, step + 1], points[side + 1, step + 1], points[side + 1, step]]
+        for side in (0, 1)
+        for step in (0, 1)
+    ]
+    return joined([polygon(quad, SHELL) for quad in quads])
+
+
+def _ring_of_shell(radius: float, sides: int, lift: float = 0.0) -> np.ndarray:
+    """Points on the dome, `radius` times as far from its middle as the plates' edge in the plots."""
+    height = EDGE - 0.02 + (TOP - EDGE) * math.sqrt(max(0.0, 1 - (radius / 1.16) ** 2)) + lift
+    return ring((BACK[0], 0, height), radius * BACK[2] / 2, radius * BACK[3] / 2, sides)
+
+
+def _shrunk(points: np.ndarray, by: float = 0.9) -> np.ndarray:
+    middle = points.mean(axis=0)
+    return middle + by * (points - middle)
+
+
+def _head() -> Mesh:
+    x, _, width, height, _ = HEAD
+    skull = ellipsoid((width / 2, height / 2, 0.098), SKIN, sides=10, levels=6).moved(placed(x + 0.01, 0, 0.185))
+    neck = loft([_collar(0.24, 0.075, 0.12), _collar(0.37, 0.065, 0.165)], SKIN)
+    eye = ellipsoid((0.026, 0.022, 0.028), OUTLINE, sides=6, levels=4).moved(placed(x + 0.075, 0.073, 0.215))
+    return joined([skull, neck, eye, eye.mirrored()])
+
+
+def _collar(x: float, radius: float, height: float) -> np.ndarray:
+    turns = np.arange(8) * math.tau / 8
+    return np.column_stack([np.full(8, x), radius * np.cos(turns), height + radius * np.sin(turns)])
+
+
+def _tail() -> Mesh:
+    (root, half, *_), (tip, *_), _ = ((*corner, 0.0) for corner in TAIL)
+    around = np.array([[root, -half, 0.10], [root, 0.0, 0.075], [root, half, 0.10], [root, 0.0, 0.145]])
+    return loft([np.tile([tip, 0.0, 0.07], (4, 1)), around], SKIN)
+
+
+# -- scene world --------------------------------------------------------------------------------------------------
+# What stands in the 3-D scene beside the turtle, as meshes: floor, walls, obstacles, trail, laser and goals.
+
+FLOOR, GRID, WALL = "#fbfbf8", "#dcdcd5", "#c9ced6"
+"""On a light page; on a dark one the browser takes darker ones (js/scene_theme.js)."""
+OBSTACLE, OBSTACLE_EDGE = "#eeb655", "#a86f00"
+TRAIL, FREE, HIT, POLE = "#1f86c7", "#56b4e9", "#0072b2", "#8a9099"
+
+WALL_HEIGHT, WALL_WIDTH = 0.22, 0.14
+OBSTACLE_HEIGHT = 0.5
+"""As the markers on /world/obstacles have it; the turtle's own world is flat."""
+BEAM_HEIGHT = 0.12
+"""Where the laser's fan lies, m: the turtle carries its laser below the shell's edge."""
+SAME = 0.12
+"""Neighbouring beams whose ranges differ by less than this part hit the same thing."""
+
+
+def floor() -> Mesh:
+    """The floor, a slab with its surface at height 0."""
+    side, low = WORLD + 2 * WALL_WIDTH, -0.12
+    outline = np.array([(0, 0), (side, 0), (side, side), (0, side)]) - WALL_WIDTH
+    return prism(outline, low, 0.0, FLOOR)
+
+
+def grid() -> Mesh:
+    """Lines a metre apart, as narrow strips just above the floor."""
+    half, height, strips = 0.012, 0.004, []
+    for at in range(1, math.ceil(WORLD)):
+        upright = [(at - half, 0), (at + half, 0), (at + half, WORLD), (at - half, WORLD)]
+        level = [(0, at - half), (WORLD, at - half), (WORLD, at + half), (0, at + half)]
+        strips += [polygon([(x, y, height) for x, y in line], GRID) for line in (upright, level)]
+    return joined(strips)
+
+
+def walls() -> list[Mesh]:
+    """The four walls."""
+    low, high = -WALL_WIDTH, WORLD + WALL_WIDTH
+    boxes = [(low, low, high, 0), (low, WORLD, high, high), (low, 0, 0, WORLD), (WORLD, 0, high, WORLD)]
+    return [
+        prism([(left, below), (right, below), (right, above), (left, above)], 0.0, WALL_HEIGHT, WALL)
+        for left, below, right, above in boxes
+    ]
+
+
+def outline(obstacle: Obstacle, sides: int = 36) -> np.ndarray:
+    """The outline of an obstacle, from above: n by 2."""
+    wide, high = obstacle.width / 2, obstacle.height / 2
+    if obstacle.shape == "box":
+        flat = np.array([(-wide, -high, 0.0), (wide, -high, 0.0), (wide, high, 0.0), (-wide, high, 0.0)])
+    else:
+        flat = ring((0, 0, 0), wide, high, sides)
+    matrix = placed(obstacle.x, obstacle.y, 0.0, obstacle.angle)
+    return (flat @ matrix[:3, :3].T + matrix[:3, 3])[:, :2]
+
+
+def obstacle_mesh(obstacle: Obstacle) -> Mesh:
+    """An obstacle as a block on the floor."""
+    return prism(outline(obstacle), 0.0, OBSTACLE_HEIGHT, OBSTACLE)
+
+
+def ribbon(pieces: Sequence[np.ndarray], width: float = 0.07, height: float = 0.012) -> Mesh:
+    """Lines on the floor, each through points (n by 2) in their order: two triangles a step."""
+    quads = [_quads(np.asarray(piece, float), width / 2) for piece in pieces if len(piece) > 1]
+    if not quads:
+        return joined([])
+    flat = np.concatenate(quads)
+    corners = np.concatenate([flat, np.full((*flat.shape[:2], 1), height)], axis=2)
+    return triangles(corners[:, [0, 1, 2, 0, 2, 3]], TRAIL)
+
+
+def _quads(points: np.ndarray, half: float) -> np.ndarray:
+    """A quad for each step, a little longer than the step, so that no gap opens at a corner."""
+    steps = np.diff(points, axis=0)
+    lengths = np.hypot(*steps.T)
+    steps, begins = steps[lengths > 0], points[:-1][lengths > 0]
+    ends = begins + steps
+    along = half * steps / lengths[lengths > 0][:, None]
+    across = np.column_stack([-along[:, 1], along[:, 0]])
+    back, front = begins - 0.6 * along, ends + 0.6 * along
+    return np.stack([back - across, front - across, front + across, back + across], axis=1)
+
+
+def fan(beams: Beams, x: float, y: float, theta: float) -> tuple[Mesh, Mesh]:
+    """What the laser saw from a place: the space that is free, as far as there is a floor, and a mark for each hit."""
+    reach = reach_of(beams)
+    ends = np.where(beams.sees, np.minimum(beams.ranges, reach), reach)
+    turns = beams.angles + theta
+    far = _to_edge(x, y, turns, ends)
+    flat = np.column_stack([x + far * np.cos(turns), y + far * np.sin(turns)])
+    rim = np.column_stack([flat, np.full(len(flat), BEAM_HEIGHT)])
+    middle = np.tile([x, y, BEAM_HEIGHT], (max(len(rim) - 1, 0), 1))
+    free = triangles(np.stack([middle, rim[:-1], rim[1:]], axis=1), FREE)
+    return free, _marks(beams, ends).moved(placed(x, y, 0.0, theta))
+
+
+def _to_edge(x: float, y: float, turns: np.ndarray, ends: np.ndarray) -> np.ndarray:
+    """How far each beam goes before it ends, or leaves the world."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ways = [
+            np.maximum(-place / along, (WORLD - place) / along)
+            for place, along in ((x, np.cos(turns)), (y, np.sin(turns)))
+        ]
+    return np.maximum(np.fmin(np.fmin(*ways), ends), 0.0)
+
+
+def _marks(beams: Beams, ends: np.ndarray, low: float = 0.03, high: float = 0.2) -> Mesh:
+    """An upright band along what the beams hit: joined where neighbours hit the same thing, a short piece elsewhere."""
+    half = abs(beams.angles[1] - beams.angles[0]) / 2 if len(beams) > 1 else 0.01
+    seen = np.flatnonzero(beams.sees)
+    bands = []
+    for number, beam in enumerate(seen):
+        after = seen[number + 1] if number + 1 < len(seen) else -1
+        far, turn = ends[beam] - 0.02, beams.angles[beam]
+        if after == beam + 1 and abs(ends[after] - ends[beam]) < SAME * max(1.0, ends[beam]):
+            bands.append((far, turn, ends[after] - 0.02, beams.angles[after]))
+        else:
+            bands.append((far, turn - half, far, turn + half))
+    if not bands:
+        return joined([])
+    first_far, first_turn, last_far, last_turn = np.array(bands).T
+    right = np.column_stack([first_far * np.cos(first_turn), first_far * np.sin(first_turn)])
+    left = np.column_stack([last_far * np.cos(last_turn), last_far * np.sin(last_turn)])
+    ends_up = [(right, low), (left, low), (left, high), (right, low), (left, high), (right, high)]
+    corners = [np.column_stack([flat, np.full(len(flat), height)]) for flat, height in ends_up]
+    return triangles(np.stack(corners, axis=1), HIT)
+
+
+def goal_mark(x: float, y: float, theta: float) -> Mesh:
+    """On the floor, the ring within which a goal counts as reached, and a pointer for the heading."""
+    inner, outer = (ring((0, 0, 0.018), radius, radius, 32) for radius in (TOLERANCE - 0.035, TOLERANCE))
+    arrow = [(TOLERANCE + 0.05, -0.13, 0.018), (TOLERANCE + 0.3, 0, 0.018), (TOLERANCE + 0.05, 0.13, 0.018)]
+    return joined([loft([outer, inner], style.VERMILLION), polygon(arrow, style.VERMILLION)]).moved(
+        placed(x, y, 0.0, theta)
+    )
+
+
+def goal_flag(x: float, y: float, reached: bool) -> Mesh:
+    """The flag in the middle of the ring; beside it when the turtle stands there."""
+    aside = (0.6 if y < WORLD - 0.8 else -0.6) if reached else 0.0
+    return joined([_pole(), _pennant()]).moved(placed(x, y + aside))
+
+
+def _pole() -> Mesh:
+    foot, top = ring((0, 0, 0), 0.022, 0.022, 8), ring((0, 0, 1.12), 0.018, 0.018, 8)
+    return joined([loft([foot, top], POLE), polygon(top, POLE)])
+
+
+def _pennant() -> Mesh:
+    """The cloth, in gentle waves, the same from both sides."""
+    along = np.linspace(0.0, 0.55, 6)
+    wave = 0.045 * np.sin(along / 0.55 * 1.5 * math.pi)
+    drop = 0.17 * (1 - along / 0.55)
+    upper = np.column_stack([along, wave, 0.93 + drop])
+    lower = np.column_stack([along, wave, 0.93 - drop])
+    corners = [[lower[at], lower[at + 1], upper[at + 1], upper[at]] for at in range(len(along) - 1)]
+    return joined(polygon(each, style.VERMILLION) for each in corners)

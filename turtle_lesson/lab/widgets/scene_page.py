@@ -5,13 +5,27 @@ from __future__ import annotations
 import base64
 import html
 import json
+import math
+from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from ..path_geometry import distance_driven, find_jumps, thinned
+from ..words import number, point
+from . import scene_commands as parts
+from .goal_client import goals_from
+from .live_data import pack
 from .live_widget import script, styles
+from .scene_commands import cast_no_shadow, packed, show
+from .scene_mesh import TRAIL, goal_flag, goal_mark, ribbon
+from .scene_meshcat import Animation, AnimationClip, AnimationTrack, ScenePath, SetAnimation
 
 if TYPE_CHECKING:
+    from .goal_client import Goal
     from .scene import Scene
+
 
 PARTS = ("stage", "trail", "tip", "scan", "obstacles", "goal")
 HEIGHT = 560
@@ -100,3 +114,115 @@ def _written(value: Any) -> Any:
     if isinstance(value, dict):
         return {name: _written(each) for name, each in value.items()}
     return value
+
+
+# -- scene replay -------------------------------------------------------------------------------------------------
+# A run of the turtle as meshcat's animation: the turtle drives, and goals come when they were sent.
+
+PERIOD = 0.1
+"""Seconds between two poses of the animation, which are joined evenly …"""
+MOST = 4000
+"""… and more for a run that would need more poses than this."""
+
+Tracks = dict[str, tuple[str, list[float], list[Any]]]
+"""By a property's name: its type in three.js, times (s) and values."""
+
+
+def replay_page(scene: Scene, since: float | None, until: float | None) -> ScenePage:
+    """The run from `since` to `until` (seconds of robot time) as a page with a play bar."""
+    recorder = scene.station.recorder
+    poses = recorder.window(recorder.poses, since, until)
+    poses = poses[np.isfinite(poses["x"]) & np.isfinite(poses["y"]) & np.isfinite(poses["theta"])]
+    if len(poses) < 2:
+        raise ValueError(f"There is no run to replay in that time. {recorder.why_silent(recorder.pose_topic)}")
+    scene.redraw()
+    jumps = find_jumps(poses)
+    times = (poses["stamp"] - poses["stamp"][0]) / 1e9
+    begin, end = (float(recorder.seconds(poses[at]["stamp"])) for at in (0, -1))
+    driven = distance_driven(poses, jumps)
+    text = (
+        f"Replay of {recorder.turtle} from {number(begin)} s to {number(end)} s of robot time: {number(driven)} m driven, "
+        f"from {point(poses[0]['x'], poses[0]['y'])} m to {point(poses[-1]['x'], poses[-1]['y'])} m."
+    )
+    goals = [goal for goal in goals_from(scene.station) if goal.was_taken]
+    trail, growth = _trail(poses, times, jumps, driven)
+    flags, appear = _flags(goals, begin, end)
+    tracks = {parts.TURTLE: _drive(poses, times, jumps), **appear}
+    first = poses[0]
+    state = {
+        **state_of(scene),
+        "turtle": parts.turtle_at(float(first["x"]), float(first["y"]), float(first["theta"])),
+        "trail": trail,
+        "tip": [],
+        "scan": [],
+        "goal": flags,
+        "description": text,
+        "animation": _animation(tracks),
+        "growth": growth,
+        "begin": begin,
+        "seconds": end - begin,
+    }
+    return ScenePage("3-D replay", text, state)
+
+
+def _drive(poses: np.ndarray, times: np.ndarray, jumps: np.ndarray) -> Tracks:
+    """Where the turtle is: fewer poses than were heard, and none while it stands."""
+    period = max(PERIOD, float(times[-1]) / MOST)
+    regular = np.searchsorted(times, np.arange(0.0, times[-1], period))
+    chosen = np.unique([*regular, *jumps, *(jumps - 1), 0, len(poses) - 1])
+    places = np.column_stack([poses["x"], poses["y"], poses["theta"]])[chosen]
+    stays = np.zeros(len(chosen), bool)
+    stays[1:-1] = (places[1:-1] == places[:-2]).all(axis=1) & (places[1:-1] == places[2:]).all(axis=1)
+    when = [round(each, 4) for each in times[chosen[~stays]].tolist()]
+    kept = places[~stays].tolist()
+    where = [[round(x, 4), round(y, 4), 0.0] for x, y, _ in kept]
+    turns = [[0.0, 0.0, round(math.sin(theta / 2), 5), round(math.cos(theta / 2), 5)] for _, _, theta in kept]
+    return {"position": ("vector3", when, where), "quaternion": ("quaternion", when, turns)}
+
+
+def _trail(poses: np.ndarray, times: np.ndarray, jumps: np.ndarray, driven: float) -> tuple[list[bytes], bytes]:
+    """The whole trail, and how much of it is drawn when: times (s), each with a number of corners, six a step.
+
+    A mesh's extent is nothing that three.js animates, so the page itself sets it (js/scene_page.js).
+    """
+    chosen = thinned(poses, jumps, spacing=max(0.1, driven / MOST))
+    places = np.column_stack([poses["x"], poses["y"]])
+    steps = [
+        (begin, end) for begin, end in pairwise(chosen) if end not in jumps and (places[begin] != places[end]).any()
+    ]
+    if not steps:
+        return [], b""
+    when, corners = [0.0], [0.0]
+    for step, (begin, end) in enumerate(steps):
+        for index, amount in ((begin, 6.0 * step), (end, 6.0 * (step + 1))):
+            if times[index] > when[-1]:
+                when.append(round(float(times[index]), 4))
+                corners.append(amount)
+    mesh = ribbon([places[[begin, end]] for begin, end in steps])
+    drawn = [show("lab/trail", mesh, lit=False, color=int(TRAIL[1:], 16)), cast_no_shadow("lab/trail")]
+    return drawn, pack(np.column_stack([when, corners]))
+
+
+def _flags(goals: list[Goal], begin: float, end: float) -> tuple[list[bytes], dict[str, Tracks]]:
+    """A flag for each goal, to be seen from when it was sent until its answer came."""
+    flags, appear = [], {}
+    ends = [math.inf if goal.ended is None else goal.ended for goal in goals]
+    for index, (goal, gone) in enumerate(zip(goals, ends, strict=True)):
+        if goal.sent >= end or gone <= begin:
+            continue
+        path = f"lab/goals/{index}"
+        flags.append(show(f"{path}/mark", goal_mark(goal.x, goal.y, goal.theta)))
+        flags.append(show(f"{path}/flag", goal_flag(goal.x, goal.y, reached=False)))
+        keys = [(0.0, goal.sent <= begin), (goal.sent - begin, True), (gone - begin, False)]
+        kept = [(round(time, 4), seen) for time, seen in keys if time == 0 or 0 < time < end - begin]
+        appear[path] = {"visible": ("bool", [time for time, _ in kept], [seen for _, seen in kept])}
+    return flags, appear
+
+
+def _animation(tracks: dict[str, Tracks]) -> bytes:
+    """The command for all tracks; one frame a second, so that a frame's number is its time."""
+    animation = Animation(default_framerate=1)
+    for path, named in tracks.items():
+        made = {name: AnimationTrack(name, kind, times, values) for name, (kind, times, values) in named.items()}
+        animation.clips[ScenePath(tuple(path.split("/")))] = AnimationClip(made, fps=1)
+    return packed(SetAnimation(animation, play=False))

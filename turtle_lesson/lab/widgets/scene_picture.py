@@ -8,21 +8,21 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import style
-from ..beams import read_beams
+from ..laser_plot import read_beams
+from ..path_geometry import WORLD, find_jumps
 from ..picture import Picture
-from ..recording import UNDER_WAY
-from ..track import WORLD
-from . import scene_turtle as turtle
-from . import scene_world as world
+from ..recording import UNDER_WAY, Table
+from ..words import angle, count, listed, number, point
+from . import scene_mesh as turtle
+from . import scene_mesh as world
 from .scene_mesh import Mesh, joined, placed
-from .scene_trail import Trail
-from .scene_words import brief, describe, newest_pose
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from ..recording import Recording
-    from .goals import Goal
+    from ..recording import Obstacle, Recording
+    from .goal_client import Goal
+
 
 AROUND, UP = math.radians(-62), math.radians(40)
 """From where one looks: the direction in which the eye is, and its height above the horizon."""
@@ -114,3 +114,170 @@ def _brightness(mesh: Mesh) -> np.ndarray:
     lengths = np.linalg.norm(normals, axis=1)
     facing = (normals @ LIGHT) / np.where(lengths > 0, lengths, 1.0)
     return (0.72 + 0.31 * np.maximum(facing, 0.0))[:, None]
+
+
+# -- scene words --------------------------------------------------------------------------------------------------
+# The 3-D scene in words, exactly.
+
+
+def newest_pose(recorder: Recording, until: int | None = None) -> tuple[float, float, float] | None:
+    """The newest pose (m, m, rad), of those not later than `until` (ns); None where none was heard."""
+    poses = recorder.poses.newest(1 if until is None else 256)
+    if until is not None and len(poses) and poses["stamp"][0] <= until:
+        poses = poses[poses["stamp"] <= until]
+    if not len(poses):
+        return None
+    place = tuple(float(poses[-1][name]) for name in ("x", "y", "theta"))
+    return place if all(map(math.isfinite, place)) else None  # type: ignore[return-value]
+
+
+def brief(recorder: Recording, goal: Goal | None, beams: bool = True) -> str:
+    """A scene in a line: turtle, obstacles, laser and goal."""
+    pose = newest_pose(recorder)
+    if pose is None:
+        return "No pose heard yet."
+    x, y, theta = pose
+    facts = [f"Turtle at {point(x, y)} m facing {number(math.degrees(theta), 1)}°"]
+    if recorder.obstacles:
+        facts.append(count(len(recorder.obstacles), "obstacle"))
+    if beams and recorder.last_scan is not None:
+        scan = read_beams(recorder.last_scan)
+        facts.append(f"{int(scan.sees.sum())} of {count(len(scan), 'beam')} see something")
+    if goal is not None:
+        facts.append(f"goal {number(math.hypot(goal.x - x, goal.y - y))} m away")
+    return f"{'; '.join(facts)}."
+
+
+def describe(recorder: Recording, goal: Goal | None) -> str:
+    """A scene in one sentence: turtle, obstacles, laser and goal."""
+    pose = newest_pose(recorder)
+    if pose is None:
+        return "no pose heard yet."
+    x, y, theta = pose
+    around = [*_standing(list(recorder.obstacles.values())), *_seen_by_laser(recorder.last_scan)]
+    if goal is not None:
+        away = number(math.hypot(goal.x - x, goal.y - y))
+        around.append(f"the goal at {point(goal.x, goal.y)} m is {away} m away")
+    rest = f"; {listed(around)}" if around else ""
+    return f"the turtle is at {point(x, y)} m facing {angle(theta)}{rest}."
+
+
+def _standing(obstacles: list[Obstacle]) -> list[str]:
+    if not obstacles:
+        return []
+    places = ", ".join(f"{each.shape} at {point(each.x, each.y)} m" for each in obstacles)
+    return [f"{count(len(obstacles), 'obstacle')} ({places})"]
+
+
+def _seen_by_laser(scan: Any) -> list[str]:
+    if scan is None:
+        return []
+    beams = read_beams(scan)
+    return [f"{int(beams.sees.sum())} of the laser's {count(len(beams), 'beam')} see something"]
+
+
+# -- scene trail --------------------------------------------------------------------------------------------------
+# The way that the turtle took, in as few points as show it well: straight stretches need only their ends.
+
+STEP = 0.04
+"""Points are at least so far apart, m …"""
+STRETCH = 1.0
+"""… and at most so far, m."""
+BEND = 0.06
+"""Between the two, there is a point where the way has turned by so much, rad."""
+
+TIP, MOST = 24, 900
+"""Points in the newest piece at most, and in all pieces together: the oldest go."""
+
+
+class Trail:
+    """The turtle's way from the poses in a table. `old` changes now and then, `tip` all the time."""
+
+    def __init__(self, table: Table) -> None:
+        self._table = table
+        self._seen: np.ndarray | None = None
+        self._here: np.ndarray | None = None
+        self._turn = 0.0
+        self._done: list[np.ndarray] = []
+        self._tip: list[np.ndarray] = []
+        self.changes = 0
+        """How often `old` has changed."""
+
+    @property
+    def old(self) -> list[np.ndarray]:
+        """The pieces that change no more: each n by 2, m."""
+        return self._done
+
+    @property
+    def tip(self) -> np.ndarray:
+        """The newest piece, to where the turtle is now: n by 2, m."""
+        ahead = [] if self._here is None else [self._here]
+        return np.array([*self._tip, *ahead]).reshape(-1, 2)
+
+    def follow(self) -> bool:
+        """Take in what was heard since the last time; returns whether there was anything new to draw."""
+        rows = _after(self._table, None if self._seen is None else int(self._seen["stamp"][-1]))
+        rows = rows[np.isfinite(rows["x"]) & np.isfinite(rows["y"])]
+        if not len(rows):
+            return False
+        joined = rows if self._seen is None else np.concatenate([self._seen, rows])
+        known = len(joined) - len(rows)
+        jumps = set(find_jumps(joined).tolist()) if len(joined) > 1 else set()
+        places = np.column_stack([joined["x"], joined["y"]])
+        moved = self._here is None or bool((places[known:] != self._here).any())
+        for index in range(known, len(places)):
+            self._add(places[index], index in jumps)
+        self._seen = joined[-1:]
+        return moved
+
+    def _add(self, place: np.ndarray, jumped: bool) -> None:
+        if jumped:
+            self._finish([])
+        if not self._tip:
+            self._tip.append(place)
+        far, turn = _way(self._tip[-1], place)
+        if far >= STEP:
+            bent = abs(math.remainder(turn - self._turn, math.tau)) > BEND
+            if len(self._tip) == 1 or far >= STRETCH:
+                self._keep(place)
+            elif bent:
+                self._keep(place if self._here is None else self._here)
+        self._here = place
+
+    def _keep(self, place: np.ndarray) -> None:
+        far, turn = _way(self._tip[-1], place)
+        if not far:
+            return
+        self._tip.append(place)
+        self._turn = turn
+        if len(self._tip) >= TIP:
+            self._finish([place])
+
+    def _finish(self, begin: list[np.ndarray]) -> None:
+        """The newest piece is done; another one begins."""
+        if self._here is not None and not begin:
+            self._tip.append(self._here)
+        if len(self._tip) > 1:
+            self._done.append(np.array(self._tip))
+        while sum(map(len, self._done)) > MOST:
+            del self._done[0]
+        self._tip = begin
+        self.changes += 1
+
+
+def _way(begin: np.ndarray, end: np.ndarray) -> tuple[float, float]:
+    """How far it is (m), and in which direction (rad)."""
+    x, y = end - begin
+    return math.hypot(x, y), math.atan2(y, x)
+
+
+def _after(table: Table, stamp: int | None) -> np.ndarray:
+    """The rows that are newer than `stamp`: without a copy of all rows each time."""
+    if stamp is None:
+        return table.array()
+    count = 64
+    while True:
+        rows = table.newest(count)
+        if len(rows) < count or rows["stamp"][0] <= stamp:
+            return rows[rows["stamp"] > stamp]
+        count *= 4

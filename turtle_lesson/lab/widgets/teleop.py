@@ -8,12 +8,12 @@ from typing import Any
 
 import traitlets
 
-from ...ros.core.virtual_time import real_monotonic
+from ...ros.stdlib.clocks import real_monotonic
 from ..words import number
+from .backend import Station
+from .lazy_endpoints import Outlet, let_time_go_on
+from .live_data import Pace
 from .live_widget import LiveWidget, script, styles
-from .outlet import Outlet, let_time_go_on
-from .pace import Pace
-from .station import Station
 
 TYPE = "geometry_msgs/msg/Twist"
 PERIOD = 0.1

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import yaml
 
-from ..core import NANOSECONDS
+from ..sim.simulation import NANOSECONDS
 from . import BagError
 from .scan import Contents, Message, scan_mcap, scan_sqlite
 from .unpack import TooLargeError, unpack_file, unpack_message

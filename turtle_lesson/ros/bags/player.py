@@ -9,10 +9,11 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from ..core import NANOSECONDS, running_strand
-from ..graph.latency import LATENCY, LATENCY_SPREAD
-from ..interfaces.names import did_you_mean
-from ..interfaces.registry import registry
+from ..idl.names import did_you_mean
+from ..idl.registry import registry
+from ..rmw.transport import LATENCY, LATENCY_SPREAD
+from ..sim.simulation import NANOSECONDS
+from ..sim.strand import running_strand
 from . import BagError
 from .scan import Message
 from .writer import schema_text, type_hash

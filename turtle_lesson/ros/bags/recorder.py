@@ -15,21 +15,21 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..core import EPOCH, NANOSECONDS
-from ..graph.graph import is_hidden
-from ..interfaces.cdr import serialize
-from ..interfaces.names import did_you_mean
-from ..interfaces.registry import registry
+from ..idl.cdr import serialize
+from ..idl.names import did_you_mean
+from ..idl.registry import registry
+from ..rmw.graph import is_hidden
+from ..sim.simulation import EPOCH, NANOSECONDS
 from . import BagError, UnrecordableType
 from .writer import BagWriter, is_there
 
 if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
 
-    from ..core import Process
-    from ..graph import Topic
-    from ..graph.topic import Writer
-    from ..world import World
+    from ..rmw.topic import Topic
+    from ..rmw.writer import Writer
+    from ..runtime.world import World
+    from ..sim.process import Process
 
 NODE = "rosbag2_recorder"
 """The node of `ros2 bag record`."""

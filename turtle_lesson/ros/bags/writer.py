@@ -21,7 +21,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from ... import files
+from ..runtime import files
 from . import BagError, UnrecordableType
 
 if TYPE_CHECKING:

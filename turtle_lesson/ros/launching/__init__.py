@@ -21,7 +21,7 @@ from .errors import LaunchError
 if TYPE_CHECKING:
     from launch import LaunchDescription
 
-    from ..world import World
+    from ..runtime.world import World
     from .start import LaunchArgument, LaunchHandle
 
 __all__ = [
@@ -40,7 +40,7 @@ def find_launch_file(world: World, package: str, file_name: str) -> Path:
     Raises:
         LaunchError: with the words of `ros2 launch`, and what to try.
     """
-    from ..workspace import index
+    from ..build import index
 
     try:
         return index.find_launch_file(world.packages, package, file_name)

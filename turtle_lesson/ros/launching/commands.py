@@ -20,11 +20,11 @@ from typing import Any
 
 from launch.actions._processes import Program
 
-from ..core.process import INTERRUPTED
-from ..core.tracebacks import shown_path
-from ..workspace.catalog import why_not_here
-from ..workspace.errors import ExecutableNotFoundError, NotHereError, PackageNotFoundError
-from ..workspace.index import current_packages
+from ..build.catalog import why_not_here
+from ..build.errors import ExecutableNotFoundError, NotHereError, PackageNotFoundError
+from ..build.index import current_packages
+from ..sim.errors import shown_path
+from ..sim.process import INTERRUPTED
 
 SHELLS = {"bash", "sh", "dash", "zsh"}
 Main = Callable[[], int | None]
@@ -99,8 +99,8 @@ def _ending(main: Main) -> Callable[[], None]:
 
 def _taken_apart(text: str) -> list[tuple[str, list[str]]]:
     """The commands of a shell's text, each with the sign before it."""
-    from ..command.script import ShellSyntaxError, expand, pipelines
-    from ..command.words import UnfinishedError, tokens
+    from ..cli.lexer import UnfinishedError, tokens
+    from ..cli.script import ShellSyntaxError, expand, pipelines
 
     try:
         plan = list(pipelines(list(tokens(text))))
@@ -146,7 +146,7 @@ def _python_file(name: str, shown: str) -> Path:
 
 def _ros2_run(words: list[str], shown: str) -> Program:
     """The program that `ros2 run` names, run without `ros2` around it."""
-    from ..command.parser import Stop, parse
+    from ..cli.parser import Stop, parse
 
     try:
         given = parse(words[1:]).arguments
@@ -187,14 +187,14 @@ def _main(words: list[str]) -> Main:
             f"ExecuteProcess(cmd='{' '.join(words)}'): there is no program called '{words[0]}'",
             "cmd is a list of single words, ['ros2', 'topic', 'list']; a single string needs shell=True.",
         )
-    from ..command.elsewhere import advice
+    from ..cli.command_hints import advice
 
     why = why_not_here(name) or advice([name, *words[1:]]) or "it is a program of the operating system"
     raise ForeignCommand(name or "a command without a name", why)
 
 
 def _ros2(words: list[str]) -> int:
-    from ..command import run_here
+    from ..cli.run_command import run_here
 
     return run_here(words)
 

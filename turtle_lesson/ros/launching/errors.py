@@ -9,10 +9,11 @@ import re
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from ..core.tracebacks import is_ours, learners_frames, shorten, shown_path
-from ..workspace import catalog
-from ..workspace.errors import PackageNotFoundError, did_you_mean
-from ..workspace.index import is_launch_file
+from ..build import catalog
+from ..build.errors import PackageNotFoundError
+from ..build.index import is_launch_file
+from ..idl.names import did_you_mean
+from ..sim.errors import is_ours, learners_frames, shorten, shown_path
 
 Place = tuple[str, int]
 

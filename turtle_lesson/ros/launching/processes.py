@@ -20,14 +20,14 @@ from launch.events.process import (
 )
 from launch.utilities import perform_substitutions
 
-from ..core import running_strand
-from ..workspace.package import PythonProgram
+from ..build.package import PythonProgram
+from ..sim.strand import running_strand
 
 if TYPE_CHECKING:
     from launch.actions import ExecuteLocal
 
-    from ..core import Process
-    from ..world import World
+    from ..runtime.world import World
+    from ..sim.process import Process
     from .service import LaunchService
 
 

@@ -20,18 +20,18 @@ from launch.actions import EmitEvent
 from launch.event_handlers import OnActionEventBase
 from launch.events import IncludeLaunchDescription, Shutdown
 
-from ..core import running_strand
-from ..workspace.errors import NotHereError
-from ..workspace.index import LaunchedPackages, seeing
-from ..world import current_world
+from ..build.errors import NotHereError
+from ..build.index import LaunchedPackages, seeing
+from ..runtime.world import current_world
+from ..sim.strand import running_strand
 from .errors import LaunchError, hint_for, place_of, reason_of
 from .processes import Processes, Screen
 
 if TYPE_CHECKING:
     from launch.actions import ExecuteLocal
 
-    from ..core import Process
-    from ..world import World
+    from ..runtime.world import World
+    from ..sim.process import Process
 
 
 NANOSECONDS = 1_000_000_000

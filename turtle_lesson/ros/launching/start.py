@@ -13,17 +13,17 @@ from launch import LaunchDescription, LaunchDescriptionSource
 from launch.actions import IncludeLaunchDescription
 from launch.launch_description_sources import AnyLaunchDescriptionSource
 
-from ..command.driving import run_for
-from ..core import NANOSECONDS
-from ..core.tracebacks import shown_path
-from ..workspace.errors import did_you_mean
-from ..workspace.index import LaunchedPackages, is_launch_file, seeing
-from ..world import World
+from ..build.index import LaunchedPackages, is_launch_file, seeing
+from ..cli.run_world import run_for
+from ..idl.names import did_you_mean
+from ..runtime.world import World
+from ..sim.errors import shown_path
+from ..sim.simulation import NANOSECONDS
 from .errors import LaunchError, learners_cause
 from .service import LaunchService, as_launch_error
 
 if TYPE_CHECKING:
-    from ..core import Process
+    from ..sim.process import Process
 
 
 @dataclass(frozen=True)

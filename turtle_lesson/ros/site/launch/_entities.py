@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any, Union
 
-from turtle_lesson.ros.core.tracebacks import is_ours
+from turtle_lesson.ros.sim.errors import is_ours
 
 from . import logging
 

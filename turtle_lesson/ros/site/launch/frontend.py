@@ -126,7 +126,7 @@ class Entity:
 
     def _unexpected(self, what: str, names: set[str], known: set[str]) -> ValueError:
         """The error about names that nobody has asked for, with what was perhaps meant."""
-        from turtle_lesson.ros.workspace.errors import did_you_mean
+        from turtle_lesson.ros.idl.names import did_you_mean
 
         listed = ", ".join(repr(name) for name in sorted(names, key=str))
         error = ValueError(f"Unexpected {what} found in `{self.type_name}`: {{{listed}}}")
@@ -198,7 +198,7 @@ def instantiate_substitution(type_name: str, args: Sequence[Any] | None = None) 
 def _known(methods: dict[str, Callable[..., Any]], name: str, complaint: str) -> Callable[..., Any]:
     if name in methods:
         return methods[name]
-    from turtle_lesson.ros.workspace.errors import did_you_mean
+    from turtle_lesson.ros.idl.names import did_you_mean
 
     error = RuntimeError(f"{complaint}{name}")
     close = did_you_mean(str(name)[:100], sorted(methods)) or f"There are: {', '.join(sorted(methods))}."

@@ -6,8 +6,8 @@ import os
 from pathlib import Path
 from types import ModuleType
 
-from turtle_lesson.ros.core.tracebacks import shown_path
-from turtle_lesson.ros.workspace.errors import PackageNotFoundError
+from turtle_lesson.ros.build.errors import PackageNotFoundError
+from turtle_lesson.ros.sim.errors import shown_path
 
 from ._context import LaunchContext
 from ._entities import LaunchDescription, SomeSubstitutionsType

@@ -67,7 +67,7 @@ def perform_substitutions(context: LaunchContext, subs: Iterable[Substitution]) 
 
 def perform_text_as(context: LaunchContext, value: Any, kind: type) -> Any:
     """A plain value as it is; a substitution's text read as YAML, which must give a value of `kind`."""
-    from turtle_lesson.ros.bounded_yaml import safe_load
+    from turtle_lesson.ros.runtime.files import safe_load
 
     if isinstance(value, kind) and not isinstance(value, Substitution):
         return value
@@ -151,7 +151,7 @@ def coerce_to_type(value: str, data_type: Any = None, can_be_str: bool = False) 
 
 
 def _by_yaml(text: str, complaint: str, can_be_str: bool) -> Any:
-    from turtle_lesson.ros.bounded_yaml import safe_load
+    from turtle_lesson.ros.runtime.files import safe_load
 
     try:
         value = safe_load(text)

@@ -80,7 +80,7 @@ def value_of(context: LaunchContext, value: Any) -> Any:
 
 def _from_text(text: str) -> Any:
     """What YAML makes of a substitution's text; an empty text stays one (launch_ros, pull request 300)."""
-    from turtle_lesson.ros.bounded_yaml import safe_load
+    from turtle_lesson.ros.runtime.files import safe_load
 
     if not text:
         return ""
@@ -97,7 +97,7 @@ def _from_text(text: str) -> Any:
 
 
 def _from_sequence(context: LaunchContext, items: Sequence[Any]) -> Any:
-    from turtle_lesson.ros.bounded_yaml import safe_load
+    from turtle_lesson.ros.runtime.files import safe_load
 
     if any(isinstance(item, Substitution) for item in items):
         pieces = normalize_to_list_of_substitutions(items)
@@ -169,7 +169,7 @@ class ParameterValue:
         return perform_text_as(context, self.__value, self.__value_type)
 
     def _list(self, context: LaunchContext, kind: type) -> list[Any]:
-        from turtle_lesson.ros.bounded_yaml import safe_load
+        from turtle_lesson.ros.runtime.files import safe_load
 
         items = self.__value
         if isinstance(items, Substitution):

@@ -14,8 +14,8 @@ from launch.frontend import check_is_list_entity, read
 from launch.launch_description_sources import FrontendLaunchDescriptionSource
 from launch.utilities import is_instance_of
 
-from turtle_lesson.ros.bounded_yaml import BoundedLoader
-from turtle_lesson.ros.core.tracebacks import shown_path
+from turtle_lesson.ros.runtime.files import BoundedLoader
+from turtle_lesson.ros.sim.errors import shown_path
 
 __all__ = ["Entity", "Parser"]
 

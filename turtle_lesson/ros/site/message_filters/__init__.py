@@ -6,16 +6,321 @@ synchronising) is not here either.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import threading
+from collections.abc import Callable, Sequence
+from itertools import product
+from typing import TYPE_CHECKING, Any
 
-from ._cache import Cache
-from ._chain import Chain
-from ._filters import SimpleFilter, Subscriber
-from ._synchronizers import ApproximateTimeSynchronizer, TimeSynchronizer
+from rclpy.clock import ROSClock
+from rclpy.duration import Duration
+from rclpy.logging import LoggingSeverity, get_logger
+from rclpy.node import Node
+from rclpy.time import Time
 
-__all__ = ["ApproximateTimeSynchronizer", "Cache", "Chain", "SimpleFilter", "Subscriber", "TimeSynchronizer"]
+__all__ = [
+    "ApproximateTimeSynchronizer",
+    "Cache",
+    "Chain",
+    "SimpleFilter",
+    "Subscriber",
+    "TimeSynchronizer",
+]
+
 
 if not TYPE_CHECKING:
-    from rclpy._missing import explain_missing
+    from rclpy._hints import explain_missing
 
     __getattr__ = explain_missing(__name__)
+
+
+# -- filters ------------------------------------------------------------------------------------------------------
+# What all filters have in common, and the first one of a row: a subscription.
+
+
+class SimpleFilter:
+    """Hands what comes out of it to callbacks."""
+
+    def __init__(self) -> None:
+        self.callbacks: dict[int, tuple[Callable[..., Any], tuple[Any, ...]]] = {}
+
+    def registerCallback(self, cb: Callable[..., Any], *args: Any) -> int:
+        """Have `cb(message, …, *args)` called for each output; returns the callback's number."""
+        if not callable(cb):
+            error = TypeError(f"a callback is expected, got {cb!r}")
+            error.add_note(
+                "Hand over the function itself, as in self.both; with brackets it would be called immediately."
+            )
+            raise error
+        number = len(self.callbacks)
+        self.callbacks[number] = (cb, args)
+        return number
+
+    def signalMessage(self, *msg: Any) -> None:
+        """Hand messages to all callbacks."""
+        for callback, more in list(self.callbacks.values()):
+            callback(*msg, *more)
+
+
+class Subscriber(SimpleFilter):
+    """A subscription as a filter: `Subscriber(node, type, topic, qos_profile=10, …)`, as `create_subscription` has it.
+
+    The profile of quality is 10 unless it is given, and it is given by its name: `qos_profile=…`.
+    """
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__()
+        if len(args) != 3 or not isinstance(args[0], Node):
+            raise _not_three(args)
+        self.node, _, self.topic = args
+        kwargs.setdefault("qos_profile", 10)
+        self.sub = self.node.create_subscription(*args[1:], self.callback, **kwargs)
+
+    def callback(self, msg: Any) -> None:
+        """Called for each message that comes."""
+        self.signalMessage(msg)
+
+    def getTopic(self) -> str:
+        """The topic's name, as it was given."""
+        return self.topic
+
+    def __getattr__(self, key: str) -> Any:
+        """Everything else is the subscription's."""
+        if key == "sub":  # it could not be made
+            raise AttributeError(key)
+        return getattr(self.sub, key)
+
+
+def _not_three(args: tuple[Any, ...]) -> TypeError:
+    error = TypeError(f"Subscriber() takes a node, a message type and a topic, then keywords; got {args!r}")
+    if len(args) > 3:
+        error.add_note(f"Give the profile of quality by its name: qos_profile={args[3]!r}.")
+    elif args and not isinstance(args[0], Node):
+        error.add_note("The node comes first: Subscriber(self, Image, '/camera').")
+    return error
+
+
+# -- cache --------------------------------------------------------------------------------------------------------
+# The last messages of a topic, to be looked up by their time.
+
+
+class Cache(SimpleFilter):
+    """Keeps the last `cache_size` messages that come out of the filter `f`, in the order in which they come."""
+
+    def __init__(self, f: SimpleFilter, cache_size: int = 1, allow_headerless: bool = False) -> None:
+        super().__init__()
+        self.connectInput(f)
+        self.cache_size = cache_size
+        self.cache_msgs: list[Any] = []
+        self.cache_times: list[Time] = []
+        self.allow_headerless = allow_headerless
+
+    def connectInput(self, f: SimpleFilter) -> None:
+        """Take messages from another filter."""
+        self.incoming_connection = f.registerCallback(self.add)
+
+    def add(self, msg: Any) -> None:
+        """Keep a message; the oldest has to go if there are too many."""
+        stamp = stamp_of(msg, self.allow_headerless, "message_filters_cache")
+        if stamp is None:
+            return
+        self.cache_times.append(stamp)
+        self.cache_msgs.append(msg)
+        if len(self.cache_msgs) > self.cache_size:
+            del self.cache_msgs[0]
+            del self.cache_times[0]
+        self.signalMessage(msg)
+
+    def getInterval(self, from_stamp: Time, to_stamp: Time) -> list[Any]:
+        """The messages of an interval of time, both ends included."""
+        assert from_stamp <= to_stamp
+        return [msg for msg, time in self._entries() if from_stamp <= time <= to_stamp]
+
+    def getElemAfterTime(self, stamp: Time) -> Any:
+        """The first message at this time or after it; None if there is none."""
+        return next((msg for msg, time in self._entries() if time >= stamp), None)
+
+    def getElemBeforeTime(self, stamp: Time) -> Any:
+        """The last message at this time or before it; None if there is none."""
+        return next((msg for msg, time in reversed(self._entries()) if time <= stamp), None)
+
+    def getLastestTime(self) -> Time | None:
+        """The time of the last message (so it is spelt); None if there is none."""
+        return self.cache_times[-1] if self.cache_times else None
+
+    def getOldestTime(self) -> Time | None:
+        """The time of the first message; None if there is none."""
+        return self.cache_times[0] if self.cache_times else None
+
+    def getLast(self) -> Any:
+        """The first message that is as late as the last one; None if there is none."""
+        latest = self.getLastestTime()
+        return None if latest is None else self.getElemAfterTime(latest)
+
+    def _entries(self) -> list[tuple[Any, Time]]:
+        return list(zip(self.cache_msgs, self.cache_times, strict=True))
+
+
+# -- chain --------------------------------------------------------------------------------------------------------
+# Filters in a row, seen as one.
+
+
+class Chain(SimpleFilter):
+    """What comes in runs through all filters that were added; what leaves the last one comes out."""
+
+    def __init__(self, message_filter: SimpleFilter | None = None) -> None:
+        super().__init__()
+        self.incoming_connection: int | None = None
+        self._filters: list[Any] = []
+        self._outlets: list[int] = []
+        if message_filter is not None:
+            self.connectInput(message_filter)
+
+    def connectInput(self, message_filter: SimpleFilter) -> None:
+        """Take messages from another filter. Raises RuntimeError the second time."""
+        if self.incoming_connection is not None:
+            raise RuntimeError("Already connected")
+        self.incoming_connection = message_filter.registerCallback(self.add)
+
+    def add(self, message: Any) -> None:
+        """Have a message run through."""
+        if self._filters:
+            self._filters[0].add(message)
+        else:
+            self.signalMessage(message)
+
+    def addFilter(self, message_filter: Any) -> None:
+        """Put a filter behind those that are there."""
+        if self._filters:
+            last = self._filters[-1]
+            last.callbacks.pop(self._outlets[-1])
+            self._outlets[-1] = last.registerCallback(message_filter.add)
+        self._filters.append(message_filter)
+        self._outlets.append(message_filter.registerCallback(self.signalMessage))
+
+    def getFilter(self, index: int) -> Any:
+        """The filter with this number, from 0 on."""
+        return self._filters[index]
+
+
+# -- stamps -------------------------------------------------------------------------------------------------------
+# When a message was made: by its header, or by the clock for those that have none.
+
+
+def stamp_of(msg: Any, allow_headerless: bool, logger: str) -> Time | None:
+    """A message's time; None, with a warning, for a message without header where that is not allowed."""
+    if hasattr(msg, "header") and hasattr(msg.header, "stamp"):
+        stamp = msg.header.stamp
+        return stamp if hasattr(stamp, "nanoseconds") else Time.from_msg(stamp)
+    if allow_headerless:
+        return ROSClock().now()
+    _warn(logger, type(msg).__name__)
+    return None
+
+
+def _warn(name: str, kind: str) -> None:
+    logger = get_logger(name)
+    logger.set_level(LoggingSeverity.INFO)
+    logger.warning(
+        f"a {kind} has no header with a stamp, so it is left out; with allow_headerless=True it is given the time "
+        "at which it comes"
+    )
+
+
+# -- synchronizers ------------------------------------------------------------------------------------------------
+# Messages of several topics that belong together, because they were made at the same time, or nearly so.
+
+Queue = dict[int, Any]
+"""Messages by their stamp in nanoseconds."""
+
+
+class TimeSynchronizer(SimpleFilter):
+    """Calls back with one message of each filter in `fs` whenever their stamps are equal.
+
+    `queue_size` is how many messages of each wait for the others; the oldest has to go if there are more.
+    """
+
+    def __init__(self, fs: Sequence[SimpleFilter], queue_size: int) -> None:
+        super().__init__()
+        self.connectInput(fs)
+        self.queue_size = queue_size
+        self.lock = threading.Lock()
+
+    def connectInput(self, fs: Sequence[SimpleFilter]) -> None:
+        """Take messages from these filters."""
+        self.queues: list[Queue] = [{} for _ in fs]
+        self.input_connections = [
+            each.registerCallback(self.add, queue, index)
+            for index, (each, queue) in enumerate(zip(fs, self.queues, strict=True))
+        ]
+
+    def add(self, msg: Any, my_queue: Queue, my_queue_index: int | None = None) -> None:
+        """A message has come out of one of the filters."""
+        with self.lock:
+            self._keep(msg, Time.from_msg(msg.header.stamp), my_queue)
+            for stamp in sorted(set.intersection(*map(set, self.queues))):
+                self._hand_out([stamp] * len(self.queues))
+
+    def _keep(self, msg: Any, stamp: Time, queue: Queue) -> None:
+        queue[stamp.nanoseconds] = msg
+        while len(queue) > self.queue_size:
+            del queue[min(queue)]
+
+    def _hand_out(self, stamps: Sequence[int]) -> None:
+        """Call back with the messages of these stamps, one of each queue, which are used up by it."""
+        self.signalMessage(*(queue[stamp] for queue, stamp in zip(self.queues, stamps, strict=True)))
+        for queue, stamp in zip(self.queues, stamps, strict=True):
+            del queue[stamp]
+
+
+class ApproximateTimeSynchronizer(TimeSynchronizer):
+    """The same for messages whose stamps lie less than `slop` seconds apart.
+
+    Args:
+        allow_headerless: whether messages without header are taken, with the time at which they come.
+        sync_arrival_time: whether that time counts for all messages (newer releases).
+    """
+
+    def __init__(
+        self,
+        fs: Sequence[SimpleFilter],
+        queue_size: int,
+        slop: float,
+        allow_headerless: bool = False,
+        sync_arrival_time: bool = False,
+    ) -> None:
+        super().__init__(fs, queue_size)
+        self.slop = Duration(seconds=slop)
+        self.allow_headerless = allow_headerless
+        self.sync_arrival_time = sync_arrival_time
+
+    def add(self, msg: Any, my_queue: Queue, my_queue_index: int | None = None) -> None:
+        """A message has come out of one of the filters."""
+        stamp = self._stamp(msg)
+        if stamp is None:
+            return
+        with self.lock:
+            self._keep(msg, stamp, my_queue)
+            for stamps in product(*self._candidates(stamp.nanoseconds, my_queue_index)):
+                if self._fit(stamps):
+                    self._hand_out(stamps)
+                    return
+
+    def _stamp(self, msg: Any) -> Time | None:
+        if self.sync_arrival_time:
+            return ROSClock().now()
+        return stamp_of(msg, self.allow_headerless, "message_filters_approx")
+
+    def _candidates(self, mine: int, my_index: int | None) -> list[list[int]]:
+        """For each queue the stamps that are near enough to the new one, the nearest first."""
+        slop = self.slop.nanoseconds
+        return [
+            [mine]
+            if index == my_index
+            else sorted((each for each in queue if abs(each - mine) <= slop), key=lambda each: abs(each - mine))
+            for index, queue in enumerate(self.queues)
+        ]
+
+    def _fit(self, stamps: Sequence[int]) -> bool:
+        apart = max(stamps) - min(stamps)
+        present = all(stamp in queue for stamp, queue in zip(stamps, self.queues, strict=True))
+        return apart < self.slop.nanoseconds and present

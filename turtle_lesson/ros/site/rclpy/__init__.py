@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from turtle_lesson.ros.world import current_process
+from turtle_lesson.ros.runtime.world import current_process
 
 from ._blocking import drives_the_simulation, in_a_plain_cell, spin_live
-from ._missing import explain_missing
+from ._hints import explain_missing
 from .context import Context
 from .qos import qos_profile_rosout_default
 from .signals import SignalHandlerOptions, install_signal_handlers, uninstall_signal_handlers

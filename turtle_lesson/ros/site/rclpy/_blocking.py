@@ -2,14 +2,24 @@
 
 from __future__ import annotations
 
+import asyncio
 import functools
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from turtle_lesson.ros.core import NANOSECONDS, driving, running_strand
-from turtle_lesson.ros.core.driving import Call
-from turtle_lesson.ros.core.virtual_time import real_monotonic, real_sleep
-from turtle_lesson.ros.world import current_world
+from turtle_lesson.ros.runtime.world import current_world
+from turtle_lesson.ros.sim import run_blocking
+from turtle_lesson.ros.sim.run_blocking import Call
+from turtle_lesson.ros.sim.simulation import NANOSECONDS
+from turtle_lesson.ros.sim.strand import running_strand
+from turtle_lesson.ros.stdlib.clocks import real_monotonic, real_sleep
+
+if TYPE_CHECKING:
+    from .task import Future
+
+
+# -- blocking -----------------------------------------------------------------------------------------------------
+# Blocking calls work everywhere: in a simulated process they wait, in a plain notebook cell they run the simulation.
 
 T = TypeVar("T")
 LIVE_STEP = 0.02
@@ -37,7 +47,7 @@ def drives_the_simulation(function: Callable[..., T]) -> Callable[..., T]:
 def drive(function: Callable[..., T], *arguments: Any, **keywords: Any) -> T:
     """Run the simulation until `function(*arguments, **keywords)`, as part of the notebook's process, is done."""
     world = current_world()
-    return driving.drive(world.sim, world.notebook, function, *arguments, **keywords)
+    return run_blocking.drive(world.sim, world.notebook, function, *arguments, **keywords)
 
 
 def spin_live(function: Callable[[], None]) -> None:
@@ -62,3 +72,40 @@ def spin_live(function: Callable[[], None]) -> None:
         simulation.driven = None
     if call.error is not None:
         raise call.error
+
+
+# -- asyncio ------------------------------------------------------------------------------------------------------
+# Futures of rclpy's in asyncio's coroutines: a program may await them there, and call `rclpy.spin_once` beside that.
+# The real ones are asked in every round of the loop whether they are done; those here tell the loop.
+
+FOR_ALL = object()
+"""Stands for a future that is cancelled for good, not only for one of asyncio's coroutines."""
+
+
+def refuse_in_a_cell() -> None:
+    """Raise RuntimeError in a coroutine of the notebook's own loop: while that one waits, no robot time passes."""
+    if running_strand() is None and asyncio._get_running_loop() is not None:
+        raise RuntimeError(
+            "a future of rclpy's cannot be awaited in a cell: no robot time would pass meanwhile. Write "
+            "rclpy.spin_until_future_complete(node, future), then future.result()."
+        )
+
+
+def called_by_its_loop(callback: Callable[..., Any], context: Any) -> Callable[[Future], None]:
+    """A done callback of asyncio's, to be called by the loop that runs now."""
+    loop = asyncio.get_running_loop()
+
+    def call(future: Future) -> None:
+        loop.call_soon_threadsafe(callback, future, context=context)
+
+    call._at_once = call._of_asyncio = True  # type: ignore[attr-defined]
+    return call
+
+
+def let_asyncio_go_on(future: Future) -> bool:
+    """Wake the coroutines of asyncio's that await a future: one of them is cancelled, the others wait on."""
+    callbacks = [each for each in future._callbacks if getattr(each, "_of_asyncio", False)]
+    for callback in callbacks:
+        future._callbacks.remove(callback)
+        callback(future)
+    return False

@@ -13,19 +13,19 @@ from dataclasses import dataclass
 from types import FrameType
 from typing import TYPE_CHECKING, Any
 
-from turtle_lesson.ros.core import running_strand
-from turtle_lesson.ros.core.stdlib.hopeless_words import hints
+from turtle_lesson.ros.sim.process import Process
+from turtle_lesson.ros.sim.strand import running_strand
+from turtle_lesson.ros.stdlib.deadlock import hints
 
 from ._entity import CLIENT, WAITABLE
-from ._mistakes import did_you_mean
-from ._notebook import is_notebook
+from ._hints import did_you_mean
 
 if TYPE_CHECKING:
-    from turtle_lesson.ros.core import Strand
-    from turtle_lesson.ros.graph import ServerEnd
+    from turtle_lesson.ros.rmw.service import ServerEnd
+    from turtle_lesson.ros.sim.strand import Strand
 
-    from ._executor import Executor
     from .client import Client
+    from .executors import Executor
     from .task import Future, Task
 
 
@@ -240,3 +240,12 @@ def _may_act(entity: Any, taken: Callable[[Any], bool]) -> bool:
     if entity._kind in (CLIENT, WAITABLE):
         return bool(entity._waiting)
     return not (getattr(entity.callback, "__module__", None) or "").startswith("rclpy.")
+
+
+# -- notebook -----------------------------------------------------------------------------------------------------
+# The notebook is a process of its world, too, but one that no program runs in: its cells drive the simulation.
+
+
+def is_notebook(process: Process) -> bool:
+    """Whether this process is its world's notebook, whatever a program may be called."""
+    return process is process.locals["world"].notebook

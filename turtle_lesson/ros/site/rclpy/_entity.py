@@ -14,7 +14,7 @@ from .callback_groups import CallbackGroup, begin_of, end_of
 from .exceptions import refuse_destroyed, refuse_ended
 
 if TYPE_CHECKING:
-    from turtle_lesson.ros.trace import Callback
+    from turtle_lesson.ros.rmw.trace import Callback
 
     from .executors import Executor
     from .node import Node

@@ -11,13 +11,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from turtle_lesson.ros.core import Strand
 from turtle_lesson.ros.distro import TASKS_IN_ORDER
-from turtle_lesson.ros.world import current_process, current_world
+from turtle_lesson.ros.runtime.world import current_process, current_world
+from turtle_lesson.ros.sim.strand import Strand
 
 from ._entity import NO_TURN, SERVICE, WAITABLE, Entity
 from ._executor_errors import ExternalShutdownException, ShutdownException
-from ._mistakes import explain_call, no_node
+from ._hints import explain_call, no_node
 from ._tracing import begin_task, note_end, trace_entity
 from .context import Context
 from .exceptions import not_valid, refuse_destroyed

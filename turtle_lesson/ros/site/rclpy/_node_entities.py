@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from . import type_support
-from ._missing import refuse_unbuilt
+from ._hints import refuse_unbuilt
 from ._node_graph import NodeGraph
 from .callback_groups import CallbackGroup, ReentrantCallbackGroup
 from .client import Client
@@ -20,7 +20,7 @@ from .subscription import Subscription
 from .timer import Rate, Timer, period_ns
 
 if TYPE_CHECKING:
-    from turtle_lesson.ros.core import Simulation
+    from turtle_lesson.ros.sim.simulation import Simulation
 
     from ._entity import Entity
     from .clock import Clock, ROSClock

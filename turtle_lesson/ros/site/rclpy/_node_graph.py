@@ -5,10 +5,13 @@ from __future__ import annotations
 import zlib
 from typing import TYPE_CHECKING, Any
 
-from turtle_lesson.ros.core import NANOSECONDS
-from turtle_lesson.ros.core.stdlib.looking import looked_in_vain
-from turtle_lesson.ros.graph import Graph, NodeEntry, Reader, Topic, Writer
-from turtle_lesson.ros.graph.names import remap
+from turtle_lesson.ros.rmw.graph import Graph, NodeEntry
+from turtle_lesson.ros.rmw.names import remap
+from turtle_lesson.ros.rmw.reader import Reader
+from turtle_lesson.ros.rmw.topic import Topic
+from turtle_lesson.ros.rmw.writer import Writer
+from turtle_lesson.ros.sim.simulation import NANOSECONDS
+from turtle_lesson.ros.stdlib.polling import looked_in_vain
 
 from ._blocking import drives_the_simulation
 from .exceptions import NameValidationException, NodeNameNonExistentError, RCLError
@@ -18,7 +21,7 @@ from .validate_full_topic_name import validate_full_topic_name
 from .validate_topic_name import validate_topic_name
 
 if TYPE_CHECKING:
-    from turtle_lesson.ros.graph.names import Remap
+    from turtle_lesson.ros.rmw.names import Remap
 
 LOOK_AGAIN = 100_000_000
 """How often, in ns, `wait_for_node` looks."""

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
-from typing import Any
+from functools import cache
+from typing import Any, ClassVar
 
-from turtle_lesson.ros.graph.names import node_name_flaw
-
-from ._yaml_values import YamlValueError, line_of, tree, value_of
+from turtle_lesson.ros.rmw.names import node_name_flaw
 
 KEY = "ros__parameters"
 
@@ -17,7 +17,7 @@ Entry = tuple[str, str, Any]
 
 def read_parameter_file(path: str) -> list[Entry]:
     """The values in a file, in its order; names of nested parameters are joined by dots. Raises YamlValueError."""
-    from turtle_lesson.ros.bounded_yaml import LONGEST
+    from turtle_lesson.ros.runtime.files import LONGEST
 
     try:
         with open(path, encoding="utf-8") as file:
@@ -81,3 +81,143 @@ def _check(node: str, line: int) -> None:
         flaw = None if part in ("*", "**") else node_name_flaw(part)
         if flaw is not None:
             raise YamlValueError(f"{flaw.reason} (it is '{node}', before line {line})")
+
+
+# -- yaml values --------------------------------------------------------------------------------------------------
+# What a word in YAML means as a parameter's value. ROS's rules (rcl_yaml_param_parser's parse.c), not those of YAML.
+# So `0x10` and `010` are numbers, `y` is true, `1_000` and `12:30` are texts, and so are dates.
+
+TRUE = frozenset(["Y", "y", "yes", "Yes", "YES", "true", "True", "TRUE", "on", "On", "ON"])
+FALSE = frozenset(["N", "n", "no", "No", "NO", "false", "False", "FALSE", "off", "Off", "OFF"])
+
+WHOLE = re.compile(r"[-+]?(0[xX][0-9a-fA-F]+|0[0-7]*|[1-9][0-9]*)")
+DECIMAL = re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?")
+HEXADECIMAL = re.compile(r"[-+]?0[xX]([0-9a-fA-F]+\.?[0-9a-fA-F]*|\.[0-9a-fA-F]+)([pP][-+]?[0-9]+)?")
+SPECIAL = re.compile(r"[-+]?\.?(inf|Inf|INF)|\.?(nan|NaN|NAN)|[-+]?(infinity|Infinity|nan)")
+
+TEXT = "tag:yaml.org,2002:str"
+"""The tag of what is marked as text: `!!str 1`."""
+
+INT64 = range(-(2**63), 2**63)
+
+NAMES: dict[type, str] = {bool: "bool", int: "integer", float: "double", str: "string"}
+
+
+class YamlValueError(ValueError):
+    """A YAML text is no parameter value; the text is ROS's, with advice."""
+
+
+def scalar(text: str) -> Any:
+    """The value of an unquoted word."""
+    if text in TRUE or text in FALSE:
+        return text in TRUE
+    if WHOLE.fullmatch(text) and (number := _whole(text)) in INT64:
+        return number
+    if SPECIAL.fullmatch(text):
+        return float(text.replace(".", ""))
+    value = None
+    if DECIMAL.fullmatch(text):
+        value = float(text)
+    elif HEXADECIMAL.fullmatch(text):
+        value = _hexadecimal(text)
+    in_range = (
+        value is not None and abs(value) != float("inf") and (value != 0 or not re.search(r"[1-9]", _digits(text)))
+    )
+    return value if in_range else text
+
+
+def _whole(text: str) -> int:
+    digits = text.lstrip("+-")
+    base = 16 if digits[:2] in ("0x", "0X") else 8 if digits.startswith("0") else 10
+    return int(digits, base) * (-1 if text.startswith("-") else 1)
+
+
+def _hexadecimal(text: str) -> float:
+    try:
+        return float.fromhex(text)
+    except OverflowError:
+        return float("inf")
+
+
+def _digits(text: str) -> str:
+    return re.split(r"[eEpP]", text)[0]
+
+
+def value_of(node: Any) -> Any:
+    """The value of a node of YAML's tree; of an empty list it is None, as in ROS. Raises YamlValueError."""
+    import yaml
+
+    if isinstance(node, yaml.ScalarNode):
+        return _scalar_of(node)
+    if isinstance(node, yaml.SequenceNode):
+        return _sequence_of(node) or None
+    raise YamlValueError(f"Unknown YAML event at line {line_of(node)}: a value, or a list of values, is expected here")
+
+
+def _scalar_of(node: Any) -> Any:
+    if node.style in ("'", '"') or node.tag == TEXT:
+        return node.value
+    if not node.value:
+        raise YamlValueError(f'No value at line {line_of(node)}; an empty text is written ""')
+    return scalar(node.value)
+
+
+def _sequence_of(node: Any) -> list[Any]:
+    import yaml
+
+    for item in node.value:
+        if not isinstance(item, yaml.ScalarNode):
+            raise YamlValueError(
+                f"Unknown YAML event at line {line_of(item)}: a parameter can be a list of plain values, not of lists or maps"
+            )
+    values = [_scalar_of(item) for item in node.value]
+    for item, value in zip(node.value, values, strict=True):
+        if type(value) is not type(values[0]):
+            advice = (
+                "; write 1.0 for a whole number among others" if {type(value), type(values[0])} == {int, float} else ""
+            )
+            raise YamlValueError(
+                f"Sequence should be of same type. Value type '{NAMES[type(value)]}' do not belong at line_num "
+                f"{line_of(item)}{advice}"
+            )
+    return values
+
+
+def line_of(node: Any) -> int:
+    """The line of a node of YAML's tree, counted from 1."""
+    return node.start_mark.line + 1
+
+
+@cache
+def _loader() -> Any:
+    """A reader of YAML that leaves it to us what an unmarked word means."""
+    from turtle_lesson.ros.runtime.files import BoundedLoader
+
+    class Loader(BoundedLoader):
+        yaml_implicit_resolvers: ClassVar[dict[str, Any]] = {}
+        DEFAULT_SCALAR_TAG = "unmarked"
+
+    return Loader
+
+
+def tree(text: str) -> Any:
+    """The tree of a YAML text, None of an empty one. Raises YamlValueError for what is no YAML, or has aliases."""
+    import yaml
+
+    from turtle_lesson.ros.runtime.files import DEEPEST
+
+    line = depth = 0
+    try:
+        for event in yaml.parse(text, _loader()):
+            line = event.start_mark.line + 1
+            depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
+            if depth > DEEPEST:
+                break  # composing says so
+            if isinstance(event, yaml.AliasEvent):
+                raise YamlValueError(f"Will not support aliasing at line {line}: write the value once more")
+        return yaml.compose(text, _loader())
+    except (yaml.YAMLError, ValueError, RecursionError) as error:
+        if isinstance(error, YamlValueError):
+            raise
+        problem = getattr(error, "problem", None) or str(error).splitlines()[0]
+        raise YamlValueError(f"Error parsing a event near line {line}: {problem}") from None

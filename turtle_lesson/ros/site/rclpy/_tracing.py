@@ -10,15 +10,14 @@ from collections import deque
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from turtle_lesson.ros.trace import Callback, Trace
-from turtle_lesson.ros.trace.trace import PLUMBING
+from turtle_lesson.ros.rmw.trace import PLUMBING, Callback, Trace
 
 from ._entity import SERVICE, SUBSCRIPTION, TIMER
 from .time_source import TimeSource
 from .timer import Rate
 
 if TYPE_CHECKING:
-    from turtle_lesson.ros.core import Simulation
+    from turtle_lesson.ros.sim.simulation import Simulation
 
     from .node import Node
     from .task import Task

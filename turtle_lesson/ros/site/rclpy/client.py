@@ -5,24 +5,25 @@ from __future__ import annotations
 from types import GenericAlias
 from typing import TYPE_CHECKING, Any
 
-from turtle_lesson.ros.core import NANOSECONDS, NeverWakes, running_strand
-from turtle_lesson.ros.core.stdlib.hopeless import wait_in_vain
-from turtle_lesson.ros.core.stdlib.looking import looked_in_vain
-from turtle_lesson.ros.graph import ClientEnd
-from turtle_lesson.ros.interfaces import checks
+from turtle_lesson.ros.idl import checks
+from turtle_lesson.ros.rmw.service import ClientEnd
+from turtle_lesson.ros.sim.errors import NeverWakes
+from turtle_lesson.ros.sim.simulation import NANOSECONDS
+from turtle_lesson.ros.sim.strand import running_strand
+from turtle_lesson.ros.stdlib.deadlock import wait_in_vain
+from turtle_lesson.ros.stdlib.polling import looked_in_vain
 
 from ._blocking import drives_the_simulation
-from ._borrowed import borrowed
-from ._deadlock import Words, why_never_answered
+from ._deadlock import Words, is_notebook, why_never_answered
 from ._entity import CLIENT, Entity
-from ._mistakes import shown
-from ._notebook import is_notebook
+from ._hints import shown
+from ._reexports import borrowed
 from .callback_groups import CallbackGroup
 from .qos import QoSProfile
 from .task import Future, at_once
 
 if TYPE_CHECKING:
-    from turtle_lesson.ros.core import Strand
+    from turtle_lesson.ros.sim.strand import Strand
 
     from .context import Context
     from .node import Node

@@ -7,15 +7,14 @@ import weakref
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from turtle_lesson.ros.graph.names import namespace_flaw
-from turtle_lesson.ros.world import current_process
+from turtle_lesson.ros.rmw.names import namespace_flaw
+from turtle_lesson.ros.runtime.world import current_process
 
-from ._arguments import ArgumentError, Arguments, parse_arguments, tell_obsolete
 from ._entity import Handle
+from ._ros_args import ArgumentError, Arguments, parse_arguments, tell_obsolete
 from .exceptions import RCLError
-from .impl._console import is_colorized, wanted_format
 from .impl.logging_severity import LoggingSeverity
-from .impl.rcutils_logger import RcutilsLogger
+from .impl.rcutils_logger import RcutilsLogger, is_colorized, wanted_format
 from .signals import contexts_of
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from turtle_lesson.ros.distro import DURATION_ARITHMETIC, TIMES_EQUAL_NO_OTHER_THING
-from turtle_lesson.ros.world import current_world
+from turtle_lesson.ros.runtime.world import current_world
 
 from .constants import S_TO_NS
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from turtle_lesson.ros.core import WorldClosed
-from turtle_lesson.ros.graph import names
+from turtle_lesson.ros.rmw import names
+from turtle_lesson.ros.sim.errors import WorldClosed
 
 from ._rclpy_pybind11 import (
     InvalidHandle,
@@ -17,7 +17,7 @@ from ._rclpy_pybind11 import (
 )
 
 if TYPE_CHECKING:
-    from turtle_lesson.ros.core import Simulation
+    from turtle_lesson.ros.sim.simulation import Simulation
 
 
 __all__ = [

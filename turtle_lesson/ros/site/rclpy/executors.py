@@ -3,11 +3,25 @@
 from __future__ import annotations
 
 import inspect
+import warnings
 from collections.abc import Callable
-from typing import Any
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any
 
-from ._borrowed import borrowed
-from ._executor import Executor
+from greenlet import GreenletExit, getcurrent
+
+from turtle_lesson.ros.distro import EXECUTOR_AS_CONTEXT, SHUTDOWN_WAITS_FOR_THREADS
+from turtle_lesson.ros.runtime.world import current_world
+from turtle_lesson.ros.sim.errors import NeverWakes, print_error
+from turtle_lesson.ros.sim.simulation import NANOSECONDS
+from turtle_lesson.ros.sim.strand import Strand, running_strand
+from turtle_lesson.ros.stdlib.deadlock import IDLE, look_after, wait_in_vain
+from turtle_lesson.ros.stdlib.pools import number_of_pool
+
+from ._blocking import drive, drives_the_simulation, in_a_plain_cell, spin_live
+from ._deadlock import executor_of_worker, is_notebook, know_worker, others_may_act, why_never_done
+from ._entity import Entity
+from ._executor_base import Condition, ExecutorBase, Job
 from ._executor_errors import (
     ConditionReachedException,
     ExternalShutdownException,
@@ -15,12 +29,19 @@ from ._executor_errors import (
     TimeoutException,
     TimeoutObject,
 )
-from ._multi_threaded import MultiThreadedExecutor
+from ._reexports import borrowed
+from .context import Context
+from .task import Future, Task, at_once
+
+if TYPE_CHECKING:
+    from .node import Node
 
 __all__ = [
+    "Condition",
     "ConditionReachedException",
     "Executor",
     "ExternalShutdownException",
+    "Job",
     "MultiThreadedExecutor",
     "ShutdownException",
     "SingleThreadedExecutor",
@@ -28,6 +49,215 @@ __all__ = [
     "TimeoutObject",
     "await_or_execute",
 ]
+
+
+# -- executor -----------------------------------------------------------------------------------------------------
+# Executors: they wait until callbacks are ready, and run them. How they choose is in `_executor_base.py`.
+
+
+class Executor(ExecutorBase):
+    """Base class: waits, chooses and runs. Subclasses may override `spin_once`, which `spin` calls."""
+
+    __module__ = "rclpy.executors"
+
+    def __init_subclass__(cls, **keywords: Any) -> None:
+        """Let an executor of a program's own be spun from a plain notebook cell, too."""
+        super().__init_subclass__(**keywords)
+        for name in ("spin_once", "spin_once_until_future_complete"):
+            if name in vars(cls):
+                setattr(cls, name, drives_the_simulation(vars(cls)[name]))
+
+    def spin(self) -> None:
+        """Run callbacks until shutdown. From a plain notebook cell: live, until the cell is interrupted."""
+        if in_a_plain_cell():
+            spin_live(self._spin)
+        else:
+            self._spin()
+
+    def _spin(self) -> None:
+        strand = running_strand()
+        assert strand is not None
+        self._spins_to_the_end.append(strand)
+        self._process.locals["rclpy.spinning"] = [*self._process.locals.get("rclpy.spinning", ()), strand]
+        strand.may_act, before = self._may_run_anything, strand.may_act
+        try:
+            if type(self).spin_once is Executor.spin_once and type(self)._execute is Executor._execute:
+                self._spin_fast(strand)
+            else:
+                while self._context.ok() and not self._is_shutdown:
+                    self.spin_once()
+        finally:
+            strand.may_act = before
+            self._spins_to_the_end.remove(strand)
+            self._process.locals["rclpy.spinning"].remove(strand)
+
+    def _spin_fast(self, strand: Strand) -> None:
+        """What a loop over `spin_once` does, written out: half of what the simulation costs is spent here.
+
+        The common case is that one callback became ready while the strand was waiting; it is run without a batch.
+        """
+        simulation, context, signalled, execute = self._simulation, self._context, self._signalled, self._execute
+        self._spinning.append(strand)
+        self._begin_waiting(strand)
+        try:
+            while not context.ended and not self._is_shutdown:
+                if len(signalled) == 1 and not self._batch and not self._resumed and not self._polled:
+                    entity = signalled.pop()
+                    entity._listed_in = None
+                    if entity._executor is self and entity._has_work():
+                        if entity._begin(entity):
+                            execute(entity)
+                        else:
+                            self._held_up.append(entity)
+                elif signalled or self._batch or self._resumed or (self._polled and not self._has_polled):
+                    try:
+                        job = self._next(strand, None, None)
+                    except ShutdownException:
+                        return
+                    execute(job)
+                else:
+                    simulation.park(strand)
+                    if context.ended and not self._is_shutdown:
+                        raise ExternalShutdownException
+        finally:
+            self._end_waiting(strand)
+            self._spinning.remove(strand)
+            self._let_another_go_on()
+
+    def spin_once(self, timeout_sec: float | None = None) -> None:
+        """Run one callback, waiting at most `timeout_sec` (s; None waits forever) for one to become ready.
+
+        An executor that is shut down runs none, and says nothing.
+        """
+        strand = getcurrent()
+        if type(strand) is Strand:
+            self._spin_once(strand, None if timeout_sec is None else self._deadline(timeout_sec), None)
+        else:
+            drive(self.spin_once, timeout_sec)
+
+    @drives_the_simulation
+    def spin_until_future_complete(self, future: Future, timeout_sec: float | None = None) -> None:
+        """Run callbacks until the future is done, or the timeout (s) is over."""
+        strand = running_strand()
+        assert strand is not None
+        strand.activity = "spin_until_future_complete"
+        self._watch(future)
+        deadline = self._deadline(timeout_sec)
+        if deadline is None and (problem := why_never_done(future, self, strand)):
+            raise NeverWakes(problem)
+        while self._context.ok() and not future._is_done() and not future.cancelled() and not self._is_shutdown:
+            if deadline is not None and self._simulation.now >= deadline:
+                return
+            left = None if deadline is None else (deadline - self._simulation.now) / NANOSECONDS
+            self.spin_once_until_future_complete(future, left)
+
+    @drives_the_simulation
+    def spin_once_until_future_complete(self, future: Future, timeout_sec: float | TimeoutObject | None = None) -> None:
+        """Run one callback, unless the future is done before one becomes ready."""
+        self._watch(future)
+        strand = running_strand()
+        assert strand is not None
+        self._spin_once(strand, self._deadline(timeout_sec), future._is_done)
+
+    def _watch(self, future: Future) -> None:
+        """Look again when the future is done. It is asked for once, however often it is spun for."""
+        if self._on_done not in future._callbacks:
+            future.add_done_callback(self._on_done)
+
+    @at_once
+    def _on_done(self, _: Future) -> None:
+        self.wake()
+
+    def _spin_once(self, strand: Strand, deadline: int | None, condition: Condition) -> None:
+        self._spinning.append(strand)
+        try:
+            try:
+                job = self._next(strand, deadline, condition)
+            except ShutdownException:
+                return
+            if job is not None:
+                self._execute(job)
+        finally:
+            self._spinning.remove(strand)
+            self._let_another_go_on()
+
+    def _let_another_go_on(self) -> None:
+        """What this strand leaves is taken by another one that spins the same executor, if there is one."""
+        if self._waiter is not None and (self._batch or self._signalled or self._resumed):
+            self._simulation.wake(self._waiter)
+
+    def wait_for_ready_callbacks(
+        self,
+        timeout_sec: float | TimeoutObject | None = None,
+        nodes: list[Node] | None = None,
+        condition: Callable[[], bool] = lambda: False,
+    ) -> tuple[Task, Entity | None, Node | None]:
+        """What an executor of one's own builds on: the next ready callback as a task to be called, with its entity.
+
+        Of `nodes`, if given, or of all nodes. Raises TimeoutException, ConditionReachedException, ShutdownException or
+        ExternalShutdownException.
+        """
+        strand = running_strand()
+        assert strand is not None
+        deadline = self._deadline(timeout_sec)
+        others: list[Entity] = []
+        try:
+            job = self._next(strand, deadline, condition)
+            while job is not None and nodes is not None and job._node is not None and job._node not in nodes:
+                job.callback_group.ending_execution(job)
+                others.append(job)
+                job = self._next(strand, deadline, condition)
+        finally:
+            for entity in others:
+                entity._signal()
+        if job is None:
+            raise ConditionReachedException if condition() else TimeoutException
+        if isinstance(job, Task):
+            return job, job._entity, job._node
+        return self._as_task(job), job, job._node
+
+    def can_execute(self, entity: Entity) -> bool:
+        """Whether an entity's callback group lets its callback run now."""
+        return entity.callback_group.can_execute(entity)
+
+    def _deadline(self, timeout_sec: float | TimeoutObject | None) -> int | None:
+        if isinstance(timeout_sec, TimeoutObject):
+            timeout_sec = timeout_sec.timeout
+        if timeout_sec is None or timeout_sec < 0:
+            return None
+        return self._simulation.now + int(timeout_sec * NANOSECONDS)
+
+    def _spun_by_another(self, strand: Strand) -> bool:
+        """Whether some other strand than this one is there, or may come, to take what arrives."""
+        if any(spinner is not strand for spinner in self._spinning):
+            return True
+        return strand not in self._spins_to_the_end and others_may_act(strand)
+
+    def _may_run_anything(self) -> bool:
+        """Whether there is a callback that could be run, or whether all are held up by callbacks that wait."""
+        if self._batch or self._resumed or self._polled:
+            return True
+        entities = [entity for node in self._nodes for entity in node._ros_entities()]
+        return not entities or any(entity.callback_group.can_execute(entity) for entity in entities)
+
+    def _is_worker(self, strand: Strand) -> bool:
+        """Whether this strand is a thread of this executor, which takes nothing while it waits."""
+        return False
+
+    def shutdown(self, timeout_sec: float | None = None) -> bool:
+        """Stop: no more callbacks are run."""
+        self._is_shutdown = True
+        for node in list(self._nodes):
+            self.remove_node(node)
+        self.wake()
+        return True
+
+    def __enter__(self) -> Executor:
+        current_world().release.note_use(EXECUTOR_AS_CONTEXT)
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.shutdown()
 
 
 async def await_or_execute(callback: Callable[..., Any], *args: Any) -> Any:
@@ -40,3 +270,148 @@ class SingleThreadedExecutor(Executor):
 
 
 __getattr__ = borrowed(__name__)
+
+
+# -- multi threaded -----------------------------------------------------------------------------------------------
+# The executor with several threads, each of which is a strand.
+
+
+class MultiThreadedExecutor(Executor):
+    """Runs callbacks side by side in up to `num_threads` threads (4 unless told), as their groups allow.
+
+    The threads are strands: while one waits or sleeps, another runs; none runs at the same instant of real time.
+    """
+
+    __module__ = "rclpy.executors"
+
+    def __init__(self, num_threads: int | None = None, *, context: Context | None = None) -> None:
+        super().__init__(context=context)
+        self._num_threads = 4 if num_threads is None else num_threads
+        if self._num_threads < 1:
+            raise ValueError(f"num_threads must be at least 1, got {num_threads}")
+        if self._num_threads == 1:
+            warnings.warn(
+                "MultiThreadedExecutor is used with a single thread.\nUse the SingleThreadedExecutor instead.",
+                stacklevel=2,
+            )
+        self._threads = 0
+        self._idle: list[_Worker] = []
+        self._failures: list[BaseException] = []
+
+    def _spun_by_another(self, strand: Strand) -> bool:
+        free = self._num_threads - sum(not answer.done() for answer in self._calls) - self._is_worker(strand)
+        return super()._spun_by_another(strand) and free > 0
+
+    def _is_worker(self, strand: Strand) -> bool:
+        """Whether this strand is one of this executor's threads."""
+        return executor_of_worker(strand) is self
+
+    def _next(self, strand: Strand, deadline: int | None, condition: Condition) -> Job | None:
+        while not self._idle and self._threads >= self._num_threads and not self._failures:
+            if condition is not None and condition():
+                return None
+            if deadline is not None and self._simulation.now >= deadline:
+                return None
+            if self._is_shutdown or not self._context.ok():
+                self._say_it_is_shut_down()
+            self._wait(strand, deadline)
+
+        def interesting() -> bool:
+            return bool(self._failures) or (condition is not None and condition())
+
+        job = None if self._failures else super()._next(strand, deadline, interesting)
+        if job is None and self._failures:
+            raise self._failures.pop(0)
+        return job
+
+    def _spin_once(self, strand: Strand, deadline: int | None, condition: Condition) -> None:
+        with suppress(
+            ExternalShutdownException
+        ):  # as the real one does (executors.py); a single-threaded one raises it
+            super()._spin_once(strand, deadline, condition)
+        if is_notebook(strand.process):
+            self._let_workers_go_on(strand)
+
+    def _let_workers_go_on(self, strand: Strand) -> None:
+        """When a cell's call returns, time stands still: what is ready must run before, or it would not be seen."""
+        simulation = self._simulation
+        simulation.at(simulation.now, simulation.wake, strand)
+        simulation.park(strand)
+        if self._failures:
+            raise self._failures.pop(0)
+
+    def _execute(self, job: Job) -> None:
+        worker = self._idle.pop() if self._idle else self._new_worker()
+        worker.give(job)
+
+    def _new_worker(self) -> _Worker:
+        if not self._threads:
+            self._pool = number_of_pool(self._process)
+            self._process.before_exit.append(self._let_callbacks_end)
+        worker = _Worker(self, f"ThreadPoolExecutor-{self._pool}_{self._threads}")
+        self._threads += 1
+        know_worker(worker._strand, self)
+        return worker
+
+    def _execute_here(self, job: Job) -> None:
+        super()._execute(job)
+
+    def shutdown(self, timeout_sec: float | None = None, *, wait_for_threads: bool = True) -> bool:
+        """Stop: no more callbacks are run. Since Kilted, wait until those that have begun are done, unless told not to."""
+        done = super().shutdown(timeout_sec)
+        strand = running_strand()
+        own = strand is not None and self._is_worker(strand)  # a callback cannot wait for its own end
+        if wait_for_threads and not own and current_world().release.has(SHUTDOWN_WAITS_FOR_THREADS):
+            drive(self._let_callbacks_end) if strand is None else self._let_callbacks_end()
+        return done
+
+    def _let_callbacks_end(self) -> None:
+        """The program ends, or the executor: callbacks that are in their middle go on to their end, as in Python's pools."""
+        strand = running_strand()
+        assert strand is not None
+        self._begin_waiting(strand)
+        try:
+            while len(self._idle) < self._threads:
+                wait_in_vain(strand, "the callbacks that still run")
+                strand.park()
+        finally:
+            strand.waits_for = None
+            self._end_waiting(strand)
+        for error in self._failures:
+            if isinstance(error, NeverWakes):
+                print_error(error)
+
+
+class _Worker:
+    """One thread of a multi-threaded executor: a strand that runs the jobs it is given."""
+
+    def __init__(self, executor: MultiThreadedExecutor, name: str) -> None:
+        self._executor = executor
+        self._strand = executor._process.add_strand(self._loop)
+        self._strand.name = name
+        self._strand.waits_for = IDLE
+        self._strand.parked = True
+        self._job: Job | None = None
+
+    def give(self, job: Job) -> None:
+        self._job = job
+        self._strand.simulation.wake(self._strand)
+
+    def _loop(self) -> None:
+        executor = self._executor
+        while True:
+            while self._job is None:
+                self._strand.waits_for = IDLE
+                if executor._waiter is None:
+                    look_after(self._strand)  # nobody spins: may those who wait still hope for anything?
+                self._strand.park()
+            self._strand.waits_for = None
+            job, self._job = self._job, None
+            try:
+                executor._execute_here(job)
+            except GreenletExit:
+                raise
+            except BaseException as error:  # also sys.exit(): it ends the program where the executor is spun
+                executor._failures.append(error)
+            executor._idle.append(self)
+            executor.wake()

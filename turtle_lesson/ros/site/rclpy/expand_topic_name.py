@@ -1,6 +1,6 @@
 """`expand_topic_name`: from the name that a node uses to the full name."""
 
-from turtle_lesson.ros.graph.names import expand, namespace_flaw, node_name_flaw, topic_name_flaw
+from turtle_lesson.ros.rmw.names import expand, namespace_flaw, node_name_flaw, topic_name_flaw
 
 
 def expand_topic_name(topic_name: str, node_name: str, node_namespace: str) -> str:

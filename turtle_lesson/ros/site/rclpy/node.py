@@ -5,19 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from turtle_lesson.ros.graph import NodeEntry
-from turtle_lesson.ros.world import current_process, current_world
+from turtle_lesson.ros.rmw.graph import NodeEntry
+from turtle_lesson.ros.runtime.world import current_process, current_world
 
-from ._arguments import ArgumentError, Arguments, parse_arguments, tell_obsolete
-from ._borrowed import borrowed
 from ._entity import Entity, Handle
-from ._mistakes import set_by_init
+from ._hints import set_by_init
 from ._node_entities import NodeEntities
+from ._node_events import NodeNews
 from ._node_graph import NodeGraph
-from ._node_news import NodeNews
-from ._node_parameter_setting import ParameterSetting
-from ._node_parameters import NodeParameters
+from ._node_parameters import NodeParameters, ParameterSetting
 from ._parameter_rules import TOLERANCE
+from ._reexports import borrowed
+from ._ros_args import ArgumentError, Arguments, parse_arguments, tell_obsolete
 from .callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup
 from .client import Client
 from .clock import Clock, ROSClock

@@ -7,7 +7,7 @@ from enum import Enum
 from types import GenericAlias
 from typing import Any
 
-from ._borrowed import borrowed
+from ._reexports import borrowed
 
 PARAMETER_SEPARATOR_STRING = "."
 
@@ -144,7 +144,7 @@ def get_parameter_value(string_value: str) -> Any:
     """
     import yaml
 
-    from turtle_lesson.ros.bounded_yaml import safe_load
+    from turtle_lesson.ros.runtime.files import safe_load
 
     try:
         value = safe_load(string_value)
@@ -180,7 +180,7 @@ def parameter_dict_from_yaml_file(
         RuntimeError: if the file has nothing for a node, or is no parameter file.
         OSError: if it cannot be read.
     """
-    from turtle_lesson.ros.bounded_yaml import LONGEST, safe_load
+    from turtle_lesson.ros.runtime.files import LONGEST, safe_load
 
     with open(parameter_file, encoding="utf-8") as file:
         content = safe_load(file.read(LONGEST + 1))

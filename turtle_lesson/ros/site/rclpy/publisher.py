@@ -6,14 +6,14 @@ from collections.abc import Callable
 from types import GenericAlias
 from typing import Any, NoReturn
 
-from turtle_lesson.ros.core.stdlib.looking import looked_in_vain
-from turtle_lesson.ros.graph import Writer
-from turtle_lesson.ros.interfaces import checks
+from turtle_lesson.ros.idl import checks
+from turtle_lesson.ros.rmw.writer import Writer
+from turtle_lesson.ros.stdlib.polling import looked_in_vain
 
 from ._blocking import drives_the_simulation
-from ._borrowed import borrowed
 from ._entity import Handle
-from ._mistakes import no_message
+from ._hints import no_message
+from ._reexports import borrowed
 from .callback_groups import CallbackGroup
 from .duration import Duration
 from .event_handler import EventHandler, PublisherEventCallbacks
@@ -97,7 +97,7 @@ class Publisher:
     def _from_bytes(self, msg: Any) -> Any:
         if not isinstance(msg, bytes):
             raise no_message(msg, self.msg_type)
-        from turtle_lesson.ros.interfaces import cdr
+        from turtle_lesson.ros.idl import cdr
 
         return cdr.deserialize(msg, self.msg_type)
 

@@ -3,22 +3,13 @@
 from __future__ import annotations
 
 import warnings
-from enum import Enum
+from collections.abc import Iterator
+from enum import Enum, IntEnum
 from typing import Any
 
-from turtle_lesson.ros.graph import Quality
+from turtle_lesson.ros.rmw.endpoint import Quality
 
-from ._mistakes import did_you_mean
-from ._qos_compatibility import QoSCompatibility, qos_check_compatible
-from ._qos_policies import (
-    DurabilityPolicy,
-    HistoryPolicy,
-    LivelinessPolicy,
-    QoSPolicyEnum,
-    QoSPolicyKind,
-    ReliabilityPolicy,
-    qos_policy_name_from_kind,
-)
+from ._hints import did_you_mean
 from .duration import Duration, Infinite
 from .exceptions import RCLError
 
@@ -49,6 +40,113 @@ __all__ = [
     "qos_profile_system_default",
     "qos_profile_unknown",
 ]
+
+
+# -- qos policies -------------------------------------------------------------------------------------------------
+# The policies of a quality of service, as enumerations. Their numbers are those of rmw's types.h.
+
+
+class QoSPolicyEnum(IntEnum):
+    """Base class: what all policies can do."""
+
+    @property
+    def short_key(self) -> str:
+        """The policy's name as the command line has it."""
+        return self.name.lower()
+
+    @classmethod
+    def short_keys(cls) -> list[str]:
+        """All names as the command line has them."""
+        return [policy.name.lower() for policy in cls]
+
+    @classmethod
+    def get_from_short_key(cls, name: str) -> int:
+        """The number of the policy of a name, in whatever case."""
+        return cls[name.upper()].value
+
+
+class _OldName:
+    """A policy's name of before Foxy: it still works, and says what to write instead."""
+
+    def __init__(self, old: str, name: str) -> None:
+        self._old, self._name = old, name
+
+    def __get__(self, owner: object, kind: Any) -> Any:
+        advice = f"Use {kind.__name__}.{self._name} instead."
+        warnings.warn(f"{kind.__name__}.{self._old} is deprecated. {advice}", stacklevel=2)
+        return kind[self._name]
+
+
+def _with_old_names(kind: Any, prefix: str) -> None:
+    for policy in list(kind):
+        old = f"RMW_QOS_POLICY_{prefix}_{policy.name}"
+        setattr(kind, old, _OldName(old, policy.name))
+
+
+class HistoryPolicy(QoSPolicyEnum):
+    """How many messages a queue keeps."""
+
+    SYSTEM_DEFAULT = 0
+    KEEP_LAST = 1
+    KEEP_ALL = 2
+    UNKNOWN = 3
+
+
+class ReliabilityPolicy(QoSPolicyEnum):
+    """Whether a lost message is sent again."""
+
+    SYSTEM_DEFAULT = 0
+    RELIABLE = 1
+    BEST_EFFORT = 2
+    UNKNOWN = 3
+
+
+class DurabilityPolicy(QoSPolicyEnum):
+    """Whether late subscriptions get earlier messages."""
+
+    SYSTEM_DEFAULT = 0
+    TRANSIENT_LOCAL = 1
+    VOLATILE = 2
+    UNKNOWN = 3
+
+
+class LivelinessPolicy(QoSPolicyEnum):
+    """How a publisher shows that it lives: its process does it, or the program itself."""
+
+    SYSTEM_DEFAULT = 0
+    AUTOMATIC = 1
+    MANUAL_BY_TOPIC = 3
+    UNKNOWN = 4
+
+
+for _kind, _prefix in (
+    (HistoryPolicy, "HISTORY"),
+    (ReliabilityPolicy, "RELIABILITY"),
+    (DurabilityPolicy, "DURABILITY"),
+    (LivelinessPolicy, "LIVELINESS"),
+):
+    _with_old_names(_kind, _prefix)
+
+
+class QoSPolicyKind(IntEnum):
+    """Which policy is meant. The numbers are those of rmw's qos_policy_kind.h."""
+
+    INVALID = 1 << 0
+    DURABILITY = 1 << 1
+    DEADLINE = 1 << 2
+    LIVELINESS = 1 << 3
+    RELIABILITY = 1 << 4
+    HISTORY = 1 << 5
+    LIFESPAN = 1 << 6
+    DEPTH = 1 << 7
+    LIVELINESS_LEASE_DURATION = 1 << 8
+    AVOID_ROS_NAMESPACE_CONVENTIONS = 1 << 9
+
+
+def qos_policy_name_from_kind(policy_kind: QoSPolicyKind | int) -> str:
+    """The name of a policy, such as `RELIABILITY`."""
+    return QoSPolicyKind(policy_kind).name
+
 
 QoSHistoryPolicy = HistoryPolicy
 QoSReliabilityPolicy = ReliabilityPolicy
@@ -264,3 +362,83 @@ class QoSPresetProfiles(Enum):
     def get_from_short_key(cls, name: str) -> QoSProfile:
         """The preset of a name."""
         return cls[name.upper()].value
+
+
+# -- qos compatibility --------------------------------------------------------------------------------------------
+# Whether a publisher and a subscription of two profiles can talk to each other, before there are any.
+# Facts: rmw_dds_common's qos.cpp, where the rules and the sentences come from.
+
+
+class QoSCompatibility(Enum):
+    """The answer. WARNING: it depends on what the middleware takes for `system default`."""
+
+    OK = 0
+    WARNING = 1
+    ERROR = 2
+
+
+def qos_check_compatible(publisher_qos: QoSProfile, subscription_qos: QoSProfile) -> tuple[QoSCompatibility, str]:
+    """Whether the two can talk to each other, and the reasons, one after the other, if they cannot or perhaps not."""
+    errors = list(_errors(publisher_qos, subscription_qos))
+    if errors:
+        return QoSCompatibility.ERROR, "".join(f"ERROR: {error};" for error in errors)
+    doubts = list(_doubts(publisher_qos, subscription_qos))
+    if doubts:
+        return QoSCompatibility.WARNING, "".join(f"WARNING: {doubt};" for doubt in doubts)
+    return QoSCompatibility.OK, ""
+
+
+def _errors(offered: QoSProfile, requested: QoSProfile) -> Iterator[str]:
+    """What certainly does not go together."""
+    wants = requested.reliability, requested.durability, requested.liveliness
+    if (offered.reliability, wants[0]) == (ReliabilityPolicy.BEST_EFFORT, ReliabilityPolicy.RELIABLE):
+        yield "Best effort publisher and reliable subscription"
+    if (offered.durability, wants[1]) == (DurabilityPolicy.VOLATILE, DurabilityPolicy.TRANSIENT_LOCAL):
+        yield "Volatile publisher and transient local subscription"
+    limits = offered.deadline.nanoseconds, requested.deadline.nanoseconds
+    if limits[1] and not limits[0]:
+        yield "Subscription has a deadline, but publisher does not"
+    if limits[1] and limits[1] < limits[0]:
+        yield "Subscription deadline is less than publisher deadline"
+    if (offered.liveliness, wants[2]) == (LivelinessPolicy.AUTOMATIC, LivelinessPolicy.MANUAL_BY_TOPIC):
+        yield "Publisher's liveliness is automatic and subscription's is manual by topic"
+    leases = offered.liveliness_lease_duration.nanoseconds, requested.liveliness_lease_duration.nanoseconds
+    if leases[1] and not leases[0]:
+        yield "Subscription has a liveliness lease duration, but publisher does not"
+    if leases[1] and leases[1] < leases[0]:
+        yield "Subscription liveliness lease duration is less than publisher"
+
+
+def _doubts(offered: QoSProfile, requested: QoSProfile) -> Iterator[str]:
+    """What may not go together, because somebody has left it open."""
+    publisher, subscription = _word(offered.reliability), _word(requested.reliability)
+    if _open(offered.reliability) and _open(requested.reliability):
+        yield f"Publisher reliability is {publisher} and subscription reliability is {subscription}"
+    elif _open(offered.reliability) and requested.reliability == ReliabilityPolicy.RELIABLE:
+        yield f"Reliable subscription, but publisher is {publisher}"
+    elif offered.reliability == ReliabilityPolicy.BEST_EFFORT and _open(requested.reliability):
+        yield f"Best effort publisher, but subscription is {subscription}"
+
+    publisher, subscription = _word(offered.durability), _word(requested.durability)
+    if _open(offered.durability) and _open(requested.durability):
+        yield f"Publisher durabilty is {publisher} and subscription durability is {subscription}"
+    elif _open(offered.durability) and requested.durability == DurabilityPolicy.TRANSIENT_LOCAL:
+        yield f"Transient local subscription, but publisher is {publisher}"
+    elif offered.durability == DurabilityPolicy.VOLATILE and _open(requested.durability):
+        yield f"Volatile publisher, but subscription is {subscription}"
+
+    publisher, subscription = _word(offered.liveliness), _word(requested.liveliness)
+    if _open(offered.liveliness) and _open(requested.liveliness):
+        yield f"Publisher liveliness is {publisher} and subscription liveliness is {subscription}"
+    elif _open(offered.liveliness) and requested.liveliness == LivelinessPolicy.MANUAL_BY_TOPIC:
+        yield f"Subscription's liveliness is manual by topic, but publisher's is {publisher}"
+    elif offered.liveliness == LivelinessPolicy.AUTOMATIC and _open(requested.liveliness):
+        yield f"Publisher's liveliness is automatic, but subscription's is {subscription}"
+
+
+def _open(policy: QoSPolicyEnum) -> bool:
+    return policy.name in {"SYSTEM_DEFAULT", "UNKNOWN"}
+
+
+def _word(policy: QoSPolicyEnum) -> str:
+    return policy.name.lower()

@@ -1,4 +1,3 @@
 """Humble's name for what is `rclpy.event_handler` since Iron. Both work, here as on a robot of those in between."""
 
 from .event_handler import *  # noqa: F403
-from .event_handler import __all__ as __all__

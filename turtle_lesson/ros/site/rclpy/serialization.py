@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from turtle_lesson.ros.interfaces import cdr, checks
+from turtle_lesson.ros.idl import cdr, checks
 
 from ._rclpy_pybind11 import RMWError
 from .type_support import check_for_type_support

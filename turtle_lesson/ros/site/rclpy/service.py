@@ -6,11 +6,11 @@ from collections.abc import Callable
 from types import GenericAlias
 from typing import Any
 
-from turtle_lesson.ros.graph import ServerEnd
-from turtle_lesson.ros.interfaces import checks
+from turtle_lesson.ros.idl import checks
+from turtle_lesson.ros.rmw.service import ServerEnd
 
-from ._borrowed import borrowed
 from ._entity import SERVICE, Entity
+from ._reexports import borrowed
 from .callback_groups import CallbackGroup
 from .qos import QoSProfile
 

@@ -10,10 +10,10 @@ import signal
 from enum import Enum
 from typing import TYPE_CHECKING, Any
 
-from turtle_lesson.ros.world import current_process
+from turtle_lesson.ros.runtime.world import current_process
 
 if TYPE_CHECKING:
-    from turtle_lesson.ros.core import Process
+    from turtle_lesson.ros.sim.process import Process
 
     from .context import Context
 

@@ -8,13 +8,13 @@ from enum import Enum
 from types import GenericAlias
 from typing import Any
 
-from turtle_lesson.ros.core import EPOCH
 from turtle_lesson.ros.distro import MESSAGE_INFO
-from turtle_lesson.ros.graph import Reader
-from turtle_lesson.ros.world import current_world
+from turtle_lesson.ros.rmw.reader import Reader
+from turtle_lesson.ros.runtime.world import current_world
+from turtle_lesson.ros.sim.simulation import EPOCH
 
-from ._borrowed import borrowed
 from ._entity import SUBSCRIPTION, Entity
+from ._reexports import borrowed
 from .callback_groups import CallbackGroup
 from .event_handler import EventHandler, SubscriptionEventCallbacks
 from .qos import QoSProfile

@@ -12,12 +12,13 @@ from enum import Enum
 from types import GenericAlias
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from turtle_lesson.ros.core import NeverWakes, running_strand
-from turtle_lesson.ros.core.stdlib.looking import looked_in_vain
+from turtle_lesson.ros.sim.errors import NeverWakes
+from turtle_lesson.ros.sim.strand import running_strand
+from turtle_lesson.ros.stdlib.polling import looked_in_vain
 
-from ._asyncio import FOR_ALL, called_by_its_loop, let_asyncio_go_on, refuse_in_a_cell
+from ._blocking import FOR_ALL, called_by_its_loop, let_asyncio_go_on, refuse_in_a_cell
 from ._deadlock import why_never_awaited
-from ._mistakes import explain_event_loop
+from ._hints import explain_event_loop
 
 if TYPE_CHECKING:
     from .executors import Executor

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from turtle_lesson.ros.core import NANOSECONDS, NeverWakes, Strand
+from turtle_lesson.ros.sim.errors import NeverWakes
+from turtle_lesson.ros.sim.simulation import NANOSECONDS
+from turtle_lesson.ros.sim.strand import Strand
 
-from ._alarm import somebody_spins
-from ._borrowed import borrowed
 from ._deadlock import keeps_taken
+from ._reexports import borrowed
+from ._wakeup import somebody_spins
 from .clock import ROSClock
 from .clock_type import ClockType
 from .parameter import Parameter

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import sys
 
-from turtle_lesson.ros.core.stdlib.looking import looked_in_vain
-from turtle_lesson.ros.world import current_process
+from turtle_lesson.ros.runtime.world import current_process
+from turtle_lesson.ros.stdlib.polling import looked_in_vain
 
-from ._arguments import tell_obsolete, without_ros_arguments
+from ._ros_args import tell_obsolete, without_ros_arguments
 from .constants import S_TO_NS
 from .context import Context
 from .signals import uninstall_signal_handlers

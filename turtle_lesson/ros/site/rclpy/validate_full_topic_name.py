@@ -1,6 +1,6 @@
 """`validate_full_topic_name`: rclpy's check of a topic's or service's full name."""
 
-from turtle_lesson.ros.graph.names import full_topic_name_flaw
+from turtle_lesson.ros.rmw.names import full_topic_name_flaw
 
 from .exceptions import InvalidServiceNameException, InvalidTopicNameException
 

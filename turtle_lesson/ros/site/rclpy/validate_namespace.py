@@ -1,6 +1,6 @@
 """`validate_namespace`: rclpy's check of a namespace."""
 
-from turtle_lesson.ros.graph.names import namespace_flaw
+from turtle_lesson.ros.rmw.names import namespace_flaw
 
 from .exceptions import InvalidNamespaceException
 

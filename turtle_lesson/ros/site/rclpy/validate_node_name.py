@@ -1,6 +1,6 @@
 """`validate_node_name`: rclpy's check of a node's name."""
 
-from turtle_lesson.ros.graph.names import node_name_flaw
+from turtle_lesson.ros.rmw.names import node_name_flaw
 
 from .exceptions import InvalidNodeNameException
 

@@ -1,6 +1,6 @@
 """`validate_topic_name`: rclpy's check of a topic's or service's name as a program gives it."""
 
-from turtle_lesson.ros.graph.names import topic_name_flaw
+from turtle_lesson.ros.rmw.names import topic_name_flaw
 
 from .exceptions import InvalidServiceNameException, InvalidTopicNameException
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from turtle_lesson.ros.core import NANOSECONDS, running_strand
+from turtle_lesson.ros.sim.simulation import NANOSECONDS
+from turtle_lesson.ros.sim.strand import running_strand
 
-from ._alarm import Alarm
 from ._blocking import drives_the_simulation
-from ._borrowed import borrowed
+from ._reexports import borrowed
+from ._wakeup import Alarm
 
 if TYPE_CHECKING:
     from .node import Node

@@ -1,6 +1,6 @@
 """The types of fields, as `SLOT_TYPES` of a message class holds them (names as in rosidl_parser/definition.py)."""
 
-from turtle_lesson.ros.interfaces.slot_types import (
+from turtle_lesson.ros.idl.message import (
     AbstractGenericString,
     AbstractNestableType,
     AbstractNestedType,

@@ -15,7 +15,7 @@ from typing import Any
 
 from rosidl_parser.definition import AbstractNestedType, NamespacedType
 
-from turtle_lesson.ros.interfaces.names import did_you_mean
+from turtle_lesson.ros.idl.names import did_you_mean
 
 from .convert import get_message_slot_types
 from .import_message import import_message_from_namespaced_type

@@ -10,13 +10,12 @@ from typing import Any
 from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
 from rclpy.time import Time
 
-from ._arguments import check_frame, nanoseconds, read_transform, say, wrong_name
+from ._arguments import check_frame, frames_as_yaml, nanoseconds, read_transform, say, wrong_name
 from ._cache import Cache, StaticCache, TimeCache, shown_time
 from ._exceptions import TransformException
 from ._rotation import canonical
 from ._walk import Transform as Pair
 from ._walk import Way, combined, frames_as_string, latest_common_time
-from ._yaml import frames_as_yaml
 
 CACHE_TIME = 10_000_000_000
 """How long (ns) transforms are kept unless told otherwise."""

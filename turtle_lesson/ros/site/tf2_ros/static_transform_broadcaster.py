@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from geometry_msgs.msg import TransformStamped
-from rclpy._mistakes import no_node
+from rclpy._hints import no_node
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
 from tf2_msgs.msg import TFMessage

@@ -5,34 +5,11 @@ Names and arguments are those of https://github.com/DLu/tf_transformations. Angl
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
-from ._angles import euler_from_matrix, euler_from_quaternion, euler_matrix, quaternion_from_euler
-from ._matrices import (
-    compose_matrix,
-    concatenate_matrices,
-    decompose_matrix,
-    identity_matrix,
-    inverse_matrix,
-    is_same_transform,
-    rotation_from_matrix,
-    rotation_matrix,
-    scale_matrix,
-    translation_from_matrix,
-    translation_matrix,
-)
-from ._quaternions import (
-    quaternion_about_axis,
-    quaternion_conjugate,
-    quaternion_from_matrix,
-    quaternion_inverse,
-    quaternion_matrix,
-    quaternion_multiply,
-    quaternion_slerp,
-    random_quaternion,
-    random_rotation_matrix,
-)
-from ._vectors import random_vector, unit_vector, vector_norm
+import numpy as np
+import numpy.typing as npt
 
 __all__ = [
     "compose_matrix",
@@ -64,6 +41,7 @@ __all__ = [
     "vector_norm",
 ]
 
+
 _OTHERS = """
     Arcball arcball_constrain_to_axis arcball_map_to_sphere arcball_nearest_axis clip_matrix orthogonalization_matrix
     projection_from_matrix projection_matrix reflection_from_matrix reflection_matrix scale_from_matrix
@@ -78,3 +56,315 @@ def __getattr__(name: str) -> Any:
             "numpy can do the same with the 4 × 4 matrix"
         )
     raise AttributeError(f"module 'tf_transformations' has no attribute {name!r}")
+
+
+# -- angles -------------------------------------------------------------------------------------------------------
+# Three angles about three axes, in 24 ways: `sxyz` is roll, pitch, yaw about fixed axes; `rzyx` about turning ones.
+# The letters name the axes in the order of the angles; `s` means axes that stay, `r` axes that are turned along.
+
+Angles = tuple[float, float, float]
+_LETTERS = "xyz"
+
+
+def _axes(axes: Any) -> tuple[bool, tuple[int, int, int]]:
+    """Whether the axes turn along, and which they are. `axes`: such as "sxyz", or the code (0, 0, 0, 0) for it."""
+    if not isinstance(axes, str):
+        first, parity, repeated, turning = axes
+        second = (first + 1 + parity) % 3
+        third = first if repeated else 3 - first - second
+        fixed = (first, second, third)
+        return bool(turning), fixed[::-1] if turning else fixed
+    numbers = tuple(_LETTERS.find(letter) for letter in axes[1:])
+    if len(axes) != 4 or axes[0] not in "sr" or -1 in numbers or numbers[1] in (numbers[0], numbers[2]):
+        raise ValueError(f"axes must be such as 'sxyz' or 'rzyx', got {axes!r}")
+    return axes[0] == "r", (numbers[0], numbers[1], numbers[2])
+
+
+def quaternion_from_euler(ai: float, aj: float, ak: float, axes: Any = "sxyz") -> Numbers:
+    """The quaternion of three angles: by default roll, pitch and yaw."""
+    turning, numbers = _axes(axes)
+    found: Numbers = (0.0, 0.0, 0.0, 1.0)
+    for angle, axis in zip((ai, aj, ak), numbers, strict=True):
+        turn = quaternion_about_axis(angle, np.identity(3)[axis])
+        found = quaternion_multiply(found, turn) if turning else quaternion_multiply(turn, found)
+    return found
+
+
+def euler_matrix(ai: float, aj: float, ak: float, axes: Any = "sxyz") -> npt.NDArray[np.float64]:
+    """The 4 × 4 matrix of three angles: by default roll, pitch and yaw."""
+    return quaternion_matrix(quaternion_from_euler(ai, aj, ak, axes))
+
+
+def euler_from_quaternion(quaternion: Any, axes: Any = "sxyz") -> Angles:
+    """The angles of a quaternion [x, y, z, w]: by default roll, pitch and yaw."""
+    return euler_from_matrix(quaternion_matrix(quaternion), axes)
+
+
+def euler_from_matrix(matrix: Any, axes: Any = "sxyz") -> Angles:
+    """The angles of a turn in a matrix. Where many would do, the one about the last fixed axis is 0."""
+    turning, numbers = _axes(axes)
+    turn = np.array(matrix, dtype=np.float64)[:3, :3]
+    # Fixed axes one after the other are the same as turning ones the other way round.
+    angles = _turning_angles(turn, numbers if turning else numbers[::-1])
+    return angles if turning else angles[::-1]
+
+
+def _turning_angles(turn: npt.NDArray[np.float64], axes: tuple[int, ...]) -> Angles:
+    a, b, c = axes
+    if a == c:
+        return _with_repeated_axis(turn, a, b)
+    sign = 1.0 if (b - a) % 3 == 1 else -1.0
+    cosine = math.hypot(turn[a, a], turn[a, b])
+    middle = math.atan2(sign * turn[a, c], cosine)
+    if cosine < EPSILON:
+        return 0.0, middle, math.atan2(sign * turn[b, a], turn[b, b])
+    first = math.atan2(-sign * turn[b, c], turn[c, c])
+    return first, middle, math.atan2(-sign * turn[a, b], turn[a, a])
+
+
+def _with_repeated_axis(turn: npt.NDArray[np.float64], a: int, b: int) -> Angles:
+    other = 3 - a - b
+    sign = 1.0 if (b - a) % 3 == 1 else -1.0
+    sine = math.hypot(turn[a, b], turn[a, other])
+    middle = math.atan2(sine, turn[a, a])
+    if sine < EPSILON:
+        return 0.0, middle, math.atan2(-sign * turn[b, other], turn[b, b])
+    first = math.atan2(turn[b, a], -sign * turn[other, a])
+    return first, middle, math.atan2(turn[a, b], sign * turn[a, other])
+
+
+# -- matrices -----------------------------------------------------------------------------------------------------
+# 4 × 4 matrices that turn, shift and scale.
+
+Matrix = npt.NDArray[np.float64]
+
+
+def identity_matrix() -> Matrix:
+    """The matrix that changes nothing."""
+    return np.identity(4)
+
+
+def translation_matrix(direction: Any) -> Matrix:
+    """The matrix that shifts by a vector."""
+    matrix = np.identity(4)
+    matrix[:3, 3] = np.asarray(direction, dtype=np.float64)[:3]
+    return matrix
+
+
+def translation_from_matrix(matrix: Any) -> Matrix:
+    """The shift in a matrix."""
+    return np.array(matrix, dtype=np.float64)[:3, 3]
+
+
+def rotation_matrix(angle: float, direction: Any, point: Any = None) -> Matrix:
+    """The matrix that turns by an angle about an axis, through a point if one is given."""
+    matrix = quaternion_matrix(quaternion_about_axis(angle, np.asarray(direction, dtype=np.float64)[:3]))
+    return matrix if point is None else _about(matrix, point)
+
+
+def _about(matrix: Matrix, point: Any) -> Matrix:
+    """The same matrix with a point that stays where it is."""
+    fixed = np.asarray(point, dtype=np.float64)[:3]
+    matrix[:3, 3] = fixed - matrix[:3, :3] @ fixed
+    return matrix
+
+
+def rotation_from_matrix(matrix: Any) -> tuple[float, Matrix, Matrix]:
+    """Angle, axis and a point of it, of a matrix that turns."""
+    array = np.array(matrix, dtype=np.float64)
+    x, y, z, w = quaternion_from_matrix(array)
+    sine = math.sqrt(x * x + y * y + z * z)
+    axis = np.array((x, y, z)) / sine if sine else np.array((1.0, 0.0, 0.0))
+    # Points that stay: (1 - R) p = t, which has a line of solutions; the nearest to the origin is taken.
+    nearest, *_ = np.linalg.lstsq(np.identity(3) - array[:3, :3], array[:3, 3], rcond=None)
+    return 2.0 * math.atan2(sine, w), axis, np.append(nearest, 1.0)
+
+
+def scale_matrix(factor: float, origin: Any = None, direction: Any = None) -> Matrix:
+    """The matrix that scales by a factor from an origin on: all ways, or along a direction alone."""
+    matrix = np.identity(4)
+    if direction is None:
+        matrix[:3, :3] *= factor
+    else:
+        along = unit_vector(np.asarray(direction, dtype=np.float64)[:3])
+        matrix[:3, :3] -= (1.0 - factor) * np.outer(along, along)
+    return matrix if origin is None else _about(matrix, origin)
+
+
+def inverse_matrix(matrix: Any) -> Matrix:
+    """The matrix that takes back what another does."""
+    return np.linalg.inv(matrix)
+
+
+def concatenate_matrices(*matrices: Any) -> Matrix:
+    """The product of matrices: the last one is applied first."""
+    product = np.identity(4)
+    for matrix in matrices:
+        product = product @ np.asarray(matrix, dtype=np.float64)
+    return product
+
+
+def is_same_transform(matrix0: Any, matrix1: Any) -> bool:
+    """Whether two matrices do the same, up to rounding."""
+    one, two = np.array(matrix0, dtype=np.float64), np.array(matrix1, dtype=np.float64)
+    return bool(np.allclose(one / one[3, 3], two / two[3, 3]))
+
+
+def compose_matrix(
+    scale: Any = None, shear: Any = None, angles: Any = None, translate: Any = None, perspective: Any = None
+) -> Matrix:
+    """The matrix that scales, shears, turns (roll, pitch, yaw) and shifts, in this order; `perspective` is left out."""
+    matrix = np.identity(4)
+    shears = (0.0, 0.0, 0.0) if shear is None else shear
+    matrix[0, 1], matrix[0, 2], matrix[1, 2] = shears
+    matrix[:3, :3] = np.diag((1.0, 1.0, 1.0) if scale is None else tuple(scale)) @ matrix[:3, :3]
+    turned = matrix if angles is None else euler_matrix(*angles) @ matrix
+    return turned if translate is None else translation_matrix(translate) @ turned
+
+
+def decompose_matrix(matrix: Any) -> tuple[Matrix, Matrix, tuple[float, float, float], Matrix, None]:
+    """Scale, shear, angles (roll, pitch, yaw), shift and perspective (None) of a matrix: `compose_matrix` undone."""
+    array = np.array(matrix, dtype=np.float64)
+    turn, upper = np.linalg.qr(array[:3, :3])
+    signs = np.where(np.diag(upper) < 0.0, -1.0, 1.0)
+    turn, upper = turn * signs, upper * signs[:, None]
+    if np.linalg.det(turn) < 0.0:
+        turn, upper = turn * (-1.0, 1.0, 1.0), upper * np.array((-1.0, 1.0, 1.0))[:, None]
+    scale = np.diag(upper).copy()
+    shear = np.array((upper[0, 1] / scale[0], upper[0, 2] / scale[0], upper[1, 2] / scale[1]))
+    return scale, shear, euler_from_matrix(turn), array[:3, 3], None
+
+
+# -- quaternions --------------------------------------------------------------------------------------------------
+# Quaternions (x, y, z, w).
+
+Numbers = tuple[float, float, float, float]
+EPSILON = float(np.finfo(float).eps) * 4.0
+
+
+def _four(quaternion: Any) -> Numbers:
+    if hasattr(quaternion, "w") and hasattr(quaternion, "x"):
+        kind = type(quaternion).__name__
+        raise TypeError(f"a quaternion is a list [x, y, z, w] here, got a {kind}: write [q.x, q.y, q.z, q.w]")
+    x, y, z, w = map(float, quaternion)
+    return x, y, z, w
+
+
+def quaternion_about_axis(angle: float, axis: Any) -> Numbers:
+    """The turn by an angle about an axis of any length."""
+    x, y, z = (float(part) for part in unit_vector(axis) * math.sin(angle / 2.0))
+    return x, y, z, math.cos(angle / 2.0)
+
+
+def quaternion_multiply(quaternion1: Any, quaternion0: Any) -> Numbers:
+    """The turn by `quaternion0`, then by `quaternion1`."""
+    ax, ay, az, aw = _four(quaternion1)
+    bx, by, bz, bw = _four(quaternion0)
+    return (
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by - ax * bz + ay * bw + az * bx,
+        aw * bz + ax * by - ay * bx + az * bw,
+        aw * bw - ax * bx - ay * by - az * bz,
+    )
+
+
+def quaternion_conjugate(quaternion: Any) -> npt.NDArray[np.float64]:
+    """With the signs of x, y and z changed: for one of length 1 the turn back."""
+    x, y, z, w = _four(quaternion)
+    return np.array((-x, -y, -z, w))
+
+
+def quaternion_inverse(quaternion: Any) -> npt.NDArray[np.float64]:
+    """The turn back."""
+    numbers = np.array(_four(quaternion))
+    return quaternion_conjugate(numbers) / np.dot(numbers, numbers)
+
+
+def quaternion_matrix(quaternion: Any) -> npt.NDArray[np.float64]:
+    """The turn as a 4 × 4 matrix; a quaternion of any length counts as if it had length 1."""
+    x, y, z, w = _four(quaternion)
+    length = x * x + y * y + z * z + w * w
+    matrix = np.identity(4)
+    if length < EPSILON:
+        return matrix
+    vector = np.array((x, y, z))
+    cross = np.array(((0.0, -z, y), (z, 0.0, -x), (-y, x, 0.0)))
+    matrix[:3, :3] += 2.0 / length * (w * cross + np.outer(vector, vector) - np.dot(vector, vector) * np.identity(3))
+    return matrix
+
+
+def quaternion_from_matrix(matrix: Any) -> Numbers:
+    """The turn in a matrix, with w not negative."""
+    turn = np.array(matrix, dtype=np.float64)[:3, :3]
+    turn = turn / np.linalg.norm(turn, axis=0)
+    trace = float(np.trace(turn))
+    diagonal = (*np.diag(turn), trace)
+    largest = int(np.argmax(diagonal))
+    if largest == 3:
+        parts = [turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1], 1.0 + trace]
+    else:
+        i, j, k = largest, (largest + 1) % 3, (largest + 2) % 3
+        parts = [0.0, 0.0, 0.0, turn[k, j] - turn[j, k]]
+        parts[i] = 1.0 + turn[i, i] - turn[j, j] - turn[k, k]
+        parts[j], parts[k] = turn[j, i] + turn[i, j], turn[k, i] + turn[i, k]
+    unit = unit_vector(parts)
+    x, y, z, w = (float(part) for part in (-unit if unit[3] < 0.0 else unit))
+    return x, y, z, w
+
+
+def quaternion_slerp(quat0: Any, quat1: Any, fraction: float, spin: int = 0, shortestpath: bool = True) -> Any:
+    """The turn at a fraction of the way between two, at an even speed, with `spin` half turns more."""
+    start, end = unit_vector(_four(quat0)), unit_vector(_four(quat1))
+    if fraction in (0.0, 1.0):
+        return end if fraction else start
+    likeness = float(np.dot(start, end))
+    if abs(abs(likeness) - 1.0) < EPSILON:
+        return start
+    if shortestpath and likeness < 0.0:
+        likeness, end = -likeness, -end
+    angle = math.acos(likeness) + spin * math.pi
+    if abs(angle) < EPSILON:
+        return start
+    return (math.sin((1.0 - fraction) * angle) * start + math.sin(fraction * angle) * end) / math.sin(angle)
+
+
+def random_quaternion(rand: Any = None) -> npt.NDArray[np.float64]:
+    """A random turn, all equally likely; `rand`: three random numbers from 0 to 1."""
+    a, b, c = np.random.random(3) if rand is None else rand
+    one, two = 2.0 * math.pi * b, 2.0 * math.pi * c
+    near, far = math.sqrt(1.0 - a), math.sqrt(a)
+    return np.array((math.sin(one) * near, math.cos(one) * near, math.sin(two) * far, math.cos(two) * far))
+
+
+def random_rotation_matrix(rand: Any = None) -> npt.NDArray[np.float64]:
+    """A random turn as a matrix."""
+    return quaternion_matrix(random_quaternion(rand))
+
+
+# -- vectors ------------------------------------------------------------------------------------------------------
+# Vectors of any length.
+
+
+def vector_norm(data: Any, axis: int | None = None, out: Any = None) -> Any:
+    """The length of a vector, or of the vectors along an axis; goes into `out` if that is given."""
+    lengths = np.sqrt(np.sum(np.square(np.asarray(data, dtype=np.float64)), axis=axis))
+    if out is not None:
+        out[...] = lengths
+        return None
+    return float(lengths) if np.ndim(data) == 1 else np.atleast_1d(lengths)
+
+
+def unit_vector(data: Any, axis: int | None = None, out: Any = None) -> Any:
+    """The same vector, or vectors along an axis, with length 1; goes into `out` if that is given."""
+    array = np.array(data, dtype=np.float64)
+    lengths = np.sqrt(np.sum(array * array, axis=axis, keepdims=axis is not None))
+    result = array / lengths if array.size else array
+    if out is not None:
+        out[...] = result
+        return None
+    return result
+
+
+def random_vector(size: int) -> Any:
+    """Random numbers from 0 to 1."""
+    return np.random.random(size)

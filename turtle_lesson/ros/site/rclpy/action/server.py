@@ -8,37 +8,28 @@ one it holds up everything, the cancelling of its own goal included, unless it i
 from __future__ import annotations
 
 from collections.abc import Callable
+from enum import Enum
 from types import GenericAlias
 from typing import TYPE_CHECKING, Any
 
-from action_msgs.msg import GoalStatusArray
+from action_msgs.msg import GoalInfo, GoalStatus, GoalStatusArray
 
-from turtle_lesson.ros.core import NANOSECONDS
-from turtle_lesson.ros.core.tracebacks import print_error
 from turtle_lesson.ros.distro import GOALS_EXPIRE_AFTER_THEIR_END
-from turtle_lesson.ros.world import current_world
+from turtle_lesson.ros.runtime.world import current_world
+from turtle_lesson.ros.sim.errors import print_error
+from turtle_lesson.ros.sim.simulation import NANOSECONDS
 
-from .._borrowed import borrowed
+from .._reexports import borrowed
 from ..callback_groups import CallbackGroup
 from ..exceptions import RCLError
+from ..impl.logging_severity import LoggingSeverity
 from ..qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
-from ._answers import (
-    CancelResponse,
-    GoalResponse,
-    default_cancel_callback,
-    default_goal_callback,
-    default_handle_accepted_callback,
-)
-from ._callbacks import call_back
-from ._ends import ActionEntity, check_action, full_names, make_parts
-from ._goal_handle import ServerGoalHandle
-from ._goal_states import GoalEvent
-from ._goals import Goals
-from ._requests import Requests
-from ._tracing import noted
+from ._deadlock import noted
+from ._endpoints import ActionEntity, call_back, check_action, full_names, make_parts
+from ._goals import GoalEvent, Goals, ServerGoalHandle, goals_to_cancel
 
 if TYPE_CHECKING:
-    from turtle_lesson.ros.trace import Callback
+    from turtle_lesson.ros.rmw.trace import Callback
 
     from ..node import Node
 
@@ -53,6 +44,138 @@ __all__ = [
     "default_goal_callback",
     "default_handle_accepted_callback",
 ]
+
+
+# -- requests -----------------------------------------------------------------------------------------------------
+# What an action server does with the requests that come in: for goals, for cancelling, and for results.
+
+
+class Requests:
+    """Mixed into ActionServer. Each request is that of a graph's service: it knows who asked."""
+
+    _action_type: Any
+    _cancel_callback: Callable[[ServerGoalHandle], Any]
+    _goal_callback: Callable[[Any], Any]
+    _goals: Goals
+    _handle_accepted_callback: Callable[[ServerGoalHandle], Any]
+    _node: Node
+
+    if TYPE_CHECKING:
+
+        def _publish_status(self) -> None: ...
+
+    def _debug(self, text: str, goal_id: Any) -> None:
+        """Log what only the developer of a server wants to see, with a goal's number."""
+        logger = self._node.get_logger()
+        if logger.is_enabled_for(LoggingSeverity.DEBUG):
+            logger.debug(text.format(goal_id.uuid))
+
+    async def _execute_goal_request(self, request: Any) -> None:
+        message = request.message
+        self._debug("New goal request with ID: {}", message.goal_id)
+        info = GoalInfo(goal_id=message.goal_id)
+        accepted = self._goals.get(message.goal_id) is None and await self._is_acceptable(message.goal)
+        handle = None
+        if accepted:
+            info.stamp = self._node.get_clock().now().to_msg()
+            accepted = not self._came_meanwhile(message.goal_id)
+        if accepted:
+            handle = ServerGoalHandle(self, info, message.goal)  # type: ignore[arg-type]
+            self._goals.add(handle)
+        response = self._action_type.Impl.SendGoalService.Response(accepted=accepted, stamp=info.stamp)
+        request.answer(response)
+        if handle is None:
+            self._debug("New goal rejected: {}", message.goal_id)
+            return
+        self._debug("New goal accepted: {}", message.goal_id)
+        self._publish_status()
+        await call_back("handle_accepted_callback", self._handle_accepted_callback, handle)
+
+    def _came_meanwhile(self, goal_id: Any) -> bool:
+        """Whether a goal of the same number was accepted while the goal callback of this one decided."""
+        if self._goals.get(goal_id) is None:
+            return False
+        text = f"Failed to accept new goal with ID {goal_id.uuid}: goal ID already exists"
+        self._node.get_logger().error(text)
+        return True
+
+    async def _is_acceptable(self, goal: Any) -> bool:
+        response = await call_back("goal_callback", self._goal_callback, goal)
+        if not isinstance(response, GoalResponse):
+            self._node.get_logger().warning("Goal request callback did not return a GoalResponse type. Rejecting goal.")
+        return response is GoalResponse.ACCEPT
+
+    async def _execute_cancel_request(self, request: Any) -> None:
+        self._debug("Cancel request received for goal with ID: {}", request.message.goal_info.goal_id)
+        response = self._action_type.Impl.CancelGoalService.Response()
+        response.return_code, handles = goals_to_cancel(request.message.goal_info, self._goals)
+        response.goals_canceling = [handle._goal_info for handle in handles if await self._cancel(handle)]
+        request.answer(response)
+
+    async def _cancel(self, handle: ServerGoalHandle) -> bool:
+        """Whether the program lets this goal be cancelled."""
+        logger = self._node.get_logger()
+        response = await call_back("cancel_callback", self._cancel_callback, handle)
+        if not isinstance(response, CancelResponse):
+            logger.warning("Cancel callback did not return a CancelResponse type. Rejecting cancel request.")
+        if response is not CancelResponse.ACCEPT:
+            return False
+        try:
+            handle._update_state(GoalEvent.CANCEL_GOAL)
+        except RCLError as error:  # it has ended meanwhile
+            logger.debug(f"Failed to cancel goal in cancel callback: {error}")
+            return False
+        return True
+
+    def _execute_result_request(self, request: Any) -> None:
+        goal_id = request.message.goal_id
+        self._debug("Result request received for goal with ID: {}", goal_id)
+        if self._goals.get(goal_id) is None:
+            self._debug("Sending result response for unknown goal ID: {}", goal_id)
+            unknown = self._action_type.Impl.GetResultService.Response(status=GoalStatus.STATUS_UNKNOWN)
+            request.answer(unknown)
+            return
+        response = self._goals.ask(goal_id, request)
+        if response is not None:
+            request.answer(response)
+
+
+# -- answers ------------------------------------------------------------------------------------------------------
+# What the callbacks of an action server answer, and the callbacks that it has unless it is given others.
+
+
+class GoalResponse(Enum):
+    """What a goal_callback answers."""
+
+    __module__ = "rclpy.action.server"
+
+    REJECT = 1
+    ACCEPT = 2
+
+
+class CancelResponse(Enum):
+    """What a cancel_callback answers."""
+
+    __module__ = "rclpy.action.server"
+
+    REJECT = 1
+    ACCEPT = 2
+
+
+def default_handle_accepted_callback(goal_handle: ServerGoalHandle) -> None:
+    """Execute each goal at once."""
+    goal_handle.execute()
+
+
+def default_goal_callback(goal_request: Any) -> GoalResponse:
+    """Accept every goal."""
+    return GoalResponse.ACCEPT
+
+
+def default_cancel_callback(cancel_request: Any) -> CancelResponse:
+    """Cancel no goal."""
+    return CancelResponse.REJECT
+
 
 FEEDBACK = QoSProfile(depth=10)
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from turtle_lesson.ros.core import NANOSECONDS
-from turtle_lesson.ros.world import current_world
+from turtle_lesson.ros.runtime.world import current_world
+from turtle_lesson.ros.sim.simulation import NANOSECONDS
 
-from .._mistakes import did_you_mean
+from .._hints import did_you_mean
 from .logging_severity import LoggingSeverity
 
 

@@ -5,20 +5,25 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from turtle_lesson.ros.core.tracebacks import shown_path
 from turtle_lesson.ros.distro import FORBIDDEN_TRANSITIONS_ARE_LOGGED
-from turtle_lesson.ros.world import current_world
+from turtle_lesson.ros.runtime.world import current_world
+from turtle_lesson.ros.sim.errors import shown_path
 
 from ..callback_groups import CallbackGroup
 from ..exceptions import RCLError
 from ..node import Node
-from ._services import LifecycleServices
-from ._states import STATES, State, StateMachine
+from ._states import STATES, State, StateMachine, Transition
 from ._states import TransitionCallbackReturnType as TransitionCallbackReturn
 from .managed_entity import ManagedEntity
 from .publisher import LifecyclePublisher
 
-__all__ = ["LifecycleNode", "LifecycleNodeMixin", "LifecycleState", "TransitionCallbackReturn"]
+__all__ = [
+    "LifecycleNode",
+    "LifecycleNodeMixin",
+    "LifecycleState",
+    "TransitionCallbackReturn",
+]
+
 
 CONFIGURE, CLEANUP, ACTIVATE, DEACTIVATE = 1, 2, 3, 4
 SHUTDOWN = {"unconfigured": 5, "inactive": 6, "active": 7}
@@ -216,3 +221,64 @@ def _told(callback: Callable[..., Any], error: Exception) -> str:
     return (
         f"{callback.__name__} raised {type(error).__name__}: {error}{place}. That counts as an error of the transition."
     )
+
+
+# -- services -----------------------------------------------------------------------------------------------------
+# The five services through which a managed node is asked about its states, and told to change them.
+
+
+class LifecycleServices:
+    """Made by a managed node for itself. `change(transition_id)` does a transition, and returns whether it succeeded."""
+
+    def __init__(self, node: Any, machine: StateMachine, change: Callable[[int], bool], group: CallbackGroup) -> None:
+        from lifecycle_msgs.srv import ChangeState, GetAvailableStates, GetAvailableTransitions, GetState
+
+        self._machine = machine
+        self._change = change
+        for kind, name, callback in (
+            (ChangeState, "change_state", self._change_state),
+            (GetState, "get_state", self._get_state),
+            (GetAvailableStates, "get_available_states", self._get_available_states),
+            (GetAvailableTransitions, "get_available_transitions", self._get_available_transitions),
+            (GetAvailableTransitions, "get_transition_graph", self._get_transition_graph),
+        ):
+            Node.create_service(node, kind, f"~/{name}", callback, callback_group=group)
+
+    def _change_state(self, request: Any, response: Any) -> Any:
+        number = request.transition.id
+        if request.transition.label:
+            try:
+                number = self._machine.get_transition_by_label(request.transition.label)
+            except RCLError:
+                response.success = False
+                return response
+        response.success = self._change(number)
+        return response
+
+    def _get_state(self, request: Any, response: Any) -> Any:
+        response.current_state.id, response.current_state.label = self._machine.current_state
+        return response
+
+    def _get_available_states(self, request: Any, response: Any) -> Any:
+        from lifecycle_msgs.msg import State
+
+        response.available_states = [State(id=each.id, label=each.label) for each in self._machine.available_states]
+        return response
+
+    def _get_available_transitions(self, request: Any, response: Any) -> Any:
+        response.available_transitions = [_description(each) for each in self._machine.available_transitions]
+        return response
+
+    def _get_transition_graph(self, request: Any, response: Any) -> Any:
+        response.available_transitions = [_description(each) for each in self._machine.transition_graph]
+        return response
+
+
+def _description(transition: Transition) -> Any:
+    from lifecycle_msgs.msg import TransitionDescription
+
+    message = TransitionDescription()
+    message.transition.id, message.transition.label = transition.id, transition.label
+    message.start_state.id, message.start_state.label = transition.start
+    message.goal_state.id, message.goal_state.label = transition.goal
+    return message

@@ -1,0 +1,283 @@
+"""Expectations about nodes: publishers, subscriptions, services and their answers, parameters, a log without errors."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from ..words import count, listed, number
+from .probe import Answer, Exam
+from .registry import Expectation
+from .results import Advice, CannotLook, Seen
+from .streams import brief, judge_rate
+
+# -- parts --------------------------------------------------------------------------------------------------------
+# Expectations about what is there: nodes, publishers, subscriptions, services, parameters, and a log without errors.
+
+TOO_MANY = "Stop the extra node: Ctrl-C in a terminal; in a notebook run the set-up cell again, then each cell once."
+ANSWER_TIME = 1.0
+"""Robot time, s, within which a node should say what parameters it has."""
+
+
+def node(name: str, start: str = "") -> Expectation:
+    """One node of this full name, and not two. `start` is the command that starts it."""
+
+    def look(exam: Exam) -> Seen:
+        found = exam.nodes()
+        amount = found[name]
+        if amount == 1:
+            return Seen(True, "it is there")
+        if amount > 1:
+            return Seen(False, f"{amount} nodes of this name: each message comes {amount} times", TOO_MANY)
+        others = [each for each in found if each != "/turtlesim"]
+        seen = f"it is not there; there is {listed(others)}" if others else "it is not there"
+        if fallen := exam.fallen():
+            seen += f"; {' and '.join(fallen)}"
+        begin = f"Start it: {start}." if start else "Start it."
+        return Seen(False, seen, f"{begin} If it ended by itself, its error is in the output above.")
+
+    return Expectation(f"one node {name}", look)
+
+
+def publishes(topic: str, type_name: str, by: str) -> Expectation:
+    """A topic that is published as this type: by this node, and by no other."""
+    step = f"Which line makes the publisher, when is it run, and is the name {topic} the same in every letter?"
+    return Expectation(
+        f"{by} publishes {topic}",
+        lambda exam: _ends(exam, topic, type_name, by, exam.publishers(topic), exam.topics(), step),
+    )
+
+
+def subscribes(topic: str, type_name: str, by: str) -> Expectation:
+    """A topic that is subscribed to as this type by this node; others may listen, too."""
+    step = f"Which line makes the subscription, when is it run, and is the name {topic} the same in every letter?"
+
+    def look(exam: Exam) -> Seen:
+        ends = [end for end in exam.subscriptions(topic) if end[0] == by]
+        return _ends(exam, topic, type_name, by, ends, exam.subscribed(by), step)
+
+    return Expectation(f"{by} listens to {topic}", look)
+
+
+def offers(service: str, type_name: str, by: str) -> Expectation:
+    """A service of this type: offered once, by this node."""
+    step = f"Which line makes the service, when is it run, and is the name {service} the same in every letter?"
+    return Expectation(
+        f"{by} offers {service}",
+        lambda exam: _ends(exam, service, type_name, by, exam.servers(service), exam.services(), step),
+    )
+
+
+def _ends(
+    exam: Exam, name: str, type_name: str, by: str, ends: list[tuple[str, str]], known: list[str], step: str
+) -> Seen:
+    if not ends and by not in exam.nodes():
+        raise CannotLook(f"there is no node {by}")
+    if not ends:
+        return Seen(False, f"no node does{exam.like(name, known)}", step)
+    types = sorted({kind for _, kind in ends})
+    who = [owner for owner, _ in ends]
+    if types != [type_name]:
+        return Seen(False, f"{listed(sorted(set(who)))} does, as {listed(types)}", f"The type should be {type_name}.")
+    if len(ends) > 1:
+        return Seen(False, f"{len(ends)} do: {listed(who)}", TOO_MANY)
+    if who != [by]:
+        return Seen(False, f"{who[0]} does", f"The node should be {by}: super().__init__({by.split('/')[-1]!r}).")
+    return Seen(True, f"as {type_name}")
+
+
+# -- parameters --------------------------------------------------------------------------------------------------------
+
+
+def parameter(owner: str, name: str, value: Any) -> Expectation:
+    """A parameter that a node has declared, with this value and of its type."""
+
+    def look(exam: Exam) -> Seen:
+        found = get_parameter(exam, owner, name)
+        if found is None:
+            return Seen(False, "it is not declared", f"declare_parameter({name!r}, {value!r}) in the node's __init__.")
+        if type(found) is not type(value) or found != value:
+            step = f"It should be {value!r}: ros2 param set changes it now, the launch file from the start."
+            return Seen(False, f"it is {found!r}", step)
+        return Seen(True, f"it is {found!r}")
+
+    return Expectation(f"{owner} has a parameter {name} = {value!r}", look)
+
+
+def get_parameter(exam: Exam, owner: str, name: str) -> Any:
+    """The value of a node's parameter, None if it has none. Raises CannotLook where the node does not answer."""
+    from ..widgets.parameter_values import to_python
+
+    if owner not in exam.nodes():
+        raise CannotLook(f"there is no node {owner}")
+    names = _answer(exam, owner, exam.ask(*_of(owner, "list"), ANSWER_TIME)).result.names
+    if name not in names:
+        return None
+    values = _answer(exam, owner, exam.ask(*_of(owner, "get"), ANSWER_TIME, names=[name])).values
+    return to_python(values[0]) if values else None
+
+
+def set_parameter(exam: Exam, owner: str, name: str, value: Any) -> str:
+    """Set a parameter; returns why the node refused, or "". It is put back when the exam is over."""
+    before = get_parameter(exam, owner, name)
+    if before is None:
+        raise CannotLook(f"{owner} has not declared a parameter {name}")
+    reason = _set(exam, owner, name, value)
+    if not reason:
+        exam.at_the_end(lambda: _put_back(exam, owner, name, before))
+    return reason
+
+
+def _set(exam: Exam, owner: str, name: str, value: Any) -> str:
+    from rclpy.parameter import Parameter
+
+    message = Parameter(name, value=value).to_parameter_msg()
+    results = _answer(exam, owner, exam.ask(*_of(owner, "set"), ANSWER_TIME, parameters=[message])).results
+    if results and results[0].successful:
+        return ""
+    return (results[0].reason if results else "") or "it gave no reason"
+
+
+def _put_back(exam: Exam, owner: str, name: str, value: Any) -> None:
+    from rclpy.parameter import Parameter
+
+    exam.ask_soon(*_of(owner, "set"), parameters=[Parameter(name, value=value).to_parameter_msg()])
+    for _ in range(5):
+        exam.place.step(0.01)  # also where the time of the check is over
+
+
+def _of(owner: str, what: str) -> tuple[str, str]:
+    return f"{owner}/{what}_parameters", f"rcl_interfaces/srv/{what.capitalize()}Parameters"
+
+
+def _answer(exam: Exam, owner: str, answer: Answer) -> Any:
+    if answer.response is None:
+        raise CannotLook(f"{owner} does not answer: is it busy, or not spun?")
+    return answer.response
+
+
+# -- the log -----------------------------------------------------------------------------------------------------------
+
+NO_ERROR = "no error meanwhile"
+"""What is expected of every learner's code, whatever else a check expects."""
+
+A_WHILE = 1.0
+"""Robot time, s, in which something may go wrong, where the other expectations took less."""
+
+ERROR = 40
+"""The level from which on a line of the log is an error (rcl_interfaces/msg/Log)."""
+
+
+def no_errors() -> Expectation:
+    """Nothing that goes wrong while the check looks: no error in the log, no callback that raises, no node that ends."""
+
+    def look(exam: Exam) -> Seen:
+        if set(exam.nodes_before) <= {"/turtlesim"}:
+            raise CannotLook("there was no node that could go wrong")
+        if exam.now - exam.began < A_WHILE:
+            exam.wait(A_WHILE)
+        if raised := exam.errors():
+            raise raised[0]
+        wrong = [f"{name}: {text}" for level, name, text in exam.log if level >= ERROR]
+        gone = sorted(exam.nodes_before - exam.nodes())
+        if gone:
+            wrong.append(f"{listed(gone)} ended")
+        if not wrong:
+            return Seen(True, "none")
+        more = f" (and {count(len(wrong) - 1, 'more', 'more')})" if len(wrong) > 1 else ""
+        return Seen(False, _short(wrong[0]) + more, "Read the log: which callback logs it, and when?")
+
+    return Expectation(NO_ERROR, look)
+
+
+def _short(text: str) -> str:
+    plain = " ".join(text.split())
+    return plain if len(plain) <= 160 else f"{plain[:159]}…"
+
+
+# -- questions ----------------------------------------------------------------------------------------------------
+# Expectations about asking: a service that gives the right answer in time, a parameter that changes what a node does.
+
+
+def answers(
+    service: str,
+    type_name: str,
+    request: dict[str, Any],
+    right: Callable[[Any], bool],
+    expected: str,
+    next_step: str | Advice = "",
+    timeout: float = 2.0,
+) -> Expectation:
+    """A service answers a request rightly within the timeout (s). `expected` says both in words: "2 + 3 is 5"."""
+
+    def look(exam: Exam) -> Seen:
+        answer = exam.ask(service, type_name, timeout, **request)
+        if answer.response is None:
+            return no_answer(exam, f"no answer within {timeout:g} s")
+        return Seen(bool(right(answer.response)), brief(answer.response), next_step)
+
+    return Expectation(expected, look)
+
+
+def no_answer(exam: Exam, words: str) -> Seen:
+    """What is said where a request was not answered: the learner's error comes first, or where its callback still is."""
+    exam.raise_error()
+    waiting = exam.unreturned()
+    direction = "Does the callback end with `return response`?" if not waiting else "What does the callback wait for?"
+    return Seen(False, f"{words}; {waiting}" if waiting else words, direction)
+
+
+def rate_follows(owner: str, parameter: str, value: int | float, topic: str, type_name: str) -> Expectation:
+    """A rate (Hz) that is really read from a parameter: set it, and the messages come at that rate."""
+
+    def look(exam: Exam) -> Seen:
+        exam.listen(topic, type_name)
+        reason = set_parameter(exam, owner, parameter, value)
+        if reason:
+            return Seen(False, f"it refused: {reason}", f"{value!r} should be allowed for {parameter}.")
+        exam.raise_error()
+        if len(exam.hear(topic, type_name, 0.1)) > FLOOD:
+            return Seen(False, f"then more than {FLOOD / 0.1:g} Hz", NANOSECONDS)
+        exam.wait(0.9)  # one interval may still be of the old rate
+        heard = exam.hear(topic, type_name, max(1.0, 10.0 / value))
+        good, seen, _ = judge_rate(heard, value, 0.1 / value, len(exam.publishers(topic)))
+        return Seen(good, f"then {seen}", FOLLOW)
+
+    return Expectation(f"{parameter} set to {value!r}: {topic} at {value:g} Hz", look)
+
+
+FLOOD = 100
+"""Messages in a tenth of a second that no rate of a lesson asks for."""
+
+NANOSECONDS = Advice(
+    "The timer's period is next to nothing.",
+    "timer_period_ns counts nanoseconds: one second is 1 000 000 000 of them.",
+)
+FOLLOW = Advice(
+    direction="When does the node read the parameter, and what happens to the timer's period then?",
+    hint="Open Hints 2 and 3 under the exercise.",
+)
+
+
+def gives_up(owner: str, parameter: str, seconds: float, ask: Callable[[Exam], Any]) -> Expectation:
+    """A timeout (s) that is really read: a request that needs longer is answered with success False at that time."""
+
+    def look(exam: Exam) -> Seen:
+        reason = set_parameter(exam, owner, parameter, seconds)
+        if reason:
+            return Seen(False, f"it refused: {reason}", f"{seconds!r} should be allowed for {parameter}.")
+        answer = ask(exam)
+        if answer.response is None:
+            return no_answer(exam, "the goal was never answered")
+        good = not answer.response.success and abs(answer.seconds - seconds) <= LATEST
+        seen = f"success is {answer.response.success} after {number(answer.seconds)} s"
+        step = (
+            f"At each step: how long has this goal been under way, and how long may it take, according to {parameter}?"
+        )
+        return Seen(good, seen, Advice(direction=step, hint="Open Hint 2 under the exercise."))
+
+    return Expectation(f"{parameter} set to {seconds!r}: gives up on a far goal", look)
+
+
+LATEST = 0.25
+"""How far from its time (s) a goal may be given up: two steps of a navigator at 10 Hz, and a little."""

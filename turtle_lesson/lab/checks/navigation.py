@@ -1,0 +1,361 @@
+"""One drive of the navigator, seen from outside: what was asked and answered, the commands, and what the turtle did."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from ..path_geometry import WORLD
+from ..words import angle, number, point, turned
+from .assertions import no_answer
+from .probe import Answer, Exam, Heard
+from .registry import Expectation
+from .results import Advice, CannotLook, Seen
+
+NAVIGATE, NAVIGATE_TYPE = "/navigate_to", "robot_controller/srv/NavigateTo"
+POSE, POSE_TYPE = "/turtle1/pose", "turtlesim/msg/Pose"
+COMMANDS, COMMAND_TYPE = "/turtle1/cmd_vel", "geometry_msgs/msg/Twist"
+
+TICK = 0.016
+"""Robot time, s, between two poses of turtlesim."""
+
+NEAR = 0.2
+"""A goal is reached within this distance, m."""
+
+STILL = 1e-3
+"""A turtle slower than this, m/s and rad/s, stands."""
+
+LONGEST = 90.0
+"""Robot time, s, that one drive may take."""
+
+AT_REST = 0.5
+"""A turtle that has not moved for so long, s, has come to rest."""
+
+TELEPORT, TELEPORT_TYPE = "/turtle1/teleport_absolute", "turtlesim/srv/TeleportAbsolute"
+
+Goal = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Way:
+    """A drive as a row of a check tells of it: where the turtle is put, and the goal that it is sent to.
+
+    Attributes:
+        name: what rows call the goal, such as "a goal in the west".
+        begin: x and y (m) and the heading (rad) that the turtle is given first.
+        goal: the same of the goal.
+    """
+
+    name: str
+    begin: Goal
+    goal: Goal
+
+    def __call__(self, pose: Any) -> Goal:
+        """The goal, wherever the turtle is."""
+        return self.goal
+
+
+@dataclass
+class Drive:
+    """A goal (x, y in m, theta in rad), the answer, and the commands and poses from the question to a second after it."""
+
+    goal: Goal
+    begin: Any
+    answer: Answer
+    commands: list[Heard] = field(default_factory=list)
+    poses: list[Heard] = field(default_factory=list)
+
+    @property
+    def response(self) -> Any:
+        """What was answered. Raises CannotLook where nothing was."""
+        if self.answer.response is None:
+            raise CannotLook(f"the goal {point(*self.goal[:2])} was not answered")
+        return self.answer.response
+
+    def end(self, at_rest: bool = False) -> Any:
+        """The last pose by the time of the answer; or the one in which the turtle came to rest."""
+        if at_rest and self.poses:
+            return self.poses[-1].message
+        by_then = [each.message for each in self.poses if each.at <= self.answer.answered + TICK]
+        return by_then[-1] if by_then else self.begin
+
+    def moving(self) -> tuple[float, float]:
+        """From when to when the turtle moved (robot time, s). Raises CannotLook if it never did."""
+        times = [each.at for each in self.poses if is_moving(each.message)]
+        if not times:
+            raise CannotLook("the turtle never moved")
+        return times[0] - TICK, times[-1]
+
+    def distance(self, at_rest: bool = False) -> float:
+        """How far from the goal the turtle was when the answer came, or when it came to rest, m."""
+        end = self.end(at_rest)
+        return math.hypot(self.goal[0] - end.x, self.goal[1] - end.y)
+
+
+def is_moving(pose: Any) -> bool:
+    """Whether a turtle says that it moves."""
+    return abs(pose.linear_velocity) > STILL or abs(pose.angular_velocity) > STILL
+
+
+def where(exam: Exam) -> Any:
+    """The turtle's newest pose. Raises CannotLook where none comes."""
+    heard = exam.listen(POSE, POSE_TYPE)
+    if not exam.wait_for(lambda: heard, 0.5):
+        raise CannotLook(f"no pose comes on {POSE}")
+    exam.wait(2 * TICK)
+    return heard[-1].message
+
+
+def put(exam: Exam, place: Goal) -> None:
+    """Put the turtle somewhere. Raises CannotLook where the simulator does not answer."""
+    x, y, theta = place
+    if exam.ask(TELEPORT, TELEPORT_TYPE, 1.0, x=x, y=y, theta=theta).response is None:
+        raise CannotLook(f"{TELEPORT} does not answer")
+    exam.wait(3 * TICK)
+
+
+def ask_for(exam: Exam, goal: Goal, timeout: float) -> Answer:
+    """Ask the navigator for a goal, and let robot time pass until it answers or the timeout (s) is over."""
+    return exam.ask(NAVIGATE, NAVIGATE_TYPE, timeout, **_fields(goal))
+
+
+def ask_soon_for(exam: Exam, goal: Goal) -> Callable[[], Answer | None]:
+    """Ask the navigator for a goal without waiting; returns a function that gives the answer once it has come."""
+    return exam.ask_soon(NAVIGATE, NAVIGATE_TYPE, **_fields(goal))
+
+
+def _fields(goal: Goal) -> dict[str, float]:
+    return dict(zip(("x", "y", "theta"), goal, strict=True))
+
+
+def drive(exam: Exam, name: str, choose: Any) -> Drive:
+    """Drive to the goal that `choose(pose)` gives; the first time it is done, from then on remembered by its name.
+
+    On a Way the turtle is put at its beginning, and time passes until it has come to rest.
+    """
+    return exam.once(("drive", name), lambda: _drive(exam, choose))
+
+
+def go(exam: Exam, way: Way) -> Drive:
+    """The drive on a way; the first time it is done, from then on it is remembered."""
+    return drive(exam, way.name, way)
+
+
+def driven(exam: Exam, way: Way) -> Drive:
+    """The drive on a way, whose goal was answered. Raises CannotLook where it was not."""
+    it = go(exam, way)
+    it.response  # noqa: B018  (raises where there is none)
+    return it
+
+
+def _drive(exam: Exam, choose: Any) -> Drive:
+    if isinstance(choose, Way):
+        put(exam, choose.begin)
+    begin = where(exam)
+    goal = choose(begin)
+    poses = exam.listen(POSE, POSE_TYPE)
+    try:
+        commands = exam.listen(COMMANDS, COMMAND_TYPE)
+    except CannotLook:
+        commands = []
+    first_pose, first_command = len(poses), len(commands)
+    answer = ask_for(exam, goal, LONGEST)
+    exam.wait(1.0)
+    if isinstance(choose, Way) and answer.response is not None:
+        come_to_rest(exam, LONGEST)
+    return Drive(goal, begin, answer, commands[first_command:], poses[first_pose:])
+
+
+def at_rest(poses: list[Heard]) -> bool:
+    """Whether the turtle has not moved for a while, by the newest poses."""
+    return not any(is_moving(each.message) for each in poses[-round(AT_REST / TICK) :])
+
+
+def come_to_rest(exam: Exam, timeout: float) -> None:
+    """Let robot time pass until the turtle has come to rest, or the timeout (s) is over."""
+    exam.wait_for(lambda: at_rest(exam.listen(POSE, POSE_TYPE)), timeout)
+
+
+# -- goals -------------------------------------------------------------------------------------------------------------
+
+
+def far_away(pose: Any) -> Goal:
+    """The corner that is farthest away."""
+    corners = itertools.product((1.0, WORLD - 1.0), repeat=2)
+    x, y = max(corners, key=lambda place: math.hypot(place[0] - pose.x, place[1] - pose.y))
+    return round(x, 1), round(y, 1), 0.0
+
+
+# -- expectations ------------------------------------------------------------------------------------------------------
+
+
+def answered(way: Way) -> Expectation:
+    """A goal is answered in time, with success True."""
+
+    def look(exam: Exam) -> Seen:
+        it = go(exam, way)
+        if it.answer.response is None:
+            return no_answer(exam, f"no answer to the goal {point(*it.goal[:2])} in {LONGEST:g} s")
+        seen = f"success is {it.response.success} after {number(it.answer.seconds)} s"
+        return Seen(bool(it.response.success), seen, "What is response.success when on_goal returns the response?")
+
+    return Expectation(f"{way.name}: success is True", look)
+
+
+def arrived(way: Way, at_rest: bool = False) -> Expectation:
+    """The turtle is near the goal when the answer comes, or when it has come to rest."""
+
+    def look(exam: Exam) -> Seen:
+        it = driven(exam, way)
+        end, distance = it.end(at_rest), it.distance(at_rest)
+        seen = f"at {point(end.x, end.y)}, {number(distance)} m from {point(*it.goal[:2])}"
+        if at_rest and is_moving(end):
+            seen += f", and still moving after {LONGEST:g} s"
+        when = "in the end" if at_rest else "when the answer comes"
+        step = f"Where is the turtle {when}, and what does /turtle1/pose say on the way?"
+        return Seen(distance <= NEAR, seen, Advice(direction=step))
+
+    return Expectation(f"{way.name}: the turtle within {NEAR:g} m of it", look)
+
+
+def facing(way: Way, at_rest: bool = False, near: float = 0.2) -> Expectation:
+    """The turtle has the goal's heading, within an angle (rad), when the answer comes or when it has come to rest."""
+
+    def look(exam: Exam) -> Seen:
+        it = driven(exam, way)
+        error = turned(it.goal[2] - it.end(at_rest).theta)
+        return Seen(abs(error) <= near, f"{angle(error)} off", "At the goal the turtle turns to the goal's theta.")
+
+    return Expectation(f"{way.name}: heading within {near:g} rad", look)
+
+
+def turns_little(way: Way, most: float) -> Expectation:
+    """The turtle comes to the goal, and all its turns, to and fro, are an angle (in degrees) at most."""
+
+    def look(exam: Exam) -> Seen:
+        it = driven(exam, way)
+        degrees = math.degrees(turning([it.begin, *(each.message for each in it.poses)]))
+        seen = f"it came within {number(it.distance(at_rest=True))} m and turned by {number(degrees, 0)}° in all"
+        step = Advice(
+            direction="Between which two headings does the turtle choose the long way round?",
+            hint="Look at turn_to once more: the exercise “the short way” has hints.",
+        )
+        return Seen(it.distance(at_rest=True) <= NEAR and degrees <= most, seen, step)
+
+    return Expectation(f"{way.name}: reached, with turns of {most:g}° at most", look)
+
+
+def turning(poses: list[Any]) -> float:
+    """The sum of all turns from pose to pose, to and fro, in rad."""
+    headings = [each.theta for each in poses]
+    if not all(map(math.isfinite, headings)):
+        raise CannotLook("the turtle's heading is not a number")
+    return math.fsum(abs(turned(b - a)) for a, b in itertools.pairwise(headings))
+
+
+def honest_time(way: Way, within: float = 0.1) -> Expectation:
+    """time_taken is how long the turtle really moved, give or take (s)."""
+
+    def look(exam: Exam) -> Seen:
+        it = go(exam, way)
+        begin, end = it.moving()
+        truth, said = end - begin, float(it.response.time_taken)
+        seen = f"it said {number(said)} s; the turtle moved for {number(truth)} s"
+        step = "Which two moments lie between the first command and the one that stops the turtle?"
+        return Seen(abs(said - truth) <= within, seen, Advice(direction=step))
+
+    return Expectation(f"time_taken within {within:g} s of the moving time", look)
+
+
+def stopped(way: Way) -> Expectation:
+    """The last command is all zero, and the turtle stands when it should have come to rest."""
+
+    def look(exam: Exam) -> Seen:
+        it = driven(exam, way)
+        if not it.commands:
+            raise CannotLook(f"no command came on {COMMANDS}")
+        last = it.commands[-1].message
+        speeds = (last.linear.x, last.linear.y, last.angular.z)
+        if any(speeds):
+            seen = f"it was {number(last.linear.x)} m/s and {number(last.angular.z)} rad/s"
+            return Seen(False, seen, "What is the last command that is published, however the drive ends?")
+        still = not is_moving(it.poses[-1].message)
+        return Seen(still, "it was, and the turtle stands" if still else "it was, but the turtle still moves")
+
+    return Expectation("the last command is zero", look)
+
+
+def steady_commands(way: Way, most: float = 0.15) -> Expectation:
+    """No two commands on the way are farther apart than this (s): ten a second."""
+
+    def look(exam: Exam) -> Seen:
+        it = go(exam, way)
+        begin, end = it.moving()
+        times = [each.at for each in it.commands if begin - 0.2 <= each.at <= end + 0.2]
+        gaps = [after - before for before, after in itertools.pairwise(times)]
+        if not gaps:
+            return Seen(False, "one command for the whole way", "The turtle forgets a command after 1 s: keep sending.")
+        seen = f"the longest gap was {number(1000 * max(gaps), 0)} ms"
+        return Seen(max(gaps) <= most, seen, "How much time passes between two commands, at the most?")
+
+    return Expectation("ten commands a second on the way", look)
+
+
+def refuses(what: str, *goals: Goal) -> Expectation:
+    """Goals that make no sense are refused at once: success False within a second, and the turtle stays."""
+
+    def look(exam: Exam) -> Seen:
+        for goal in goals:
+            if fault := _fault(exam, goal):
+                step = "Which of the three numbers has to be looked at, and with which limits, before the goal is accepted?"
+                return Seen(False, f"{_typed(goal)}: {fault}", Advice(direction=step, hint=HINTS))
+        return Seen(True, f"{len(goals)} goals, all of them refused at once")
+
+    return Expectation(f"refuses {what}", look)
+
+
+HINTS = "Open Hint 2 under the exercise."
+
+
+def _typed(goal: Goal) -> str:
+    return "({}, {}, {})".format(*(f"{each:g}" for each in goal))
+
+
+def _fault(exam: Exam, goal: Goal) -> str:
+    """What happened when a goal that makes no sense was not refused, or ""; then the turtle is led back to the middle."""
+    begin = where(exam)
+    answer = ask_for(exam, goal, 5.0)
+    exam.wait(0.3)
+    end = where(exam)
+    if answer.response is None:
+        fault = "no answer in 5 s"
+    elif answer.response.success:
+        fault = "success is True"
+    elif answer.seconds > 1.0:
+        fault = f"answered only after {number(answer.seconds)} s"
+    else:
+        fault = "the turtle moved" if math.hypot(end.x - begin.x, end.y - begin.y) > 0.05 else ""
+    if fault:
+        ask_for(exam, MIDDLE, 5.0)
+        come_to_rest(exam, 10.0)
+    return fault
+
+
+MIDDLE = (5.5, 5.5, 0.0)
+
+
+def accepts(what: str, *ways: Way) -> Expectation:
+    """Goals on the boundary of what makes sense are accepted."""
+
+    def look(exam: Exam) -> Seen:
+        for way in ways:
+            response = go(exam, way).response
+            if not response.success:
+                step = "Which numbers does your comparison still accept? The ends belong to the world."
+                return Seen(False, f"{_typed(way.goal)}: success is False", Advice(direction=step, hint=HINTS))
+        return Seen(True, f"{' and '.join(_typed(way.goal) for way in ways)}")
+
+    return Expectation(f"accepts {what}", look)

@@ -1,0 +1,163 @@
+"""Where a widget stands: a hidden node in a running system, what it has heard, and the clock if it can be turned.
+
+The widgets see nothing else of the system. In the simulation the station is the lab's node in the simulated world; on a
+robot it is a node of the real rclpy (see session/robot_backend.py).
+"""
+
+from __future__ import annotations
+
+import asyncio
+from _thread import get_ident
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, Protocol
+
+if TYPE_CHECKING:
+    from ...ros.sim.keyboard import Keyboard
+    from ..obstacle_board import ObstacleBoard
+    from ..recorder import Recorder
+
+
+class Clock(Protocol):
+    """A clock that a widget can turn."""
+
+    @property
+    def playing(self) -> bool:
+        """Whether robot time goes on by itself."""
+        ...
+
+    @property
+    def rate(self) -> float:
+        """How many times as fast as life it goes on, or will when it is played; infinite for as fast as possible."""
+        ...
+
+    @rate.setter
+    def rate(self, rate: float) -> None: ...
+
+    @property
+    def wall_seconds(self) -> float:
+        """Seconds of real time for which it has played since `play`."""
+        ...
+
+    @property
+    def speed(self) -> float:
+        """How many times as fast as life it really goes; 0 while it stands still."""
+        ...
+
+    def play(self, rate: float) -> None:
+        """Let robot time go on by itself."""
+        ...
+
+    def pause(self) -> None:
+        """Let it stand still."""
+        ...
+
+    def step(self, seconds: float) -> None:
+        """Let some seconds pass at once."""
+        ...
+
+
+class Station(Protocol):
+    """What every widget needs of the system that it shows."""
+
+    node: Any
+    """An rclpy Node with a hidden name, spun by somebody else; its callbacks happen in the notebook's loop."""
+    recorder: Recorder
+    """What was heard so far."""
+    board: ObstacleBoard
+    """The obstacles of the world, and their publisher."""
+    loop: Loop
+    """The notebook's event loop."""
+    clock: Clock | None
+    """None where nobody can turn the clock, as on a real robot."""
+    keyboard: Keyboard | None
+    """What the programs of a simulated world read keys from; None on a real robot, whose programs have terminals."""
+    at_close: list[Callable[[], object]]
+    """Called when the system ends, while its node is still there: what outlives the system lets go of it."""
+
+    @property
+    def now(self) -> float:
+        """Robot time: seconds since the recorder's origin."""
+        ...
+
+    @property
+    def ended(self) -> bool:
+        """Whether this system is gone, so that its widgets have nothing to show any more."""
+        ...
+
+
+class Link:
+    """A widget's own link to its station. Once it is cut, nothing of the system is reached through it, or kept alive.
+
+    A widget outlives its system: on the page, in Jupyter's `Out`, and in the list that ipywidgets keeps.
+    """
+
+    def __init__(self, station: Station | Any) -> None:
+        self.loop: Loop = station.loop
+        self._station: Station | Any = station
+
+    @property
+    def ended(self) -> bool:
+        """Whether the link is cut, or the system is gone."""
+        return self._station is None or self._station.ended
+
+    def cut(self) -> None:
+        """Let go of the station."""
+        self._station = None
+
+    def __getattr__(self, name: str) -> Any:
+        if self._station is None:
+            raise RuntimeError("this widget has ended, and its system with it: run the cell again that shows it")
+        return getattr(self._station, name)
+
+
+# -- loop ---------------------------------------------------------------------------------------------------------
+# The notebook's event loop: what widgets do happens there and nowhere else.
+# A message from the browser may arrive in another thread with a loop of its own (ipykernel 7 with JupyterLab 4.6 does
+# so now and then), and greenlets cannot change thread. So each callback of a widget hops to the loop in which cells
+# run.
+
+
+class Loop:
+    """The event loop of the cell in which this is made; without one (a plain script) calls happen at once."""
+
+    def __init__(self) -> None:
+        self.thread = get_ident()
+        try:
+            self._loop: asyncio.AbstractEventLoop | None = asyncio.get_running_loop()
+        except RuntimeError:
+            self._loop = None
+
+    def soon(self, action: Callable[..., object], *arguments: Any) -> None:
+        """Have the loop call `action`, whichever thread this is. Actions keep their order."""
+        if self._loop is None:
+            action(*arguments)
+        else:
+            self._loop.call_soon_threadsafe(action, *arguments)
+
+    def now_or_soon(self, action: Callable[..., object], *arguments: Any) -> None:
+        """Call `action` at once if this is the loop's thread, otherwise have the loop call it."""
+        if get_ident() == self.thread:
+            action(*arguments)
+        else:
+            self.soon(action, *arguments)
+
+    def hopping(self, action: Callable[..., object]) -> Callable[..., None]:
+        """`action` as a callback that may be called from any thread."""
+
+        def hop(*arguments: Any) -> None:
+            self.soon(action, *arguments)
+
+        return hop
+
+    def every(self, seconds: float, action: Callable[[], object]) -> asyncio.Task[None] | None:
+        """Call `action` again and again; cancel the task to end that. None where there is no loop."""
+        return None if self._loop is None else self._loop.create_task(_again_and_again(seconds, action))
+
+
+async def _again_and_again(seconds: float, action: Callable[[], object]) -> None:
+    loop = asyncio.get_running_loop()
+    due = loop.time()
+    while True:
+        due = max(due + seconds, loop.time())
+        await asyncio.sleep(due - loop.time())
+        action()

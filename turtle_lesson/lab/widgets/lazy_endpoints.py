@@ -1,0 +1,377 @@
+"""Endpoints of widgets, made when they are first used: publisher, subscription, client, and a view of a server."""
+
+from __future__ import annotations
+
+import importlib
+from collections import deque
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from typing import Any
+
+import numpy as np
+
+from ..recorder import with_time
+from ..words import enumerated, listed, number
+from .backend import Station
+from .message_types import plain
+
+# -- outlet -------------------------------------------------------------------------------------------------------
+# Where a widget publishes: a publisher that is made when it is first used, and the nodes that listen there.
+
+PATIENCE = 1.0
+"""Robot time, s, for which a message waits until a publisher that was just made has found its listeners."""
+
+
+class Outlet:
+    """One topic of one message class. Until the first message nothing of it is to be seen in the graph."""
+
+    def __init__(self, station: Station, topic: str, message_class: Any, type_name: str) -> None:
+        self._station = station
+        self.topic, self.message_class, self.type_name = topic, message_class, type_name
+        self._publisher: Any = None
+        self._waiting: list[tuple[float, Any]] = []
+
+    def publish(self, message: Any) -> None:
+        """Publish; on a real network the very first messages wait until the listeners were found."""
+        if self._publisher is None:
+            self._publisher = self._station.node.create_publisher(self.message_class, self.topic, self._quality())
+        self._waiting.append((self._station.now, message))
+        self.flush()
+
+    def flush(self) -> None:
+        """Publish what waits, if the listeners are found by now."""
+        while self._waiting and self._is_ready(self._waiting[0][0]):
+            self._publisher.publish(self._waiting.pop(0)[1])
+
+    def close(self) -> None:
+        """Leave the topic."""
+        self._waiting.clear()
+        if self._publisher is not None:
+            self._station.node.destroy_publisher(self._publisher)
+            self._publisher = None
+
+    def listeners(self) -> int:
+        """How many subscriptions of this type others have there."""
+        return sum(end.topic_type == self.type_name for end in self._others(self.topic))
+
+    def why_unheard(self) -> str:
+        """A sentence that says why no node gets what is published; "" if one does."""
+        there = self._others(self.topic)
+        if any(end.topic_type == self.type_name for end in there):
+            return ""
+        if there:
+            types = listed(sorted({end.topic_type for end in there}))
+            return f"The nodes that listen on {self.topic} expect {types}, not {self.type_name}."
+        elsewhere = [
+            name
+            for name, types in self._station.node.get_topic_names_and_types()
+            if self.type_name in types and any(end.topic_type == self.type_name for end in self._others(name))
+        ]
+        hint = f" There are listeners on {enumerated(elsewhere)}." if elsewhere else ""
+        return f"No node listens on {self.topic}.{hint}"
+
+    def _others(self, topic: str) -> list[Any]:
+        me = (self._station.node.get_name(), self._station.node.get_namespace())
+        ends = self._station.node.get_subscriptions_info_by_topic(topic)
+        return [end for end in ends if (end.node_name, end.node_namespace) != me]
+
+    def _is_ready(self, since: float) -> bool:
+        if not self.listeners() or self._station.now - since >= PATIENCE:
+            return True
+        own = len(self._station.node.get_subscriptions_info_by_topic(self.topic)) - len(self._others(self.topic))
+        return self._publisher.get_subscription_count() > own  # the recorder's, which is found at once
+
+    def _quality(self) -> Any:
+        """Reliable; and latched where a listener wants to be told of what was said before it came."""
+        from rclpy.qos import DurabilityPolicy, QoSProfile
+
+        wanted = {end.qos_profile.durability for end in self._others(self.topic)}
+        latched = DurabilityPolicy.TRANSIENT_LOCAL in wanted
+        return QoSProfile(
+            depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE
+        )
+
+
+def let_time_go_on(station: Station) -> None:
+    """Start robot time if it stands still and can be turned: who acts wants to see what comes of it."""
+    if station.clock is not None and not station.clock.playing:
+        with suppress(RuntimeError):  # a plain script has no event loop; there time is run by hand
+            station.clock.play(station.clock.rate)
+
+
+def in_a_moment(station: Station, future: Any) -> None:
+    """Where robot time stands still, let a moment of it pass (0.05 s at most), so that an answer can come."""
+    for _ in range(10):
+        if station.clock is None or station.clock.playing or future.done():
+            return
+        station.clock.step(0.005)
+
+
+# -- ear ----------------------------------------------------------------------------------------------------------
+# An ear at a topic that the recorder does not hear: it only notes when messages were sent.
+
+KEPT = 1000
+"""Times that are kept: five seconds of a topic with 200 messages a second."""
+
+
+class Ear:
+    """Listens to one topic until it is closed. `trouble` says why it cannot, if it cannot."""
+
+    def __init__(self, station: Station, topic: str, type_name: str) -> None:
+        self._station = station
+        self._stamps: deque[int] = deque(maxlen=KEPT)
+        self._subscription: Any = None
+        self.trouble = ""
+        try:
+            self._subscription = self._subscribe(topic, type_name)
+        except Exception as error:  # a type that is not built here, or that is another one in this very program
+            self.trouble = f"{type_name} cannot be heard here: {error}"
+
+    @property
+    def stamps(self) -> np.ndarray:
+        """When the newest messages were sent, ns."""
+        return np.fromiter(self._stamps, np.int64)
+
+    def close(self) -> None:
+        """Listen no more."""
+        if self._subscription is not None:
+            self._station.node.destroy_subscription(self._subscription)
+            self._subscription = None
+
+    def _subscribe(self, topic: str, type_name: str) -> Any:
+        from rclpy.qos import QoSProfile, ReliabilityPolicy
+
+        package, kind, name = type_name.split("/")
+        message_type = getattr(importlib.import_module(f"{package}.{kind}"), name)
+        loop, add = self._station.loop, self._stamps.append
+
+        def hear(message: Any, info: Mapping[str, Any]) -> None:
+            loop.now_or_soon(add, info["source_timestamp"])
+
+        node = self._station.node
+        quality = QoSProfile(depth=KEPT, reliability=ReliabilityPolicy.BEST_EFFORT)
+        bare = self._station.clock is None  # on a robot, where it may be images: never made into Python objects
+        return node.create_subscription(message_type, topic, with_time(node, hear), quality, raw=bare)
+
+
+# -- caller -------------------------------------------------------------------------------------------------------
+# Asking a service, one question at a time, and what became of it in words.
+
+Answered = Callable[[str, str], object]
+"""Called with what became of a question: in words, and the answer in YAML ("" where none came)."""
+
+DISCOVERY = 2.0
+"""Seconds for which a question is held back on a real network, until a new client has found who answers it."""
+
+LONGEST_LIST = 50
+"""How many elements of an array are shown of an answer."""
+
+
+class Caller:
+    """Calls one service, as any client would. Until the first question nothing of it is to be seen in the graph."""
+
+    def __init__(self, station: Station, service_class: Any, name: str) -> None:
+        self._station, self._class, self._name = station, service_class, name
+        self._client: Any = None
+        self._future: Any = None
+        self._held: Any = None
+        self._deadline = self._asked = 0.0
+        self._answered: Answered = lambda words, answer: None
+
+    @property
+    def asking(self) -> bool:
+        """Whether it waits for an answer."""
+        return self._future is not None or self._held is not None
+
+    def ask(self, request: Any, timeout: float, answered: Answered) -> None:
+        """Ask; `answered` hears what came, at the latest after `timeout` s of robot time."""
+        if self.asking:
+            raise ValueError(f"{self._name} has not answered the last request yet: wait, or stop waiting.")
+        self._answered = answered
+        if self._client is None:
+            self._client = self._station.node.create_client(self._class, self._name)
+        self._asked, self._deadline = self._station.now, self._station.now + timeout
+        if self._client.service_is_ready():
+            self._send(request)
+        elif self._station.clock is None:  # a real network, where a client finds no server in its first moments
+            self._held = request
+        else:
+            self._end(f"Not asked: {self.why_unheard()}", "")
+
+    def look(self) -> None:
+        """See whether the answer is overdue, or can never come."""
+        if not self.asking:
+            return
+        if self._held is not None:
+            self._look_again()
+        elif self._station.now > self._deadline:
+            waited = number(self._deadline - self._asked, 1)
+            self._end(f"No answer from {self._name} within {waited} s of robot time.", "")
+        elif not self._is_offered():
+            self._end(f"No answer: the node that offered {self._name} is gone.", "")
+
+    def give_up(self) -> None:
+        """Wait no more."""
+        future, self._future, self._held = self._future, None, None
+        if future is not None and self._client is not None:
+            self._client.remove_pending_request(future)
+
+    def close(self) -> None:
+        """Ask no more."""
+        self.give_up()
+        if self._client is not None:
+            self._station.node.destroy_client(self._client)
+            self._client = None
+
+    def why_unheard(self) -> str:
+        """A sentence that says why no node would answer; "" if one would."""
+        return "" if self._is_offered() else f"No node offers {self._name} now."
+
+    def _is_offered(self) -> bool:
+        """Looks at the graph alone where nothing was asked yet, so that looking leaves no client there."""
+        if self._client is not None and self._held is None:
+            return self._client.service_is_ready()
+        return any(self._name == name for name, _ in self._station.node.get_service_names_and_types())
+
+    def _send(self, request: Any) -> None:
+        self._future = future = self._client.call_async(request)
+        future.add_done_callback(lambda done: self._station.loop.now_or_soon(self._done, done))
+
+    def _look_again(self) -> None:
+        """Send the question that was held back, if there is somebody now."""
+        request = self._held
+        if self._client.service_is_ready():
+            self._held = None
+            self._send(request)
+        elif self._station.now - self._asked > DISCOVERY:
+            self._held = None
+            self._end(f"Not asked: {self.why_unheard()}", "")
+
+    def _done(self, future: Any) -> None:
+        if future is not self._future:
+            return
+        try:
+            response = future.result()
+        except Exception as error:
+            self._end(f"The call failed: {error}", "")
+            return
+        seconds = number(self._station.now - self._asked)
+        self._end(f"{self._name} answered after {seconds} s of robot time.", in_yaml(response))
+
+    def _end(self, words: str, answer: str) -> None:
+        self.give_up()
+        self._answered(words, answer)
+
+
+def in_yaml(message: Any) -> str:
+    """A message in lines as `ros2 topic echo` shows it; of a long array the first elements."""
+    import yaml
+
+    fields = _shortened(plain(message))
+    if not fields:
+        return "(the answer has no fields)"
+    return yaml.safe_dump(fields, sort_keys=False, allow_unicode=True, default_flow_style=False).strip()
+
+
+def _shortened(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {name: _shortened(each) for name, each in value.items()}
+    if isinstance(value, list):
+        rest = [f"… and {len(value) - LONGEST_LIST} more"] if len(value) > LONGEST_LIST else []
+        return [*map(_shortened, value[:LONGEST_LIST]), *rest]
+    return value
+
+
+# -- server -------------------------------------------------------------------------------------------------------
+# The node that offers a service, as seen from outside: whether it is still there, and what it warns of.
+
+WARNING = 30
+"""rcl_interfaces/msg/Log: this level and those above it."""
+
+SLACK = 0.1
+"""Robot time, s, by which a warning may be older than its call, or newer than the answer to it."""
+
+
+class Server:
+    """The node that offers one service. `said()` is called with each of its warnings."""
+
+    def __init__(self, station: Station, service: str, said: Callable[[], None]) -> None:
+        self._station, self._service, self._said = station, service, said
+        self._subscription: Any = None
+        self._names: list[str] = []
+        self._ends: set[tuple[int, ...]] = set()
+        self._warnings: deque[tuple[float, str]] = deque(maxlen=1000)
+
+    def listen(self) -> None:
+        """Notice which node offers the service now, and listen to its warnings."""
+        self._names = self._offering()
+        self._ends = self._rosout_ends()
+        if self._subscription is None:
+            from rcl_interfaces.msg import Log
+
+            node, loop = self._station.node, self._station.loop
+            self._subscription = node.create_subscription(
+                Log, "/rosout", lambda message: loop.now_or_soon(self._hear, message), 1000
+            )
+
+    def close(self) -> None:
+        """Listen no more."""
+        if self._subscription is not None:
+            self._station.node.destroy_subscription(self._subscription)
+            self._subscription = None
+
+    def is_there(self) -> bool:
+        """Whether it is the one that was there when `listen` was called: started again, it has forgotten all calls."""
+        return bool(self._offering()) and self._ends <= self._rosout_ends()
+
+    def why(self, called: float, answered: float, *, last: bool) -> str:
+        """What it warned of between a call and its answer (robot time, s), or "". A warning is given out once.
+
+        Of several, one about a goal is preferred; then the first, or the `last`.
+        """
+        found = [each for each in self._warnings if called - SLACK <= each[0] <= answered + SLACK]
+        found = [each for each in found if "goal" in each[1].lower()] or found
+        if not found:
+            return ""
+        chosen = found[-1 if last else 0]
+        self._warnings.remove(chosen)
+        return _shortened_warning(chosen[1])
+
+    def _hear(self, message: Any) -> None:
+        names = [name.strip("/").replace("/", ".") for name in self._names]
+        if message.level >= WARNING and any(f"{message.name}.".startswith(f"{name}.") for name in names):
+            stamp = message.stamp.sec * 1_000_000_000 + message.stamp.nanosec
+            self._warnings.append((self._station.recorder.seconds(stamp), message.msg))
+            self._said()
+
+    def _offering(self) -> list[str]:
+        node = self._station.node
+        return [
+            f"{namespace.rstrip('/')}/{name}"
+            for name, namespace in node.get_node_names_and_namespaces()
+            if self._service in _services(node, name, namespace)
+        ]
+
+    def _rosout_ends(self) -> set[tuple[int, ...]]:
+        """What tells this very node from the next one of its name: the end with which it publishes its log."""
+        return {
+            tuple(end.endpoint_gid)
+            for end in self._station.node.get_publishers_info_by_topic("/rosout")
+            if f"{end.node_namespace.rstrip('/')}/{end.node_name}" in self._names
+        }
+
+
+def _services(node: Any, name: str, namespace: str) -> list[str]:
+    from rclpy.node import NodeNameNonExistentError
+
+    try:
+        return [service for service, _ in node.get_service_names_and_types_by_node(name, namespace)]
+    except NodeNameNonExistentError:  # gone since the list was made
+        return []
+
+
+def _shortened_warning(warning: str) -> str:
+    """A warning without "Goal refused:" in front, since the state says that already; with a capital and a full stop."""
+    head, colon, rest = warning.partition(": ")
+    text = rest if colon and head.lower().startswith("goal") else warning
+    return f"{text[:1].upper()}{text[1:]}".rstrip(".") + "."

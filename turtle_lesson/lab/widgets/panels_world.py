@@ -1,0 +1,372 @@
+"""Panels that act on the world: the map with the turtle's trail, the clock, the editor of obstacles, and the goals."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from itertools import islice, product
+from typing import Any
+
+import numpy as np
+import traitlets
+
+from ...turtlesim.obstacles import WORLDS, Box, Circle
+from ..obstacle_board import Obstacle
+from ..path_geometry import find_jumps
+from ..recording import UNDER_WAY, Table
+from ..words import angle, count, listed, point
+from .goal_client import Goal, GoalDesk
+from .lazy_endpoints import let_time_go_on
+from .live_data import Pace, pack
+from .live_widget import LiveWidget
+
+# -- panel map ----------------------------------------------------------------------------------------------------
+# The panel with the map: the world from above, with the turtle, its trail, the obstacles and what the laser hits.
+
+STALE = 1.5
+"""A scan of more robot time ago than this, s, is no longer drawn on the map."""
+
+
+class MapPanel(LiveWidget):
+    """Shows the world as the topics tell of it."""
+
+    pose = traitlets.Bytes().tag(sync=True)
+    """x, y, theta, speed (m, rad, m/s); not-a-number where none was heard."""
+    trail = traitlets.Bytes().tag(sync=True)
+    """The turtle's way: x, y, x, y, …, m; two not-a-numbers where it was put elsewhere."""
+    tail = traitlets.Bytes().tag(sync=True)
+    """The newest part of its way, which follows on `trail`."""
+    scan = traitlets.Bytes().tag(sync=True)
+    """The newest scan: angle_min, angle_increment (rad), range_max (m), then the distances (m)."""
+    scanned_from = traitlets.Bytes().tag(sync=True)
+    """Where the turtle was at that scan: x, y, theta (m, rad); empty when that was too long ago."""
+    obstacles = traitlets.List(traitlets.Dict()).tag(sync=True)
+    """"shape" ("circle" or "box"), x, y, width, height (m), angle (rad) of each."""
+
+    def __init__(self, *arguments: Any, **traits: Any) -> None:
+        super().__init__(*arguments, **traits)
+        self._way = Trail(self.station.recorder.poses)
+        self._scan_drawn: Any = None
+
+    def tick(self) -> None:
+        """Read what was heard."""
+        super().tick()
+        poses = self.station.recorder.poses.newest(1)
+        self.pose = pack([poses[0][name] for name in ("x", "y", "theta", "speed")] if len(poses) else [np.nan] * 4)
+        self._way.grow()
+        self.trail, self.tail = self._way.whole, self._way.tail
+        self._show_scan()
+        self.obstacles = [as_state(each) for each in self.station.board.obstacles]
+
+    def left(self) -> None:
+        """Draw no more."""
+        super().left()
+        del self._way
+
+    def _show_scan(self) -> None:
+        recorder = self.station.recorder
+        scan = recorder.last_scan
+        if scan is None:
+            return
+        stamp = recorder.scans.newest(1)["stamp"][0]
+        if self.station.now - recorder.seconds(stamp) > STALE:
+            self.scanned_from = b""
+        elif scan is not self._scan_drawn:
+            self._scan_drawn = scan
+            self.scan = pack([scan.angle_min, scan.angle_increment, scan.range_max, *scan.ranges])
+            rows = recorder.poses.newest(2000)
+            rows = rows[rows["stamp"] <= stamp - UNDER_WAY]  # or a turtle that turns would see walls beside the walls
+            self.scanned_from = pack([rows[-1][name] for name in ("x", "y", "theta")]) if len(rows) else b""
+
+
+def as_state(obstacle: Obstacle) -> dict[str, Any]:
+    """What the browser is told of an obstacle."""
+    place = {"x": obstacle.x, "y": obstacle.y}
+    if isinstance(obstacle, Box):
+        return {"shape": "box", **place, "width": obstacle.width, "height": obstacle.height, "angle": obstacle.angle}
+    return {"shape": "circle", **place, "width": 2 * obstacle.radius, "height": 2 * obstacle.radius, "angle": 0.0}
+
+
+# -- panel clock --------------------------------------------------------------------------------------------------
+# The panel with the clock: play, pause, step and rate; robot time beside wall time.
+
+LONGEST_STEP = 1.0
+"""Seconds of robot time that one step may take."""
+
+FASTEST = "max"
+"""What the browser calls an infinite rate, which JSON does not know."""
+
+
+class ClockPanel(LiveWidget):
+    """Shows the clock, and turns it where it can be turned."""
+
+    now = traitlets.Float(0.0).tag(sync=True)
+    """Robot time, s."""
+    clock = traitlets.Dict().tag(sync=True)
+    """Whether it can be turned ("turns"), whether it goes ("playing"), and at which "rate" it shall go ("max": as fast as
+    possible)."""
+    wall = traitlets.Dict().tag(sync=True)
+    """The "seconds" of wall time since it was played, and the "speed" that it really reaches; 0 while it stands still."""
+
+    _wall_pace: Pace | None = None
+
+    def tick(self) -> None:
+        """Read the clock."""
+        super().tick()
+        self.now = round(self.station.now, 3)
+        clock = self.station.clock
+        if clock is None:
+            self.clock = {"turns": False, "playing": True, "rate": 1.0}
+            return
+        rate = clock.rate if math.isfinite(clock.rate) else FASTEST
+        state = {"turns": True, "playing": clock.playing, "rate": rate}
+        self._wall_pace = self._wall_pace or Pace(5)
+        if self._wall_pace.due() or state != self.clock:
+            self.wall = {"seconds": round(clock.wall_seconds, 1), "speed": float(f"{clock.speed:.2g}")}
+        self.clock = state
+
+    def do_play(self) -> None:
+        """Let robot time go on."""
+        if self.station.clock is not None:
+            self.station.clock.play(self.station.clock.rate)
+
+    def do_rate(self, rate: float | str) -> None:
+        """Say how fast it shall go on; "max" is as fast as possible."""
+        if self.station.clock is not None:
+            self.station.clock.rate = math.inf if rate == FASTEST else rate  # type: ignore[assignment]
+
+    def do_pause(self) -> None:
+        """Let robot time stand still."""
+        if self.station.clock is not None:
+            self.station.clock.pause()
+
+    def do_step(self, seconds: float) -> None:
+        """Let a little robot time pass."""
+        if not isinstance(seconds, int | float) or not 0 < seconds <= LONGEST_STEP:
+            raise ValueError(f"A step takes from 0 to {LONGEST_STEP} s of robot time, not {seconds!r}.")
+        if self.station.clock is not None:
+            self.station.clock.step(float(seconds))
+
+
+# -- panel editor -------------------------------------------------------------------------------------------------
+# The panel that edits the world: add, move, change and remove obstacles, or load a ready-made world.
+
+CIRCLE, BOX = {"radius": 0.5}, {"width": 1.5, "height": 0.5}
+"""The sizes of a fresh obstacle, m."""
+
+ROOM = 0.8
+"""A fresh obstacle leaves so much room around it where it can, m."""
+
+MIDDLE = 5.5
+
+
+class EditorPanel(LiveWidget):
+    """Changes the obstacles. An order names an obstacle by its place in the list, from 0."""
+
+    worlds = traitlets.List(traitlets.Unicode(), list(WORLDS)).tag(sync=True)
+    """The names of the ready-made worlds."""
+
+    def do_obstacle_add(self, shape: str) -> None:
+        """Put a fresh circle or box where there is room."""
+        x, y = self._free_place()
+        fresh: Obstacle = Box(x, y, **BOX) if shape == "box" else Circle(x, y, **CIRCLE)
+        self._put([*self.station.board.obstacles, fresh], f"Added a {fresh}.")
+
+    def do_obstacle_change(self, number: int, done: bool = True, **fields: float) -> None:
+        """Change some fields of one; `done` is False while it is being dragged."""
+        obstacles = list(self.station.board.obstacles)
+        old = self._obstacle(number)
+        known = {name: getattr(old, name) for name in old.__slots__}
+        unknown = sorted(set(fields) - set(known))
+        if unknown:
+            raise ValueError(f"A {type(old).__name__.lower()} has no {unknown[0]}; it has {', '.join(known)}.")
+        obstacles[number] = type(old)(**{**known, **fields})
+        self._put(obstacles, f"Now a {obstacles[number]}." if done else "")
+
+    def do_obstacle_move(self, number: int, right: float, up: float) -> None:
+        """Move one by so many metres; of keys pressed fast none is lost, since it counts from where it is now."""
+        old = self._obstacle(number)
+        self.do_obstacle_change(number, x=round(old.x + right, 6), y=round(old.y + up, 6))
+
+    def do_obstacle_remove(self, number: int) -> None:
+        """Take one away."""
+        gone = self._obstacle(number)
+        left = [each for place, each in enumerate(self.station.board.obstacles) if place != number]
+        self._put(left, f"Removed the {gone}.")
+
+    def do_world(self, name: str) -> None:
+        """Replace all obstacles by those of a ready-made world."""
+        self._put(str(name), f"Loaded the world “{name}”.")
+
+    def obstacles_in_words(self) -> str:
+        """How many obstacles there are."""
+        return f"{count(len(self.station.board.obstacles), 'obstacle').capitalize()} in the world."
+
+    def _obstacle(self, number: int) -> Obstacle:
+        obstacles = self.station.board.obstacles
+        if not isinstance(number, int) or not 0 <= number < len(obstacles):
+            raise ValueError("That obstacle is gone.")
+        return obstacles[number]
+
+    def _put(self, obstacles: list[Obstacle] | str, words: str) -> None:
+        self.station.board.put(obstacles)
+        if words:
+            clock = self.station.clock
+            later = clock is not None and not clock.playing
+            hint = " The nodes notice it once robot time passes." if later else ""
+            self.words = f"{words} {self.obstacles_in_words()}{hint}"
+
+    def _free_place(self) -> tuple[float, float]:
+        """A place away from the turtle and the obstacles, as near to the middle as can be."""
+        taken = [(each.x, each.y, _reach(each)) for each in self.station.board.obstacles]
+        taken += [(float(x), float(y), ROOM) for _, x, y, *_ in self.station.recorder.poses.newest(1)]
+        steps = [0.5 + 0.5 * step for step in range(21)]
+        places = sorted(product(steps, steps), key=lambda place: math.dist(place, (MIDDLE, MIDDLE)))
+        for place in places:
+            if all(math.dist(place, (x, y)) > reach + ROOM for x, y, reach in taken):
+                return place
+        return MIDDLE, MIDDLE
+
+
+def _reach(obstacle: Any) -> float:
+    """How far an obstacle reaches from its middle at most, m."""
+    return obstacle.radius if isinstance(obstacle, Circle) else math.hypot(obstacle.width, obstacle.height) / 2
+
+
+# -- panel goals --------------------------------------------------------------------------------------------------
+# The panel with the goals: those that were sent from here, and what became of each.
+
+SHOWN = 60
+"""How many of the newest goals the browser is told of."""
+
+
+class GoalsPanel(LiveWidget):
+    """Sends goals to the navigator, and shows its answers."""
+
+    goals = traitlets.List(traitlets.Dict()).tag(sync=True)
+    """The newest goals, in the order in which they were sent; `Goal` says what there is of each."""
+    earlier = traitlets.Int(0).tag(sync=True)
+    """How many were sent before those."""
+
+    def __init__(self, *arguments: Any, **traits: Any) -> None:
+        super().__init__(*arguments, **traits)
+        self.desk = GoalDesk(self.station, self._goal_changed)
+        self._goal_news = False
+
+    def opened(self) -> None:
+        """Somebody looks."""
+        super().opened()
+        self.desk.open()
+
+    def closed(self) -> None:
+        """Nobody looks."""
+        super().closed()
+        self.desk.rest()
+
+    def tick(self) -> None:
+        """Tell the browser of news."""
+        super().tick()
+        self.desk.look()
+        if self._goal_news:
+            self._goal_news = False
+            self.goals = [each.as_state() for each in self.desk.goals[-SHOWN:]]
+            self.earlier = max(0, len(self.desk.goals) - SHOWN)
+
+    def do_goal(self, x: float, y: float, theta: float) -> None:
+        """Send a goal, and let time go on if it stands still."""
+        if self.desk.send(x, y, theta).waits:
+            let_time_go_on(self.station)
+
+    def left(self) -> None:
+        """Ask no more."""
+        super().left()
+        self.desk.close()
+
+    def goals_in_words(self) -> str:
+        """How many goals were sent, what became of them, and what of the last one."""
+        goals = self.desk.goals
+        if not goals:
+            return "No goal sent yet."
+        states = Counter(goal.state for goal in goals)
+        last = goals[-1]
+        place = f"Goal {last.number} at {point(last.x, last.y)} m facing {angle(last.theta)}"
+        counted = listed([f"{amount} {state}" for state, amount in states.items()])
+        return f"{count(len(goals), 'goal').capitalize()} sent: {counted}. {place}: {_ending(last)}"
+
+    def _goal_changed(self, goal: Goal) -> None:
+        self._goal_news = True
+        self.words = f"Goal {goal.number} at {point(goal.x, goal.y)} m: {_ending(goal)}"
+
+
+def _ending(goal: Goal) -> str:
+    return f"{goal.state}. {goal.answer}" if goal.answer else f"{goal.state}."
+
+
+# -- trail --------------------------------------------------------------------------------------------------------
+# The turtle's trail on a live map, grown point by point and sent to the browser in two parts.
+
+SPACING = 0.05
+"""Metres from one point of the trail to the next; the browser itself joins the last one to the turtle."""
+POINTS = 600
+"""How many points are kept: 30 m of way."""
+TAIL = 60
+"""How many points may be new until the whole trail is sent again."""
+
+Point = tuple[float, float]
+GAP: Point = (math.nan, math.nan)
+
+
+class Trail:
+    """The newest metres of the way that a table of poses tells. `whole` rarely changes, `tail` is short."""
+
+    def __init__(self, poses: Table) -> None:
+        self._poses = poses
+        self._last: Any = None
+        self._points: list[Point] = []
+        self._new: list[Point] = []
+        self.whole = self.tail = b""
+
+    def grow(self) -> None:
+        """Add what has come since the last time."""
+        rows = self._fresh_rows()
+        if len(rows) < 2:
+            return
+        self._last = rows[-1:].copy()
+        jumps = set(find_jumps(rows).tolist())
+        before = len(self._new)
+        places = zip(rows["x"].tolist(), rows["y"].tolist(), strict=True)
+        for number, (x, y) in enumerate(islice(places, 1, None), start=1):
+            self._add(x, y, number in jumps)
+        if len(self._new) != before:
+            self._pack()
+
+    def _fresh_rows(self) -> np.ndarray:
+        """The last row that was used, and those after it; all rows when there was none."""
+        if self._last is None:
+            rows = self._poses.array()
+            if len(rows):
+                self._last = rows[:1]
+                self._add(float(rows["x"][0]), float(rows["y"][0]), False)
+            return rows
+        stamp, count = self._last["stamp"][0], 16
+        while True:
+            rows = self._poses.newest(count)
+            if len(rows) < count or rows["stamp"][0] <= stamp:
+                return np.concatenate([self._last, rows[rows["stamp"] > stamp]])
+            count *= 4
+
+    def _add(self, x: float, y: float, jumped: bool) -> None:
+        if not (math.isfinite(x) and math.isfinite(y)):
+            return
+        points = self._new or self._points
+        if jumped:
+            self._new += [GAP, (x, y)]
+        elif not points or math.hypot(x - points[-1][0], y - points[-1][1]) >= SPACING:
+            self._new.append((x, y))
+
+    def _pack(self) -> None:
+        if len(self._new) > TAIL or not self.whole:
+            self._points = [*self._points, *self._new][-POINTS:]
+            self._new = []
+            self.whole = pack(self._points)
+        self.tail = pack(self._new)

@@ -1,0 +1,1 @@
+"""The learner's workspace, and the story of the pages that it grows with."""

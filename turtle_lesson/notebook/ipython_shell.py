@@ -1,0 +1,77 @@
+"""What is special in Jupyter: tracebacks that end at the learner's own line, and commands as in a terminal."""
+
+from __future__ import annotations
+
+import _imp
+import os
+from contextlib import suppress
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+from ..ros.sim import errors
+from ..session.ros_detection import real_ros
+
+
+def prepare(shell: Any) -> None:
+    """Have errors in cells shown without the frames of the simulated ROS 2, and `ros2 …` understood in cells.
+
+    Where a real ROS 2 is sourced, its own commands are to be used: `!ros2 …`.
+    """
+    if folder := os.environ.get("TURTLE_LESSON_FOLDER"):  # tests give each page a fresh folder
+        os.chdir(folder)
+    shell.register_magic_function(solution, "cell")
+    _guard_the_workspace(shell)
+    shell.events.register("post_run_cell", give_import_lock_back)
+    shell.set_custom_exc((Exception, KeyboardInterrupt), _show)
+    if not real_ros():
+        from . import magics
+
+        magics.install(shell)
+
+
+def give_import_lock_back(*_: object) -> None:
+    """After a cell: an interrupt just when Python has taken its lock of imports leaves that taken, and Jupyter mute."""
+    with suppress(RuntimeError):  # it is another thread's
+        while _imp.lock_held():
+            _imp.release_lock()
+
+
+def solution(line: str, cell: str) -> None:
+    """`%%solution NAME`: does nothing. To run a folded solution, delete this first line of its cell."""
+
+
+def _guard_the_workspace(shell: Any) -> None:
+    """Have `%%writefile` ask before it replaces what a learner wrote in the package. Elsewhere it is IPython's own."""
+    original = shell.find_cell_magic("writefile")
+    if getattr(original, "is_turtle_lesson", False):
+        return
+
+    def writefile(line: str, cell: str) -> None:
+        from ..learner.workspace import workspace
+
+        words = line.split()
+        file = Path(words[-1].strip("'\"")).expanduser().absolute() if words else Path()
+        mine = workspace()
+        if words[:-1] in ([], ["-a"], ["--append"]) and file.is_relative_to(mine.package):
+            print(mine.write(file, cell, append=len(words) == 2))
+        else:
+            original(line, cell)
+
+    writefile.is_turtle_lesson = True  # type: ignore[attr-defined]
+    writefile.__doc__ = original.__doc__
+    shell.register_magic_function(writefile, "cell")
+
+
+def _show(
+    shell: Any, kind: type[BaseException], error: BaseException, trace: TracebackType, tb_offset: Any = None
+) -> None:
+    from ..ros.cli.shell import CommandInterrupted
+
+    if errors.before_showing is not None:
+        errors.before_showing(error)
+    error.__traceback__ = errors.shorten(trace)
+    if isinstance(error, CommandInterrupted):  # one line: for what never ends this is the usual way to end it
+        shell._showtraceback(kind, error, [f"KeyboardInterrupt: {error}"])
+        return
+    shell.showtraceback((kind, error, error.__traceback__), tb_offset=0)

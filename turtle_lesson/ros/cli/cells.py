@@ -1,0 +1,296 @@
+"""Commands among Python: which lines of a notebook's cell are meant for the terminal.
+
+A statement that begins with `ros2`, `colcon`, `source`, `mkdir`, `cd` or their kin and is no Python is replaced by a call that
+runs it, so that commands may stand anywhere: between Python statements, indented in an `if` or a loop, behind `if x:` or `;`,
+several in one cell. What could be Python (`ros2 -h` is a subtraction) counts as Python if the name is a variable. Words that
+are less plainly a command (`echo`, `git`, `python3`) are taken for one only where Python could make nothing of the statement.
+"""
+
+from __future__ import annotations
+
+import ast
+import difflib
+import re
+import shutil
+import textwrap
+from bisect import bisect_left
+from collections.abc import Container, Iterator
+from itertools import accumulate
+
+from .command_hints import ELSEWHERE, NEVER_PYTHON
+from .lexer import UnfinishedError, command_end
+
+COMMANDS = ("ros2", "colcon", "source", "mkdir", "cd", "ls", "pwd", "cat", "touch", "jobs", "kill")
+"""Words that are a command unless they are a variable."""
+
+UNSURE = ELSEWHERE | {
+    "chmod",
+    "cp",
+    "echo",
+    "export",
+    "grep",
+    "head",
+    "mv",
+    "printenv",
+    "printf",
+    "rm",
+    "sleep",
+    "sort",
+    "tail",
+    "unset",
+    "wc",
+}
+"""Words that are a command where the statement is no Python."""
+
+OWN_MAGICS = ("ros2", "colcon", "source")
+"""Those that may also be written with a `%`, everywhere; `%cd`, `%ls` and others are IPython's own."""
+
+MAGIC = "terminal"
+
+LONGEST = 1000
+"""How far into a line a command behind other statements is looked for."""
+
+_FIRST = re.compile(
+    r"(?P<indent>[ \t]*)(?P<sign>%|!\s*|\$\s+)?(?P<word>[A-Za-z][\w-]*|\.(?=[ \t])|\.{1,2}/[\w./-]+)"
+    r"(?![\w(\[.,?:\])}])(?P<rest>.*)",
+    re.DOTALL,
+)
+_PYTHON_NEXT = re.compile(r"\s*(?:[-+*/%&|^@]|//|\*\*|<<|>>|[=!<>]|:)?=|\s+(?:in|is|if|and|or|not|for)\b\s")
+_VARIABLE = re.compile(r"[A-Za-z_]\w*=\S*[ \t]+(?:\S+[ \t]+)*?(?:ros2|colcon|python3)[ \t]")
+_DEEPER = {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}
+_STRING = re.compile(r"(?i)(?:[rbfut]{0,3})('''|\"\"\"|'|\")")
+
+
+def translate(lines: list[str], variables: Container[str] = ()) -> list[str]:
+    """Replace the commands among a cell's lines; the number of lines stays as it is.
+
+    Args:
+        lines: the cell's lines, with their line ends.
+        variables: names that have a value, and so are Python wherever they could be.
+    """
+    cell = _Cell(lines, variables)
+    translated: list[str] = []
+    at = 0
+    while at < len(lines):
+        column = _command_column(cell, at)
+        if column is not None:
+            end = cell.script_end(at, column)
+            translated += _call(lines[at:end], column)
+        else:
+            end = cell.statement_end(at)
+            translated += lines[at:end]
+        at = end
+    return translated
+
+
+# -- commands ------------------------------------------------------------------------------------------------------------
+
+
+def _command_column(cell: _Cell, at: int) -> int | None:
+    """Where in the statement's first line a command begins; None if there is none."""
+    if _is_command(cell, at, 0):
+        return 0
+    line = cell.lines[at]
+    if line.lstrip().startswith(("%", "!")):
+        return None
+    return next((column for column in inner_places(line) if _is_command(cell, at, column)), None)
+
+
+def _is_command(cell: _Cell, at: int, column: int) -> bool:
+    """Whether what begins at this column of a line is meant for the terminal."""
+    found = _FIRST.match(cell.lines[at], column)
+    if found is None:
+        return False
+    sign, word, rest = (found["sign"] or "").strip(), found["word"], found["rest"]
+    if sign == "$" or (not sign and "/" in word):  # no statement of Python begins with ./
+        return True
+    if sign == "%":
+        return word in OWN_MAGICS
+    if sign == "!":
+        return word in OWN_MAGICS and shutil.which(word) is None
+    if _VARIABLE.match(word + rest):
+        return not _is_python(cell.statement(at, column))
+    if _PYTHON_NEXT.match(rest):
+        return False
+    if word in COMMANDS or word == ".":
+        return not cell.has(word) or not _is_python(cell.statement(at, column))
+    if not rest.strip():
+        return word in NEVER_PYTHON and not cell.has(word)
+    known = word in UNSURE or bool(difflib.get_close_matches(word, ("ros2", "colcon"), 1, 0.75))
+    return known and not _is_python(cell.statement(at, column))
+
+
+def inner_places(line: str) -> Iterator[int]:
+    """Where in a line another statement may begin: behind `;`, and behind the `:` of `if x:`."""
+    depth = 0
+    for kind, sign, place in _pieces(line, ""):
+        depth += _DEEPER.get(sign, 0) if kind == "bracket" else 0
+        if kind != "end" or depth != 0 or place > LONGEST:
+            continue
+        found = _FIRST.match(line, place)
+        known = found is not None and (found["sign"] or found["word"] in UNSURE or found["word"] in (*COMMANDS, "."))
+        if known and _opens(line[:place], " pass" if sign == ":" else ""):
+            yield place
+
+
+def _opens(head: str, body: str) -> bool:
+    """Whether a statement can follow this beginning of a line. An `else` or an `except` has more before it."""
+    return any(_is_python(f"{before}{head.strip()}{body}") for before in ("", "if 1: pass\n", "try: pass\n"))
+
+
+def _is_python(statement: str) -> bool:
+    try:
+        ast.parse(textwrap.dedent(statement).lstrip(" \t"))
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return False
+    return True
+
+
+def _is_assigned(word: str, cell: str) -> bool:
+    """Whether a cell itself gives a value to a word."""
+    word = re.escape(word)
+    return bool(
+        re.search(rf"(?m)(?:^|[\s,(*]){word}\s*(?:[,:][^=\n]*)?=(?!=)", cell)
+        or re.search(rf"\b(?:for|import|as|def|class|global)\s+{word}\b", cell)
+        or re.search(rf"\bdef\s+\w+\([^)]{{0,1000}}\b{word}\b", cell)
+    )
+
+
+def _call(lines: list[str], column: int) -> list[str]:
+    """The Python that runs a command, as many lines long as the command."""
+    found = _FIRST.match(lines[0], column)
+    assert found is not None
+    sign = "!" if (found["sign"] or "").startswith("!") else ""
+    script = "".join([sign, lines[0][found.start("word") :], *lines[1:]]).rstrip("\n")
+    call = f"{lines[0][:column]}{found['indent']}get_ipython().run_line_magic({MAGIC!r}, {script!r})"
+    return [f"{call}\n", *["\n"] * (len(lines) - 1)]
+
+
+# -- Python --------------------------------------------------------------------------------------------------------------
+
+
+class _Cell:
+    """A cell's lines, and where their statements and commands end.
+
+    A line is not read again for each statement that it might belong to: what an unclosed bracket holds open to the cell's
+    end shows on the way where the statements end that begin in later lines.
+    """
+
+    def __init__(self, lines: list[str], variables: Container[str]) -> None:
+        self.lines = lines
+        self._text = "".join(lines)
+        self._begins = [0, *accumulate(map(len, lines))]
+        self._variables = variables
+        self._known: dict[str, bool] = {}
+        self._ends: dict[int, int] = {}
+        # From which line's end on a string is open until the cell ends, by its quote.
+        self._endless: dict[str, int] = {}
+
+    def has(self, word: str) -> bool:
+        """Whether a word is a variable, of the notebook or of this cell."""
+        if word not in self._known:
+            self._known[word] = word in self._variables or _is_assigned(word, self._text)
+        return self._known[word]
+
+    def script_end(self, at: int, column: int) -> int:
+        """The line behind a command, which goes on while a quote is open or its line ends in a backslash."""
+        try:
+            end = command_end(self._text, self._begins[at] + column)
+        except UnfinishedError:
+            return at + 1
+        return bisect_left(self._begins, end)
+
+    def statement(self, at: int, column: int) -> str:
+        """The Python statement that begins here."""
+        return "".join([self.lines[at][column:], *self.lines[at + 1 : self.statement_end(at)]])
+
+    def statement_end(self, at: int) -> int:
+        """The line behind the Python statement that begins here: brackets and long strings hold it together.
+
+        One with a bracket or a string that is never closed ends with its first line.
+        """
+        if self.lines[at].lstrip().startswith(("%", "!")):
+            return next(
+                (end for end in range(at + 1, len(self.lines)) if not _is_continued(self.lines[end - 1])),
+                len(self.lines),
+            )
+        if at not in self._ends:
+            self._read_statement(at)
+        return self._ends[at]
+
+    def _read_statement(self, at: int) -> None:
+        """Read to the end of a statement, or of the cell; note where those end that begin on the way."""
+        opened: list[int] = []  # the line of each bracket that is open
+        closed: dict[int, int] = {}  # where the outermost bracket of a line is closed
+        joined: set[int] = set()  # lines that end in a backslash, or within a string
+        starts: list[int] = []
+        string, since, last = "", at, at
+        for last in range(at, len(self.lines)):
+            starts += [] if string else [last]
+            kind, text, before = "", "", string
+            for kind, text, _ in _pieces(self.lines[last], string):
+                if kind == "bracket" and _DEEPER[text] > 0:
+                    opened.append(last)
+                elif kind == "bracket" and opened:
+                    closed[opened.pop()] = last
+            string = text if kind == "open string" else ""
+            since = since if string == before else last
+            if kind in ("open string", "backslash"):
+                joined.add(last)
+            if (not opened and last not in joined) or last >= self._endless.get(string, len(self.lines)):
+                break
+        if string:
+            self._endless[string] = min(since, self._endless.get(string, since))
+        behind = None if string else len(self.lines)
+        ends: dict[int, int | None] = dict.fromkeys(opened)
+        for line in range(last, at - 1, -1):
+            if closed.get(line, line) > line:
+                ends.setdefault(line, ends[closed[line]])
+            else:
+                ends.setdefault(line, ends.get(line + 1, behind) if line in joined else line + 1)
+        self._ends.update((line, ends[line] or line + 1) for line in starts)
+
+
+def _is_continued(line: str) -> bool:
+    return line.rstrip("\n").endswith("\\")
+
+
+def _pieces(line: str, string: str) -> Iterator[tuple[str, str, int]]:
+    """What holds a line's statement together or ends it: kind, text, and the place behind it."""
+    at = 0
+    while at < len(line):
+        if string:
+            end = _string_end(line, at, string)
+            if end is None:
+                if len(string) == 3 or line.rstrip("\n").endswith("\\"):
+                    yield "open string", string, len(line)
+                return
+            at, string = end, ""
+            continue
+        char = line[at]
+        if char == "#":
+            return
+        opened = _STRING.match(line, at) if char in "'\"" else None
+        if opened:
+            string, at = opened[1], opened.end()
+            continue
+        at += 1
+        if char == "\\" and line[at:].strip() == "":
+            yield "backslash", char, at
+            return
+        if char in _DEEPER:
+            yield "bracket", char, at
+        elif char in ";:":
+            yield "end", char, at
+
+
+def _string_end(line: str, at: int, quote: str) -> int | None:
+    """The place behind the string that is open, or None if it does not end in this line."""
+    while at < len(line):
+        if line[at] == "\\":
+            at += 2
+        elif line.startswith(quote, at):
+            return at + len(quote)
+        else:
+            at += 1
+    return None

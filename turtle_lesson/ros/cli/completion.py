@@ -1,0 +1,334 @@
+"""What Tab offers in a command: verbs, options, and what its arguments may be."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import redirect_stdout
+from io import StringIO
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import yaml
+from IPython.core.completer import CompletionContext, SimpleCompletion, SimpleMatcherResult, context_matcher
+
+from .. import launching
+from ..idl.registry import registry
+from ..rmw.graph import is_hidden
+from ..runtime.world import current_world
+from .cells import COMMANDS, inner_places
+from .group_pkg import package_names
+from .jobs import jobs
+from .lexer import Operator, UnfinishedError, Word, tokens
+from .parser import GROUPS, Parser, Stop, Verb, verb_parser
+from .verb import absolute
+
+if TYPE_CHECKING:
+    from ..runtime.world import World
+
+
+def complete(world: World, line: str) -> list[str]:
+    """The words that the last, unfinished word of a line may become, sorted; `line` ends at the cursor."""
+    try:
+        found = list(tokens(line))
+    except UnfinishedError:
+        return []
+    starts = [place + 1 for place, token in enumerate(found) if isinstance(token, Operator)]
+    words = [token.text for token in found[starts[-1] if starts else 0 :] if isinstance(token, Word)]
+    begun = words.pop() if words and not line[-1:].isspace() else ""
+    if not words or words[0] not in COMMANDS:
+        return []
+    return sorted({each for each in _candidates(world, words, begun) if each.startswith(begun) and each != begun})
+
+
+def _candidates(world: World, words: list[str], begun: str) -> Iterable[str]:
+    program, *rest = words
+    if program == "colcon":
+        return _colcon(rest)
+    if program in {"jobs", "pwd"}:
+        return []
+    if program == "kill":
+        return ["-INT", "-TERM", "-KILL", *job_numbers(world)]
+    if program != "ros2":
+        return paths(begun, folders_only=program in {"cd", "mkdir"})
+    if not rest:
+        return [*GROUPS, "--help"]
+    group = GROUPS.get(rest[0])
+    if group is None:
+        return []
+    if group.alone is not None:
+        return _arguments(world, group.alone, rest[1:], begun)
+    before = [word for word in rest[1:] if not word.startswith("-")]
+    if not before:
+        return [*group.verbs, "--help", *([group.flag[0]] if group.flag else [])]
+    verb = group.verbs.get(before[0])
+    return [] if verb is None else _arguments(world, verb, rest[rest.index(before[0]) + 1 :], begun)
+
+
+def _colcon(words: Sequence[str]) -> list[str]:
+    if not words:
+        return ["build", "graph", "list"]
+    return ["--packages-select", "--symlink-install", "--event-handlers", *source_packages()]
+
+
+# -- the arguments of a verb ---------------------------------------------------------------------------------------------
+
+
+def _arguments(world: World, verb: Verb, words: list[str], begun: str) -> Iterable[str]:
+    try:
+        parser = verb_parser(verb, "ros2")
+    except Stop:
+        return []
+    if begun.startswith("-"):
+        return parser.option_names()
+    option = _waiting_option(parser, words)
+    if option is not None:
+        return _values(world, option, words, begun)
+    given = _positional(parser, words)
+    places = [action for action in parser.actions if not action.option_strings]
+    if not places:
+        return parser.option_names()
+    place = places[min(len(given), len(places) - 1)]
+    if len(given) >= len(places) and place.nargs not in ("*", "+", argparse.REMAINDER):
+        return parser.option_names()
+    return _values(world, place, given, begun)
+
+
+def _waiting_option(parser: Parser, words: Sequence[str]) -> argparse.Action | None:
+    """The option that the next word is the value of."""
+    if not words or not words[-1].startswith("-"):
+        return None
+    return next((a for a in parser.actions if words[-1] in a.option_strings and a.nargs != 0), None)
+
+
+def _positional(parser: Parser, words: Sequence[str]) -> list[str]:
+    """The words that are neither options nor their values."""
+    given: list[str] = []
+    for place, word in enumerate(words):
+        if not word.startswith("-") and _waiting_option(parser, words[:place]) is None:
+            given.append(word)
+    return given
+
+
+def _values(world: World, action: argparse.Action, given: Sequence[str], begun: str) -> Iterable[str]:
+    if action.choices is not None:
+        return [str(choice) for choice in action.choices]
+    find = BY_NAME.get(action.dest)
+    return [] if find is None else find(world, given, begun)
+
+
+# -- IPython -------------------------------------------------------------------------------------------------------------
+
+
+def install(shell: Any) -> None:
+    """Have Tab in an IPython shell offer these words, and in a command nothing else."""
+    matchers = shell.Completer.custom_matchers
+    matchers[:] = [each for each in matchers if each is not command_matcher]
+    matchers.append(command_matcher)
+
+
+@context_matcher()
+def command_matcher(context: CompletionContext) -> SimpleMatcherResult:
+    """What IPython asks of the line at the cursor; a line that is no command is left to Python."""
+    above = context.full_text.split("\n")[: context.cursor_line]
+    text = "\n".join([*above, context.text_until_cursor.rpartition("\n")[2]])
+    line = re.sub(r"\\\n\s*", " ", text).rpartition("\n")[2]
+    command = next((line[at:] for at in (0, *inner_places(line)) if _reads_like_a_command(line[at:])), None)
+    if command is None:
+        return {"completions": []}
+    command = command.strip(" \t%").removeprefix("terminal ") + " " * command[-1:].isspace()
+    begun = "" if command[-1:].isspace() else command.split()[-1]
+    found = [SimpleCompletion(text=word, type="command") for word in complete(current_world(), command)]
+    return {"completions": found, "suppress": True, "matched_fragment": begun}
+
+
+def _reads_like_a_command(line: str) -> bool:
+    """Whether a line begins with a command's name and a blank, with no `=` or the like after it."""
+    found = re.match(r"\s*%?(?:terminal\s+)?(\w+)\s+(?![-+*/%&|^@]?=)", line)
+    return found is not None and found[1] in COMMANDS
+
+
+# -- completion words ---------------------------------------------------------------------------------------------
+# What the arguments of a command may be: names of nodes, topics, services, types, parameters and packages, and files.
+
+# -- files ---------------------------------------------------------------------------------------------------------------
+
+
+def paths(begun: str, *, folders_only: bool = False) -> list[str]:
+    """The files and folders that a path may become; hidden ones if its last part begins with a dot."""
+    head, slash, last = begun.rpartition("/")
+    place = Path(head + slash).expanduser() if slash else Path()
+    try:
+        found = [path for path in place.iterdir() if path.name.startswith(".") == last.startswith(".")]
+    except (OSError, ValueError, RuntimeError):
+        return []
+    return [f"{head}{slash}{path.name}{'/' * path.is_dir()}" for path in found if path.is_dir() or not folders_only]
+
+
+def source_packages() -> list[str]:
+    """The packages that `colcon build` would build from here."""
+    return sorted({path.parent.name for path in Path("src").glob("**/package.xml")})
+
+
+# -- names ---------------------------------------------------------------------------------------------------------------
+
+Finder = Callable[["World", Sequence[str], str], Iterable[str]]
+
+FEEDBACK = "/_action/feedback"
+"""What an action's topic of feedback is called behind the action's own name."""
+
+
+def _nodes(world: World, given: Sequence[str], begun: str) -> list[str]:
+    return [node.full_name for node in world.graph.nodes if not node.hidden]
+
+
+def _topics(world: World, given: Sequence[str], begun: str) -> list[str]:
+    return [name for name in world.graph.topics() if not is_hidden(name)]
+
+
+def _services(world: World, given: Sequence[str], begun: str) -> list[str]:
+    return [name for name in world.graph.services() if not is_hidden(name)]
+
+
+def _actions(world: World, given: Sequence[str], begun: str) -> list[str]:
+    return [name.removesuffix(FEEDBACK) for name in world.graph.topics() if name.endswith(FEEDBACK)]
+
+
+def _types(*folders: str) -> Finder:
+    def find(world: World, given: Sequence[str], begun: str) -> list[str]:
+        own = _own_type(world, given[0]) if given else []
+        every = (f"{package}/{name}" for package in registry.packages() for name in registry.interface_names(package))
+        return own or [name for name in every if name.split("/")[1] in folders]
+
+    return find
+
+
+def _own_type(world: World, name: str) -> list[str]:
+    """The type of a topic, action or service that is there."""
+    topic = world.graph.topics().get(name)
+    if topic is not None:
+        return topic.types
+    feedback = world.graph.topics().get(f"{name}{FEEDBACK}")
+    if feedback is not None:
+        return [each.removesuffix("_FeedbackMessage") for each in feedback.types]
+    return world.graph.services().get(name, [])
+
+
+def _packages(world: World, given: Sequence[str], begun: str) -> list[str]:
+    return package_names()
+
+
+def _executables(world: World, given: Sequence[str], begun: str) -> list[str]:
+    return sorted(world.packages.get(given[0]).executables) if given and given[0] in world.packages else []
+
+
+def _launch_files(world: World, given: Sequence[str], begun: str) -> list[str]:
+    if not given or given[0] not in world.packages:
+        return _launch_arguments(world, given, begun)
+    return [path.name for path in world.packages.get(given[0]).shared_files("*launch.*")]
+
+
+def _launch_arguments(world: World, given: Sequence[str], begun: str) -> list[str]:
+    """The arguments that a launch file takes and was not given yet: `rate:=`, or with their values if there are few."""
+    try:
+        is_path = Path(given[0]).is_file()
+        path = Path(given[0]) if is_path else launching.find_launch_file(world, *given[:2])
+        with redirect_stdout(StringIO()):
+            taken = launching.launch_arguments(world, path)
+    except Exception:  # a file that is not there, or not finished
+        return []
+    left = [each for each in taken if not any(word.startswith(f"{each.name}:=") for word in given)]
+    return [f"{each.name}:={choice}" for each in left for choice in each.choices or ("",)]
+
+
+def _parameters(world: World, given: Sequence[str], begun: str) -> list[str]:
+    node = _node_of(world, given[0]) if given else None
+    return [] if node is None else list(node.list_parameters([], 0).names)
+
+
+def _value_now(world: World, given: Sequence[str], begun: str) -> list[str]:
+    """The value that a parameter has, to be changed."""
+    node = _node_of(world, given[0]) if len(given) > 1 else None
+    if node is None or not node.has_parameter(given[1]):
+        return []
+    text = yaml.safe_dump(node.get_parameter(given[1]).value, default_flow_style=True, width=1_000_000)
+    text = text.removesuffix("...\n").strip()
+    return [f'"{text}"' if " " in text else text]
+
+
+def _transitions(world: World, given: Sequence[str], begun: str) -> list[str]:
+    """The transitions that a managed node can make now."""
+    machine = getattr(_node_of(world, given[0]) if given else None, "_state_machine", None)
+    return [] if machine is None else [each.label for each in machine.available_transitions]
+
+
+def _node_of(world: World, name: str) -> Any:
+    """The running node of a name. Tab must not let time pass, so it does not ask the node's services, as commands do."""
+    for entry in world.graph.nodes:
+        context = entry.process.locals.get("rclpy.context")
+        for node in context._nodes if context is not None else ():
+            if node.get_fully_qualified_name() == absolute(name):
+                return node
+    return None
+
+
+def job_numbers(world: World) -> list[str]:
+    """What `kill` may be given: `%1`."""
+    return [f"%{job.number}" for job in jobs(world).running]
+
+
+def _files(world: World, given: Sequence[str], begun: str) -> list[str]:
+    return paths(begun)
+
+
+def _folders(world: World, given: Sequence[str], begun: str) -> list[str]:
+    return paths(begun, folders_only=True)
+
+
+def _values_of(world: World, given: Sequence[str], begun: str) -> list[str]:
+    """The type that was named, with its default values, to be changed."""
+    from rosidl_runtime_py.convert import message_to_yaml
+
+    name = given[1] if len(given) > 1 else ""
+    try:
+        made = registry.get(name)
+        values = yaml.safe_load(message_to_yaml(getattr(made, "Request", getattr(made, "Goal", made))()))
+    except Exception:  # a name that is not finished, or a definition that is refused
+        return []
+    text = yaml.safe_dump(values, default_flow_style=True, sort_keys=False, width=1_000_000)
+    return [f'"{text.strip()}"']
+
+
+_MESSAGES, _SERVICES, _ACTIONS = _types("msg"), _types("srv"), _types("action")
+_ALL = _types("msg", "srv", "action")
+
+BY_NAME: dict[str, Finder] = {
+    "action_name": _actions,
+    "action_type": _ACTIONS,
+    "bag_path": _files,
+    "dependencies": _packages,
+    "destination_directory": _folders,
+    "executable_name": _executables,
+    "launch_arguments": _launch_arguments,
+    "launch_file_name": _launch_files,
+    "message_type": _MESSAGES,
+    "node": _nodes,
+    "node_name": _nodes,
+    "output": _files,
+    "output_dir": _folders,
+    "package_name": _packages,
+    "parameter_file": _files,
+    "parameter_name": _parameters,
+    "parameter_names": _parameters,
+    "service_name": _services,
+    "service_type": _SERVICES,
+    "topic": _topics,
+    "topic_name": _topics,
+    "topic_type": _MESSAGES,
+    "topics": _topics,
+    "transition": _transitions,
+    "type": _ALL,
+    "value": _value_now,
+    "values": _values_of,
+}

@@ -1,0 +1,354 @@
+"""`ros2 bag record`, `info`, `play` and `reindex`.
+
+There is no recording of the real ones in golden/: arguments, texts and formats are those of ros2bag, rosbag2_transport
+and rosbag2_py of Humble and Jazzy, as far as this simulation has them. What goes to stderr there goes to stderr here, and
+the exit code after a Ctrl-C is 0, as there: both verbs handle it themselves. There are no keyboard controls.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from argparse import REMAINDER, SUPPRESS, Action, ArgumentError, ArgumentParser, ArgumentTypeError, Namespace
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from ..bags import BagError
+from ..runtime import files
+from ..runtime.world import current_process
+from .arg_types import frequency
+from .verb import Command, add_duration, end_of_stretch, now, remark, stretch_of
+
+# -- bag arguments ------------------------------------------------------------------------------------------------
+# The arguments of `ros2 bag`.
+# Spellings of Humble and of later releases are understood (`record /a /b` and `record --topics /a /b`). What only
+# tunes the real tool is accepted; what would change the result and is not here is refused, with the reason.
+
+LONGEST = 1e9
+"""Seconds of robot time that an argument may say: thirty years; also the fastest and the slowest rate of playing."""
+
+
+def existing_path(text: str) -> str:
+    """An argument that names a file or folder which is there."""
+    if not _exists(Path(text)):
+        raise ArgumentTypeError(f"Bag path '{text}' does not exist!{_bags_here(text)}")
+    return text
+
+
+def _exists(path: Path) -> bool:
+    try:
+        return path.expanduser().exists()
+    except (OSError, ValueError, RuntimeError):
+        return False  # no path at all: far too long, or with a zero byte in it
+
+
+def _bags_here(text: str) -> str:
+    """What perhaps was meant: the bags beside the one that is not there."""
+    from ..idl.names import did_you_mean
+
+    try:
+        folder = Path(text).expanduser().parent
+        bags = [path.parent.name for path in folder.glob("*/metadata.yaml")]
+    except (OSError, ValueError):
+        return ""
+    hint = did_you_mean(Path(text).expanduser().name, bags)
+    return f" {hint}" if hint else ""
+
+
+def positive_rate(text: str) -> float:
+    """An argument that is a number above 0."""
+    value = _number(text)
+    if not value > 0:
+        raise ArgumentTypeError(f"{text} is not in the valid range (> 0.0)")
+    if value < 1 / LONGEST:
+        raise ArgumentTypeError(f"{text} is too slow to wait for")
+    return value
+
+
+def not_negative(text: str) -> float:
+    """An argument that is a number, 0 or above."""
+    value = _number(text)
+    if not value >= 0:
+        raise ArgumentTypeError(f"{text} is not in the valid range (>= 0.0)")
+    return value
+
+
+def _number(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise ArgumentTypeError(f"{text} is not the valid type (float)")
+    if abs(value) > LONGEST:
+        raise ArgumentTypeError(f"{text} is too much: at most {LONGEST:.0e}")
+    return value
+
+
+class _Refused(Action):
+    """An option of the real tool that is not here; `const` says why."""
+
+    def __call__(self, parser: ArgumentParser, *_: object) -> None:
+        raise ArgumentError(self, f"not available in this simulation: {self.const}. A real ROS 2 has it.")
+
+
+def _refuse(parser: ArgumentParser, reason: str, *options: str) -> None:
+    for names in options:
+        parser.add_argument(*names.split(), action=_Refused, nargs="?", const=reason, help=SUPPRESS)
+
+
+def _accept(parser: ArgumentParser, *options: str) -> None:
+    """Options with a number that tunes the real tool, and changes nothing in what it does."""
+    for option in options:
+        parser.add_argument(option, type=int, metavar="N", help=SUPPRESS)
+
+
+def reader_arguments(parser: ArgumentParser) -> None:
+    """Arguments of every verb that reads a bag."""
+    parser.add_argument("bag_path", type=existing_path, help="The bag: its folder, or one of its files")
+    parser.add_argument(
+        "-s", "--storage", choices=["mcap", "sqlite3"], help="Accepted; the storage is recognised from the bag's files"
+    )
+
+
+def record_arguments(parser: ArgumentParser) -> None:
+    """Arguments of `ros2 bag record`."""
+    add = parser.add_argument
+    add("topics", nargs="*", default=[], help="The topics to record")
+    add(
+        "--topics",
+        dest="more_topics",
+        nargs="+",
+        default=[],
+        metavar="topic",
+        help="The same, as newer releases spell it",
+    )
+    add("-a", "--all", "--all-topics", action="store_true", help="Record all topics but the hidden ones")
+    add("-e", "--regex", default="", help="Record the topics that match this pattern")
+    add("-x", "--exclude", "--exclude-regex", default="", help="Leave out the topics that match this pattern")
+    add("--include-hidden-topics", action="store_true", help="Also record topics with a hidden name")
+    add("--include-unpublished-topics", action="store_true", help="Also note topics without publishers")
+    add("-o", "--output", help="Folder to create (default: named after the date and time)")
+    add("-s", "--storage", default="mcap", choices=["mcap", "sqlite3"], help="Storage format of the bag")
+    add_duration(parser)
+    _accept(parser, "--max-cache-size", "--polling-interval", "--compression-queue-size", "--compression-threads")
+    add("--disable-keyboard-controls", action="store_true", help=SUPPRESS)
+    add("--use-sim-time", action="store_true", help=SUPPRESS)
+    _refuse(parser, "a bag is one file here", "-b --max-bag-size", "-d --max-bag-duration", "--max-splits")
+    _refuse(parser, "a bag is not compressed here", "--compression-mode", "--compression-format")
+    _refuse(parser, "a bag is always written in the same way", "--storage-preset-profile", "--storage-config-file")
+    _refuse(
+        parser, "the recorder requests the quality of service that the publishers offer", "--qos-profile-overrides-path"
+    )
+    _refuse(parser, "a topic is recorded whenever it appears", "--no-discovery", "--ignore-leaf-topics")
+    _refuse(parser, "there is no key to press to continue", "--start-paused", "--snapshot-mode")
+    _refuse(
+        parser, "a bag holds what is published on topics", "--services", "--all-services", "--actions", "--all-actions"
+    )
+
+
+def play_arguments(parser: ArgumentParser) -> None:
+    """Arguments of `ros2 bag play`."""
+    add = parser.add_argument
+    reader_arguments(parser)
+    add("-r", "--rate", type=positive_rate, default=1.0, help="How many times as fast as recorded")
+    add("--topics", nargs="+", default=[], help="Play only these topics")
+    add("-m", "--remap", nargs="+", default=[], help="Other names for topics: /old:=/new ...")
+    add("-l", "--loop", action="store_true", help="Start over at the end")
+    add("-d", "--delay", type=not_negative, default=0.0, help="Seconds to wait before the first message (each time)")
+    add("--start-offset", type=not_negative, default=0.0, help="Start this many seconds into the bag")
+    add("--playback-duration", type=_number, default=-1.0, help="Play only this many seconds of the bag")
+    add(
+        "--clock",
+        type=frequency,
+        nargs="?",
+        const=40.0,
+        default=0.0,
+        help="Publish the bag's time on /clock this many times a second (default: never; without a number: 40)",
+    )
+    add("--disable-keyboard-controls", action="store_true", help="Accepted; there are none here")
+    add_duration(parser)
+    _accept(parser, "--read-ahead-queue-size")
+    _refuse(parser, "there is no key to press to continue", "-p --start-paused")
+    _refuse(parser, "the player offers what was recorded", "--qos-profile-overrides-path")
+    _refuse(parser, "a bag is always read in the same way", "--storage-config-file")
+    _refuse(parser, "say how far to play with --playback-duration", "--playback-until-sec", "--playback-until-nsec")
+
+
+def info_arguments(parser: ArgumentParser) -> None:
+    """Arguments of `ros2 bag info`."""
+    reader_arguments(parser)
+    parser.add_argument("-t", "--topic-name", action="store_true", help="Print only the names of the topics")
+    _refuse(parser, "there are no further details of a bag", "-v --verbose", "--sort")
+
+
+def _record(args: Namespace) -> int:
+    if problem := _contradiction(args):
+        return _error(problem)
+    from ..bags.recorder import Selection, checked_names, record
+    from ..bags.writer import BagWriter, is_there
+
+    folder = Path(args.output or _name_by_time()).expanduser().absolute()
+    say = _logger("rosbag2_recorder")
+    seconds = stretch_of(args)
+    try:
+        names = checked_names(_topics_of(args))
+        selection = Selection(
+            names, args.regex, args.exclude, args.include_hidden_topics, args.include_unpublished_topics
+        )
+        bag = BagWriter(folder if is_there(folder) else files.check(folder), args.storage)
+    except (BagError, OSError) as error:
+        return _error(_reason(error).replace(str(folder), args.output or folder.name))
+    if args.storage == "sqlite3":
+        _logger("rosbag2_storage")(
+            "INFO", f"Opened database '{args.output or folder.name}/{bag.file.name}' for READ_WRITE."
+        )
+    say("INFO", "Listening for topics...")
+    began = now()
+    recorder = record(bag, selection, say, seconds)
+    for sentence in recorder.silent():
+        say("WARN", sentence)
+    say("INFO", "Recording stopped")
+    if seconds is not None and now() >= began + seconds and args.seconds is None:
+        remark(str(end_of_stretch(seconds)))
+    return 0
+
+
+def _topics_of(args: Namespace) -> list[str]:
+    return [*args.topics, *args.more_topics]
+
+
+def _contradiction(args: Namespace) -> str:
+    """Why these arguments cannot go together, or nothing."""
+    topics = _topics_of(args)
+    if (args.all and (topics or args.regex)) or (topics and args.regex):
+        return "Must specify only one option out of topics, --regex or --all"
+    if not (args.all or topics or args.regex):
+        return "Invalid choice: Must specify topic(s), --regex or --all"
+    if topics and args.exclude:
+        return "--exclude argument cannot be used when specifying a list of topics explicitly"
+    return ""
+
+
+def _name_by_time() -> str:
+    simulation: Any = current_process().simulation
+    from ..sim.simulation import EPOCH, NANOSECONDS
+
+    moment = datetime.fromtimestamp((EPOCH + simulation.now) // NANOSECONDS, UTC)
+    return f"rosbag2_{moment:%Y_%m_%d-%H_%M_%S}"
+
+
+def _info(args: Namespace) -> int:
+    from ..bags.bag import info_text, open_bag
+
+    try:
+        bag = open_bag(Path(args.bag_path).expanduser())
+    except BagError as error:
+        return _error(str(error))
+    print("\n".join(topic.name for topic in bag.topics) if args.topic_name else info_text(bag))
+    return _error(bag.damage) if bag.damage else 0
+
+
+def _play(args: Namespace) -> int:
+    from ..bags.bag import open_bag
+    from ..bags.player import Playback, parse_remaps, play
+
+    say = _logger("rosbag2_player")
+    seconds = stretch_of(args) if args.loop else args.seconds
+    try:
+        bag = open_bag(Path(args.bag_path).expanduser())
+        how = Playback(
+            rate=args.rate,
+            start_offset=args.start_offset,
+            topics=tuple(name if name.startswith("/") else f"/{name}" for name in args.topics),
+            remaps=parse_remaps(args.remap),
+            loop=args.loop,
+            delay=args.delay,
+            duration=args.playback_duration if args.playback_duration >= 0 else None,
+            clock=args.clock,
+        )
+        if bag.damage:
+            say("ERROR", bag.damage)
+        if bag.storage == "sqlite3":
+            text = f"Opened database '{args.bag_path}/{bag.files[0].name}' for READ_ONLY."
+            _logger("rosbag2_storage")("INFO", text)
+        say("INFO", f"Set rate to {args.rate:g}")
+        ended = play(bag, how, say, seconds)
+    except BagError as error:
+        return _error(str(error))
+    if not ended and seconds is not None and args.seconds is None:
+        remark(str(end_of_stretch(seconds)))
+    return 1 if bag.damage else 0
+
+
+def _reindex(args: Namespace) -> int:
+    from ..bags.bag import METADATA, reindex
+
+    folder = Path(args.bag_path).expanduser()
+    if not folder.is_dir():
+        return _error("Must specify a bag directory")
+    say = _logger("rosbag2_cpp")
+    say("INFO", f"Beginning reindexing bag in directory: {args.bag_path}")
+    try:
+        files.check(folder / METADATA)
+        bag = reindex(folder)
+    except (BagError, OSError) as error:
+        return _error(_reason(error))
+    say("INFO", "Reindexing complete.")
+    return _error(bag.damage) if bag.damage else 0
+
+
+def _everything(parser: ArgumentParser) -> None:
+    """Take all words as they are, also those that look like options."""
+    parser.prefix_chars = ""
+    parser.add_argument("words", nargs=REMAINDER, help=SUPPRESS)
+
+
+def _not_here(verb: str, reason: str) -> Command:
+    """A verb of the real tool that is not here."""
+
+    def work(args: Namespace) -> int:
+        print(f"ros2 bag {verb}: not available in this simulation: {reason}. A real ROS 2 has it.", file=sys.stderr)
+        return 2
+
+    return Command(f"Not available in this simulation: {reason}", _everything, work)
+
+
+def _logger(name: str) -> Any:
+    """What prints a line as the real tool's logger does."""
+    from rclpy.logging import get_logger
+
+    logger = get_logger(name)
+
+    def say(severity: str, text: str) -> None:
+        if severity == "INFO":
+            logger.info(text)
+        elif severity == "WARN":  # on a line of its own: a logger's line has one severity forever
+            logger.warning(text)
+        else:
+            logger.error(text)
+
+    return say
+
+
+def _reason(error: BagError | OSError) -> str:
+    if isinstance(error, OSError) and error.strerror:
+        return f"{error.filename}: {error.strerror}"
+    return str(error)
+
+
+def _error(text: str) -> int:
+    print(f"[ERROR] [ros2bag]: {text}", file=sys.stderr)
+    return 1
+
+
+VERBS: dict[str, Any] = {
+    "burst": _not_here("burst", "'ros2 bag play -r' plays as fast as you like"),
+    "convert": _not_here("convert", "record again with '-s', while the bag is played"),
+    "info": Command("Describe what a bag contains", info_arguments, _info),
+    "list": _not_here("list", "there are no plugins; bags are stored as mcap or sqlite3"),
+    "play": Command("Publish recorded messages again", play_arguments, _play),
+    "record": Command("Record published messages in a bag", record_arguments, _record),
+    "reindex": Command("Rebuild a bag's lost metadata.yaml", reader_arguments, _reindex),
+}

@@ -1,0 +1,129 @@
+"""`ros2 doctor` and `ros2 daemon`: what is running in the simulation, and what looks wrong."""
+
+from __future__ import annotations
+
+import sys
+from argparse import ArgumentParser, Namespace
+from collections import Counter
+from collections.abc import Sized
+from typing import TYPE_CHECKING
+
+from ..runtime.world import current_world
+from .jobs import jobs
+from .verb import CellCommand, Command, direct_node, is_hidden, node_names, services, topics
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+
+
+# -- group doctor -------------------------------------------------------------------------------------------------
+# `ros2 doctor`: describes the simulation, what is running in it, and what looks wrong.
+
+CHECKS = 2
+
+
+def _arguments(parser: ArgumentParser) -> None:
+    parser.add_argument("-r", "--report", action="store_true", help="also list nodes, topics, services and jobs")
+    parser.add_argument(
+        "-rf", "--report-failed", action="store_true", help="accepted: only failed checks are printed anyway"
+    )
+    parser.add_argument("-iw", "--include-warnings", action="store_true", help="count warnings as failures")
+
+
+def _doctor(args: Namespace) -> int:
+    with direct_node() as node:
+        _introduce(node)
+        if args.report:
+            _report(node)
+        complaints = [*_same_names(node), *_lonely_topics(node)]
+    for text in complaints:
+        print(f"WARNING: {text}", file=sys.stderr)
+    print()
+    if complaints and args.include_warnings:
+        print(f"{_counted(complaints, 'warning')} in {CHECKS} checks")
+        return 1
+    print(f"All {CHECKS} checks passed" + (f", with {_counted(complaints, 'warning')}" if complaints else ""))
+    return 0
+
+
+def _introduce(node: Node) -> None:
+    world = current_world()
+    print("This is Turtle Lesson's simulation of a robot's computer, with no ROS 2 installed.")
+    print(f"It behaves as ROS 2 {world.release.title} does. Robot time {(world.now / 1e9):.1f} s, seed {world.seed}.")
+    packages = world.packages.names()
+    up = [_counted(node_names(node), "node"), _counted(topics(node), "topic"), _counted(services(node), "service")]
+    print(f"Up: {', '.join(up)}. {_counted(packages, 'package')} with programs: {', '.join(packages) or 'none'}.")
+
+
+def _counted(things: Sized, name: str) -> str:
+    return f"{len(things)} {name}{'' if len(things) == 1 else 's'}"
+
+
+def _report(node: Node) -> None:
+    lists = {
+        "NODES": node_names(node),
+        "TOPICS": [f"{name} [{', '.join(types)}]" for name, types in topics(node).items()],
+        "SERVICES": [f"{name} [{', '.join(types)}]" for name, types in services(node).items()],
+        "JOBS": [f"%{job.number} {job.words}" for job in jobs(current_world()).running],
+    }
+    for title, lines in lists.items():
+        print(f"\n   {title}")
+        print("\n".join(lines) or "none")
+
+
+def _same_names(node: Node) -> list[str]:
+    counts = Counter(node_names(node))
+    return [f"{count} nodes share the name {name}" for name, count in counts.items() if count > 1]
+
+
+def _lonely_topics(node: Node) -> list[str]:
+    """Topics that only have one side, as the real doctor tells them."""
+    found = []
+    for name in topics(node):
+        publishers, subscriptions = node.count_publishers(name), node.count_subscribers(name)
+        if is_hidden(name) or name in {"/rosout", "/parameter_events"}:
+            continue
+        if publishers and not subscriptions:
+            found.append(f"Publisher without subscriber detected on {name}.")
+        if subscriptions and not publishers:
+            found.append(f"Subscriber without publisher detected on {name}.")
+    return found
+
+
+COMMANDS = {"doctor": Command("Describe this simulation, what is running, and what looks wrong", _arguments, _doctor)}
+
+
+# -- group daemon -------------------------------------------------------------------------------------------------
+# `ros2 daemon`: on a robot a helper that remembers the graph. No command needs it here; it only says that it is
+# there.
+
+STATE = "ros2 daemon"
+
+
+def _nothing(parser: ArgumentParser) -> None:
+    """No arguments."""
+
+
+def _running() -> bool:
+    return bool(current_world().notebook.locals.get(STATE, True))
+
+
+def _start(args: Namespace) -> None:
+    print("The daemon is already running" if _running() else "The daemon has been started")
+    current_world().notebook.locals[STATE] = True
+
+
+def _status(args: Namespace) -> None:
+    print("The daemon is running" if _running() else "The daemon is not running")
+
+
+def _stop(args: Namespace) -> None:
+    print("The daemon has been stopped" if _running() else "The daemon is not running")
+    current_world().notebook.locals[STATE] = False
+
+
+VERBS = {
+    "start": CellCommand("Start the daemon", _nothing, _start),
+    "status": CellCommand("Show whether the daemon is running", _nothing, _status),
+    "stop": CellCommand("Stop the daemon", _nothing, _stop),
+}

@@ -1,0 +1,189 @@
+"""`ros2 interface`: what messages, services and actions look like."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace
+from collections.abc import Iterator
+from typing import Any
+
+from ..idl.definition import parse_message
+from ..idl.model import FieldType
+from ..idl.names import did_you_mean
+from ..idl.registry import registry
+from ..sim.errors import shown_path
+from .parser import cut
+from .verb import CellCommand, CommandError
+
+KINDS = {"msg": "Messages", "srv": "Services", "action": "Actions"}
+
+
+def _kind_arguments(parser: ArgumentParser) -> None:
+    parser.add_argument("-m", "--only-msgs", action="append_const", dest="kinds", const="msg", help="messages only")
+    parser.add_argument("-s", "--only-srvs", action="append_const", dest="kinds", const="srv", help="services only")
+    parser.add_argument(
+        "-a", "--only-actions", action="append_const", dest="kinds", const="action", help="actions only"
+    )
+
+
+def _of_kind(kind: str) -> dict[str, list[str]]:
+    """All interfaces of a kind, by their packages."""
+    import rosidl_runtime_py as api
+
+    getters = {
+        "msg": api.get_message_interfaces,
+        "srv": api.get_service_interfaces,
+        "action": api.get_action_interfaces,
+    }
+    return getters[kind]()
+
+
+def _list(args: Namespace) -> None:
+    for kind, title in KINDS.items():
+        if args.kinds is None or kind in args.kinds:
+            print(f"{title}:")
+            for package, names in _of_kind(kind).items():
+                for name in names:
+                    print(f"    {package}/{name}")
+
+
+def _packages(args: Namespace) -> None:
+    for package in sorted({package for kind in args.kinds or KINDS for package in _of_kind(kind)}):
+        print(package)
+
+
+def _package_arguments(parser: ArgumentParser) -> None:
+    parser.add_argument("package_name", help="name of the package")
+
+
+def _package(args: Namespace) -> None:
+    from rosidl_runtime_py import get_interfaces
+
+    _check_package(args.package_name)
+    for package, names in get_interfaces([args.package_name]).items():
+        for name in names:
+            print(f"{package}/{name}")
+
+
+def _check_package(name: str, base: str = "") -> None:
+    if not registry.knows(name):
+        hint = _where_is(base) or did_you_mean(name[:100], registry.packages())
+        built = "A package of your own is known once it is built and its setup file is sourced."
+        raise CommandError(f"Unknown package '{cut(name, 100)}'", hint or built)
+
+
+def _check(name: str) -> None:
+    """Raise CommandError, in the real tool's words, unless there is an interface of this full name."""
+    parts = name.split("/")
+    if len(parts) != 3 or not all(parts):
+        hint = _where_is(parts[-1][:100]) or "Such as geometry_msgs/msg/Twist"
+        raise CommandError(f"Invalid name '{cut(name, 100)}'. Expected three parts separated by '/'", hint)
+    package, folder, base = parts
+    _check_package(package, base[:100])
+    owner = registry.package(package)
+    if folder not in KINDS or not owner.has(f"{folder}/{base}"):
+        where = shown_path(str(owner.directory / cut(f"{folder}/{base}", 100)))
+        hint = did_you_mean(name[:100], [f"{package}/{each}" for each in registry.interface_names(package)])
+        raise CommandError(f"Could not find the interface '{where}.idl'", hint)
+
+
+def _where_is(base: str) -> str:
+    """`Did you mean 'geometry_msgs/msg/Twist'?`, where an interface has this last name."""
+    found = [
+        f"{package}/{name}"
+        for package in registry.packages()
+        for name in registry.interface_names(package)
+        if name.rpartition("/")[2].lower() == base.lower()
+    ]
+    return f"Did you mean {' or '.join(map(repr, found[:3]))}?" if found else ""
+
+
+# -- show ----------------------------------------------------------------------------------------------------------------
+
+
+def _show_arguments(parser: ArgumentParser) -> None:
+    parser.add_argument("type", help="full name of the interface, such as geometry_msgs/msg/Twist")
+    comments = parser.add_mutually_exclusive_group()
+    comments.add_argument("--all-comments", action="store_true", help="also show the comments of nested types")
+    comments.add_argument("--no-comments", action="store_true", help="show neither comments nor empty lines")
+
+
+def _show(args: Namespace) -> None:
+    _check(args.type)
+    package, _, interface = args.type.partition("/")
+    read = registry.text if args.no_comments else registry.commented
+    for line in _lines(package, read(package, interface), args):
+        print(line)
+
+
+def _lines(package: str, text: str, args: Namespace) -> Iterator[str]:
+    """The lines of a definition, each field of a message type followed by that type's own lines."""
+    for line in text.rstrip().splitlines() if text.strip() else []:
+        shown = _without_comment(line) if args.no_comments else line.rstrip()
+        if shown or not args.no_comments:
+            yield shown
+        field = _field_type(package, line)
+        if field is not None and field.package:
+            yield from _inner(field, args, depth=1)
+
+
+def _inner(field: FieldType, args: Namespace, depth: int) -> Iterator[str]:
+    read = registry.commented if args.all_comments else registry.text
+    for line in read(str(field.package), f"msg/{field.base}").splitlines():
+        shown = line.rstrip() if args.all_comments else _without_comment(line)
+        if shown:
+            yield "\t" * depth + shown
+        elif args.all_comments:
+            yield ""
+        inner = _field_type(str(field.package), line)
+        if inner is not None and inner.package:
+            yield from _inner(inner, args, depth + 1)
+
+
+def _without_comment(line: str) -> str:
+    """A line up to its comment; a `#` in quotes is none."""
+    quote = ""
+    for place, char in enumerate(line):
+        if quote:
+            quote = "" if char == quote else quote
+        elif char in "'\"":
+            quote = char
+        elif char == "#":
+            return line[:place].rstrip()
+    return line.rstrip()
+
+
+def _field_type(package: str, line: str) -> FieldType | None:
+    """The type of the field that a line declares, if it declares one."""
+    if not _without_comment(line).strip() or line.strip() == "---":
+        return None
+    fields = parse_message(package, "Line", line, "").fields
+    return fields[0].type if fields else None
+
+
+# -- proto ---------------------------------------------------------------------------------------------------------------
+
+
+def _proto_arguments(parser: ArgumentParser) -> None:
+    parser.add_argument("type", help="full name of the interface, such as geometry_msgs/msg/Twist")
+    parser.add_argument("--no-quotes", action="store_true", help="without the quotation marks around it")
+
+
+def _proto(args: Namespace) -> None:
+    from rosidl_runtime_py import message_to_yaml
+    from rosidl_runtime_py.utilities import get_interface
+
+    _check(args.type)
+    made: Any = get_interface(args.type)
+    for part in ("Request", "Goal"):
+        made = getattr(made, part, made)
+    text = message_to_yaml(made())
+    print(text if args.no_quotes else f'"{text}"')
+
+
+VERBS = {
+    "list": CellCommand("List all interfaces", _kind_arguments, _list),
+    "package": CellCommand("List the interfaces of a package", _package_arguments, _package),
+    "packages": CellCommand("List the packages that have interfaces", _kind_arguments, _packages),
+    "proto": CellCommand("Print an interface with its default values, to fill in", _proto_arguments, _proto),
+    "show": CellCommand("Print the definition of an interface", _show_arguments, _show),
+}

@@ -1,0 +1,231 @@
+"""`ros2 run` and `ros2 launch`: they start programs and return once these are up; the programs run while the world runs.
+
+In a terminal both go on until Ctrl-C. Here a last line says how to end them, and `--for SECONDS` lets robot time pass first.
+"""
+
+from __future__ import annotations
+
+import sys
+from argparse import REMAINDER, ArgumentParser, Namespace
+from collections.abc import Sequence
+from io import StringIO
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .. import launching
+from ..build.errors import ExecutableNotFoundError
+from ..build.index import changed_since_built
+from ..launching import LaunchError
+from ..runtime.console import FileOutput
+from ..runtime.world import current_world
+from ..sim.errors import shown_path
+from ..sim.process import Process
+from .arg_types import positive_float
+from .group_pkg import not_found, path_of
+from .jobs import Job, jobs, lasting
+from .parser import cut
+from .run_world import run_for
+from .verb import CellCommand, CommandError
+
+if TYPE_CHECKING:
+    from ..launching.start import LaunchHandle
+    from ..runtime.world import World
+
+
+SIGNAL_TEXTS = {-2: "Interrupt", -9: "Killed", -15: "Terminated"}
+
+
+def _add_for(parser: ArgumentParser, what: str) -> None:
+    parser.add_argument(
+        "--for",
+        dest="seconds",
+        type=positive_float,
+        metavar="SECONDS",
+        help=f"let this much robot time pass before {what} returns (only here)",
+    )
+
+
+# -- run -----------------------------------------------------------------------------------------------------------------
+
+
+def _run_arguments(parser: ArgumentParser) -> None:
+    parser.add_argument("--prefix", help="a program to run it with: accepted, but without effect here")
+    _add_for(parser, "ros2 run")
+    parser.set_defaults(stdin=None)
+    parser.add_argument("package_name", help="package that the program belongs to")
+    parser.add_argument("executable_name", help="name of the program")
+    words = parser.add_argument(
+        "argv", nargs=REMAINDER, help="arguments of the program itself, such as --ros-args -p a:=1"
+    )
+    words.required = True  # as in Python 3.11, whatever the Python
+
+
+def _run(args: Namespace) -> int:
+    world = current_world()
+    name = args.executable_name
+    if args.package_name not in world.packages:
+        raise not_found(args.package_name)
+    package = world.packages.get(args.package_name)
+    try:
+        target = world.packages.executable(args.package_name, name)
+    except ExecutableNotFoundError as error:
+        raise CommandError("No executable found", error.hint if len(name) < 100 else "") from None
+    if isinstance(target, Path) and not target.is_file():
+        raise CommandError("No executable found", f"{target} no longer exists: build again.")
+    if changed := changed_since_built(package):
+        print(
+            f"{shown_path(str(changed))} was changed after the build: run colcon build to use the new version.",
+            file=sys.stderr,
+        )
+    process = world.spawn(
+        target,
+        name=name,
+        argv=[str(path_of(package, name)), *args.argv],
+        stdin=reader_of(args.stdin),
+        stdout=lasting(sys.stdout, world.sim),
+        stderr=lasting(sys.stderr, world.sim),
+        on_exit=_say_how_it_ended,
+    )
+    return leave(process, " ".join(["ros2 run", args.package_name, name, *args.argv]), args.seconds)
+
+
+def reader_of(text: str | None) -> StringIO | None:
+    """What a program reads that is given a text as its input; None if it is given none."""
+    return None if text is None else StringIO(text)
+
+
+def _say_how_it_ended(process: Process) -> None:
+    code = _status(process)
+    if code < 0:
+        print(f"[ros2run]: {SIGNAL_TEXTS.get(code, f'Signal {-code}')}", file=process.stdout)
+    elif code > 0:
+        print(f"[ros2run]: Process exited with failure {code}", file=process.stdout)
+
+
+def _status(process: Process) -> int:
+    """The exit code of a process that has ended, as its parent sees it."""
+    code = process.exit_code or 0
+    return -15 if code == -9 and process.locals.get("signal") == "TERM" else code
+
+
+# -- launch --------------------------------------------------------------------------------------------------------------
+
+
+def _launch_arguments(parser: ArgumentParser) -> None:
+    nothing = "accepted, but without effect here"
+    parser.add_argument("-n", "--noninteractive", action="store_true", help=nothing)
+    parser.add_argument("-d", "--debug", action="store_true", help=nothing)
+    shown = parser.add_mutually_exclusive_group()
+    shown.add_argument(
+        "-p",
+        "--print",
+        "--print-description",
+        dest="print",
+        action="store_true",
+        help="not available here",
+    )
+    shown.add_argument(
+        "-s", "--show-args", "--show-arguments", dest="show", action="store_true", help="list the arguments it takes"
+    )
+    shown_all = "show all that the programs print, whatever the launch file says"
+    parser.add_argument("-a", "--show-all-subprocesses-output", action="store_true", dest="all", help=shown_all)
+    parser.add_argument("--launch-prefix", help=nothing)
+    parser.add_argument("--launch-prefix-filter", help=nothing)
+    _add_for(parser, "ros2 launch")
+    parser.add_argument("package_name", help="package that the launch file belongs to, or the path of a launch file")
+    parser.add_argument("launch_file_name", nargs="?", help="name of the launch file")
+    words = parser.add_argument("launch_arguments", nargs="*", help="values for its arguments, as name:=value")
+    words.required = True  # as in Python 3.11, whatever the Python
+
+
+def _launch(args: Namespace) -> int:
+    world = current_world()
+    try:
+        path, words = _find(args)
+        given = _pairs(words)
+    except LaunchError as error:
+        raise CommandError(error.reason, error.hint) from None
+    try:
+        if args.show:
+            print(launching.show_arguments(world, path))
+            return 0
+        if args.print:
+            raise CommandError("--print is not available here", "--show-args lists what the launch file takes.")
+        handle = launching.launch_file(world, path, given, show_all_output=args.all)
+    except LaunchError as error:
+        print("\n".join(filter(None, (error.console, error.advice))))
+        return 1
+    given_words = [args.package_name, args.launch_file_name or "", *(args.launch_arguments or [])]
+    return leave(handle, " ".join(["ros2 launch", *given_words]), args.seconds)
+
+
+def _find(args: Namespace) -> tuple[Path, list[str]]:
+    """The launch file that is meant, and the words after it."""
+    name, file_name, words = args.package_name, args.launch_file_name, list(args.launch_arguments or [])
+    if len(name) < 1000 and Path(name).is_file():
+        return Path(name), [*([file_name] if file_name is not None else []), *words]
+    if "/" in name or name.endswith((".py", ".launch.xml", ".launch.yaml", ".launch.yml")):
+        hint = "Name the package before the launch file, or give the path of a file that is there."
+        raise CommandError(f"'{cut(name, 100)}' is not a valid package name", hint)
+    return launching.find_launch_file(current_world(), cut(name, 100), cut(str(file_name), 100)), words
+
+
+def _pairs(words: Sequence[str]) -> dict[str, str]:
+    """`name:=value` taken apart; of several for one name the last one counts."""
+    given = {}
+    for word in words:
+        name, sign, value = word.partition(":=")
+        if not sign or not name:
+            hint = f"Did you mean '{word.replace('=', ':=', 1)}'?" if "=" in word and len(word) < 100 else ""
+            raise CommandError(f"malformed launch argument '{cut(word, 100)}', expected format '<name>:=<value>'", hint)
+        given[name] = value
+    return given
+
+
+# -- both ----------------------------------------------------------------------------------------------------------------
+
+
+def leave(what: Process | LaunchHandle, words: str, seconds: float | None) -> int:
+    """Let it begin, say how to end it if it goes on, and leave it running."""
+    world = current_world()
+    job = jobs(world).add(Job(words.strip(), what))
+    simulators = len(world.graph.servers("/spawn"))
+    if seconds is not None:
+        world.sim.settle()
+        run_for(world, seconds)
+    elif isinstance(what, Process):
+        world.sim.settle()
+    else:
+        what.wait_until_up()
+    sys.stdout.flush()
+    if job.running:
+        cell = sys.stdout.instead_of if isinstance(sys.stdout, FileOutput) else sys.stdout
+        stop = f"To stop it, as Ctrl-C would: kill -INT %{job.number}"
+        print(f"[{job.number}] {cut(job.words, 200)} is still running. {stop}", file=cell)
+        for twin in jobs(world).like(job):
+            twice = f"The same command is running as [{twin.number}], so everything in it exists twice now."
+            print(f"{twice} To stop that one: kill -INT %{twin.number}", file=cell)
+        if len(world.graph.servers("/spawn")) > simulators and _has_one_of_its_own(world):
+            twins = "Two simulators are running now, and both follow every command: start(simulator=False) starts none."
+            print(twins, file=cell)
+        return 0
+    return _code_of(what)
+
+
+def _has_one_of_its_own(world: World) -> bool:
+    """Whether `start()` has begun a simulator, which no job is."""
+    return any(server.node.process.name == "turtlesim" for server in world.graph.servers("/spawn"))
+
+
+def _code_of(what: Process | LaunchHandle) -> int:
+    """The exit code of `ros2 run` is its program's; that of `ros2 launch` is 0, however its programs ended."""
+    if isinstance(what, Process):
+        code = _status(what)
+        return code if code >= 0 else 256 + code
+    return 0
+
+
+COMMANDS = {
+    "launch": CellCommand("Start everything that a launch file describes", _launch_arguments, _launch),
+    "run": CellCommand("Start a program of a package", _run_arguments, _run),
+}

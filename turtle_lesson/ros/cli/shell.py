@@ -1,0 +1,246 @@
+r"""A small terminal: a line or a script becomes commands, which run one after the other.
+
+Quotes, `\` at a line's end, comments, `&&`, `||`, `;`, a trailing `&`, `| grep`, `< file`, `> file` and patterns such as
+`*.msg` work as in bash, and so do files of commands. The current folder is the notebook's; `~` is the folder in which the
+notebook began. Which files a command may change, `files.check` decides.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import os
+import re
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..idl.names import did_you_mean
+from ..runtime import files
+from ..runtime.console import FileOutput
+from . import terminal_files
+from .command_hints import advice
+from .jobs import cell_streams
+from .lexer import UnfinishedError, Word, tokens
+from .parser import cut
+from .python_script import names_a_script, run_script
+from .run_command import INTERRUPTED
+from .run_command import run as run_ros2
+from .script import (
+    NOT_EXECUTABLE,
+    TO_STDOUT,
+    Command,
+    ShellSyntaxError,
+    commands_in,
+    expand,
+    pipelines,
+    with_its_program,
+)
+from .terminal import BUILTINS
+from .terminal_io import Terminal, before_a_command, export, set_for_now
+
+if TYPE_CHECKING:
+    from ..runtime.world import World
+
+
+NOT_FOUND = 127
+SYNTAX = 2
+STOPPED = 130
+"""The exit code that a shell gives to what Ctrl-C has ended; `ros2` itself answers with another."""
+
+PROGRAMS = ("ros2", "colcon", "source", ".")
+
+
+class CommandInterrupted(KeyboardInterrupt):
+    """The user has stopped a command: what comes after it is not carried out. `code` is its exit code."""
+
+    def __init__(self, words: Sequence[str]) -> None:
+        super().__init__(f"{cut(' '.join(words), 100)} was stopped, and no command after it was run")
+        self.code = INTERRUPTED if words[0] == "ros2" else STOPPED
+
+
+class Shell:
+    """Runs scripts in a world."""
+
+    def __init__(self, world: World) -> None:
+        self.world = world
+
+    @property
+    def exit_code(self) -> int:
+        """The exit code of the last command of this world's terminal."""
+        return int(self.world.notebook.locals.get("exit code", 0))
+
+    @exit_code.setter
+    def exit_code(self, code: int) -> None:
+        self.world.notebook.locals["exit code"] = code
+
+    def run(self, script: str) -> int:
+        """Run a script of one line or several; a failing command prints and does not raise.
+
+        Raises:
+            CommandInterrupted: if the user stops a command.
+        """
+        return self._script(script, *cell_streams())
+
+    def _script(self, script: str, out: Any, error: Any) -> int:
+        try:
+            plan = list(pipelines(list(tokens(script))))
+        except (UnfinishedError, ShellSyntaxError) as mistake:
+            print(f"syntax error: {cut(str(mistake), 300)}", file=error)
+            self.exit_code = SYNTAX
+            return SYNTAX
+        for condition, pipeline in plan:
+            failed = self.exit_code != 0
+            if (condition == "&&" and failed) or (condition == "||" and not failed):
+                continue
+            try:
+                self.exit_code = self._pipeline(pipeline, out, error)
+            except CommandInterrupted as stop:
+                self.exit_code = stop.code
+                raise
+        return self.exit_code
+
+    def _pipeline(self, commands: list[Command], out: Any, error: Any) -> int:
+        handed_on: str | None = None
+        code = 0
+        for number, command in enumerate(commands):
+            last = number == len(commands) - 1
+            target = out if last else io.StringIO()
+            code = self._one(command, handed_on if command.given is None else command.given, target, error)
+            handed_on = None if last else target.getvalue()
+        return code
+
+    def _one(self, command: Command, given: str | None, out: Any, error: Any) -> int:
+        words = [text for word in command.words for text in self._expand(word)]
+        try:
+            if command.stdin is not None:
+                given = Path(self._file_name(command.stdin)).read_text(encoding="utf-8")
+            to, error_to = self._redirected(command, out, error)
+            return self._guarded(words, given, to, error_to, command.background) if words else 0
+        except (OSError, ValueError) as mistake:
+            return _said(words[0] if words else "bash", mistake, error)
+        except KeyboardInterrupt:
+            raise CommandInterrupted(words) from None
+
+    def _expand(self, word: Word) -> list[str]:
+        return expand(word, home=files.home(), exit_code=self.exit_code)
+
+    def _file_name(self, word: Word) -> str:
+        """What a `<` or `>` is followed by. Raises ValueError if that is no name or several."""
+        names = self._expand(word)
+        if len(names) != 1:
+            raise ValueError(f"{word.text}: ambiguous redirect: it stands for {len(names)} names, and one is needed")
+        return names[0]
+
+    def _redirected(self, command: Command, out: Any, error: Any) -> tuple[Any, Any]:
+        """The streams of a command, some of which may be files. Raises OSError if a file cannot be written."""
+        to: Any = out
+        error_to: Any = error
+        if command.stdout is not None:
+            sign, word = command.stdout
+            to = _file(self._file_name(word), "a" if sign == ">>" else "w", out)
+        if command.stderr == TO_STDOUT:
+            error_to = to
+        elif command.stderr is not None:
+            error_to = _file(self._file_name(command.stderr), "w", error)
+        return to, error_to
+
+    def _guarded(self, words: Sequence[str], given: str | None, out: Any, error: Any, background: bool) -> int:
+        try:
+            return self._call(words, given, out, error, background)
+        except (OSError, ValueError, re.error) as mistake:
+            return _said(words[0], mistake, error)
+
+    def _call(self, words: Sequence[str], given: str | None, out: Any, error: Any, background: bool) -> int:
+        if variables := before_a_command(words):
+            rest = words[len(variables) :]
+            if not rest:
+                return export(Terminal(self.world, out, error), list(words))
+            with set_for_now(variables):
+                return self._call(rest, given, out, error, background)
+        name = words[0]
+        if name == "ros2":
+            return run_ros2(self.world, words, stdin=given, stdout=out, stderr=error, background=background)
+        if (script := commands_in(words)) is not None:
+            with contextlib.nullcontext() if name in {"source", "."} else contextlib.chdir("."):
+                return self._script(script, out, error)
+        if name in {"colcon", "source", "."}:
+            return _workspace(self.world, words, out, error)
+        if "/" in name and (program := self.world.packages.program_at(name)):
+            words = ["ros2", "run", *program, *words[1:]]
+            return run_ros2(self.world, words, stdin=given, stdout=out, stderr=error, background=background)
+        try:
+            if (whole := with_its_program(words)) != list(words):
+                return self._call(whole, given, out, error, background)
+        except PermissionError as mistake:
+            print(mistake, file=error)
+            return NOT_EXECUTABLE
+        if names_a_script(words):
+            return run_script(self.world, words, given, out, error)
+        if name in BUILTINS:
+            return BUILTINS[name](Terminal(self.world, out, error, given), list(words[1:]))
+        print(_not_found(words), file=error)
+        return NOT_FOUND
+
+
+def _workspace(world: World, words: Sequence[str], out: Any, error: Any) -> int:
+    """`colcon …` and `source …`: the workspace does them."""
+    from ..build import colcon, source
+
+    program = colcon.run if words[0] == "colcon" else source.source
+    return program(world, list(words[1:]), stdout=out, stderr=error, cwd=Path.cwd())
+
+
+def _not_found(words: Sequence[str]) -> str:
+    """What to say of a command that there is none of."""
+    name = words[0]
+    other = advice(words)
+    if other:
+        return f"{name.lstrip('!')}: {cut(other, 300)}."
+    hint = did_you_mean(name[:100], [*PROGRAMS, *BUILTINS])
+    if re.match(r"\w+[(=\[.]", name):
+        hint = "If it is Python, write it on a line of its own: everything after a command belongs to the terminal."
+    computer = "This simulated terminal has ros2, colcon, source and a few more; !command runs on your computer."
+    return f"{cut(name, 60)}: command not found. {hint or computer}"
+
+
+def _said(name: str, error: Exception, stream: Any) -> int:
+    """Say in a line what went wrong, without Python's numbers; returns the exit code."""
+    print(f"{cut(name, 40)}: {cut(_explain(error), 300)}", file=stream)
+    return 1
+
+
+def _explain(error: Exception) -> str:
+    if isinstance(error, OSError) and error.strerror:
+        named = f"{error.filename}: " if error.filename else ""
+        return f"{named}{error.strerror}"
+    return str(error)
+
+
+def _file(name: str, mode: str, instead_of: Any) -> FileOutput:
+    path = Path(name)
+    if path != Path(os.devnull):
+        files.check(path)
+    path.open(mode).close()
+    return FileOutput(path, instead_of)
+
+
+def open_terminal() -> None:
+    """A new terminal begins where the notebook began: undo what `cd` did."""
+    if terminal_files.last_cd is not None and files.here() == terminal_files.last_cd and files.home().is_dir():
+        os.chdir(files.home())
+    terminal_files.last_cd = None
+    files.begin()
+
+
+def begin_here() -> None:
+    """The notebook begins: its folder is what `~` is from now on."""
+    if terminal_files.last_cd is None:
+        files.begin(notebook=True)
+
+
+def run_line(world: World, script: str) -> int:
+    """Run a script in a world and return the exit code of its last command."""
+    sys.stdout.flush()
+    return Shell(world).run(script)

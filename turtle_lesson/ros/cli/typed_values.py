@@ -1,0 +1,178 @@
+"""From what was typed to types, messages and names in the graph, or to a sentence that helps."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from ..idl.errors import InvalidDefinition
+from ..idl.names import did_you_mean
+from ..idl.registry import FOLDERS, registry
+from .verb import CommandError, suggest
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+
+
+# -- types --------------------------------------------------------------------------------------------------------
+# From a type's name as typed, such as `geometry_msgs/Twist`, to its class, or to a sentence that helps.
+
+
+def message_class(name: str) -> Any:
+    """The class of a message. Raises CommandError with the real tool's sentence, and what was meant perhaps."""
+    from rosidl_runtime_py.utilities import get_message
+
+    found = _find(get_message, name)
+    if found is None:
+        raise CommandError("The passed message type is invalid", suggest_type(name, "msg"))
+    return found
+
+
+def service_class(name: str) -> Any:
+    """The class of a service. Raises CommandError with the real tool's sentence, and what was meant perhaps."""
+    from rosidl_runtime_py.utilities import get_interface, get_service
+
+    found = _find(get_service, name)
+    if found is None:
+        is_other = name.count("/") == 2 and _find(get_interface, name) is not None
+        sentence = "The passed type is not a service" if is_other else "The passed service type is invalid"
+        raise CommandError(sentence, suggest_type(name, "srv"))
+    return found
+
+
+def action_class(name: str) -> Any:
+    """The class of an action. Raises CommandError with the real tool's sentence, and what was meant perhaps."""
+    from rosidl_runtime_py.utilities import get_action
+
+    found = _find(get_action, name)
+    if found is None:
+        raise CommandError("The passed action type is invalid", suggest_type(name, "action"))
+    return found
+
+
+def _find(get: Callable[[str], Any], name: str) -> Any:
+    """The class of a name, or None; a definition that is refused says why."""
+    parts = name.split("/")
+    if len(parts) > 3 or (len(parts) == 3 and parts[1] not in FOLDERS) or not all(map(str.isidentifier, parts)):
+        return None
+    try:
+        return get(name)
+    except InvalidDefinition:
+        raise
+    except (AttributeError, ImportError, ValueError):
+        return None
+
+
+def unknown_type(name: str, folder: str) -> str:
+    """A line about a type that does not exist, or that was typed in its short form; nothing for one that does."""
+    from rosidl_runtime_py.utilities import get_interface
+
+    if name.count("/") == 2 and _find(get_interface, name) is not None:
+        return ""
+    return f"There is no type '{name}'\n{suggest_type(name, folder)}".rstrip()
+
+
+def suggest_type(name: str, folder: str) -> str:
+    """`Did you mean 'std_msgs/msg/String'?`, or nothing if no type is like that."""
+    known = [
+        f"{package}/{interface}"
+        for package in registry.packages()
+        for interface in registry.interface_names(package)
+        if interface.startswith(f"{folder}/")
+    ]
+    package, _, last = name.replace(".", "/").rpartition("/")
+    same_name = [each for each in known if each.rpartition("/")[2].lower() == last.lower() and each != name]
+    if same_name and not registry.knows(package.partition("/")[0]):
+        return f"Did you mean '{sorted(same_name, key=lambda each: not each.startswith('std_'))[0]}'?"
+    full = f"{package}/{folder}/{last}" if package and "/" not in package else name
+    return did_you_mean(full, [each for each in known if each != name])
+
+
+# -- values -------------------------------------------------------------------------------------------------------
+# What is typed as YAML, read safely, and put into the fields of a message.
+
+MAX_LENGTH = 100_000
+"""How many characters of YAML are read at most."""
+
+
+class NoYaml(CommandError):
+    """A text is no YAML that can be read."""
+
+
+class Unparsable(NoYaml):
+    """The brackets, commas or colons of a text make no YAML; `ros2 param set` takes such a text as it is."""
+
+
+def read_yaml(text: str, what: str = "The passed value") -> Any:
+    """The value of a YAML text. Raises NoYaml, in one line, for anything that is none or could be a trap."""
+    import yaml
+
+    from ..runtime.files import safe_load
+
+    if len(text) > MAX_LENGTH:
+        raise NoYaml(f"{what} is too long: at most {MAX_LENGTH} characters of YAML are read")
+    try:
+        return safe_load(text)
+    except yaml.MarkedYAMLError as error:
+        kind = Unparsable if isinstance(error, yaml.parser.ParserError) else NoYaml
+        raise kind(f"{what} is not valid YAML: {_in_one_line(error)}") from None
+    except (yaml.YAMLError, ValueError, OverflowError) as error:
+        raise NoYaml(f"{what} is not valid YAML: {' '.join(str(error).split())}") from None
+
+
+def _in_one_line(error: Any) -> str:
+    parts = [part for part in (error.context, error.problem) if part]
+    mark = error.problem_mark
+    place = f" (line {mark.line + 1}, column {mark.column + 1})" if mark else ""
+    return ", ".join(" ".join(part.split()) for part in parts) + place
+
+
+def populate(message: Any, values: Any) -> list[Callable[[Any], None]]:
+    """Set the fields of a message (or request) to values as YAML gives them, or raise CommandError with a sentence.
+
+    Returns:
+        Functions that want the time of sending: they set what was typed as `header: auto` or `stamp: now`.
+    """
+    from rosidl_runtime_py.set_message import set_message_fields
+
+    try:
+        return set_message_fields(message, values, expand_header_auto=True, expand_time_now=True)
+    except (TypeError, AttributeError, ValueError, AssertionError, OverflowError, RecursionError) as error:
+        notes = getattr(error, "__notes__", []) if isinstance(error, (AttributeError, TypeError)) else []
+        raise CommandError(f"Failed to populate field: {error}", "\n".join(notes)) from None
+
+
+def stamp(setters: list[Callable[[Any], None]], node: Node) -> None:
+    """Have the stamps that `populate` left open be the time of now."""
+    if setters:
+        now = node.get_clock().now().to_msg()
+        for set_stamp in setters:
+            set_stamp(now)
+
+
+# -- named --------------------------------------------------------------------------------------------------------
+# What `ros2 topic` and `ros2 service` say alike of the names in the graph and their types.
+
+
+def unknown(kind: str, name: str, known: dict[str, list[str]]) -> CommandError:
+    """What is said of a topic or service (`kind`) that does not exist."""
+    return CommandError(f"Unknown {kind} '{name}'", suggest(name, known))
+
+
+def print_types(kind: str, name: str, known: dict[str, list[str]]) -> None:
+    """The types of a name. For an unknown one the real tool says nothing, and ends with exit code 1."""
+    if name not in known:
+        raise unknown(kind, name, known)
+    print(*known[name], sep="\n")
+
+
+def print_names(type_name: str, folder: str, known: dict[str, list[str]], *, count: bool) -> None:
+    """The names that have a type, or only how many these are; `folder` is the kind of type: "msg" or "srv"."""
+    found = [name for name, types in known.items() if type_name in types]
+    if count:
+        print(len(found))
+    elif found:
+        print(*found, sep="\n")
+    elif about := unknown_type(type_name, folder):
+        print(about, file=sys.stderr)

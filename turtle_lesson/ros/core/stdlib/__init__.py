@@ -1,1 +1,0 @@
-"""What the standard library lends a simulated process: threads, locks, queues, asyncio, signals … in virtual time."""

@@ -1,0 +1,1 @@
+"""What to try about an error of a learner's program, said below the error's own words."""

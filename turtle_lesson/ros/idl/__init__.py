@@ -1,0 +1,1 @@
+"""ROS 2 interfaces: from the text of `.msg`, `.srv` and `.action` files to Python classes and CDR bytes."""

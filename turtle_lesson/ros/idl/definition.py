@@ -1,0 +1,253 @@
+"""Interface definitions: the text of `.msg`, `.srv` and `.action` files, read with ROS's rules."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from itertools import zip_longest
+from pathlib import Path
+
+from . import names
+from .errors import (
+    DuplicateName,
+    IndentedLine,
+    InvalidActionSpecification,
+    InvalidDefinition,
+    InvalidFieldDefinition,
+    InvalidResourceName,
+    InvalidServiceSpecification,
+    InvalidType,
+)
+from .model import ActionDefinition, ArrayKind, Constant, Field, FieldType, MessageDefinition, ServiceDefinition
+from .values import parse_plain, parse_value
+
+# -- definition ---------------------------------------------------------------------------------------------------
+# Interface definitions: the text of `.msg`, `.srv` and `.action` files, read with ROS's rules.
+# What is accepted and refused, and in which words, follows `rosidl_adapter.parser` of ROS 2 Humble. Whether the types
+# of fields exist is not known here: that is the registry's part.
+
+Line = tuple[int, str]  # line number in the file, counted from 1, and the text
+SEPARATOR = "---"
+
+
+def parse_message(package: str, name: str, text: str, file: str | None = None) -> MessageDefinition:
+    """Read the text of a `.msg` file; raise InvalidDefinition where ROS refuses it."""
+    return _parse_part(package, name, "msg", _numbered(text), file, text)
+
+
+def parse_service(package: str, name: str, text: str, file: str | None = None) -> ServiceDefinition:
+    """Read the text of a `.srv` file: request, a line `---`, response."""
+    parts = _split(text)
+    if len(parts) != 2:
+        unique = "" if len(parts) < 2 else "unique "
+        raise InvalidServiceSpecification(
+            f"Could not find {unique}separator '---' between request and response",
+            hint="A service is its request, one line of exactly three dashes, its response",
+        ).locate(interface=f"{package}/srv/{name}", file=file)
+    request, response = (
+        _parse_part(package, name + suffix, "srv", lines, file)
+        for suffix, lines in zip(("_Request", "_Response"), parts, strict=True)
+    )
+    return ServiceDefinition(package, name, request, response, text, file)
+
+
+def parse_action(package: str, name: str, text: str, file: str | None = None) -> ActionDefinition:
+    """Read the text of an `.action` file: goal, `---`, result, `---`, feedback."""
+    parts = _split(text)
+    if len(parts) != 3:
+        raise InvalidActionSpecification(
+            "Number of '---' separators nonconformant with action definition",
+            hint="An action is its goal, its result and its feedback, with a line of three dashes between",
+        ).locate(interface=f"{package}/action/{name}", file=file)
+    goal, result, feedback = (
+        _parse_part(package, name + suffix, "action", lines, file)
+        for suffix, lines in zip(("_Goal", "_Result", "_Feedback"), parts, strict=True)
+    )
+    return ActionDefinition(package, name, goal, result, feedback, text, file)
+
+
+def parse_type(text: str, package: str) -> FieldType:
+    """Read the type of a field; a message without a package is one of the `package` given."""
+    if not text:
+        raise IndentedLine("string index out of range", hint="Begin the line with the type, without spaces")
+    if not text.endswith("]"):
+        return _parse_base(text, package)
+    if "[" not in text:
+        raise InvalidType(f"the type {text} ends with ']' but does not contain a '['")
+    base, _, count = text[:-1].rpartition("[")
+    size = _positive(count.removeprefix("<="))
+    if count and size is None:
+        # The two names stand the wrong way round in ROS's text as well.
+        raise InvalidType(
+            f"the size of array type '<=' must be a valid integer value > 0 optionally prefixed with '{text}'"
+            " if it is only an upper bound",
+            hint=f"Write {base}[3], {base}[<=3] or {base}[]",
+        )
+    element = _parse_base(base, package)
+    kind: ArrayKind = "unbounded" if not count else "bounded" if count.startswith("<=") else "fixed"
+    return FieldType(element.base, element.package, kind, size, element.string_bound)
+
+
+def _parse_base(text: str, package: str) -> FieldType:
+    if text in names.PRIMITIVES:
+        return FieldType(text)
+    if text.startswith(("string<=", "wstring<=")):
+        base, _, count = text.partition("<=")
+        bound = _positive(count)
+        if bound is None:
+            raise InvalidType(
+                f"the upper bound of the string type '{text}' must be a valid integer value > 0",
+                hint=f"Write {base}<=10",
+            )
+        return FieldType(base, string_bound=bound)
+    return _parse_message_type(text, package)
+
+
+def _parse_message_type(text: str, package: str) -> FieldType:
+    parts = text.split("/")
+    if len(parts) > 2:
+        hint = f"Write '{parts[-3]}/{parts[-1]}'" if parts[1:-1] == ["msg"] else "Write 'package/Message'"
+        raise InvalidResourceName(text, hint=hint)
+    owner = parts[0] if len(parts) == 2 else package
+    names.check_package(owner)
+    names.check_message(parts[-1])
+    return FieldType(parts[-1], owner)
+
+
+def _positive(text: str) -> int | None:
+    try:
+        value = int(text)
+    except ValueError:
+        return None
+    return value if value > 0 else None
+
+
+def _numbered(text: str) -> list[Line]:
+    return list(enumerate(text.replace("\t", " ").splitlines(), start=1))
+
+
+def _split(text: str) -> list[list[Line]]:
+    parts: list[list[Line]] = [[]]
+    for number, line in _numbered(text):
+        if line == SEPARATOR:
+            parts.append([])
+        else:
+            parts[-1].append((number, line))
+    return parts
+
+
+def _parse_part(
+    package: str, name: str, folder: str, lines: list[Line], file: str | None, text: str | None = None
+) -> MessageDefinition:
+    members: list[Field | Constant] = []
+    interface = f"{package}/{folder}/{name}"
+    for number, raw in lines:
+        line = raw.partition("#")[0].rstrip()
+        if not line:
+            continue
+        try:
+            members.append(_parse_line(package, name, line, number))
+        except InvalidDefinition as error:
+            raise error.locate(interface=interface, file=file, line=number, line_text=line.strip()) from None
+    fields = tuple(each for each in members if isinstance(each, Field))
+    constants = tuple(each for each in members if isinstance(each, Constant))
+    try:
+        names.check_package(package)
+        names.check_message(name)
+        _check_unique("fields", fields)
+        _check_unique("constants", constants)
+    except InvalidDefinition as error:
+        raise error.locate(interface=interface, file=file) from None
+    body = "\n".join(line for _, line in lines) if text is None else text
+    return MessageDefinition(package, name, fields, constants, body, folder, file)
+
+
+def _parse_line(package: str, name: str, line: str, number: int) -> Field | Constant:
+    type_text, _, rest = line.partition(" ")
+    rest = rest.lstrip()
+    if not rest:
+        raise InvalidFieldDefinition(
+            line, hint="A field is its type and its name", printed=f"Error with: {package} {name} {line}"
+        )
+    if "=" in rest:
+        return _parse_constant(type_text, rest, number)
+    try:
+        return _parse_field(package, type_text, rest, number)
+    except InvalidDefinition as error:
+        error.printed = f"Error processing '{line}' of '{package}/{name}': '{error.reason}'"
+        raise
+
+
+def _parse_field(package: str, type_text: str, rest: str, number: int) -> Field:
+    type_ = parse_type(type_text, package)
+    name, _, default = rest.partition(" ")
+    names.check_field(name)
+    default = default.lstrip()
+    return Field(type_, name, parse_value(type_, default) if default else None, number)
+
+
+def _parse_constant(type_text: str, rest: str, number: int) -> Constant:
+    name, _, value = rest.partition("=")
+    if type_text not in names.PRIMITIVES:
+        raise InvalidType(f"the constant type '{type_text}' must be a primitive type")
+    names.check_constant(name.rstrip())
+    return Constant(type_text, name.rstrip(), parse_plain(type_text, value.lstrip()), number)
+
+
+def _check_unique(what: str, members: Iterable[Field | Constant]) -> None:
+    seen: set[str] = set()
+    for member in members:
+        if member.name in seen:
+            error = DuplicateName(f"the {what} iterable contains duplicate names: {member.name}")
+            error.line, error.line_text = member.line, str(member)
+            raise error
+        seen.add(member.name)
+
+
+# -- comments -----------------------------------------------------------------------------------------------------
+# What the fields of the built-in interfaces mean: the comments that `ros2 interface show` prints.
+# The definitions in `share/` hold next to no comments, so that they are read fast and fill no bags. A file
+# `comments.txt` beside a package's definitions has what is to be said, in our own words: a section `[msg/Twist]` for
+# an interface, in it lines `# …` about the whole and `field: meaning`, and `---` between the parts of a service or an
+# action.
+
+_MEMBER = re.compile(r"\S+\s+(\w+)[^#]*$")
+"""A line of a definition that declares a member and has no comment of its own."""
+
+
+def with_comments(directory: Path, interface: str, text: str) -> str:
+    """The text of a definition with the comments that the package in a folder has for it, if any.
+
+    Args:
+        directory: folder of the package: that of `msg/`, `srv/` and `action/`.
+        interface: such as `msg/Twist`.
+        text: what the definition's file says.
+    """
+    section = _section(directory / "comments.txt", interface)
+    lines: list[str] = []
+    none: list[str] = []
+    for number, (definition, comments) in enumerate(zip_longest(_parts(text), _parts(section), fillvalue=none)):
+        lines += ["---"] if number else []
+        lines += _commented(definition, comments)
+    return "\n".join(lines)
+
+
+def _section(file: Path, interface: str) -> str:
+    found = file.read_text(encoding="utf-8") if file.is_file() else ""
+    _, _, rest = f"\n{found}".partition(f"\n[{interface}]\n")
+    return rest.partition("\n[")[0].strip()
+
+
+def _parts(text: str) -> list[list[str]]:
+    return [part.splitlines() for part in re.split(r"^---$\n?", text, flags=re.MULTILINE)]
+
+
+def _commented(definition: list[str], comments: list[str]) -> list[str]:
+    """The lines of one part: what it is, then each member, with their meanings below each other."""
+    about = [line for line in comments if line.startswith("#")]
+    meanings = dict(line.split(": ", 1) for line in comments if line and not line.startswith("#"))
+    members = [(line, _MEMBER.match(line)) for line in definition]
+    pairs = [(line, meanings.get(member[1]) if member else None) for line, member in members]
+    width = max((len(line) for line, meaning in pairs if meaning), default=0)
+    shown = [f"{line:<{width}}  # {meaning}" if meaning else line for line, meaning in pairs]
+    return [*about, *([""] if about and shown else []), *shown]

@@ -1,0 +1,247 @@
+"""How each kind of field is checked, made fresh and copied, as pieces of the source of generated classes.
+
+A piece is an expression with `{value}` where the value belongs. Names that begin with an underscore are
+globals of the generated module; no field can have such a name.
+"""
+
+from __future__ import annotations
+
+from array import array
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from functools import partial
+from math import isfinite
+from typing import Any
+
+from . import checks, message
+from .model import Field, FieldType, MessageDefinition, Plain
+from .names import FLOATS, STRINGS
+from .values import integer_bounds
+
+ELEMENT_CLASSES: dict[str, type] = {"bool": bool, "byte": bytes, "string": str, "wstring": str}
+ZEROS: dict[str, Plain | bytes] = {"bool": False, "byte": b"\x00", "string": "", "wstring": ""}
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """What the generator needs to know of one field.
+
+    Attributes:
+        name: the field's name.
+        check: global name of the function that checks a value and gives what to store.
+        fresh: expression of the default value.
+        test: expression that is true where a value can be stored as it is; empty where each needs the check.
+        copy: expression of a value's copy, as it is after transport.
+        construct: expression of what the constructor stores for a value it was given.
+        shares: whether the default may be shared by all messages (a number, a text).
+        is_float32: whether transport rounds the value to a float32.
+        same: expression that compares `{value}` with `{other}`.
+        message_class: class of the value, where the field is one message.
+        element_class: class of the value or of its elements, where these are messages.
+        objects: globals that these expressions use.
+        weight: how many values and messages the default consists of.
+        lines: how many fields stand where this one is written out, a message field by field.
+    """
+
+    name: str
+    check: str
+    fresh: str
+    test: str = ""
+    copy: str = "{value}"
+    construct: str = ""
+    shares: bool = False
+    is_float32: bool = False
+    same: str = "{value} == {other}"
+    message_class: type | None = None
+    element_class: type | None = None
+    objects: dict[str, Any] = field(default_factory=dict)
+    weight: int = 1
+    lines: int = 1
+
+    @property
+    def inlined(self) -> tuple[Kind, ...] | None:
+        """The fields of a message that is written out field by field, which is fast; None for what is not."""
+        if self.message_class is None or self.lines == 1:
+            return None
+        kinds: tuple[Kind, ...] = self.message_class._KINDS  # type: ignore[attr-defined]
+        return kinds
+
+
+MOST_LINES = 64
+"""A message with more fields than these, its messages' fields included, is not written out in those that contain it."""
+
+
+def weight_of(kinds: Iterable[Kind]) -> int:
+    """How many values and messages a message of such fields consists of, as long as its sequences are empty."""
+    return 1 + sum(kind.weight for kind in kinds)
+
+
+def kind_of(definition: MessageDefinition, member: Field, message_class: type | None) -> Kind:
+    """The kind of one field; `message_class` is the class of its elements, where these are messages."""
+    type_ = member.type
+    key = f"{definition.package}_{definition.folder}_{definition.name}_{member.name}"
+    if not type_.is_array:
+        return _message_kind(member, key, message_class) if message_class else _plain_kind(member, key)
+    if type_.base in checks.TYPE_CODES and message_class is None:
+        return _numpy_kind(member, key) if type_.is_fixed else _sequence_kind(member, key)
+    return _list_kind(member, key, message_class)
+
+
+def literal(base: str, value: Plain | bytes) -> str:
+    """Source text of a default value or constant."""
+    if base == "byte" and isinstance(value, int):
+        return repr(bytes([value]))
+    return repr(value) if not isinstance(value, float) or isfinite(value) else f"_float('{value}')"
+
+
+def zero(base: str) -> Plain | bytes:
+    """What a field of a primitive type holds where the definition gives no default."""
+    return ZEROS.get(base, 0.0 if base in FLOATS else 0)
+
+
+def _plain_kind(member: Field, key: str) -> Kind:
+    base = member.type.base
+    value = zero(base) if member.default is None else member.default
+    assert not isinstance(value, tuple)
+    check, test, copy = _plain_pieces(member.name, member.type)
+    name = f"_check_{key}"
+    return Kind(
+        name=member.name,
+        check=name,
+        fresh=literal(base, value),
+        test=test,
+        copy=copy,
+        shares=True,
+        is_float32=base == "float32",
+        objects={name: checks.assigned(check)},
+    )
+
+
+def _plain_pieces(name: str, type_: FieldType) -> tuple[checks.Check, str, str]:
+    base = type_.base
+    if base in FLOATS:
+        bound = checks.FLOAT_BOUNDS[base]
+        limits = f" and {-bound} <= {{value}} <= {bound}" if base == "float32" else ""
+        return checks.float_check(name, base), "_type({value}) is _float" + limits, "{value}"
+    if base in STRINGS:
+        limits = "" if type_.string_bound is None else f" and _len({{value}}) <= {type_.string_bound}"
+        check = checks.string_check(name, type_.string_bound)
+        return check, "_type({value}) is _str" + limits, "_plain_text({value})"
+    if base == "bool":
+        return checks.bool_check(name), "_type({value}) is _bool", "{value}"
+    if base == "byte":
+        return checks.byte_check(name), "_type({value}) is _bytes and _len({value}) == 1", "{value}"
+    low, high = integer_bounds(base)
+    test = f"_type({{value}}) is _int and {low} <= {{value}} <= {high}"
+    return checks.integer_check(name, base), test, "+{value}"  # + makes 1 of True
+
+
+def _message_kind(member: Field, key: str, message_class: type) -> Kind:
+    check, fresh, variable = f"_check_{key}", f"_fresh_{key}", class_variable(message_class)
+    inner: tuple[Kind, ...] = message_class._KINDS  # type: ignore[attr-defined]
+    lines = 1 + sum(kind.lines for kind in inner)
+    return Kind(
+        name=member.name,
+        check=check,
+        fresh=f"{fresh}()",
+        test=f"_type({{value}}) is {variable}",
+        copy="{value}._wire_copy()",
+        message_class=message_class,
+        element_class=message_class,
+        objects={
+            check: checks.assigned(checks.message_check(member.name, message_class)),
+            fresh: message_class._FRESH,  # type: ignore[attr-defined]
+            variable: message_class,
+        },
+        weight=weight_of(inner),
+        lines=lines if lines <= MOST_LINES else 1,
+    )
+
+
+def _sequence_kind(member: Field, key: str) -> Kind:
+    type_, check = member.type, f"_check_{key}"
+    code = checks.TYPE_CODES[type_.base]
+    limits = f" and _len({{value}}) <= {type_.size}" if type_.is_bounded else ""
+    start = f", {list(member.default)!r}" if isinstance(member.default, tuple) else ""
+    made = f"_array('{code}', {{value}})"
+    return Kind(
+        name=member.name,
+        check=check,
+        fresh=f"_array('{code}'{_finite(start)})",
+        test=f"_type({{value}}) is _array and {{value}}.typecode == '{code}'{limits}",
+        copy="{value}[:]",
+        construct=f"{check}({made})" if type_.is_bounded else made,
+        objects={check: checks.assigned(checks.sequence_check(member.name, type_), partial(array, code))},
+    )
+
+
+def _numpy_kind(member: Field, key: str) -> Kind:
+    import numpy
+
+    type_, check, construct = member.type, f"_check_{key}", f"_construct_{key}"
+    dtype = f"'{checks.numpy_name(type_.base)}'"
+    store = partial(numpy.array, dtype=checks.numpy_name(type_.base))
+    given = isinstance(member.default, tuple) and _finite(repr(list(member.default)))
+    return Kind(
+        name=member.name,
+        check=check,
+        fresh=f"_numpy.array({given}, {dtype})" if given else f"_numpy.zeros({type_.size}, {dtype})",
+        copy="{value}.flatten()",
+        construct=f"{construct}({{value}})",
+        same="_same_array({value}, {other})",
+        objects={
+            check: checks.assigned(checks.numpy_check(member.name, type_), store),
+            construct: checks.assigned(checks.numpy_constructor(member.name, type_), store),
+            "_numpy": numpy,
+        },
+        weight=type_.size or 0,
+    )
+
+
+def _list_kind(member: Field, key: str, message_class: type | None) -> Kind:
+    type_, check, copy = member.type, f"_check_{key}", f"_copy_{key}"
+    element_class = message_class or ELEMENT_CLASSES[type_.base]
+    check_function = checks.list_check(member.name, type_, element_class)
+    copier: Callable[..., Any] = message.copy_values
+    if message_class:
+        copier = message.copy_messages
+    elif element_class is str:
+        copier = message.copy_texts
+    objects: dict[str, Any] = {check: checks.assigned(check_function), copy: copier(check_function)}
+    if message_class:
+        objects[class_variable(message_class)] = message_class
+    return Kind(
+        name=member.name,
+        check=check,
+        fresh=_fresh_list(member, message_class),
+        copy=f"{copy}({{value}})",
+        element_class=message_class,
+        objects=objects,
+        weight=_list_weight(type_, message_class),
+    )
+
+
+def _list_weight(type_: FieldType, message_class: type | None) -> int:
+    element = weight_of(message_class._KINDS) if message_class else 1  # type: ignore[attr-defined]
+    return (type_.size or 0) * element if type_.is_fixed else 1
+
+
+def _fresh_list(member: Field, message_class: type | None) -> str:
+    type_ = member.type
+    if isinstance(member.default, tuple):
+        return "[" + ", ".join(literal(type_.base, each) for each in member.default) + "]"
+    if not type_.is_fixed:
+        return "[]"
+    if message_class:
+        return f"[{class_variable(message_class)}() for _ in _range({type_.size})]"
+    return f"[{literal(type_.base, zero(type_.base))}] * {type_.size}"
+
+
+def class_variable(message_class: type) -> str:
+    """Global name of a message class in generated modules."""
+    return "_class_" + message_class._TYPE_NAME.replace("/", "_")  # type: ignore[attr-defined]
+
+
+def _finite(text: str) -> str:
+    """Let `nan` and `inf` in a list's text be found as globals."""
+    return text.replace("nan", "_nan").replace("inf", "_inf")

@@ -1,0 +1,338 @@
+"""Python classes for interface definitions, as Humble's `rosidl_generator_py` would make them."""
+
+from __future__ import annotations
+
+import codecs
+import keyword
+import linecache
+import re
+import warnings
+from array import array
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from math import inf, isfinite, nan
+from struct import Struct
+from types import ModuleType
+from typing import Any
+
+from . import message
+from .checks import FLOAT_BOUNDS
+from .errors import InvalidDefinition, InvalidMemberName, InvalidResourceName, InvalidType, InvalidValue
+from .field_codegen import Kind, kind_of, weight_of
+from .message import slot_type
+from .model import (
+    ActionDefinition,
+    Constant,
+    Definition,
+    Field,
+    FieldType,
+    MessageDefinition,
+    Plain,
+    ServiceDefinition,
+    Value,
+    derived_parts,
+)
+from .names import STRINGS, module_name
+from .source import message_source, wrapper_source
+
+# -- generator ----------------------------------------------------------------------------------------------------
+# Python classes for interface definitions, as Humble's `rosidl_generator_py` would make them.
+# The classes are written as source text and executed, which is what makes them fast: each constructor, setter and
+# copy is straight code for just its fields. The text stays readable in tracebacks and for `inspect.getsource`. Beyond
+# ROS's classes ours have `_wire_copy()`, which gives what a subscriber on another computer would get.
+
+Resolve = Callable[[FieldType], type]
+"""Gives the class of a field's messages; raises UnknownMessageType where there is none."""
+
+COMMON: dict[str, Any] = {
+    "_array": array,
+    "_bool": bool,
+    "_bytes": bytes,
+    "_classmethod": classmethod,
+    "_dict": dict,
+    "_float": float,
+    "_inf": inf,
+    "_int": int,
+    "_isinstance": isinstance,
+    "_len": len,
+    "_message_repr": message.message_repr,
+    "_nan": nan,
+    "_new": object.__new__,
+    "_plain_text": message.plain_text,
+    "_property": property,
+    "_range": range,
+    "_refuse_arguments": message.refuse_arguments,
+    "_same_array": message.same_array,
+    "_str": str,
+    "_type": type,
+}
+
+
+def make_module(definition: Definition, resolve: Resolve) -> ModuleType:
+    """The module of one interface file, e.g. `geometry_msgs.msg._twist` with the class `Twist`.
+
+    Raises InvalidDefinition where ROS could not generate Python code either.
+    """
+    builder = _Builder(definition, resolve)
+    if isinstance(definition, MessageDefinition):
+        builder.add_message(definition)
+    elif isinstance(definition, ServiceDefinition):
+        builder.add_service(definition)
+    else:
+        builder.add_action(definition)
+    return builder.finish()
+
+
+class _Builder:
+    """Collects the classes of one interface file, each executed as soon as its source is written."""
+
+    def __init__(self, definition: Definition, resolve: Resolve) -> None:
+        stem = module_name(definition.name)
+        self._module = ModuleType(
+            f"{definition.package}.{definition.folder}.{stem}",
+            f"Classes generated from {definition.full_name}.",
+        )
+        self._file = f"generated/{definition.package}/{definition.folder}/{stem}.py"
+        self._module.__file__ = self._file
+        self._globals = self._module.__dict__
+        self._globals.update(COMMON)
+        self._source = ""
+        self._resolve = resolve
+
+    def add_message(self, definition: MessageDefinition) -> None:
+        """Add the class of a message or of a part of a service or action."""
+        name = definition.name
+        kinds = tuple(self._kind(definition, member) for member in definition.fields)
+        try:
+            check_class_name(name)
+            check_weight(name, weight_of(kinds))
+        except InvalidDefinition as error:
+            raise error.locate(interface=definition.full_name, file=definition.file) from None
+        if definition.constants:
+            constants = tuple(_built_constant(definition, constant) for constant in definition.constants)
+            definition = replace(definition, constants=constants)
+        self._globals[f"_kinds_{name}"] = kinds
+        self._globals[f"_slot_types_{name}"] = tuple(slot_type(member.type) for member in definition.fields)
+        for kind in _with_inner(kinds):
+            self._globals.update(kind.objects)
+        for kind in kinds:
+            if not kind.shares:
+                self._globals[f"_unset_{name}_{kind.name}"] = message.Unset(_signature_default(kind))
+        self._add_packing(sum(kind.is_float32 for kind in _with_inner(kinds)))
+        self._run(definition, message_source(definition, kinds))
+
+    def add_service(self, definition: ServiceDefinition) -> None:
+        """Add request, response and the class that holds both."""
+        for part in definition.parts():
+            self.add_message(part)
+        self._add_service_class(definition)
+
+    def add_action(self, definition: ActionDefinition) -> None:
+        """Add goal, result, feedback, the class that holds them, and what carries them (`Impl`)."""
+        for part in (*definition.parts(), *derived_parts(definition)):
+            self.add_message(part)
+        name = definition.name
+        for service in (f"{name}_SendGoal", f"{name}_GetResult"):
+            self._add_carrier(definition, service)
+        impl = {
+            "SendGoalService": self._globals[f"{name}_SendGoal"],
+            "GetResultService": self._globals[f"{name}_GetResult"],
+            "FeedbackMessage": self._globals[f"{name}_FeedbackMessage"],
+            "CancelGoalService": self._resolve(FieldType("CancelGoal", "action_msgs", folder="srv")),
+            "GoalStatusMessage": self._resolve(FieldType("GoalStatusArray", "action_msgs")),
+            "__module__": self._module.__name__,
+        }
+        self._globals[f"_impl_{name}"] = type("Impl", (), impl)
+        parts = {part.name.rpartition("_")[2]: part.name for part in definition.parts()}
+        self._add_wrapper(definition, {**parts, "Impl": f"_impl_{name}"})
+
+    def finish(self) -> ModuleType:
+        """The module with all that was added."""
+        lines = self._source.splitlines(keepends=True)
+        linecache.cache[self._file] = (len(self._source), None, lines, self._file)
+        self._source = ""  # the cache has it
+        return self._module
+
+    def _add_service_class(self, definition: ServiceDefinition) -> None:
+        self._add_wrapper(definition, {"Request": definition.request.name, "Response": definition.response.name})
+
+    def _add_carrier(self, action: ActionDefinition, name: str) -> None:
+        request, response = (self._globals[f"{name}_{part}"]._DEFINITION for part in ("Request", "Response"))
+        self._add_service_class(ServiceDefinition(action.package, name, request, response, "", action.file, "action"))
+
+    def _add_wrapper(self, definition: Definition, parts: dict[str, str]) -> None:
+        self._run(definition, wrapper_source(definition, parts))
+
+    def _run(self, definition: Definition, source: str) -> None:
+        name = definition.name
+        kind = "srv" if isinstance(definition, ServiceDefinition) else definition.folder
+        self._globals[f"_support_{name}"] = message.TypeSupport(kind, definition.full_name)
+        self._globals[f"_definition_{name}"] = definition
+        if self._source:
+            self._source += "\n\n"
+        first_line = self._source.count("\n")
+        self._source += source
+        exec(compile("\n" * first_line + source, self._file, "exec"), self._globals)
+
+    def _kind(self, definition: MessageDefinition, member: Field) -> Kind:
+        try:
+            check_field(member)
+            built = member if member.default is None else replace(member, default=built_default(member))
+            return kind_of(definition, built, self._message_class(definition, member.type))
+        except InvalidDefinition as error:
+            raise _located(error, definition, member) from None
+
+    def _message_class(self, definition: MessageDefinition, type_: FieldType) -> type | None:
+        if type_.is_primitive:
+            return None
+        if (type_.package, type_.folder) == (definition.package, definition.folder) != (type_.package, "msg"):
+            own: type = self._globals[type_.base]
+            return own
+        return self._resolve(type_)
+
+    def _add_packing(self, count: int) -> None:
+        """Provide the packing that rounds `count` numbers to float32, if any."""
+        if count:
+            packing = Struct(f"{count}f")
+            self._globals.update({f"_pack_{count}": packing.pack, f"_unpack_{count}": packing.unpack})
+
+
+def _with_inner(kinds: tuple[Kind, ...]) -> Iterator[Kind]:
+    """All fields, those of messages that are written out included."""
+    for kind in kinds:
+        yield kind
+        if kind.inlined is not None:
+            yield from _with_inner(kind.inlined)
+
+
+def _signature_default(kind: Kind) -> str:
+    return f"{kind.message_class.__name__}()" if kind.message_class else kind.fresh.replace("_array('", "array('")
+
+
+def _built_constant(definition: MessageDefinition, constant: Constant) -> Constant:
+    try:
+        return replace(constant, value=built_constant(constant))
+    except InvalidDefinition as error:
+        raise _located(error, definition, constant) from None
+
+
+def _located(error: InvalidDefinition, definition: MessageDefinition, member: Field | Constant) -> InvalidDefinition:
+    return error.locate(
+        interface=definition.full_name, file=definition.file, line=member.line or None, line_text=str(member)
+    )
+
+
+# -- buildable ----------------------------------------------------------------------------------------------------
+# What can be read in a definition and yet not be built.
+# ROS 2 turns each definition into an IDL file, and that into C, C++ and Python. A build stops where a name is a word
+# of one of these languages, or where a default value gets lost on the way (facts: rosidl_adapter/msg,
+# rosidl_parser/parser.py, rosidl_generator_py; for special numbers ros2/rosidl issue 351, for words of C++ issue
+# 272).
+
+# Attributes of our own in the classes, which fields of these names would replace.
+TAKEN = ("wire_copy", "fields_and_field_types")
+
+
+def _words(text: str) -> frozenset[str]:
+    return frozenset(text.split())
+
+
+CPP_WORDS = _words(
+    """
+    alignas alignof and and_eq asm auto bitand bitor bool break case catch char char16_t char32_t class compl const
+    const_cast constexpr continue decltype default delete do double dynamic_cast else enum explicit export extern false
+    float for friend goto if inline int long mutable namespace new noexcept not not_eq nullptr operator or or_eq private
+    protected public register reinterpret_cast restrict return short signed sizeof static static_assert static_cast
+    struct switch template this thread_local throw true try typedef typeid typename union unsigned using virtual void
+    volatile wchar_t while xor xor_eq
+    """
+)
+"""The reserved words of C and of C++17."""
+
+MAX_WEIGHT = 10_000_000
+"""How many values and messages one message may consist of: more would fill the memory of a small computer."""
+
+
+def check_field(field: Field) -> None:
+    """Raise InvalidDefinition for a field that no build gets through."""
+    if field.type.base in ("time", "duration"):
+        better = f"builtin_interfaces/{field.type.base.capitalize()}"
+        raise InvalidType(f"the type '{field.type.base}' belongs to ROS 1", hint=f"Write '{better} {field.name}'")
+    if keyword.iskeyword(field.name):
+        raise InvalidMemberName(
+            f"Member name '{field.name}' is a reserved keyword in Python and is not supported at the moment."
+            " Please use a different name"
+        )
+    if field.name in CPP_WORDS:
+        reason = f"Member name '{field.name}' is a keyword of C++, in which ROS 2 also generates code"
+        raise InvalidMemberName(reason, hint=f"Please use a different name, such as '{field.name}_value'")
+    if field.name in TAKEN:
+        raise InvalidMemberName(f"the field name '{field.name}' is taken", hint="Please use a different name")
+
+
+def check_class_name(name: str) -> None:
+    """Raise InvalidResourceName for a message that Python could not have a class of."""
+    if keyword.iskeyword(name):
+        raise InvalidResourceName(f"'{name}' is a keyword of Python, which cannot be the name of a class")
+
+
+def check_weight(name: str, weight: int) -> None:
+    """Raise InvalidType for a message of which each instance would consist of too many values."""
+    if weight > MAX_WEIGHT:
+        raise InvalidType(
+            f"each message {name} would consist of {weight:,} values, which is more than fits into memory here",
+            hint="A sequence such as float64[] is as long as what is in it",
+        )
+
+
+def built_default(field: Field) -> Value | None:
+    """A field's default value as the built class has it; InvalidValue where a build would fail on it."""
+    base = field.type.base
+    if isinstance(field.default, tuple):
+        return tuple(built_value(base, each, field.type.string_bound) for each in field.default)
+    return None if field.default is None else built_value(base, field.default, field.type.string_bound)
+
+
+def built_constant(constant: Constant) -> Plain:
+    """A constant's value as the built class has it; InvalidValue where a build would fail on it."""
+    return built_value(constant.type, constant.value)
+
+
+def built_value(base: str, value: Plain, string_bound: int | None = None) -> Plain:
+    """One value of a primitive type as the built class has it."""
+    if base in FLOAT_BOUNDS and isinstance(value, float):
+        return _number(base, value)
+    return _text(value, string_bound) if base in STRINGS and isinstance(value, str) else value
+
+
+def _number(base: str, value: float) -> float:
+    if not isfinite(value):
+        hint = "Set it in the program: float('nan'), float('inf')"
+        raise InvalidValue(f"value '{value}' cannot be written in a form that a build accepts", hint=hint)
+    if abs(value) > FLOAT_BOUNDS[base]:
+        raise InvalidValue(f"value '{value}' is too large for {base}")
+    return value
+
+
+def _text(text: str, bound: int | None) -> str:
+    """A text after its way through IDL, which decodes escapes such as `\\n` and `\\x41`."""
+    if text.isascii() and "\\" not in text:
+        return text
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of escapes that are none, such as \d: they stay as they are
+            idl = text.encode().decode("unicode_escape").replace('"', r"\"").encode("latin-1").decode()
+            seen = re.sub(r"\\x.{1,2}", lambda match: codecs.decode(match[0], "unicode_escape"), idl)
+    except UnicodeError:
+        raise _lost(text) from None
+    if len(re.search(r"\\*$", idl)[0]) % 2:  # type: ignore[index]
+        raise _lost(text)
+    seen = re.sub(r'\\(["\\])', r"\1", seen)
+    if bound is not None and len(seen) > bound:
+        raise InvalidValue(f"value '{text}' is longer than {bound} characters once its escapes are read")
+    return seen
+
+
+def _lost(text: str) -> InvalidValue:
+    hint = r"Write three more backslashes before each one that is to stay; write é itself, not \u00e9"
+    return InvalidValue(f"value '{text}' has a backslash that no build accepts", hint=hint)

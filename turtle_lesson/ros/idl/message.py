@@ -1,0 +1,280 @@
+"""What all generated message classes share: how they show, compare and refuse, and their fields' types."""
+
+from __future__ import annotations
+
+from array import array
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Any
+
+from .checks import are_on, refusal
+from .model import FieldType
+from .names import did_you_mean
+
+# -- message ------------------------------------------------------------------------------------------------------
+# What all generated message classes share: how they show, compare and refuse.
+
+plain_text = str.__str__  # a plain str, even of an instance of a subclass
+
+
+@dataclass(frozen=True, slots=True)
+class TypeSupport:
+    """Stands where ROS keeps pointers to its C code: tells that a class is an interface, and of which kind.
+
+    Attributes:
+        kind: `msg`, `srv` or `action`.
+        name: full name such as `geometry_msgs/msg/Twist`.
+    """
+
+    kind: str
+    name: str
+
+
+class Unset:
+    """Default of a constructor argument that stands for a fresh value; shows as that value in a signature."""
+
+    __slots__ = ("_text",)
+
+    def __init__(self, text: str) -> None:
+        self._text = text
+
+    def __repr__(self) -> str:
+        return self._text
+
+
+def message_repr(message: Any) -> str:
+    """`geometry_msgs.msg.Vector3(x=0.0, y=0.0, z=0.0)`."""
+    kind = type(message)
+    package = kind.__module__.rpartition(".")[0]
+    name = f"{package}.{kind.__name__}" if package else kind.__name__
+    fields = ", ".join(f"{slot[1:]}={_field_repr(getattr(message, slot))}" for slot in message.__slots__)
+    return f"{name}({fields})"
+
+
+def _field_repr(value: object) -> str:
+    if isinstance(value, array):
+        return repr(value)[len("array('f', ") : -1] if value else "[]"
+    return repr(value)
+
+
+def same_array(one: Any, other: Any) -> bool:
+    """Whether two numpy arrays hold the same numbers."""
+    return bool(one.shape == other.shape and (one == other).all())
+
+
+def refuse_arguments(message_class: type, unknown: Iterable[str]) -> None:
+    """Refuse constructor arguments that are no fields, where values are checked.
+
+    `check_fields`, with which newer releases switch the checks on for one message, is taken, and has no other effect.
+    """
+    names = sorted(set(unknown) - {"check_fields"})
+    if not names or not are_on():
+        return
+    fields = [slot[1:] for slot in message_class.__slots__]  # type: ignore[attr-defined]
+    hints = [hint for hint in (did_you_mean(name, fields) for name in names) if hint]
+    note = " ".join([*hints, f"The fields are: {', '.join(fields) or 'none'}"])
+    raise refusal(f"Invalid arguments passed to constructor: {', '.join(names)}", note)
+
+
+def copy_messages(check: Callable[[Any], Any]) -> Callable[[Any], list[Any]]:
+    """Copier of a field that holds several messages; what was slipped in since the check is refused here."""
+
+    def copy(value: Any) -> list[Any]:
+        return [each._wire_copy() for each in check(value)]
+
+    return copy
+
+
+def copy_texts(check: Callable[[Any], Any]) -> Callable[[Any], list[str]]:
+    """Copier of a field that holds several strings."""
+
+    def copy(value: Any) -> list[str]:
+        return [plain_text(each) for each in check(value)]
+
+    return copy
+
+
+def copy_values(check: Callable[[Any], Any]) -> Callable[[Any], list[Any]]:
+    """Copier of a field that holds several booleans or bytes."""
+
+    def copy(value: Any) -> list[Any]:
+        return list(check(value))
+
+    return copy
+
+
+# -- slot types ---------------------------------------------------------------------------------------------------
+# What `SLOT_TYPES` of a message class holds: its fields' types as small objects.
+# Names, attributes and what is a kind of what are those of `rosidl_parser.definition`, so that code written for it
+# can look at ours (`rosidl_parser` itself, in `ros/site`, is these classes).
+
+TYPE_NAMES = {"float32": "float", "float64": "double", "bool": "boolean", "byte": "octet", "char": "uint8"}
+
+
+class AbstractType:
+    """Any type of a field."""
+
+    __slots__ = ()
+
+
+class AbstractNestableType(AbstractType):
+    """Any type that the elements of an array or sequence may have."""
+
+    __slots__ = ()
+
+
+@dataclass(frozen=True, slots=True)
+class BasicType(AbstractNestableType):
+    """A number, a boolean or a byte, by its IDL name: `double`, `int32`, `boolean`, `octet`, ..."""
+
+    typename: str
+
+    def __str__(self) -> str:
+        return self.typename
+
+
+@dataclass(frozen=True, slots=True)
+class NamedType(AbstractNestableType):
+    """A type known by its bare name; our definitions have none, programs may ask."""
+
+    name: str
+
+    def __str__(self) -> str:
+        return self.name
+
+
+@dataclass(frozen=True, slots=True)
+class NamespacedType(AbstractNestableType):
+    """A message: `NamespacedType(['geometry_msgs', 'msg'], 'Vector3')`."""
+
+    namespaces: list[str]
+    name: str
+
+    def namespaced_name(self) -> tuple[str, ...]:
+        """`('geometry_msgs', 'msg', 'Vector3')`."""
+        return (*self.namespaces, self.name)
+
+    def __str__(self) -> str:
+        return f"{self.namespaces[0]}/{self.name}"
+
+
+class AbstractGenericString(AbstractNestableType):
+    """Any string."""
+
+    __slots__ = ()
+
+    def has_maximum_size(self) -> bool:
+        """Whether its length is bounded."""
+        return hasattr(self, "maximum_size")
+
+
+class AbstractString(AbstractGenericString):
+    """Any string of 8-bit characters (UTF-8)."""
+
+    __slots__ = ()
+
+
+class AbstractWString(AbstractGenericString):
+    """Any string of 16-bit characters (UTF-16)."""
+
+    __slots__ = ()
+
+
+@dataclass(frozen=True, slots=True)
+class UnboundedString(AbstractString):
+    """A string of any length."""
+
+    def __str__(self) -> str:
+        return "string"
+
+
+@dataclass(frozen=True, slots=True)
+class BoundedString(AbstractString):
+    """A string of at most `maximum_size` characters."""
+
+    maximum_size: int
+
+    def __str__(self) -> str:
+        return f"string<{self.maximum_size}>"
+
+
+@dataclass(frozen=True, slots=True)
+class UnboundedWString(AbstractWString):
+    """A wide string of any length."""
+
+    def __str__(self) -> str:
+        return "wstring"
+
+
+@dataclass(frozen=True, slots=True)
+class BoundedWString(AbstractWString):
+    """A wide string of at most `maximum_size` characters."""
+
+    maximum_size: int
+
+    def __str__(self) -> str:
+        return f"wstring<{self.maximum_size}>"
+
+
+@dataclass(frozen=True, slots=True)
+class AbstractNestedType(AbstractType):
+    """Several values of one type."""
+
+    value_type: AbstractNestableType
+
+    def has_maximum_size(self) -> bool:
+        """Whether there is a largest number of values."""
+        return hasattr(self, "maximum_size") or hasattr(self, "size")
+
+
+@dataclass(frozen=True, slots=True)
+class Array(AbstractNestedType):
+    """Exactly `size` values."""
+
+    size: int
+
+    def __str__(self) -> str:
+        return f"{self.value_type}[{self.size}]"
+
+
+class AbstractSequence(AbstractNestedType):
+    """A variable number of values."""
+
+    __slots__ = ()
+
+
+@dataclass(frozen=True, slots=True)
+class UnboundedSequence(AbstractSequence):
+    """Any number of values."""
+
+    def __str__(self) -> str:
+        return f"sequence<{self.value_type}>"
+
+
+@dataclass(frozen=True, slots=True)
+class BoundedSequence(AbstractSequence):
+    """At most `maximum_size` values."""
+
+    maximum_size: int
+
+    def __str__(self) -> str:
+        return f"sequence<{self.value_type}, {self.maximum_size}>"
+
+
+def slot_type(type_: FieldType) -> AbstractType:
+    """The slot type of a field; its text is what `get_fields_and_field_types` says."""
+    element = _element(type_)
+    if type_.size is None:
+        return UnboundedSequence(element) if type_.is_array else element
+    return Array(element, type_.size) if type_.is_fixed else BoundedSequence(element, type_.size)
+
+
+def _element(type_: FieldType) -> AbstractNestableType:
+    if type_.package is not None:
+        return NamespacedType([type_.package, type_.folder], type_.base)
+    bound = type_.string_bound
+    if type_.base == "string":
+        return UnboundedString() if bound is None else BoundedString(bound)
+    if type_.base == "wstring":
+        return UnboundedWString() if bound is None else BoundedWString(bound)
+    return BasicType(TYPE_NAMES.get(type_.base, type_.base))

@@ -1,0 +1,314 @@
+"""Which interface packages there are, and the classes made from their definition files.
+
+The built-in packages lie in `share/`, laid out as ROS installs them: `share/<package>/msg/<Name>.msg`. A
+workspace adds its own with `registry.add`. Files are read, and classes made, when first asked for.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from threading import RLock
+from types import ModuleType
+from typing import Any
+
+from . import names
+from .definition import parse_action, parse_message, parse_service, with_comments
+from .errors import InvalidDefinition, UnknownMessageType
+from .generator import make_module
+from .model import Definition, FieldType
+
+SHARE = Path(__file__).with_name("share")
+FOLDERS = ("msg", "srv", "action")
+ALIASES = {"turtlesim_msgs": "turtlesim"}
+"""Built-in packages that newer releases know by another name (turtlesim's interfaces since Kilted): the same classes."""
+
+INSTALLED_SEPARATELY = frozenset((
+    "ackermann_msgs", "control_msgs", "gazebo_msgs", "moveit_msgs", "nav2_msgs", "object_recognition_msgs",
+    "octomap_msgs", "px4_msgs", "turtlebot3_msgs",
+))  # fmt: skip
+"""Built-in packages that an ordinary installation (ros-humble-desktop) lacks. They have what courses use, as in Humble and
+in PX4 1.14; their other interfaces come with the package's own sources, which hide the built-in package."""
+
+LONGEST = 100_000
+"""How many characters a definition may have: five times as many as the longest of those in use."""
+
+DEEPEST = 50
+"""How many messages may lie within each other; Python's own stack would end at some 100."""
+
+PARSERS: dict[str, Callable[[str, str, str, str], Definition]] = {
+    "msg": parse_message,
+    "srv": parse_service,
+    "action": parse_action,
+}
+
+
+class Package:
+    """One interface package: a folder with `msg/`, `srv/` and `action/`.
+
+    Args:
+        name: the package's name.
+        directory: folder that holds the definition files.
+        files: the files that count, relative to the folder, as CMakeLists.txt names them; None for all.
+    """
+
+    def __init__(self, name: str, directory: Path, files: Iterable[str] | None = None) -> None:
+        self.name = name
+        self.directory = directory
+        self.files = None if files is None else tuple(Path(each).as_posix() for each in files)
+        self.modules: dict[str, ModuleType] = {}
+
+    def interface_names(self) -> list[str]:
+        """Names such as `msg/Twist`: messages, then services, then actions, each in alphabetical order."""
+        return [f"{folder}/{name}" for folder in FOLDERS for name in self.names_in(folder)]
+
+    def names_in(self, folder: str) -> list[str]:
+        """Names of the interfaces of one folder."""
+        paths = self._paths()
+        return sorted(path.stem for path in paths if path.parent.name == folder and path.suffix == f".{folder}")
+
+    def has(self, interface: str) -> bool:
+        """Whether there is an interface `msg/Twist`."""
+        path = self.path(interface)
+        return path.is_file() if self.files is None else f"{interface}{path.suffix}" in self.files
+
+    def path(self, interface: str) -> Path:
+        """The definition file of `msg/Twist`."""
+        folder = interface.partition("/")[0]
+        return self.directory / f"{interface}.{folder}"
+
+    def _paths(self) -> list[Path]:
+        if self.files is not None:
+            return [self.directory / each for each in self.files]
+        return [path for folder in FOLDERS for path in (self.directory / folder).glob(f"*.{folder}")]
+
+
+class Registry:
+    """All interface packages by name; the later one of a name hides the built-in one until it is removed."""
+
+    def __init__(self, share: Path | None = SHARE) -> None:
+        self._share = share
+        self._built_in: dict[str, Package] | None = None
+        self._added: dict[str, Package] = {}
+        self._classes: dict[str, Any] = {}
+        self._in_progress: list[str] = []
+        self._uses: dict[str, set[str]] = {}  # packages that each interface's class is made of
+        self._lock = RLock()
+
+    def add(self, package: str, directory: str | Path, files: Iterable[str] | None = None) -> None:
+        """Make a package known, in place of an earlier one of its name.
+
+        Args:
+            package: name of the package; InvalidResourceName where ROS would refuse it.
+            directory: folder that holds `msg/`, `srv/` and `action/`.
+            files: relative paths such as `msg/TurtleStatus.msg` to limit it to; None for all files there.
+        """
+        names.check_package(package)
+        with self._lock:
+            self._forget(package)
+            self._added[package] = Package(package, Path(directory), files)
+
+    def remove(self, package: str) -> None:
+        """Forget a package that was added, its classes, and its modules in `sys.modules`."""
+        with self._lock:
+            if package not in self._added:
+                raise LookupError(f"the interface package '{package}' was not added. {self._hint(package)}".rstrip())
+            self._forget(package)
+            del self._added[package]
+
+    def packages(self) -> list[str]:
+        """Names of all packages, in alphabetical order."""
+        return sorted({*self._known_built_in(), *self._added})
+
+    def knows(self, package: str) -> bool:
+        """Whether there is a package of this name, or of one that newer releases use."""
+        return package in self._added or ALIASES.get(package, package) in self._known_built_in()
+
+    def interface_names(self, package: str) -> list[str]:
+        """Names such as `msg/Twist` of one package: messages, services, actions."""
+        return self.package(package).interface_names()
+
+    def text(self, package: str, interface: str) -> str:
+        """The text of a definition file, e.g. of `geometry_msgs` and `msg/Twist`."""
+        return _read(self._find(package, interface), interface)
+
+    def commented(self, package: str, interface: str) -> str:
+        """The text of a definition file; that of a built-in package with comments that say what its fields mean."""
+        owner, text = self._find(package, interface), self.text(package, interface)
+        return text if owner in self._added.values() else with_comments(owner.directory, interface, text)
+
+    def definition(self, name: str) -> Definition:
+        """The parsed definition of `geometry_msgs/msg/Twist`; InvalidDefinition where ROS refuses it."""
+        package, interface = self._split(name)
+        return _parse(self._find(package, interface), interface)
+
+    def get(self, name: str) -> Any:
+        """The class of an interface.
+
+        Args:
+            name: `geometry_msgs/msg/Twist`, `geometry_msgs/Twist`, or a part: `turtlesim/srv/Spawn_Request`.
+
+        Raises:
+            LookupError: there is no such package or interface.
+            InvalidDefinition: ROS refuses its definition, or that of a field's type.
+        """
+        found = self._classes.get(name)
+        if found is None:
+            package, interface = self._split(name)
+            found = getattr(self.module(package, interface), interface.partition("/")[2], None)
+            if found is None:
+                raise LookupError(f"'{name}' is not a part of a service or action")
+            self._classes[name] = found
+        return found
+
+    def module(self, package: str, interface: str) -> ModuleType:
+        """The generated module of an interface: `geometry_msgs.msg._twist` for `msg/Twist`."""
+        with self._lock:
+            is_whole = self.package(package).has(interface)
+            whole = interface if is_whole else interface.partition("_")[0]  # X of X_SendGoal_Request
+            owner = self._find(package, whole)
+            if whole not in owner.modules:
+                owner.modules[whole] = self._make(owner, whole)
+            return owner.modules[whole]
+
+    def resolve(self, type_: FieldType) -> Any:
+        """The class of a field's messages; UnknownMessageType where there is none."""
+        name = f"{type_.package}/{type_.folder}/{type_.base}"
+        try:
+            message_class = self.get(name)
+        except LookupError as error:
+            hint = self._where_is(type_.base) or error.args[0]
+            whole = f"{type_.package}/{type_.base}"
+            raise UnknownMessageType(f"the type '{whole}' is unknown", hint=hint) from None
+        if self._in_progress:
+            self._uses[self._in_progress[-1]] |= self._uses[name]
+        return message_class
+
+    def check(self, package: str) -> list[InvalidDefinition]:
+        """All that a build would refuse: the first fault of each definition file, in order of the names."""
+        faults = []
+        for interface in self.interface_names(package):
+            try:
+                self.module(package, interface)
+            except InvalidDefinition as error:
+                faults.append(error)
+        return faults
+
+    def _make(self, owner: Package, interface: str) -> ModuleType:
+        definition = _parse(owner, interface)
+        name = definition.full_name
+        if name in self._in_progress:
+            circle = " -> ".join([*self._in_progress, name])
+            raise UnknownMessageType(f"a message cannot contain itself: {circle}")
+        if len(self._in_progress) >= DEEPEST:
+            raise UnknownMessageType(f"messages are nested more than {DEEPEST} deep")
+        self._in_progress.append(name)
+        self._uses[name] = {owner.name}
+        try:
+            return make_module(definition, self.resolve)
+        finally:
+            self._in_progress.pop()
+
+    def _split(self, name: str) -> tuple[str, str]:
+        parts = name.split("/")
+        if len(parts) == 3 and parts[1] in FOLDERS:
+            return parts[0], f"{parts[1]}/{parts[2]}"
+        if len(parts) != 2:
+            hint = self._where_is(parts[-1], "/msg")
+            raise LookupError(f"'{name}' is not a name such as 'geometry_msgs/msg/Twist'. {hint}".rstrip())
+        owner = self.package(parts[0])
+        for folder in FOLDERS:
+            if owner.has(f"{folder}/{parts[1].partition('_')[0]}"):
+                return parts[0], f"{folder}/{parts[1]}"
+        return parts[0], f"msg/{parts[1]}"
+
+    def package(self, name: str) -> Package:
+        """One package; LookupError where there is none of that name."""
+        owner = self._added.get(name) or self._known_built_in().get(ALIASES.get(name, name))
+        if owner is None:
+            raise LookupError(f"there is no interface package '{name}'. {self._hint(name)}".rstrip())
+        return owner
+
+    def _find(self, package: str, interface: str) -> Package:
+        owner = self.package(package)
+        if not owner.has(interface):
+            raise LookupError(
+                f"the package '{package}' has no interface '{interface}'. {advice(owner, interface)}".rstrip()
+            )
+        return owner
+
+    def _where_is(self, name: str, folder: str = "") -> str:
+        """Say which packages have a message of this name."""
+        owners = [each for each in self.packages() if self.package(each).has(f"msg/{name}")]
+        owners.sort(key=lambda owner: owner == "example_interfaces")
+        found = " or ".join(f"'{owner}{folder}/{name}'" for owner in owners)
+        return f"Did you mean {found}?" if found else ""
+
+    def _hint(self, package: str) -> str:
+        return names.did_you_mean(package, self.packages())
+
+    def _known_built_in(self) -> dict[str, Package]:
+        if self._built_in is None:
+            folders = [] if self._share is None else [path for path in self._share.iterdir() if path.is_dir()]
+            self._built_in = {path.name: Package(path.name, path) for path in folders}
+        return self._built_in
+
+    def _forget(self, package: str) -> None:
+        """Drop the classes and modules of a package, and of the packages that use it."""
+        self._classes.clear()
+        stale = {package}
+        stale |= {user.partition("/")[0] for user, used in self._uses.items() if package in used}
+        for owner in [*self._added.values(), *self._known_built_in().values()]:
+            if owner.name in stale:
+                owner.modules.clear()
+                for name in (owner.name, *(alias for alias, real in ALIASES.items() if real == owner.name)):
+                    forget_modules(name)
+
+
+registry = Registry()
+"""The registry that `import` statements look into."""
+
+
+def forget_modules(package: str) -> None:
+    """Take a package's interface modules out of `sys.modules`; a real Python package of that name stays."""
+    inner = tuple(f"{package}.{folder}" for folder in FOLDERS)
+    for name in [each for each in sys.modules if each in inner or each.startswith(tuple(f"{i}." for i in inner))]:
+        del sys.modules[name]
+    outer = sys.modules.get(package)
+    if outer is None:
+        return
+    if getattr(outer, "__interfaces__", False):
+        del sys.modules[package]
+    for folder in FOLDERS:
+        if isinstance(outer.__dict__.get(folder), ModuleType):
+            delattr(outer, folder)
+
+
+def _parse(owner: Package, interface: str) -> Definition:
+    folder, _, name = interface.partition("/")
+    return PARSERS[folder](owner.name, name, _read(owner, interface), str(owner.path(interface)))
+
+
+def _read(owner: Package, interface: str) -> str:
+    path = owner.path(interface)
+    try:
+        with path.open(encoding="utf-8") as file:
+            text = file.read(LONGEST + 1)
+    except (OSError, UnicodeDecodeError) as error:
+        reason = f"the file cannot be read ({error})"
+        raise InvalidDefinition(reason).locate(interface=f"{owner.name}/{interface}", file=str(path)) from None
+    if len(text) > LONGEST:
+        hint = "Move some of its fields into messages of their own"
+        too_long = InvalidDefinition(f"the definition has more than {LONGEST:,} characters", hint=hint)
+        raise too_long.locate(interface=f"{owner.name}/{interface}", file=str(path))
+    return text
+
+
+def advice(owner: Package, interface: str) -> str:
+    """What to try where a package lacks an interface."""
+    path = owner.path(interface)
+    if owner.files is not None and path.is_file():
+        return f"{interface}{path.suffix} is there, but CMakeLists.txt does not name it"
+    folder, _, name = interface.partition("/")
+    return names.did_you_mean(name, owner.names_in(folder))

@@ -1,0 +1,278 @@
+"""The way from one publisher to one subscription: how long messages take, and what becomes of them on the way."""
+
+from __future__ import annotations
+
+import zlib
+from collections import deque
+from collections.abc import Callable
+from itertools import islice
+from random import Random
+from typing import TYPE_CHECKING, Any
+
+from .network import Conditions
+
+if TYPE_CHECKING:
+    from ..sim.simulation import Simulation
+    from .network import Network
+
+
+# -- line ---------------------------------------------------------------------------------------------------------
+# Lines: the way from one publisher to one subscription, wherever it is not the usual one.
+# The rules, which are those of RTPS (the protocol under DDS; chapters 8.4.8 to 8.4.12) in short:
+# * Best effort: what is lost is lost, and a message that was overtaken by a later one is thrown away. * Reliable: a
+# lost transmission is noticed and repeated two ways and 10 ms later (and may be lost again), as long as the publisher
+# still has the message: with KEEP_LAST that is one of its last `depth`. Messages arrive in their order, so one that
+# is missing holds up those behind it until it comes, or until the publisher has given it up. * A subscription learns
+# of a loss when it sees the gap: with the next message that arrives.
+
+NOTICED_AFTER = 10_000_000
+"""How long it takes, in ns and beside two ways, until a lost message is asked for and sent again: the delays that DDS
+implementations have for their answers to heartbeats are 5 to 10 ms."""
+
+ASKED_FOR_AT_ONCE = 256
+"""How many missing messages one answer to a heartbeat can name (RTPS's SequenceNumberSet)."""
+
+LINGER = 1_000_000_000
+"""How long, in ns, a publisher that goes still repeats what was lost: as long as one of Cyclone DDS."""
+
+USUAL = Conditions()
+Deliver = Callable[[Any, int], object]
+"""Gets what has arrived, and when it was sent (ns)."""
+
+
+class Line:
+    """Base class: `deliver` gets what arrives, `told` how many messages are known to be lost."""
+
+    def __init__(
+        self,
+        simulation: Simulation,
+        latency: int,
+        deliver: Deliver,
+        told: Callable[[int], object],
+        network: Network,
+        ends: str,
+    ) -> None:
+        self._simulation = simulation
+        self._usual = latency
+        self._deliver = deliver
+        self._told = told
+        self._network = network
+        self._ends = ends
+        self._random: Random | None = None
+        self.conditions = USUAL
+
+    def use(self, conditions: Conditions | None) -> None:
+        """Have what is sent from now on travel under these conditions; None for the usual ones."""
+        self.conditions = conditions or USUAL
+        if self._random is None and (self.conditions.loss or self.conditions.jitter):
+            self._random = self._network.random(self._ends)
+
+    def send(self, wire: Any, sent: int) -> None:
+        """Take a message (a copy of its own) that was published at `sent` (ns)."""
+        raise NotImplementedError
+
+    def under_way(self) -> list[tuple[int, Any]]:
+        """What has been sent and will arrive, as far as that is known: when it was published (ns), and the message."""
+        raise NotImplementedError
+
+    def next_look(self) -> int | None:
+        """When (ns) to look again whether everything has arrived; None if it has, or if nobody will ever know."""
+        return None
+
+    def close(self) -> None:
+        """The one who would get the messages has gone: deliver nothing more."""
+        self._deliver = self._told = _nothing
+
+    def linger(self) -> None:
+        """The one who sends has gone: what is under way still arrives."""
+
+    def _way(self) -> int:
+        """How long a transmission takes now, in ns: never less than in the usual network."""
+        conditions = self.conditions
+        longer = max(0, conditions.latency - LATENCY)
+        if conditions.jitter and self._random is not None:
+            longer += int(self._random.random() * conditions.jitter)
+        return self._usual + longer
+
+    def _is_lost(self) -> bool:
+        loss = self.conditions.loss
+        return loss > 0 and self._random is not None and self._random.random() < loss
+
+
+class BestEffortLine(Line):
+    """What is lost is lost."""
+
+    def __init__(self, *arguments: Any) -> None:
+        super().__init__(*arguments)
+        self._sent = 0
+        self._expected = 1
+        self._travelling: dict[int, tuple[int, Any]] = {}
+
+    def send(self, wire: Any, sent: int) -> None:
+        """See Line."""
+        self._sent += 1
+        if not self._is_lost():
+            self._travelling[self._sent] = (sent, wire)
+            self._simulation.at(self._simulation.now + self._way(), self._arrive, self._sent)
+
+    def under_way(self) -> list[tuple[int, Any]]:
+        """See Line."""
+        return [self._travelling[number] for number in sorted(self._travelling) if number >= self._expected]
+
+    def _arrive(self, number: int) -> None:
+        sent, wire = self._travelling.pop(number)
+        gap = number - self._expected
+        if gap < 0:
+            return  # it was overtaken, and counted as lost then
+        self._expected = number + 1
+        if gap:
+            self._told(gap)
+        self._deliver(wire, sent)
+
+
+class _Parcel:
+    """A message on a reliable line: travelling until `due` (ns), here, missing, or given up."""
+
+    __slots__ = ("due", "given_up", "here", "sent", "wire")
+
+    def __init__(self, wire: Any, sent: int) -> None:
+        self.wire = wire
+        self.sent = sent
+        self.due: int | None = None
+        self.here = False
+        self.given_up = False
+
+    @property
+    def missing(self) -> bool:
+        """Whether its last transmission was lost, and the publisher still has it."""
+        return self.due is None and not self.here and not self.given_up
+
+
+class ReliableLine(Line):
+    """What is lost is sent again; `depth` is how many messages the sender keeps for that, None for all."""
+
+    def __init__(self, *arguments: Any, depth: int | None = None) -> None:
+        super().__init__(*arguments)
+        self._depth = depth
+        self._parcels: deque[_Parcel] = deque()
+        self._gap = 0
+        self._asks = False
+
+    def use(self, conditions: Conditions | None) -> None:
+        """See Line. Where nothing came through, what is missing is asked for anew."""
+        super().use(conditions)
+        if any(parcel.missing for parcel in self._parcels):
+            self._ask_again()
+
+    def send(self, wire: Any, sent: int) -> None:
+        """See Line."""
+        parcel = _Parcel(wire, sent)
+        self._parcels.append(parcel)
+        if len(self._parcels) > 1:
+            self._give_up_old_ones()
+        self._transmit(parcel)
+
+    def under_way(self) -> list[tuple[int, Any]]:
+        """See Line."""
+        return [(each.sent, each.wire) for each in self._parcels if each.here or each.due is not None]
+
+    def next_look(self) -> int | None:
+        """See Line."""
+        if not self._parcels:
+            return None
+        now = self._simulation.now
+        soon = [each.due for each in self._parcels if each.due is not None]
+        return max(now, *soon) if len(soon) == len(self._parcels) else now + NOTICED_AFTER
+
+    def close(self) -> None:
+        """See Line."""
+        super().close()
+        self._parcels.clear()
+
+    def linger(self) -> None:
+        """See Line. What is missing is repeated for some time."""
+        self._simulation.at(self._simulation.now + LINGER, self._give_up, None)
+
+    def _give_up(self, _: object) -> None:
+        for parcel in self._parcels:
+            parcel.given_up = parcel.missing
+        self._hand_over()
+
+    def _transmit(self, parcel: _Parcel) -> None:
+        if self._is_lost():
+            parcel.due = None
+            self._ask_again()
+        else:
+            parcel.due = self._simulation.now + self._way()
+            self._simulation.at(parcel.due, self._arrive, parcel)
+
+    def _ask_again(self) -> None:
+        """Have what is missing sent again some time later; where nothing comes through, nobody asks."""
+        if not self._asks and self.conditions.loss < 1:
+            self._asks = True
+            self._simulation.at(self._simulation.now + 2 * self._way() + NOTICED_AFTER, self._repeat, None)
+
+    def _repeat(self, _: object) -> None:
+        self._asks = False
+        missing = (parcel for parcel in list(self._parcels) if parcel.missing)
+        for parcel in islice(missing, ASKED_FOR_AT_ONCE):
+            self._transmit(parcel)
+        self._hand_over()
+        if any(parcel.missing for parcel in self._parcels):
+            self._ask_again()
+
+    def _give_up_old_ones(self) -> None:
+        """With KEEP_LAST the sender has overwritten what is too old: what is missing of it can never be sent again."""
+        if self._depth is None:
+            return
+        parcels = self._parcels
+        for index in range(len(parcels) - self._depth):
+            if parcels[index].missing:
+                parcels[index].given_up = True
+                self._ask_again()
+        while parcels[0].given_up:
+            parcels.popleft()
+            self._gap += 1
+
+    def _arrive(self, parcel: _Parcel) -> None:
+        parcel.due, parcel.here = None, True
+        self._hand_over()
+
+    def _hand_over(self) -> None:
+        """Deliver, in their order, what is here and waits for nothing before it."""
+        parcels = self._parcels
+        while parcels and (parcels[0].here or parcels[0].given_up):
+            parcel = parcels.popleft()
+            if parcel.given_up:
+                self._gap += 1
+                continue
+            if self._gap:
+                gap, self._gap = self._gap, 0
+                self._told(gap)
+            self._deliver(parcel.wire, parcel.sent)
+
+
+def _nothing(*_: object) -> None:
+    """Where a closed line leads to."""
+
+
+# -- latency ------------------------------------------------------------------------------------------------------
+# How long messages and requests are under way in the simulation's usual network.
+
+LATENCY = 100_000
+"""How long a message is under way, in ns: what a real rclpy needs from publish to callback is 81 to 107 µs. Each
+name has its own few µs on top, so that of two messages sent at the same instant the order never depends on chance."""
+
+LATENCY_SPREAD = 20_000
+
+
+def latency_of(name: str) -> int:
+    """The time, in ns, that messages of a topic (or requests of a service) are under way: fixed for each name.
+
+    The topics and services behind an action share one, so that its result does not overtake its feedback.
+    """
+    return LATENCY + zlib.crc32(name.partition("/_action/")[0].encode()) % LATENCY_SPREAD
+
+
+def nobody() -> None:
+    """What is called when data arrives for somebody who does not wait for it yet."""

@@ -1,0 +1,210 @@
+"""The learner's files: which of them a command may change, how they are written, and how large YAML may be."""
+
+from __future__ import annotations
+
+import errno
+import os
+import shutil
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+# -- files --------------------------------------------------------------------------------------------------------
+# The learner's files: which of them a command may change, and writing whole or not at all.
+# A command of the terminal (also a redirection, `ros2 bag record`, `ros2 pkg create`, `colcon build`) changes files
+# in the learner's folder only, through no `cd`, path or symbolic link, and leaves the lesson's pages in it alone.
+# `check` decides that, before each change. It is not asked where a call names the place (`lesson.export(to=…)`) or
+# where the learner's own Python code writes; what Python keeps in a `__pycache__` beside an imported module does not
+# count.
+
+OPENED = "TURTLE_LESSON_OPENED"
+"""The environment variable in which `turtle-lesson open` names the folder that it opens JupyterLab on."""
+
+in_use: set[Path] = set()
+"""Folders in which a bag is being recorded: they stay where they are until it is complete."""
+
+_opened = os.environ.get(OPENED)  # read once: `export` in the terminal does not widen the learner's folder
+_home: Path | None = None
+_of_notebook = False
+
+
+# -- the learner's folder ----------------------------------------------------------------------------------------------
+
+
+def here() -> Path:
+    """The current folder; the computer's home where somebody has deleted the current one."""
+    try:
+        return Path.cwd()
+    except FileNotFoundError:
+        return Path.home()
+
+
+def home() -> Path:
+    """What `~` is: the folder in which the notebook began; in a Python program, the one that was current at `start()`."""
+    if _home is None:
+        begin()
+    return _home or here()
+
+
+def begin(*, notebook: bool = False) -> None:
+    """A notebook begins in the current folder, or a Python program begins a world in it; a notebook keeps its folder."""
+    global _home, _of_notebook
+    if notebook or not _of_notebook:
+        _home, _of_notebook = Path(os.path.realpath(here())), notebook
+
+
+def folder() -> Path:
+    """The learner's folder: the one that `turtle-lesson open` was given, if the notebook is in it, or else `home()`."""
+    return Path(_opened) if _opened and home().is_relative_to(_opened) else home()
+
+
+# -- what a command may change -----------------------------------------------------------------------------------------
+
+
+def check(path: str | os.PathLike[str], *, follow: bool = True, removes: bool = False) -> Path:
+    """The file or folder that a path leads to, if a command may change it.
+
+    Args:
+        path: what is to be written, made or removed.
+        follow: whether the change goes through a link at the path's end, and not to the link itself.
+        removes: whether it is deleted or moved away, which is never done through a link.
+
+    Raises PermissionError with a sentence for the learner if the command may not, OSError for a name that no file can have.
+    """
+    path = Path(path)
+    itself = (removes or not follow) and path.name not in {"", ".."}
+    try:
+        place = Path(os.path.realpath(path.parent), path.name) if itself else Path(os.path.realpath(path))
+        os.fsencode(place)
+    except UnicodeEncodeError as error:
+        why = f"no file can have this name where Python encodes names as {error.encoding}: set PYTHONUTF8=1 and start it again"
+        raise OSError(errno.EILSEQ, why, str(path)) from None
+    mine = folder()
+    if removes and any(each.is_relative_to(place) for each in (mine, home(), here())):
+        why = "the current folder or the notebook's is in it"
+    elif removes and any(each.is_relative_to(place) for each in in_use):
+        why = "a bag is being recorded in it; stop that first (jobs lists it)"
+    elif not place.is_relative_to(mine):
+        why = f"it is outside your folder ({mine}). To change it on purpose, use Python or !command in a cell"
+    elif place.parent in {mine, home()} and _is_page(place):
+        why = "it is a page of the lesson. Change a copy of another name, or use JupyterLab's list of files on purpose"
+    else:
+        return place
+    raise PermissionError(errno.EPERM, why, str(path))
+
+
+def _is_page(place: Path) -> bool:
+    from ...learner.story import PAGES
+
+    return place.suffix.lower() == ".ipynb" and place.stem.lower() in {*PAGES, "lab"} and os.path.lexists(place)
+
+
+def save(path: Path, text: str) -> None:
+    """Write a command's text; folders are made as needed. Raises OSError, also where `check` refuses."""
+    place = check(path)
+    place.parent.mkdir(parents=True, exist_ok=True)
+    place.write_text(text, encoding="utf-8")
+
+
+def copy(source: Path, target: Path, left_out: Callable[[str, list[str]], Iterable[str]] | None = None) -> None:
+    """Copy a file, or a folder with all that is in it; links in it stay links. Raises OSError, also where `check` refuses.
+
+    `left_out` is what `shutil.ignore_patterns` returns.
+    """
+    if source.is_symlink():
+        place = check(target, follow=False)
+        place.unlink(missing_ok=True)
+        place.symlink_to(os.readlink(source))
+    elif source.is_dir():
+        check(target).mkdir(parents=True, exist_ok=True)
+        names = os.listdir(source)
+        for name in sorted({*names} - {*(left_out(str(source), names) if left_out else ())}):
+            copy(source / name, target / name, left_out)
+    else:
+        shutil.copy(source, check(target))
+
+
+# -- what the lesson itself writes -------------------------------------------------------------------------------------
+
+
+def write(file: Path, text: str) -> None:
+    """Write a text file in one step, also where an interrupt or a full disk comes between. Folders are made as needed.
+
+    The file keeps its permissions, and a link keeps pointing to it. Raises OSError, with the old text still in place.
+    """
+    file = Path(os.path.realpath(file))
+    file.parent.mkdir(parents=True, exist_ok=True)
+    beside = file.with_name(f".{file.name}.{os.getpid()}")
+    try:
+        beside.write_text(text, encoding="utf-8")
+        if file.exists():
+            shutil.copymode(file, beside)
+        beside.replace(file)
+    finally:
+        beside.unlink(missing_ok=True)
+
+
+# -- bounded yaml -------------------------------------------------------------------------------------------------
+# YAML that somebody else may have written: refused before a short text has become something huge.
+# With aliases (`*name`) a few lines can stand for billions of values, and brackets can be nested until Python's stack
+# ends.
+
+LONGEST = 1_000_000
+"""How many characters are read."""
+
+DEEPEST = 100
+"""How deeply lists and mappings may be nested."""
+
+MOST = 100_000
+"""How many values all aliases together may stand for."""
+
+
+class BoundedLoader(yaml.SafeLoader):
+    """PyYAML's safe loader, with limits. Raises yaml.YAMLError beyond them."""
+
+    def __init__(self, text: str) -> None:
+        if len(text) > LONGEST:
+            raise yaml.YAMLError(f"it has {len(text):,} characters, and at most {LONGEST:,} are read")
+        super().__init__(text)
+        self._depth = 0
+        self._values = 0  # as many as there would be if each alias were written out
+        self._written_out = 0
+        self._sizes: dict[str, int] = {}  # how many of them an anchor stands for
+
+    def compose_node(self, parent: Any, index: Any) -> Any:
+        """The next value, or the one that an alias stands for."""
+        event = self.peek_event()
+        if isinstance(event, yaml.AliasEvent):
+            self._count_alias(event)
+            return super().compose_node(parent, index)
+        before = self._values
+        self._values += 1
+        self._depth += 1
+        if self._depth > DEEPEST:
+            raise _refused(f"lists and mappings are nested more than {DEEPEST} deep", event)
+        node = super().compose_node(parent, index)
+        self._depth -= 1
+        if event.anchor is not None:
+            self._sizes[event.anchor] = self._values - before
+        return node
+
+    def _count_alias(self, event: Any) -> None:
+        if event.anchor in self.anchors and event.anchor not in self._sizes:
+            raise _refused(f"*{event.anchor} stands for a value that contains it, which has no end", event)
+        size = self._sizes.get(event.anchor, 0)
+        self._values += size
+        self._written_out += size
+        if self._written_out > MOST:
+            reason = f"its aliases stand for more than {MOST:,} values: *{event.anchor} alone for {size:,}"
+            raise _refused(f"{reason}. Write out what is needed", event)
+
+
+def _refused(reason: str, event: Any) -> yaml.MarkedYAMLError:
+    return yaml.composer.ComposerError(None, None, reason, event.start_mark)
+
+
+def safe_load(text: str) -> Any:
+    """The value of a text, as `yaml.safe_load` gives it. Raises yaml.YAMLError, also for what is too much."""
+    return yaml.load(text, BoundedLoader)

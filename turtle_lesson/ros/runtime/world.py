@@ -1,0 +1,174 @@
+"""A world: one simulation with one ROS graph, the packages that can be found in it, and its processes.
+
+`start()` makes a fresh one; there is one current world at a time. Code in a simulated process sees the world that the
+process lives in; a notebook cell sees the current one, and is itself the process called `notebook`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from .. import subprocesses
+from ..build.index import PackageIndex
+from ..distro import UNCHECKED_FIELDS, VARIABLE, chosen_release
+from ..hints import advice
+from ..idl import checks
+from ..rmw.graph import Graph
+from ..rmw.trace import Trace
+from ..sim.errors import is_library
+from ..sim.process import Output, Process
+from ..sim.simulation import EPOCH, Simulation
+from ..sim.strand import running_strand
+from ..stdlib import clocks, ownership, random_numbers, replacements
+from ..stdlib.environment import encoded
+from ..stdlib.program import run_program
+
+__all__ = [
+    "World",
+    "current_process",
+    "current_world",
+    "open_world",
+    "wall_time",
+]
+
+
+FIRST_PID = 1001
+
+
+class World:
+    """One simulated computer with ROS 2 on it.
+
+    `seed` decides about every random number in it, `distro` which release it behaves as (see `distro.py`).
+    """
+
+    def __init__(self, seed: int = 0, distro: str | None = None) -> None:
+        self.release = chosen_release(distro)
+        checks.when_assigned = not self.release.has(UNCHECKED_FIELDS)
+        clocks.install()
+        random_numbers.install()
+        random_numbers.install_for_numpy()
+        replacements.install()
+        subprocesses.install()
+        advice.install()
+        self.seed = seed
+        self.sim = Simulation()
+        self.graph = Graph(self.sim, seed)
+        self.trace: Trace | None = None
+        self.packages = PackageIndex()
+        self.processes: list[Process] = []
+        self.at_close: list[Callable[[], object]] = []
+        """Called first when the world is closed: what outlives it lets go of it."""
+        self._pid = FIRST_PID
+        self._names: dict[str, int] = {}
+        self.notebook = self._make_process("notebook", argv=["notebook"])
+        self.notebook.is_notebook = True
+
+    @property
+    def now(self) -> int:
+        """The virtual time since the world's start, in ns."""
+        return self.sim.now
+
+    def keep_trace(self) -> None:
+        """From now on note what new nodes publish, call and run: `trace`."""
+        self.trace = self.graph.trace = Trace(self.sim)
+
+    def _make_process(self, name: str, **details: Any) -> Process:
+        number = self._names[name] = self._names.get(name, 0) + 1
+        process = Process(self.sim, name, pid=self._pid, seed=f"{self.seed}/{name}/{number}", **details)
+        self._pid += 1
+        process.locals["world"] = self
+        return process
+
+    def spawn(
+        self,
+        target: Path | Callable[[], object],
+        *,
+        name: str,
+        argv: Sequence[str] = (),
+        stdout: Output | None = None,
+        stderr: Output | None = None,
+        stdin: Any = None,
+        on_exit: Callable[[Process], None] | None = None,
+        environ: Mapping[str, str] | None = None,
+        start_up: int = 0,
+    ) -> Process:
+        """Start a process at this instant: a Python file, run as `__main__`, or a callable.
+
+        Does not wait for it. The file's errors are the process's: they are shown, and its exit code is 1. Without
+        `environ` it has the environment variables of the caller that starts it; it reads `stdin`, a file or pipe, or else
+        the keyboard. Its main program begins `start_up` ns later.
+        """
+        arguments = list(argv) or [str(target) if isinstance(target, Path) else name]
+        process = self._make_process(name, argv=arguments, stdout=stdout, stderr=stderr, stdin=stdin, on_exit=on_exit)
+        self.processes.append(process)
+        process.environ = encoded(environ)
+        process.environ.setdefault(*encoded({VARIABLE: self.release.name}).popitem())
+        process.start(_program(target) if isinstance(target, Path) else target, start_up)
+        return process
+
+    def close(self) -> None:
+        """End every process and the simulation; nothing of this world runs again."""
+        while self.at_close:  # one that fails does not keep the world from being closed again
+            self.at_close.pop(0)()
+        for process in [*self.processes, self.notebook]:
+            process.close()
+        self.sim.close()
+
+
+def _program(path: Path) -> Callable[[], object]:
+    """What runs a Python file as the main program of a process."""
+    return partial(run_program, path)
+
+
+_current: World | None = None
+
+
+def _notebook() -> Process | None:
+    """The process of the notebook, if a world is open."""
+    return None if _current is None else _current.notebook
+
+
+def _is_learners(filename: str) -> bool:
+    """Whether a file is a learner's own: it lies beside the notebook, or is a module of a package that was sourced."""
+    if is_library(filename) or _current is None:
+        return False
+    folders = [folder for package in _current.packages for folder in (*package.modules, package.prefix) if folder]
+    return Path(filename).parent == Path.cwd() or any(Path(filename).is_relative_to(folder) for folder in folders)
+
+
+ownership.Notebook.process = staticmethod(_notebook)
+ownership.Notebook.is_learners = staticmethod(_is_learners)
+
+
+def current_process() -> Process:
+    """The process that the running code belongs to; for a notebook cell the current world's `notebook`."""
+    strand = running_strand()
+    return strand.process if strand is not None else current_world().notebook
+
+
+def current_world() -> World:
+    """The world that the running code lives in. If there is none yet, an empty one is made."""
+    global _current
+    strand = running_strand()
+    if strand is not None:
+        return strand.process.locals["world"]
+    if _current is None:
+        _current = World()
+    return _current
+
+
+def open_world(seed: int = 0, distro: str | None = None) -> World:
+    """Close the current world, if there is one, and make a fresh one the current one."""
+    global _current
+    if _current is not None:
+        _current.close()
+    _current = World(seed, distro)
+    return _current
+
+
+def wall_time(world: World) -> int:
+    """What the virtual wall clock shows, in ns since 1970."""
+    return EPOCH + world.sim.now

@@ -1,0 +1,276 @@
+"""A simulated process: what an executable's `main()` becomes, with its own argv, random numbers, output and exit code.
+
+A process is *alive* (it has a strand that can go on), then *dead* (`exit_code` is set). Exit codes are Python's:
+0 after `main()` returned, 1 after an exception, the code of `sys.exit`, -2 after an interrupt that nobody caught.
+After `main()` the process lives on as long as a thread of it does that is no daemon.
+"""
+
+from __future__ import annotations
+
+import signal
+import sys
+from collections.abc import Callable, Sequence
+from io import StringIO
+from random import Random
+from typing import Any, Protocol
+
+from .errors import print_error
+from .simulation import Simulation
+from .strand import Strand, running_strand
+
+INTERRUPTED = -2
+KILLED = -9
+
+
+class Output(Protocol):
+    """Where a process prints to: any text stream."""
+
+    def write(self, text: str, /) -> object:
+        """Take a text."""
+
+    def flush(self) -> None:
+        """Show what was written."""
+
+
+class Killed(SystemExit):
+    """Ends a process that is not asked."""
+
+
+class SignalHook(Protocol):
+    """What a library does about signals before the program hears of them."""
+
+    def takes(self, number: int) -> bool:
+        """Whether a signal is dealt with by the library alone."""
+
+    def hear(self, number: int) -> bool:
+        """A signal comes; True if that is the end of it."""
+
+
+class Process:
+    """A program in the simulation. `locals` is where libraries keep what each process has one of.
+
+    Attributes:
+        is_notebook: whether it stands for a notebook, whose cells drive the simulation.
+        stdin: the file or pipe that it reads as its standard input; None: the world's keyboard.
+        environ: the environment variables of its own, as the system encodes them; None: Python's own.
+        strands: its lines of execution, in the order of their making; dead ones may be among them.
+        modules: the Python modules of its own that a program has which was read from a file.
+        followers: processes that it has started in the same terminal, which Ctrl-C reaches, too.
+        before_exit: called when the main program has ended, the last one first: waits for what is still at work.
+        exit_functions: called after that, the last one first: what the program gave to `atexit.register`.
+        at_exit: called at the very end, the last one first, however the process ends: what libraries clean up.
+        signal_handlers: what the program has set with `signal.signal`, by the number of the signal.
+        signal_hook: what a library does about signals before that.
+        signals_handled: how many signals have called one of those.
+        noticed: whether a notice has said that it holds up robot time.
+    """
+
+    def __init__(
+        self,
+        simulation: Simulation,
+        name: str,
+        *,
+        pid: int,
+        seed: str,
+        argv: Sequence[str] = (),
+        stdout: Output | None = None,
+        stderr: Output | None = None,
+        stdin: Any = None,
+        on_exit: Callable[[Process], None] | None = None,
+    ) -> None:
+        self.simulation = simulation
+        self.name = name
+        self.pid = pid
+        self.argv = list(argv)
+        self.random = Random(seed)
+        self.seed = seed
+        self.stdout: Any = stdout
+        self.stderr: Any = stderr
+        self.stdin: Any = stdin
+        self.exit_code: int | None = None
+        self.locals: dict[str, Any] = {}
+        self.followers: list[Process] = []
+        self.before_exit: list[Callable[[], None]] = []
+        self.exit_functions: list[Callable[[], object]] = []
+        self.at_exit: list[Callable[[], None]] = []
+        self.signal_handlers: dict[int, Any] = {}
+        self.signal_hook: SignalHook | None = None
+        self.signals_handled = 0
+        self.noticed = False
+        self.error: BaseException | None = None
+        self.is_notebook = False
+        self.modules: Any = None
+        self.environ: dict[Any, Any] | None = None
+        self.main_strand: Strand | None = None
+        self.strands: list[Strand] = []
+        self._on_exit = on_exit
+        self._idents = pid << 16
+
+    def __repr__(self) -> str:
+        state = "alive" if self.alive else f"exited with {self.exit_code}"
+        return f"<Process {self.name} [{self.pid}], {state}>"
+
+    @property
+    def alive(self) -> bool:
+        """Whether the process has not ended yet."""
+        return self.exit_code is None
+
+    def start(self, program: Callable[[], object], start_up: int = 0) -> None:
+        """Begin to run `program` as the process's main strand, `start_up` ns from now. Until then it can be ended as ever."""
+
+        def main() -> None:
+            self._run_main(program)
+
+        self.main_strand = self.add_strand(main)
+        self.main_strand.parked = True
+        if start_up:
+            self.simulation.at(self.simulation.now + start_up, self.simulation.wake, self.main_strand)
+        else:
+            self.simulation.wake(self.main_strand)
+
+    def add_strand(self, target: Callable[[], Any]) -> Strand:
+        """Make another line of execution in this process; it starts when it is made ready."""
+        self.strands = [strand for strand in self.strands if not strand.dead]
+        strand = Strand(self, target)
+        self.strands.append(strand)
+        return strand
+
+    def next_ident(self) -> int:
+        """A number for one more thread."""
+        self._idents += 1
+        return self._idents
+
+    def interrupt(self) -> None:
+        """Do as Ctrl-C in a terminal would: SIGINT, which raises KeyboardInterrupt in the main strand, now."""
+        for process in self.followers:
+            if process.alive:
+                process.interrupt()
+        self.send_signal(signal.SIGINT)
+
+    def handles(self, number: int) -> bool:
+        """Whether the program has a handler for a signal, its own or a library's, and can run it."""
+        hook = self.signal_hook
+        return bool(self.main_strand) and (number in self.signal_handlers or (hook is not None and hook.takes(number)))
+
+    def send_signal(self, number: int) -> None:
+        """Have the process get a signal: its own handler is called in the main strand, or does what Python does."""
+        main, hook = self.main_strand, self.signal_hook
+        if hook is not None and self.alive and hook.hear(number):
+            return
+        if self.alive and main is not None and main and number in self.signal_handlers:
+            self._handle(self.signal_handlers[number], number, main)
+        elif number == signal.SIGINT:
+            self._end_main(KeyboardInterrupt())
+        else:
+            self.kill()
+
+    def _handle(self, handler: Callable[..., object], number: int, main: Strand) -> None:
+        self.signals_handled += 1
+        if main is running_strand():
+            handler(number, sys._getframe(2))
+        else:
+            self.simulation.call_in(main, lambda: handler(number, sys._getframe(2)))
+
+    def kill(self) -> None:
+        """End the process without asking; its `finally` blocks still run, but none of them may wait."""
+        self._end_main(Killed(KILLED))
+        self.abandon(None)
+
+    def end_now(self, code: int) -> None:
+        """End the process in its middle; its running strand never returns from here."""
+        strand = running_strand()
+        assert strand is not None
+        self._finish(code)
+        self.simulation.forget(strand)
+        self.simulation.park(strand)
+
+    def close(self) -> None:
+        """End the process in silence, because its world ends: nobody is told, and nothing it says is shown."""
+        self._on_exit = None
+        self.stdout = self.stderr = StringIO()
+        self.kill()
+
+    def abandon(self, reason: str | None) -> None:
+        """Take the process for dead although its program has not ended: it never runs again."""
+        if not self.alive:
+            return
+        if reason:
+            print(f"{self.name}: given up, because {reason}", file=self.stderr or sys.stderr)
+        self._finish(KILLED)
+
+    def _end_main(self, error: BaseException) -> None:
+        main = self.main_strand
+        if not self.alive or main is None:
+            return
+        if main is running_strand():
+            raise error
+        if not main:  # it has not even begun
+            self._finish(INTERRUPTED if isinstance(error, KeyboardInterrupt) else KILLED)
+            return
+        self.simulation.raise_in(main, error)
+
+    def _run_main(self, program: Callable[[], object]) -> None:
+        code: int | None = None
+        try:
+            code = self._code_of(program)
+            if code is not None and self.alive:
+                from ..stdlib.threads import wind_down
+
+                wind_down(self)
+        except Killed:  # while it was waiting for its threads
+            code = None
+        finally:
+            self._finish(KILLED if code is None else code)
+
+    def _code_of(self, program: Callable[[], object]) -> int | None:
+        """Run the main program; the exit code that it ends with, None if it is killed."""
+        try:
+            program()
+            return 0
+        except Killed:
+            return None
+        except SystemExit as error:
+            return self._exit_status(error)
+        except KeyboardInterrupt as error:
+            self._show(error)
+            return INTERRUPTED
+        except BaseException as error:
+            self._show(error)
+            return 1
+
+    def _exit_status(self, error: SystemExit) -> int:
+        if error.code is None:
+            return 0
+        if isinstance(error.code, int):
+            return error.code
+        print(error.code, file=sys.stderr)
+        return 1
+
+    def _show(self, error: BaseException) -> None:
+        if self.alive:
+            self.error = error
+            if self.modules is not None and "excepthook" in vars(self.modules.sys):
+                self.modules.sys.excepthook(type(error), error, error.__traceback__)
+            else:
+                print_error(error, sys.stderr)
+
+    def _finish(self, code: int) -> None:
+        if not self.alive:
+            return
+        self.exit_code = code
+        for clean_up in reversed(self.at_exit):
+            try:
+                clean_up()
+            except Exception as error:  # the rest is to be cleaned up all the same
+                print_error(error, self.stderr or sys.stderr)
+        self.at_exit.clear()
+        self._drop_other_strands()
+        if self._on_exit is not None:
+            self._on_exit(self)
+
+    def _drop_other_strands(self) -> None:
+        """Workers end with their process: they are never resumed again, wherever they stand."""
+        current = running_strand()
+        for strand in self.strands:
+            if strand is not current:
+                self.simulation.forget(strand)

@@ -1,0 +1,101 @@
+"""Blocking calls from plain Python code, such as a notebook cell: the simulation is run until the call is done."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from .errors import DriveTimeout, NeverWakes, SimulationError
+from .interrupts import Guard
+
+if TYPE_CHECKING:
+    from .process import Process
+    from .simulation import Simulation
+    from .strand import Strand
+
+
+DRIVE_LIMIT = 900 * 1_000_000_000
+"""How much robot time, in ns, a blocking call from a notebook cell may take before it is given up."""
+
+T = TypeVar("T")
+
+
+class Call:
+    """A call that runs in a strand of its own, and what has become of it."""
+
+    def __init__(self, simulation: Simulation, process: Process, function: Callable[[], Any]) -> None:
+        self.simulation = simulation
+        self.function = function
+        self.done = False
+        self.value: Any = None
+        self.error: BaseException | None = None
+        self.strand: Strand = process.add_strand(self._run)
+        self.strand.thread = threading.current_thread()  # for the learner it is the cell that calls
+        simulation.driven = self.strand
+        simulation.put_back(self.strand)
+
+    def _run(self) -> None:
+        try:
+            self.value = self.function()
+        except BaseException as error:
+            self.error = error
+        self.done = True
+        if self.simulation.driven is self.strand:
+            self.simulation.halt()
+
+    def give_up(self, error: BaseException) -> None:
+        """Raise `error` where the call waits; if it goes on waiting all the same, it is never run again."""
+        if self.done:
+            return
+        self.simulation.raise_in(self.strand, error)
+        if not self.done:
+            self.simulation.forget(self.strand)
+            self.error = error
+
+
+def drive(simulation: Simulation, process: Process, function: Callable[..., T], *arguments: Any, **keywords: Any) -> T:
+    """Run the simulation until `function(*arguments, **keywords)`, called as part of `process`, has returned.
+
+    Raises what the function raises, and KeyboardInterrupt if the user interrupts: the call then gets it, too.
+    """
+    return drive_within(DRIVE_LIMIT, simulation, process, lambda: function(*arguments, **keywords))
+
+
+def drive_within(limit: int, simulation: Simulation, process: Process, function: Callable[[], T]) -> T:
+    """The same for a function without arguments, with another limit of robot time (ns), after which DriveTimeout is raised."""
+    with Guard(simulation) as guard:  # from here on an interrupt is noted, and raised as the very last act
+        simulation.check_it_can_run()
+        call = Call(simulation, process, function)
+        simulation.run_guarded(simulation.now + limit)
+        simulation.driven = None
+        if not call.done:
+            call.give_up(KeyboardInterrupt() if guard.interrupted else why_not_done(simulation, call.strand, limit))
+    if guard.interrupted and not isinstance(call.error, KeyboardInterrupt):
+        raise KeyboardInterrupt
+    if call.error is not None:
+        raise call.error
+    return call.value
+
+
+def waiting_for(strand: Strand) -> str:
+    """What a strand waits for that nobody has named."""
+    from ..stdlib.deadlock import LOCK, wait_of
+
+    what = wait_of(strand)
+    return "this call" if what == LOCK and strand.waits_for is None else what
+
+
+def why_not_done(simulation: Simulation, strand: Strand, limit: int) -> SimulationError:
+    """The error for a call that did not end: nothing is left that could end it, or it took longer than the limit (ns)."""
+    what = strand.activity or waiting_for(strand)
+    if not simulation.busy:
+        return NeverWakes(
+            f"{what} waits for something that can never happen: nothing in this world is running any more. "
+            "Start what should answer (ros2 run, lesson.launch), or give a timeout."
+        )
+    return DriveTimeout(
+        f"{what} was still not done after {limit // 1_000_000_000} s of robot time, so it was given up. "
+        "Does a node publish what it waits for, or offer the service, under exactly that name (`ros2 topic list`, "
+        "`ros2 service list`)? A timeout_sec lets you decide how long to wait."
+    )

@@ -1,0 +1,329 @@
+"""The simulation: one clock in whole nanoseconds, one heap of timed events, one queue of strands that are due now.
+
+What makes it deterministic is the heap's key: time, then a counter, so that events of the same instant happen in the
+order in which they were asked for. All events of an instant happen first; then the strands that they woke go on, one
+after the other, in the order in which they were woken.
+"""
+
+from __future__ import annotations
+
+import weakref
+from _thread import get_ident
+from collections import deque
+from collections.abc import Callable
+from contextvars import copy_context
+from heapq import heappop, heappush
+from types import FrameType
+from typing import Any
+
+from greenlet import GreenletExit
+
+from .asyncio_context import loop_aside
+from .errors import SimulationError, WorldClosed
+from .interrupts import Guard
+from .keyboard import Keyboard
+from .strand import Cell, Face, Strand, running_greenlet, running_strand
+
+NANOSECONDS = 1_000_000_000
+EPOCH = 1_800_000_000 * NANOSECONDS
+"""What the virtual wall clock (`time.time()`) shows when a world starts, in ns since 1970: 2027-01-15 08:00 UTC."""
+
+CLOCK_READ = 1_000
+"""What reading the clock costs in virtual time, in ns, so that a loop that only looks at the clock comes to an end."""
+
+PATIENCE = 3
+"""How often a strand that does not want to end is told to, when its world closes."""
+
+_undead: list[Strand] = []
+"""Strands that did not end then. They are kept: one that Python collects would be unwound in the middle of any other code,
+and would take the notebook's event loop for its own."""
+
+
+class Simulation(Face):
+    """Runs timed events and strands in order. `now` is the virtual time in ns since the world's start."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.now = 0
+        self.hub = running_greenlet()
+        self.running = False
+        self.closed = False
+        self._heap: list[tuple[int, int, Callable[[Any], object], Any]] = []
+        self._ready: deque[Strand] = deque()
+        self.make_ready = self._ready.append
+        """Queue a strand that is parked no longer; `wake` does it with all care."""
+        self._count = 0
+        self.looks = 0
+        self.looked_at = 0
+        self._limit = 0
+        self._halted = False
+        self._raising = False
+        self.thread = get_ident()
+        self.work_until: float | None = None
+        """The CPU time of the main thread (s) after which a learner's call that goes on is stopped; None: it may go on."""
+        self.suspect: FrameType | None = None
+        """The call that went on when that was last looked at."""
+        self.driven: Strand | None = None
+        self._cell = Cell(copy_context())
+        self._for_the_hub: deque[tuple[Callable[..., object], tuple[Any, ...]]] = deque()
+        self._strands: weakref.WeakSet[Strand] = weakref.WeakSet()
+        self._forgotten: list[Strand] = []
+        self.keyboard = Keyboard(self)
+
+    # -- asking for things to happen -------------------------------------------------------------------------
+
+    def at(self, time: int, action: Callable[[Any], object], argument: Any) -> None:
+        """Have `action(argument)` called at virtual time `time` (ns), by the strand that waits then.
+
+        It must be short and may only wake strands; what does more is given to `call_later`.
+        """
+        self._count = count = self._count + 1
+        heappush(self._heap, (time, count, action, argument))
+
+    def call_later(self, delay: int, action: Callable[..., object], *arguments: Any) -> None:
+        """Have `action(*arguments)` called `delay` ns from now, in the cell that runs the simulation then."""
+        if delay < 0:
+            raise SimulationError(f"cannot call {action!r} in the past: the delay is {delay} ns; give 0 or more")
+        self.at(self.now + delay, self._for_the_hub.append, (action, arguments))
+
+    def wake(self, strand: Strand) -> None:
+        """Let a parked strand go on at this instant. Waking one that is not parked does nothing."""
+        if strand.parked:
+            strand.parked = False
+            self._ready.append(strand)
+
+    def know(self, strand: Strand) -> None:
+        """Remember a new strand."""
+        self._strands.add(strand)
+
+    def put_back(self, strand: Strand) -> None:
+        """Have a strand that was stopped in its middle go on first, in the next run."""
+        self._ready.appendleft(strand)
+
+    def forget(self, strand: Strand) -> None:
+        """Never run a strand again. What it holds is given back when the world closes."""
+        strand.parked = False
+        strand.waits_for = "nothing"
+        self._forgotten.append(strand)
+        if strand in self._ready:
+            self._ready.remove(strand)
+
+    # -- what a strand may do --------------------------------------------------------------------------------
+
+    def sleep_until(self, time: int) -> None:
+        """Hold up the running strand until virtual time `time` (ns)."""
+        heap = self._heap
+        if not self._ready and time < self._limit and not self._for_the_hub and (not heap or heap[0][0] > time):
+            if time > self.now:
+                self.now = time  # nobody else has anything to do until then: no need to switch
+            return
+        strand = running_strand()
+        if strand is None:
+            raise SimulationError(
+                "only a simulated process can sleep in virtual time; in a cell use lesson.run(seconds)"
+            )
+        self.at(time, self.wake, strand)
+        self.park(strand)
+        while self.now < time:
+            self.park(strand)
+
+    def read_clock(self, cost: int = CLOCK_READ) -> int:
+        """The virtual time in ns, for a caller that reads a clock: reading costs time itself (ns)."""
+        if self._raising:
+            return self.now  # somebody who was interrupted cleans up, all in this instant
+        if running_strand() is not None:
+            self.sleep_until(self.now + cost)
+        elif not self.running and not self.closed:
+            self.run_until(self.now + cost)
+        return self.now
+
+    # -- running ---------------------------------------------------------------------------------------------
+
+    def run_until(self, time: int) -> None:
+        """Run everything that happens before `time` (ns; half-open, so an event at `time` waits for the next run).
+
+        Raises KeyboardInterrupt at a clean instant when the user interrupts; the next run goes on from there.
+        """
+        if time < self.now:
+            raise SimulationError(f"cannot run back in time: it is {self.now} ns, asked for {time} ns")
+        with Guard(self) as guard:
+            self.check_it_can_run()
+            self.run_guarded(time)
+            if not self._halted:
+                self.now = time
+        guard.raise_if_interrupted()
+
+    def settle(self) -> None:
+        """Let everything happen that is due at this instant, without letting time pass."""
+        with Guard(self) as guard:
+            self.check_it_can_run()
+            self.run_guarded(self.now + 1)
+        guard.raise_if_interrupted()
+
+    def raise_in(self, strand: Strand, error: BaseException) -> None:
+        """Raise `error` where a strand waits, at once, and let it clean up until it waits again or ends."""
+        if not strand.dead:
+            self._visit(strand, lambda: strand.raise_inside(error))
+
+    def call_in(self, strand: Strand, function: Callable[[], object]) -> None:
+        """Call a function within a strand, where it waits, at once. The strand must have been made careful before."""
+        if not strand.dead:
+            strand.calls = [*strand.calls, function]
+            self._visit(strand, strand.go_on)
+
+    def _visit(self, strand: Strand, go: Callable[[], object]) -> None:
+        """Switch to a strand out of its turn, until it waits again or ends. No time passes.
+
+        An interrupt meanwhile, which would leave this half done, is raised at the end.
+        """
+        if self.running:
+            self._visit_guarded(strand, go)
+            return
+        with Guard(self) as guard:
+            self._visit_guarded(strand, go)
+        guard.raise_if_interrupted()
+
+    def _visit_guarded(self, strand: Strand, go: Callable[[], object]) -> None:
+        hub, face, halted, limit, raising = self.hub, self._face, self._halted, self._limit, self._raising
+        self.hub = running_greenlet()
+        self.halt()
+        self._raising = True
+        self._enter(strand.process)
+        try:
+            if running_strand() is None:
+                self._cell = self._cell.now()
+            if strand.cell is not self._cell:
+                self._cell.show_to(strand)
+            with loop_aside():
+                go()
+        finally:
+            self.hub, self._halted, self._limit, self._raising = hub, halted, limit, raising
+            if strand.dead and strand in self._ready:
+                self._ready.remove(strand)
+            self._leave()
+            if face is not None:
+                self._enter(face)
+
+    def check_it_can_run(self) -> None:
+        """Raise WorldClosed or SimulationError where a run is not possible."""
+        if self.closed:
+            raise WorldClosed("this world was closed by a later start(): use the lesson that start() returned last")
+        if self.running:
+            raise SimulationError("the simulation runs already: a callback cannot run it once more")
+        if get_ident() != self.thread:
+            raise SimulationError(
+                "a world runs in the thread that made it, and in no other: hand the work over to that one, for example "
+                "with loop.call_soon_threadsafe"
+            )
+
+    def run_guarded(self, limit: int) -> None:
+        """Run everything before `limit` (ns). The caller holds a Guard, so that no interrupt can come in between."""
+        self._take_hub()
+        self._limit = limit
+        self._halted = False
+        self.running = True
+        with loop_aside():  # a simulated process is no part of Jupyter's event loop
+            try:
+                self._loop()
+            finally:
+                self.running = False
+                self._limit = 0
+                self._leave()
+
+    def scheduled(self) -> list[tuple[int, int, Callable[[Any], object], Any]]:
+        """What `at` was asked for and has not happened yet, in its order: time (ns), a number, action, argument."""
+        return sorted(self._heap, key=lambda event: event[:2])
+
+    @property
+    def events(self) -> int:
+        """How many events were ever asked for."""
+        return self._count
+
+    @property
+    def busy(self) -> bool:
+        """Whether anything is going to happen at all."""
+        return bool(self._heap)
+
+    def _take_hub(self) -> None:
+        """The greenlet that runs now becomes the hub. Strands end where their parent goes on: there, too."""
+        hub = running_greenlet()
+        if hub is not self.hub:
+            self.hub = hub
+            for strand in self._strands:
+                if not strand.dead:
+                    strand.parent = hub
+
+    def _loop(self) -> None:
+        """What the hub does: let strands go on until nothing is left to do, or the run is halted."""
+        self._cell = self._cell.now()
+        while True:
+            strand = self._next_strand()
+            if strand is not None:
+                self._go_on_with(strand)
+            elif self._for_the_hub:
+                self._leave()
+                action, arguments = self._for_the_hub.popleft()
+                action(*arguments)
+            else:
+                return
+
+    def _next_strand(self) -> Strand | None:
+        """Let time pass until a strand is due, and return it; None if the hub has to decide what happens now."""
+        heap, ready = self._heap, self._ready
+        while not self._halted:
+            if ready:
+                return ready.popleft()
+            if self._for_the_hub or not heap or heap[0][0] >= self._limit:
+                return None
+            now, _, action, argument = heappop(heap)
+            self.now = now
+            action(argument)
+            while heap and heap[0][0] == now:
+                _, _, action, argument = heappop(heap)
+                action(argument)
+        return None
+
+    def _go_on_with(self, strand: Strand) -> None:
+        if strand.process is not self._face:
+            self._enter(strand.process)
+        if strand.cell is not self._cell:
+            self._cell.show_to(strand)  # or what it prints would go to an earlier cell
+        strand.switch()
+
+    def park(self, strand: Strand) -> None:
+        """Stop the running strand until it is woken, or now and then for nothing: callers look in a loop.
+
+        The strand itself looks for who goes on, and hands over; the hub is only asked if nobody does. So a switch
+        goes straight from one process to the next, and a process that waits for its own timer does not switch at all.
+        """
+        strand.parked = True
+        following = self._next_strand()
+        if following is None:
+            self.hub.switch()
+        elif following is not strand:
+            self._go_on_with(following)
+
+    def halt(self) -> None:
+        """Stop the loop as soon as the running strand lets go, even if it only looks at the clock in a loop."""
+        self._halted = True
+        self._limit = 0
+
+    # -- the end ----------------------------------------------------------------------------------------------
+
+    def _unwind(self, strand: Strand) -> None:
+        try:
+            self.raise_in(strand, GreenletExit())
+        except BaseException as error:  # whatever it says now, nobody is there to hear it
+            del error
+
+    def close(self) -> None:
+        """End the simulation for good: nothing of it runs again, and what stands somewhere in a call is unwound."""
+        self.closed = True
+        with Guard(self):
+            for strand in list(self._strands):
+                for _ in range(PATIENCE):
+                    if strand and not strand.dead and not strand.warned:
+                        self._unwind(strand)
+        _undead.extend(strand for strand in self._strands if strand and not strand.dead)
+        self._heap.clear()
+        self._ready.clear()

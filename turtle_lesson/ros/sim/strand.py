@@ -1,0 +1,219 @@
+"""A strand: one line of execution in a simulated process, and what Python sees while it runs: context, argv, streams."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Sequence
+from contextvars import Context, ContextVar, copy_context
+from typing import TYPE_CHECKING, Any
+
+from greenlet import GreenletExit, getcurrent, greenlet
+
+if TYPE_CHECKING:
+    from ..stdlib.program import ProgramModules
+    from .process import Process
+    from .simulation import Simulation
+
+__all__ = [
+    "GreenletExit",
+    "Strand",
+    "getcurrent",
+    "greenlet",
+    "running_greenlet",
+    "running_strand",
+]
+
+
+# -- strand -------------------------------------------------------------------------------------------------------
+# A strand: one line of execution in a simulated process, which can stop in the middle of a call and go on later.
+# This module is the small switch interface between the simulation and whatever makes a call stoppable; today that is
+# greenlet (https://greenlet.readthedocs.io). Nothing else in the project imports greenlet.
+# A strand is *parked* (waits until somebody wakes it), *ready* (queued to go on at this instant), *running* or
+# *dead*. The hub is the greenlet that runs the simulation's loop: the notebook cell itself.
+
+
+class Strand(greenlet):
+    """One line of execution of a process: its main program, a thread, or a worker of a multi-threaded executor.
+
+    Attributes:
+        process: the process that it belongs to.
+        simulation: that process's simulation.
+        parked: whether it waits to be woken.
+        activity: what it does, for messages that explain why it takes so long.
+        warned: whether it was told once that it computes without end.
+        frozen_at: the virtual time (ns) at which it was last frozen in the middle of a computation; -1 before that.
+        cell: the cell that it prints to.
+        waits_for: what it waits for without a time limit, and without end if all others of its process do so; None otherwise.
+        may_act: asks whether anything that it waits for could have it go on; None if that is not known.
+        name: what it is called, if nobody gives it another name.
+        thread: the `threading.Thread` that it is, once somebody has asked.
+        calls: functions to be called in it where it waits, such as handlers of signals.
+    """
+
+    process: Process
+    simulation: Simulation
+    parked: bool
+    activity: str
+    warned: bool
+    frozen_at: int = -1
+    cell: Cell | None = None
+    waits_for: Any = None
+    may_act: Callable[[], bool] | None = None
+    name: str = ""
+    thread: Any = None
+    calls: Sequence[Callable[[], object]] = ()
+
+    def __init__(self, process: Process, target: Callable[[], Any]) -> None:
+        super().__init__(target)
+        self.process = process
+        self.simulation = process.simulation
+        self.parked = False
+        self.activity = ""
+        self.warned = False
+        self.parent = process.simulation.hub
+        process.simulation.know(self)
+
+    def park(self) -> None:
+        """Stop here until woken. May also return early: callers check what they wait for, in a loop."""
+        self.simulation.park(self)
+
+    def go_on(self) -> None:
+        """Go on out of turn (called by the hub)."""
+        self.parked = False
+        self.parent = self.simulation.hub
+        self.switch()
+
+    def raise_inside(self, error: BaseException) -> None:
+        """Go on, with `error` raised at the place where the strand stopped (called by the hub)."""
+        self.parked = False
+        self.parent = self.simulation.hub
+        self.throw(error)
+
+    def __repr__(self) -> str:
+        state = "dead" if self.dead else "parked" if self.parked else "ready or running"
+        return f"<Strand of {self.process.name}, {state}>"
+
+
+def running_strand() -> Strand | None:
+    """The strand that runs now, or None in plain Python code such as a notebook cell."""
+    current = getcurrent()
+    return current if type(current) is Strand else None
+
+
+def running_greenlet() -> greenlet:
+    """The greenlet that runs now, whatever it is: what the simulation takes as its hub."""
+    return getcurrent()
+
+
+# -- cell context -------------------------------------------------------------------------------------------------
+# Each strand has context variables of its own, and yet what it prints goes to the cell that runs the simulation.
+# `np.errstate`, decimal contexts and asyncio's tasks keep their state in context variables, so strands must not share
+# them. But Jupyter finds the cell that an output belongs to by context variables, too. So what a later cell has
+# changed is copied into a strand before it goes on; a variable that the strand has set itself stays its own.
+
+_MISSING = object()
+
+
+class Cell:
+    """The context variables of a cell that runs the simulation."""
+
+    def __init__(self, context: Context) -> None:
+        self._context = context
+        self._values = dict(context.items())
+
+    def now(self) -> Cell:
+        """The cell that runs now: this one, if no variable has changed since."""
+        context = copy_context()
+        before = self._values
+        if len(context) == len(before):
+            for variable, value in context.items():
+                if before.get(variable, _MISSING) is not value:
+                    break
+            else:
+                return self
+        return Cell(context)
+
+    def show_to(self, strand: Strand) -> None:
+        """Have the strand, which is about to go on, print to this cell."""
+        strand.cell = self
+        context = strand.gr_context if strand else None
+        if context is None:  # it is about to begin
+            strand.gr_context = context = self._context.copy()
+            context.run(_shown.set, self)
+        else:
+            self.show_in(context)
+
+    def show_in(self, context: Context) -> None:
+        """Copy what has changed since an earlier cell into a context that came from that one."""
+        before = context.get(_shown)
+        if before is None or before is self:
+            return
+        changes = [(_shown, self), *self._changes(before, context)]
+        visitor = greenlet(_set_all)  # a context in which somebody waits cannot be run in once more, only lived in
+        visitor.gr_context = context
+        visitor.switch(changes)
+
+    def show_here(self) -> None:
+        """The same for the context of the running code."""
+        before = _shown.get(None)
+        if before is not None and before is not self:
+            _set_all([(_shown, self), *self._changes(before, copy_context())])
+
+    def _changes(self, before: Cell, context: Context) -> list[tuple[ContextVar[Any], Any]]:
+        return [
+            (variable, value)
+            for variable, value in self._values.items()
+            if (old := before._values.get(variable, _MISSING)) is not value and context.get(variable, _MISSING) is old
+        ]
+
+
+def _set_all(changes: list[tuple[ContextVar[Any], Any]]) -> None:
+    for variable, value in changes:
+        variable.set(value)
+
+
+_shown: ContextVar[Cell] = ContextVar("turtle_lesson.cell")
+"""Up to which cell a context was kept."""
+
+
+# -- face ---------------------------------------------------------------------------------------------------------
+# What a running process shows to Python: `sys.argv`, `sys.stdout`, `sys.stderr`, and its modules while it imports.
+# They are changed when another process goes on, and are the cell's again when the cell goes on.
+
+_sys = vars(sys)
+"""Set directly, as it is done at each switch: that takes half the time."""
+
+
+class Face:
+    """Part of the simulation.
+
+    Attributes:
+        modules_shown: whose modules are in `sys.modules`, if a program has been importing.
+    """
+
+    def __init__(self) -> None:
+        self.modules_shown: ProgramModules | None = None
+        self._face: Process | None = None
+        self._cell_face: Any = ()
+
+    def _enter(self, process: Process) -> None:
+        if self._face is None:
+            self._cell_face = (sys.argv, sys.stdout, sys.stderr)
+        elif self.modules_shown is not None and self.modules_shown is not process.modules:
+            self.modules_shown.hide()
+        self._face = process
+        _sys["argv"] = process.argv
+        _sys["stdout"] = process.stdout or self._cell_face[1]
+        _sys["stderr"] = process.stderr or self._cell_face[2]
+
+    def _leave(self) -> None:
+        if self._face is not None:
+            sys.argv, sys.stdout, sys.stderr = self._cell_face
+            self._face = None
+            if self.modules_shown is not None:
+                self.modules_shown.hide()
+
+    @property
+    def cell_stdout(self) -> Any:
+        """Where the running cell prints to."""
+        return sys.stdout if self._face is None else self._cell_face[1]

@@ -1,0 +1,395 @@
+"""ROS arguments of a process: `--ros-args -r from:=to -p name:=value --params-file file --log-level level`.
+
+Facts: https://docs.ros.org/en/humble/How-To-Guides/Node-arguments.html, rcl's arguments.c, and recordings.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+from turtle_lesson.ros.rmw.names import Remap
+
+from ._params_file import Entry, YamlValueError, read_parameter_file, tree, value_of
+from .exceptions import RCLInvalidROSArgsError, UnknownROSArgsError
+from .impl.rcutils_logger import RcutilsLogger
+from .parameter import Parameter
+
+SWITCH = re.compile(r"--(enable|disable)-(rosout|stdout|external-lib)-logs")
+FLAGS = {
+    **dict.fromkeys(("-r", "--remap"), "remap rule found"),
+    **dict.fromkeys(("-p", "--param"), "parameter override rule found"),
+    **dict.fromkeys(("--params-file", "--log-config-file"), "file path provided"),
+    **dict.fromkeys(("-e", "--enclave"), "enclave path provided"),
+    "--log-level": "log level provided",
+    "--log-file-name": "string prefix provided",
+}
+"""What must follow each flag."""
+
+
+class ArgumentError(ValueError):
+    """ROS arguments cannot be read."""
+
+
+@dataclass
+class Arguments:
+    """What the ROS arguments say."""
+
+    remaps: list[Remap] = field(default_factory=list)
+    parameters: list[Entry] = field(default_factory=list)
+    log_levels: dict[str, str] = field(default_factory=dict)
+    """By logger; '' is the default."""
+    switches: dict[str, bool] = field(default_factory=dict)
+    """Whether logs go to `rosout`, `stdout` and `external-lib`, as far as that is said."""
+    enclave: str = "/"
+    log_config_file: str = ""
+    unknown: list[str] = field(default_factory=list)
+    obsolete: list[str] = field(default_factory=list)
+    """Remapping rules that are given as ROS 2 had it before `--ros-args`."""
+
+    def parameters_of(self, full_name: str) -> list[Parameter]:
+        """The values for the node of this full name.
+
+        They are gathered by the nodes that they are given for, in the order in which those are first named; of several
+        that mean this node the last one counts. So `-p` need not win over a file that names the node (rclpy's node.cpp).
+        """
+        by_nodes: dict[str, dict[str, Any]] = {}
+        for nodes, name, value in self.parameters:
+            by_nodes.setdefault(nodes, {})[name] = value
+        found: dict[str, Any] = {}
+        for nodes, values in by_nodes.items():
+            if pattern_matches(nodes, full_name):
+                found.update(values)
+        return [Parameter(name, value=value) for name, value in found.items()]
+
+
+def parse_arguments(words: list[str]) -> Arguments:
+    """Read the ROS arguments among a process's arguments; what is not between `--ros-args` and `--` is skipped.
+
+    Raises ArgumentError for what cannot be read, UnknownROSArgsError for what means nothing.
+    """
+    if not isinstance(words, list):
+        raise TypeError(f"arguments must be a list of str, as sys.argv is, got {words!r}")
+    found = Arguments()
+    inside = False
+    iterator = iter(words)
+    for word in iterator:
+        if not isinstance(word, str):
+            raise TypeError(f"arguments must be a list of str, got {word!r} in it")
+        if word == "--ros-args":
+            inside = True
+        elif word == "--":
+            inside = False
+        elif inside:
+            _take(word, iterator, found)
+        elif ":=" in word and is_remap(word):
+            found.remaps.append(_remap(word))
+            found.obsolete.append(word)
+    if found.unknown:
+        error = UnknownROSArgsError(str(found.unknown))
+        error.add_note("-r, -p, --params-file, --log-level and similar options follow --ros-args; -- ends them.")
+        raise error
+    return found
+
+
+def tell_obsolete(rules: list[str]) -> None:
+    """Warn of rules that are given as ROS 2 had it before `--ros-args`."""
+    for rule in rules:
+        RcutilsLogger("rcl").warning(
+            f"Found remap rule '{rule}'. This syntax is deprecated. Use '--ros-args --remap {rule}' instead."
+        )
+
+
+def without_ros_arguments(words: list[str]) -> tuple[list[str], list[str]]:
+    """The words that are not ROS's, and apart from them the obsolete rules, which are.
+
+    Raises RCLInvalidROSArgsError if ROS's cannot be read, UnknownROSArgsError for what means nothing.
+    """
+    try:
+        parse_arguments(words)
+    except ArgumentError as error:
+        raise RCLInvalidROSArgsError(f"Failed to parse ROS arguments: {error}") from None
+    kept: list[str] = []
+    obsolete: list[str] = []
+    inside = False
+    for word in words:
+        if word == "--ros-args":
+            inside = True
+        elif word == "--" and inside:
+            inside = False
+        elif not inside:
+            (obsolete if ":=" in word and is_remap(word) else kept).append(word)
+    return kept, obsolete
+
+
+def _take(word: str, following: Iterator[str], found: Arguments) -> None:
+    if word in {"-r", "--remap"}:
+        found.remaps.append(_remap(_next(word, following)))
+    elif word in {"-p", "--param"}:
+        found.parameters.append(_parameter(_next(word, following)))
+    elif word == "--params-file":
+        found.parameters.extend(_parameter_file(_next(word, following)))
+    elif word == "--log-level":
+        name, level = _log_level(_next(word, following))
+        found.log_levels[name] = level
+    elif word in {"-e", "--enclave"}:
+        found.enclave = _next(word, following)
+    elif word == "--log-config-file":
+        found.log_config_file = _next(word, following)
+    elif word == "--log-file-name":
+        _next(word, following)
+    elif (switch := SWITCH.fullmatch(word)) is not None:
+        found.switches[switch[2]] = switch[1] == "enable"
+    else:
+        found.unknown.append(word)
+
+
+def _next(word: str, following: Iterator[str]) -> str:
+    for value in following:
+        return value
+    flag = f"log level flag: '{word}'" if word == "--log-level" else f"{word} flag"
+    raise ArgumentError(f"Couldn't parse trailing {flag}. No {FLAGS[word]}.")
+
+
+def _remap(rule: str) -> Remap:
+    try:
+        return read_remap(rule)
+    except RuleError as error:
+        hint = f"Couldn't parse remap rule: '-r {rule}'. Error: {error}; a rule looks like old_name:=new_name"
+        raise ArgumentError(hint + (", a namespace like __ns:=/group" if "__ns" in rule else "")) from None
+
+
+def _parameter(rule: str) -> Entry:
+    try:
+        node, name, text = read_parameter(rule)
+        found = tree(text)
+        value = None if found is None else value_of(found)
+    except RuleError as error:
+        said = f"Error: {error}; a rule looks like name:=value"
+    except YamlValueError as error:
+        said = f"Error: {error}"
+    else:
+        return ("/**" if node is None else node, name, value)
+    raise ArgumentError(f"Couldn't parse parameter override rule: '-p {rule}'. {said}")
+
+
+def _parameter_file(path: str) -> list[Entry]:
+    try:
+        return read_parameter_file(path)
+    except YamlValueError as error:
+        raise ArgumentError(f"Couldn't parse params file: '--params-file {path}'. Error: {error}") from None
+
+
+def _log_level(rule: str) -> tuple[str, str]:
+    try:
+        return read_log_level(rule)
+    except RuleError as error:
+        raise ArgumentError(f"Couldn't parse log level: '--log-level {rule}'. Error: {error}") from None
+
+
+def pattern_matches(pattern: str, full_name: str) -> bool:
+    """Whether a node pattern such as `/**`, `/*/navigator` or `/navigator` means the node of this full name."""
+    expression = ""
+    for part in pattern.strip("/").split("/"):
+        expression += {"**": r"(/\w+)*", "*": r"/\w+"}.get(part, "/" + re.escape(part))
+    return re.fullmatch(expression, full_name) is not None
+
+
+# -- rules --------------------------------------------------------------------------------------------------------
+# How the rules among ROS arguments are written: `-r from:=to`, `-p name:=value`, `--log-level logger:=level`.
+# Facts: rcl's lexer.c and arguments.c (which names may stand where, and the words of the errors), and recordings of
+# them.
+
+LEVELS = ("UNSET", "DEBUG", "INFO", "WARN", "ERROR", "FATAL")
+NONE, EOF, TILDE_SLASH, SERVICE_URL, TOPIC_URL, COLON, NODE, NS, SEPARATOR, REFERENCE = range(10)
+TOKEN, SLASH, ONE, MANY, DOT = range(18, 23)  # the numbers stand in errors
+LEXEMES = [
+    (SERVICE_URL, re.compile("rosservice://")),
+    (TOPIC_URL, re.compile("rostopic://")),
+    (NODE, re.compile("__(node|name)")),
+    (NS, re.compile("__ns")),
+    (TOKEN, re.compile(r"(_(?!_)|(?=[A-Za-z]))([A-Za-z0-9]+_?)*")),
+    (TILDE_SLASH, re.compile("~/")),
+    (SEPARATOR, re.compile(":=")),
+    (COLON, re.compile(":")),
+    (SLASH, re.compile("/")),
+    (MANY, re.compile(r"\*\*")),
+    (ONE, re.compile(r"\*")),
+    (DOT, re.compile(r"\.")),
+    (REFERENCE, re.compile(r"\\[1-9]")),
+    (EOF, re.compile(r"\Z")),
+]
+
+
+class RuleError(ValueError):
+    """A rule is not written as it should be."""
+
+
+class Reader:
+    """Reads a rule piece by piece."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.at = 0
+
+    def next(self) -> int:
+        """The kind of the next piece."""
+        return self._look(self.at)[0]
+
+    def _look(self, at: int) -> tuple[int, int]:
+        for kind, pattern in LEXEMES:
+            if (match := pattern.match(self.text, at)) is not None:
+                return kind, match.end()
+        return NONE, at + 1
+
+    def begins(self, first: int, second: int) -> bool:
+        """Whether the next two pieces are of these kinds."""
+        kind, end = self._look(self.at)
+        return kind == first and self._look(end)[0] == second
+
+    def take(self) -> str:
+        """The next piece, which is left behind."""
+        start, self.at = self.at, self._look(self.at)[1]
+        return self.text[start : self.at]
+
+    def expect(self, wanted: int) -> str:
+        """The next piece, which must be of a kind; RuleError if it is not."""
+        kind = self.next()
+        if kind == wanted:
+            return self.take()
+        if kind in (NONE, EOF):
+            raise RuleError(f"Expected lexeme type ({wanted}) not found, search ended at index {self.at}")
+        raise RuleError(f"Expected lexeme type {wanted}, got {kind} at index {self.at}")
+
+    def skip(self, *kinds: int) -> None:
+        """Leave the next piece behind if it is of one of these kinds."""
+        if self.next() in kinds:
+            self.take()
+
+
+def read_remap(rule: str) -> Remap:
+    """`[node:]from:=to`, `[node:]__node:=name` or `[node:]__ns:=/namespace`. RuleError for anything else."""
+    reader = Reader(rule)
+    node = _node_prefix(reader)
+    kind = reader.next()
+    start = reader.at
+    if kind in (NODE, NS):
+        reader.take()
+        name, is_service = ("__ns" if kind == NS else "__node"), None
+    else:
+        is_service = {SERVICE_URL: True, TOPIC_URL: False}.get(kind)
+        reader.skip(SERVICE_URL, TOPIC_URL)
+        start = reader.at
+        _match_side(reader)
+        name = rule[start : reader.at]
+    reader.expect(SEPARATOR)
+    start = reader.at
+    {NODE: _new_name, NS: _new_namespace}.get(kind, _replacement)(reader)
+    return Remap(name, rule[start:], node, is_service)
+
+
+def read_parameter(rule: str) -> tuple[str | None, str, str]:
+    """`[node:]name:=value`: the node, the parameter and the value's text. RuleError for anything else."""
+    reader = Reader(rule)
+    node = _node_prefix(reader)
+    start = reader.at
+    _parameter_part(reader)
+    while reader.next() != SEPARATOR:
+        reader.expect(DOT)
+        _parameter_part(reader)
+    name = rule[start : reader.at]
+    reader.take()
+    if reader.next() == EOF:
+        raise RuleError("a value is missing")
+    return node, name, rule[reader.at :]
+
+
+def read_log_level(rule: str) -> tuple[str, str]:
+    """`level` or `logger:=level`: the logger ('' for all) and the level. RuleError for anything else."""
+    name, separator, level = rule.partition(":=")
+    if separator and not name:
+        raise RuleError("Argument has an invalid logger item that name is empty")
+    if separator:
+        reader = Reader(rule)
+        reader.at = len(name) + len(separator)
+        level = reader.expect(TOKEN)
+        reader.expect(EOF)
+    else:
+        level, name = rule, ""
+    if level.upper() not in LEVELS:
+        known = ", ".join(LEVELS[1:])
+        raise RuleError(f"Argument does not use a valid severity level; levels are {known}")
+    return name, level
+
+
+def is_remap(word: str) -> bool:
+    """Whether a word is a rule for renaming."""
+    try:
+        read_remap(word)
+    except RuleError:
+        return False
+    return True
+
+
+def _node_prefix(reader: Reader) -> str | None:
+    if not reader.begins(TOKEN, COLON):
+        return None
+    name = reader.take()
+    reader.take()
+    return name
+
+
+def _match_side(reader: Reader) -> None:
+    reader.skip(TILDE_SLASH, SLASH)
+    _token(reader)
+    while reader.next() != SEPARATOR:
+        reader.expect(SLASH)
+        _token(reader)
+
+
+def _token(reader: Reader) -> None:
+    kind = reader.next()
+    if kind in (ONE, MANY):
+        raise RuleError(f"Wildcard '{reader.take()}' is not implemented")
+    if kind != TOKEN:
+        raise RuleError("Expecting token or wildcard")
+    reader.take()
+
+
+def _replacement(reader: Reader) -> None:
+    reader.skip(TILDE_SLASH, SLASH)
+    _new_token(reader)
+    while reader.next() != EOF:
+        reader.expect(SLASH)
+        _new_token(reader)
+
+
+def _new_token(reader: Reader) -> None:
+    if reader.next() == REFERENCE:
+        raise RuleError("Backreferences are not implemented")
+    if reader.next() != TOKEN:
+        raise RuleError(f"a name is expected at index {reader.at}")
+    reader.take()
+
+
+def _new_name(reader: Reader) -> None:
+    reader.expect(TOKEN)
+    reader.expect(EOF)
+
+
+def _new_namespace(reader: Reader) -> None:
+    reader.expect(SLASH)
+    reader.skip(TOKEN)
+    while reader.next() == SLASH:
+        reader.take()
+        reader.skip(TOKEN)
+    reader.expect(EOF)
+
+
+def _parameter_part(reader: Reader) -> None:
+    if reader.next() not in (TOKEN, SLASH):
+        _token(reader)
+    while reader.next() in (TOKEN, SLASH):
+        reader.take()

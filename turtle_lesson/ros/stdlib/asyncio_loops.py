@@ -1,0 +1,217 @@
+"""An asyncio loop that waits in virtual time: Python's own in all but what it waits with."""
+
+from __future__ import annotations
+
+import asyncio
+import inspect
+import signal
+import threading
+from collections.abc import Callable
+from typing import Any
+
+from ..sim.asyncio_context import be_careful
+from ..sim.errors import SimulationError
+from ..sim.process import Process
+from ..sim.simulation import CLOCK_READ, NANOSECONDS
+from ..sim.strand import Strand, running_strand
+from .deadlock import LOOP, look_for_hope
+from .locks import nanoseconds
+
+# -- loops --------------------------------------------------------------------------------------------------------
+# An asyncio loop that waits in virtual time: Python's own in all but what it waits with.
+# It runs in a strand and holds up that one alone. A round of the loop that has something to do takes 1 µs, so that a
+# loop that never waits lets time pass all the same. Sockets and child processes it does not have: they are of the
+# real computer.
+
+
+class Waiting:
+    """What the loop waits with, in the place of a selector: until a time has come, or somebody else calls something."""
+
+    def __init__(self, loop: VirtualEventLoop) -> None:
+        self._loop = loop
+        self._strand: Strand | None = None
+        self._woken = False
+
+    def select(self, timeout: float | None = None) -> list[Any]:
+        """Let time pass: at most `timeout` s; until woken if that is None."""
+        strand = running_strand()
+        if strand is None:
+            raise SimulationError("this loop belongs to a simulated process, and can only run in one")
+        if timeout is not None and timeout <= 0:
+            strand.simulation.sleep_until(strand.simulation.now + CLOCK_READ)
+        else:
+            self._wait(strand, None if timeout is None else strand.simulation.now + nanoseconds(timeout))
+        self._woken = False
+        self._loop.print_to(strand)
+        return []
+
+    def _wait(self, strand: Strand, deadline: int | None) -> None:
+        simulation = strand.simulation
+        if deadline is not None:
+            simulation.at(deadline, simulation.wake, strand)
+        self._strand = strand
+        try:
+            while not self._woken and (deadline is None or simulation.now < deadline):
+                if deadline is None:
+                    strand.waits_for = LOOP
+                    look_for_hope(strand)
+                simulation.park(strand)
+        finally:
+            strand.waits_for = self._strand = None
+
+    def wake(self) -> None:
+        """Let the loop look again at what there is to do."""
+        self._woken = True
+        if self._strand is not None:
+            self._strand.simulation.wake(self._strand)
+
+    def get_map(self) -> dict[Any, Any]:
+        """What it listens to: nothing."""
+        return {}
+
+    def close(self) -> None:
+        """Nothing is left to do."""
+
+
+class VirtualEventLoop(asyncio.BaseEventLoop):
+    """What `asyncio.new_event_loop()` makes in a simulated process."""
+
+    def __init__(self, process: Process) -> None:
+        super().__init__()
+        be_careful(process.simulation)
+        self._process = process
+        self._selector = Waiting(self)
+        self._clock_resolution = 1 / NANOSECONDS
+        self._cell: Any = None
+
+    def time(self) -> float:
+        """The robot's time, in s, as `time.monotonic()` shows it."""
+        return self._process.simulation.now / NANOSECONDS
+
+    def create_task(self, coro: Any, **keywords: Any) -> Any:
+        """As in asyncio, but each process counts its tasks for itself."""
+        if keywords.get("name") is None:
+            shelf = self._process.locals
+            shelf["asyncio.tasks"] = number = shelf.get("asyncio.tasks", 0) + 1
+            keywords["name"] = f"Task-{number}"
+        return super().create_task(coro, **keywords)
+
+    def call_exception_handler(self, context: Any) -> None:
+        """As in asyncio; but of tasks that were left when their process or world ended nobody need hear."""
+        if self._process.alive and not self._process.simulation.closed:
+            super().call_exception_handler(context)
+
+    def __del__(self) -> None:
+        if not self.is_closed() and not self.is_running():
+            self.close()
+
+    # -- whom it prints to ---------------------------------------------------------------------------------------------
+
+    def print_to(self, strand: Strand) -> None:
+        """Have what was asked for while an earlier cell ran print to the one that runs now."""
+        if strand.cell is not self._cell and strand.cell is not None:
+            self._cell = strand.cell
+            self._cell.show_here()
+            for handle in [*self._ready, *self._scheduled]:  # type: ignore[attr-defined]
+                self._cell.show_in(handle._context)
+
+    def call_soon(self, callback: Any, *args: Any, context: Any = None) -> Any:  # type: ignore[override]
+        """As in asyncio."""
+        if context is not None and self._cell is not None:
+            self._cell.show_in(context)
+        return super().call_soon(callback, *args, context=context)
+
+    # -- what a selector loop has beside it ----------------------------------------------------------------------------
+
+    def _process_events(self, event_list: list[Any]) -> None:
+        """There are none."""
+
+    def _write_to_self(self) -> None:
+        self._selector.wake()
+
+    def add_signal_handler(self, sig: int, callback: Any, *args: Any) -> None:  # type: ignore[override]
+        """Have a function called in the loop when this process gets a signal."""
+        if inspect.iscoroutinefunction(callback):
+            raise TypeError("coroutines cannot be used with add_signal_handler()")
+        signal.signal(sig, lambda *_: self.call_soon_threadsafe(callback, *args))
+
+    def remove_signal_handler(self, sig: int) -> bool:
+        """No longer have it called; whether it was."""
+        default = signal.default_int_handler if sig == signal.SIGINT else signal.SIG_DFL
+        return signal.signal(sig, default) not in (default, None)
+
+
+def _refused(name: str) -> Callable[..., Any]:
+    def refuse(self: VirtualEventLoop, *arguments: Any, **keywords: Any) -> Any:
+        raise NotImplementedError(
+            f"loop.{name}() is not possible here: files, sockets and processes of the real computer know "
+            "nothing about virtual time. Tasks, queues, events, sleep, run_in_executor and signals work."
+        )
+
+    refuse.__name__ = name
+    return refuse
+
+
+for _name in (
+    "add_reader",
+    "add_writer",
+    "connect_read_pipe",
+    "connect_write_pipe",
+    "create_connection",
+    "create_datagram_endpoint",
+    "create_server",
+    "create_unix_connection",
+    "create_unix_server",
+    "remove_reader",
+    "remove_writer",
+    "sock_accept",
+    "sock_connect",
+    "sock_recv",
+    "sock_sendall",
+    "subprocess_exec",
+    "subprocess_shell",
+):
+    setattr(VirtualEventLoop, _name, _refused(_name))
+
+
+# -- loop functions -----------------------------------------------------------------------------------------------
+# Which asyncio loop is whose: each thread of a simulated process has its own, as in Python.
+
+
+def new_event_loop(real: Any) -> Any:
+    """A new loop: in a simulated process one that waits in virtual time."""
+    strand = running_strand()
+    return real() if strand is None else VirtualEventLoop(strand.process)
+
+
+def set_event_loop(real: Any, loop: Any) -> None:
+    """Set the loop of the running thread."""
+    strand = running_strand()
+    if strand is None:
+        real(loop)
+    else:
+        _loops(strand)[strand] = loop
+
+
+def get_event_loop(real: Any) -> Any:
+    """The loop that runs, or else that of the running thread; in a main thread one is made where there is none."""
+    strand = running_strand()
+    if strand is None:
+        return real()
+    loop = asyncio._get_running_loop()
+    if loop is not None:
+        return loop
+    loops = _loops(strand)
+    if strand is strand.process.main_strand and strand not in loops:
+        loops[strand] = VirtualEventLoop(strand.process)
+    if loops.get(strand) is None:
+        name = threading.current_thread().name
+        raise RuntimeError(f"There is no current event loop in thread {name!r}.")
+    return loops[strand]
+
+
+def _loops(strand: Strand) -> dict[Strand, Any]:
+    return strand.process.locals.setdefault("asyncio.loops", {})
+
+
+REPLACEMENTS: tuple[Callable[..., Any], ...] = (new_event_loop, set_event_loop, get_event_loop)

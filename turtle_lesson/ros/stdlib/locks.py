@@ -1,0 +1,201 @@
+"""Locks that hold up a strand in virtual time. All else in `threading` and `queue` is built on them.
+
+Such a lock is a real one inside. So it may be used from everywhere: another thread of the real computer waits for it in
+real time, and in a plain notebook cell waiting for it runs the simulation. Of the threads that wait, the first one is
+woken; but a thread that asks while the lock is free gets it, as in Python.
+"""
+
+from __future__ import annotations
+
+import sys
+import threading
+from _thread import allocate_lock
+from collections import deque
+from typing import Any
+
+from greenlet import getcurrent
+
+from ..sim.errors import WorldClosed
+from ..sim.run_blocking import drive
+from ..sim.simulation import NANOSECONDS
+from ..sim.strand import Strand, running_strand
+from .deadlock import look_for_hope
+from .ownership import is_for_everybody, notebook_here
+from .polling import count_look
+
+RealLock = type(allocate_lock())
+
+
+def nanoseconds(seconds: float) -> int:
+    """A time to wait, in ns; a remainder that rounds to nothing still lets time pass, so that loops come to an end."""
+    return max(1, round(seconds * NANOSECONDS)) if seconds > 0 else 0
+
+
+class VirtualLock:
+    """What `threading.Lock()` is in a simulated process.
+
+    Attributes:
+        owner: the strand that has it, if one has.
+        surely: whether nobody but the owner will release it: it was taken by `with`, or it is part of an RLock.
+    """
+
+    __slots__ = ("__weakref__", "_lock", "_waiters", "owner", "surely")
+    __module__ = "_thread"
+    __qualname__ = __name__ = "lock"
+
+    def __init__(self) -> None:
+        self._lock = allocate_lock()
+        self._waiters: deque[Strand] = deque()
+        self.owner: Strand | None = None
+        self.surely = False
+
+    def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
+        """Take the lock, waiting for it if `blocking`, at most `timeout` seconds; whether it was taken."""
+        asking = getcurrent()
+        if type(asking) is Strand:
+            count_look(asking.simulation)  # queues are asked with their lock
+        if not self._lock.acquire(False):
+            allocate_lock().acquire(blocking, timeout)  # which refuses what a real one refuses
+            if not blocking or timeout == 0:
+                return False
+            strand = running_strand()
+            if strand is None:
+                return self._acquire_outside(timeout)
+            if not self._wait(strand, None if timeout < 0 else strand.simulation.now + nanoseconds(timeout)):
+                return False
+        if type(asking) is Strand:
+            self.owner = asking
+        return True
+
+    def release(self) -> None:
+        """Let it go. RuntimeError if nobody has it."""
+        self.owner = None
+        self.surely = False
+        self._lock.release()
+        self._wake_one()
+
+    def locked(self) -> bool:
+        """Whether somebody has it."""
+        return self._lock.locked()
+
+    def __enter__(self) -> bool:
+        self.acquire()
+        self.surely = True
+        return True
+
+    def __exit__(self, *error: object) -> None:
+        self.release()
+
+    def __repr__(self) -> str:
+        state = "locked" if self.locked() else "unlocked"
+        return f"<{state} _thread.lock object at {id(self):#x}>"
+
+    acquire_lock, release_lock, locked_lock = acquire, release, locked
+
+    def _wake_one(self) -> None:
+        if self._waiters:
+            strand = self._waiters[0]
+            strand.simulation.wake(strand)
+
+    def _wait(self, strand: Strand, deadline: int | None) -> bool:
+        """Hold the strand up until it has the lock, or until the deadline (ns); whether it has it."""
+        simulation = strand.simulation
+        if deadline is not None:
+            simulation.at(deadline, simulation.wake, strand)
+        self._waiters.append(strand)
+        if deadline is None:
+            strand.waits_for = self
+        try:
+            while not self._lock.acquire(False):
+                if deadline is None:
+                    look_for_hope(strand)
+                elif simulation.now >= deadline:
+                    return False
+                simulation.park(strand)
+            return True
+        finally:
+            strand.waits_for = None
+            self._waiters.remove(strand)
+            if not self._lock.locked():  # woken, but called away by an error
+                self._wake_one()
+
+    def _acquire_outside(self, timeout: float) -> bool:
+        """Wait where no simulated process runs: in a cell by running the simulation, in another thread really."""
+        self._refuse_if_closed()
+        notebook = notebook_here()
+        if notebook is None:
+            return self._lock.acquire(True, timeout)
+        taken = drive(notebook.simulation, notebook, self.acquire, True, timeout)
+        if taken:
+            self.owner = None  # the cell has it now, and not the strand that waited for the cell
+        return taken
+
+    def _refuse_if_closed(self) -> None:
+        if self.owner is not None and self.owner.simulation.closed:
+            raise WorldClosed(
+                "this would wait for a thread of a world that was closed by a later start(), and so forever: make new "
+                "locks, queues and threads in the new world"
+            )
+
+    def _at_fork_reinit(self) -> None:
+        self._lock._at_fork_reinit()  # type: ignore[attr-defined]
+        self._waiters.clear()
+        self.owner = None
+
+
+class VirtualRLock(threading._RLock):  # type: ignore[misc]
+    """What `threading.RLock()` is in a simulated process: Python's own that is written in Python, on a virtual lock."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._block = _OwnedLock()
+
+
+class _OwnedLock(VirtualLock):
+    """The lock inside of an RLock, which nobody but its owner can release."""
+
+    __slots__ = ()
+
+    def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
+        """As `VirtualLock.acquire`."""
+        taken = super().acquire(blocking, timeout)
+        if taken:
+            self.surely = True
+        return taken
+
+
+def condition_wait(real: Any) -> Any:
+    """`threading.Condition.wait`, with a waiter that is a virtual lock where one is needed."""
+
+    def wait(self: Any, timeout: float | None = None) -> bool:
+        virtual = isinstance(self._lock, (VirtualLock, VirtualRLock))
+        if virtual or (type(getcurrent()) is Strand and not is_for_everybody(sys._getframe(1))):
+            return _wait_for_notice(self, timeout)
+        return real(self, timeout)
+
+    return wait
+
+
+def _wait_for_notice(condition: Any, timeout: float | None) -> bool:
+    if not condition._is_owned():
+        raise RuntimeError("cannot wait on un-acquired lock")
+    waiter = VirtualLock()
+    waiter.acquire()
+    condition._waiters.append(waiter)
+    state, notified = condition._release_save(), False
+    try:
+        notified = waiter.acquire() if timeout is None else waiter.acquire(timeout > 0, timeout if timeout > 0 else -1)
+        return notified
+    finally:
+        condition._acquire_restore(state)
+        if not notified and waiter in condition._waiters:
+            condition._waiters.remove(waiter)
+
+
+def is_virtual(waited_for: Any) -> bool:
+    """Whether a lock, condition, semaphore or queue is of the simulation."""
+    for part in ("_cond", "mutex", "_lock"):
+        waited_for = getattr(waited_for, part, waited_for)
+        if isinstance(waited_for, (VirtualLock, VirtualRLock)):
+            return True
+    return False

@@ -1,0 +1,188 @@
+"""Whether a thread belongs to a simulated process, and classes of the standard library of which there are two."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+import threading
+from _thread import get_ident
+from collections.abc import Callable
+from contextvars import copy_context
+from inspect import CO_OPTIMIZED
+from types import FrameType
+from typing import TYPE_CHECKING, Any
+
+from greenlet import getcurrent, greenlet
+
+from ..sim.errors import is_library
+from ..sim.interrupts import JUPYTER
+from ..sim.strand import Strand
+
+if TYPE_CHECKING:
+    from ..sim.process import Process
+
+
+# -- home ---------------------------------------------------------------------------------------------------------
+# Whose thread is it? What a simulated process or a learner's cell makes belongs to the simulation, all else is real.
+# Locks, threads and their kin belong to the simulation if they are made
+# - by code that runs in a simulated process, whatever code that is, except for what the module of a library makes
+# while it is imported: it is there for everybody; and except for Jupyter's own modules, which wait for Jupyter's
+# threads; or - in the notebook, while a world is open and in the thread that the world lives in, directly by code of
+# a cell (of the module `__main__`) or of a file of the learner's own. What the modules `threading`, `queue` and
+# `concurrent.futures`, and the listener of tf2_ros, make on the way counts as made by their caller.
+# Code of a cell sleeps in robot time as long as a thread lives that cells have started: else that would never go on.
+# So Jupyter's own threads, those of tornado, matplotlib, asyncio, and whatever any other library starts, stay
+# Python's own.
+
+_ON_THE_WAY = {
+    "threading",
+    "queue",
+    "concurrent.futures.thread",
+    "concurrent.futures._base",
+    "_threading_local",
+    "tf2_ros.transform_listener",
+}
+_OURS = f"{__package__}."
+
+
+def nobody() -> Process | None:
+    """No notebook: no world is open."""
+    return None
+
+
+def no_file(filename: str) -> bool:
+    """No file is known to be the learner's own."""
+    return False
+
+
+class Notebook:
+    """What the world tells about the notebook that it lives in: its process, and which files are the learner's own."""
+
+    process: Callable[[], Process | None] = staticmethod(nobody)
+    is_learners: Callable[[str], bool] = staticmethod(no_file)
+
+
+def process_here() -> Process | None:
+    """The simulated process that a thing made here belongs to; None if it is to be Python's own."""
+    strand = getcurrent()
+    if type(strand) is Strand:
+        return None if is_for_everybody(sys._getframe(1)) else strand.process
+    notebook = notebook_here()
+    return notebook if notebook is not None and is_called_by_learner() else None
+
+
+def notebook_here() -> Process | None:
+    """The notebook's process, if this is plain code in the thread that its world lives in, and it can be run."""
+    process = Notebook.process()
+    if process is None or process.simulation.closed or get_ident() != process.simulation.thread:
+        return None
+    return process
+
+
+def is_for_everybody(frame: FrameType) -> bool:
+    """Whether Jupyter makes something here, or the module of a library, or the body of a class in it."""
+    made_by = maker(frame)
+    if made_by is None:
+        return False
+    if made_by.f_globals.get("__name__", "").partition(".")[0] in JUPYTER:
+        return True
+    is_function = made_by.f_code.co_flags & CO_OPTIMIZED
+    return not is_function and is_library(made_by.f_code.co_filename)
+
+
+def is_called_by_learner() -> bool:
+    """Whether it is code of a cell, or of a file of the learner's, that calls."""
+    frame = maker(sys._getframe(1))
+    if frame is None:
+        return False
+    main = sys.modules.get("__main__")
+    return frame.f_globals is getattr(main, "__dict__", None) or Notebook.is_learners(frame.f_code.co_filename)
+
+
+def maker(frame: FrameType | None) -> FrameType | None:
+    """The innermost of these frames that is not in the rooms of threads of the standard library, or here."""
+    while frame is not None:
+        name = frame.f_globals.get("__name__", "")
+        if name not in _ON_THE_WAY and not name.startswith(_OURS):
+            return frame
+        frame = frame.f_back
+    return None
+
+
+def in_no_strand(real: Callable[..., Any]) -> Callable[..., Any]:
+    """A function that does as in plain code, also where a strand calls it: it waits for real threads, in real time."""
+
+    def call(*arguments: Any, **keywords: Any) -> Any:
+        if type(getcurrent()) is not Strand:
+            return real(*arguments, **keywords)
+        aside = greenlet(real)
+        aside.gr_context = copy_context()
+        return aside.switch(*arguments, **keywords)
+
+    return call
+
+
+# -- facade -------------------------------------------------------------------------------------------------------
+# A class of the standard library of which there are two now: Python's own, and one that waits in virtual time.
+# A caller of the class gets an object of one or the other, depending on whose it is to be. A subclass derives from
+# that one. Objects of both are its instances, so that callers need not know the difference.
+
+
+class _Facade(type):
+    """The type of such classes."""
+
+    _real: Any
+    _virtual: Callable[..., Any]
+    _base: type | None
+
+    def __call__(cls, *arguments: Any, **keywords: Any) -> Any:
+        make = cls._real if process_here() is None else cls._virtual
+        return make(*arguments, **keywords)
+
+    def __instancecheck__(cls, instance: Any) -> bool:
+        return isinstance(instance, cls._kinds)
+
+    def __subclasscheck__(cls, subclass: Any) -> bool:
+        return subclass is cls or issubclass(subclass, cls._kinds)
+
+    def __new__(mcls, name: str, bases: tuple[type, ...], namespace: dict[str, Any], **keywords: Any) -> Any:
+        """Make a facade, or a class that is derived from one: then the facade gives way to what is behind it."""
+        if not any(isinstance(base, _Facade) for base in bases):
+            return super().__new__(mcls, name, bases, namespace)
+        virtual = process_here() is not None
+        real_bases = tuple(base._behind(virtual) if isinstance(base, _Facade) else base for base in bases)
+        return type(real_bases[0])(name, real_bases, namespace, **keywords)
+
+    def _behind(cls, virtual: bool) -> Any:
+        return cls._virtual if virtual and isinstance(cls._virtual, type) else cls._real
+
+    def __init__(cls, name: str, bases: tuple[type, ...], namespace: dict[str, Any], **keywords: Any) -> None:
+        super().__init__(name, bases, namespace)
+
+    def __repr__(cls) -> str:
+        return repr(cls._real)
+
+    def __getattr__(cls, name: str) -> Any:
+        return getattr(cls._real, name)
+
+
+def facade(real: Any, virtual: Callable[..., Any], kinds: tuple[type, ...]) -> Any:
+    """The class that stands before `real` and `virtual`; `kinds` are the types of the objects that they make."""
+    namespace = {
+        "__module__": getattr(real, "__module__", None),
+        "__qualname__": real.__qualname__,
+        "__doc__": real.__doc__,
+        "_real": staticmethod(real),
+        "_virtual": staticmethod(virtual),
+        "_kinds": kinds,
+    }
+    return _Facade(real.__name__, (), namespace)
+
+
+# -- local --------------------------------------------------------------------------------------------------------
+# `threading.local` in a simulated process: each of its threads sees attributes of its own.
+# It is the class that Python keeps for systems whose threads have none in C: it goes by `threading.current_thread`.
+
+RealLocal: Any = threading.local
+module: Any = importlib.import_module("_threading_local")
+VirtualLocal: Any = module.local

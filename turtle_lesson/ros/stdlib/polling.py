@@ -1,0 +1,112 @@
+"""Programs that poll: they ask again and again whether something has happened, and robot time goes on meanwhile."""
+
+from __future__ import annotations
+
+import ast
+import re
+import threading
+from typing import TYPE_CHECKING, Any
+
+from greenlet import getcurrent
+
+from ..sim.simulation import CLOCK_READ
+from ..sim.strand import Strand
+from .ownership import notebook_here
+
+if TYPE_CHECKING:
+    from ..sim.simulation import Simulation
+
+
+# -- looking ------------------------------------------------------------------------------------------------------
+# Asking whether something has happened yet.
+# On a robot, a loop that does nothing but ask, such as `while not future.done(): pass`, burns a processor while other
+# threads go on. Here nothing else continues before it lets time pass. So polling costs time, as looking at a clock
+# does; but only for those who ask very often at the same instant, so that the time of all other programs is left as
+# it is.
+
+FREE_LOOKS = 1_000
+"""After so many looks at one instant, as much time passes as if each had been a look at a clock."""
+
+
+def looked_in_vain() -> bool:
+    """Count a look that found nothing, by a program or by the code of a cell. False, so that one can write `x or …`."""
+    strand = getcurrent()
+    if type(strand) is Strand:
+        count_look(strand.simulation)
+    elif (notebook := notebook_here()) is not None:
+        count_look(notebook.simulation)
+    return False
+
+
+def count_look(simulation: Simulation) -> None:
+    """Count a look, and let time pass if there were too many at this instant."""
+    if simulation.looked_at != simulation.now:
+        simulation.looked_at, simulation.looks = simulation.now, 0
+    simulation.looks += 1
+    if simulation.looks > FREE_LOOKS:
+        simulation.looks = 0
+        simulation.read_clock(FREE_LOOKS * CLOCK_READ)
+
+
+def is_set(self: threading.Event) -> bool:
+    """Return true if and only if the internal flag is true."""
+    if self._flag:  # type: ignore[attr-defined]
+        return True
+    strand = getcurrent()
+    if type(strand) is Strand:
+        count_look(strand.simulation)
+    return False
+
+
+# -- busy loops ---------------------------------------------------------------------------------------------------
+# Loops that do nothing but look, as in `while self.pose is None: pass`, while another thread is to bring what they
+# wait for.
+# On a robot such a loop burns a processor, and the other thread goes on beside it. Here nobody else goes on before
+# time passes. So when a program's file is compiled, each round of such a loop is made to take a little time. A
+# program that has but one thread would wait forever; there the loop is left alone, and is found when it has computed
+# for too long.
+
+NAME = "__another_look__"
+"""What the loops call; the builtins of a program have it."""
+ROUND = 100_000
+"""How long a round takes, in ns."""
+_MAY_HAVE_ONE = re.compile(rb"\bwhile\b")
+_NOTHING = (ast.Pass, ast.Continue, ast.Break, ast.Return)
+
+
+def without_busy_loops(source: bytes | str, path: str) -> Any:
+    """What to compile instead of a text: itself, or its tree with such loops changed."""
+    raw = source.encode("utf-8", "replace") if isinstance(source, str) else source
+    if not _MAY_HAVE_ONE.search(raw):
+        return source
+    tree = ast.parse(source, path)
+    busy = [node for node in ast.walk(tree) if isinstance(node, ast.While) and _only_looks(node.body)]
+    if not busy:
+        return source
+    for loop in busy:
+        loop.body.insert(0, _look(loop.body[0]))
+    return tree
+
+
+def _only_looks(body: list[ast.stmt]) -> bool:
+    return all(
+        isinstance(statement, _NOTHING)
+        or (isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant))
+        or (isinstance(statement, ast.If) and _only_looks(statement.body) and _only_looks(statement.orelse))
+        for statement in body
+    )
+
+
+def _look(before: ast.stmt) -> ast.stmt:
+    """A statement that stands where another one does, so that tracebacks tell the same lines."""
+    call = ast.Expr(ast.Call(ast.Name(NAME, ast.Load()), [], []))
+    for node in ast.walk(call):
+        ast.copy_location(node, before)
+    return call
+
+
+def another_look() -> None:
+    """A round of a busy loop: time passes, if there is another thread that could end it."""
+    strand = getcurrent()
+    if type(strand) is Strand and len(strand.process.strands) > 1:
+        strand.simulation.read_clock(ROUND)

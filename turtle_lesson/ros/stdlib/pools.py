@@ -1,0 +1,109 @@
+"""`concurrent.futures` and queues in a simulated process: Python's own, on virtual locks.
+
+What depends on the machine or on other processes is set: a pool has eight threads unless told otherwise, and counts
+its names by process. When the main program ends, pools finish what they have been given.
+"""
+
+from __future__ import annotations
+
+import queue
+import weakref
+from _thread import allocate_lock
+from concurrent.futures import thread as pool
+from typing import TYPE_CHECKING, Any
+
+from greenlet import getcurrent
+
+from ..sim.strand import Strand
+from .ownership import process_here
+
+if TYPE_CHECKING:
+    import threading
+
+    from ..sim.process import Process
+
+
+MOST_WORKERS = 8
+"""How many threads a pool has on a computer with four cores, which a simulated one is."""
+
+RealSimpleQueue = queue.SimpleQueue
+VirtualSimpleQueue: Any = queue._PySimpleQueue  # type: ignore[attr-defined]
+_real_init = pool.ThreadPoolExecutor.__init__
+
+
+def next_number(real: Any) -> int:
+    """Numbers the pools, those of each simulated process by themselves."""
+    process = process_here()
+    return real() if process is None else number_of_pool(process)
+
+
+def number_of_pool(process: Process) -> int:
+    """The number of one more pool of a process."""
+    process.locals["pools"] = number = process.locals.get("pools", -1) + 1
+    return number
+
+
+class NotInStrands:
+    """A lock against the end of Python itself, which can't come while a simulated process runs."""
+
+    def __init__(self) -> None:
+        self._lock = allocate_lock()
+
+    def __enter__(self) -> None:
+        if type(getcurrent()) is not Strand:
+            self._lock.acquire()
+
+    def __exit__(self, *error: object) -> None:
+        if type(getcurrent()) is not Strand:
+            self._lock.release()
+
+
+def init(self: Any, max_workers: int | None = None, *arguments: Any, **keywords: Any) -> None:
+    """Make a pool of threads."""
+    if max_workers is None and process_here() is not None:
+        max_workers = MOST_WORKERS
+    _real_init(self, max_workers, *arguments, **keywords)
+
+
+def is_worker(thread: threading.Thread) -> bool:
+    """Whether a thread is one of a pool's."""
+    return getattr(thread, "_target", None) is pool._worker
+
+
+def remember(process: Process) -> None:
+    """A thread of a pool starts: before the process ends, its pools are to end."""
+    if "pools.end" not in process.locals:
+        process.locals["pools.end"] = True
+        process.before_exit.append(lambda: end_pools(process))
+
+
+def end_pools(process: Process) -> None:
+    """Have the pools of a process do what they have been given, and end their threads."""
+    workers = _workers(process)
+    for thread, work in workers:
+        reference = thread._args[0]  # type: ignore[attr-defined]
+        executor = reference()
+        if executor is not None:
+            executor._shutdown = True
+        work.put(None)
+    for thread, _ in workers:
+        thread.join()
+
+
+def _workers(process: Process) -> list[tuple[threading.Thread, Any]]:
+    queues = process.locals.get("pools.queues", {})
+    return [(thread, work) for thread, work in queues.items() if thread.is_alive()]
+
+
+class Queues(weakref.WeakKeyDictionary[Any, Any]):
+    """By thread, the queue from which it gets its work. Python waits for these threads when it ends.
+
+    It need not wait for those of simulated processes: they are kept by the process.
+    """
+
+    def __setitem__(self, thread: Any, work: Any) -> None:
+        strand = vars(thread).get("_strand")
+        if strand is None:
+            super().__setitem__(thread, work)
+        else:
+            strand.process.locals.setdefault("pools.queues", {})[thread] = work

@@ -1,0 +1,195 @@
+"""`signal` and `atexit` in a simulated process: handlers are those of its own process."""
+
+from __future__ import annotations
+
+import os
+import signal as module
+import sys
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+from greenlet import getcurrent
+
+from ..sim.asyncio_context import be_careful
+from ..sim.errors import is_library
+from ..sim.process import Process
+from ..sim.simulation import NANOSECONDS
+from ..sim.strand import Strand, running_strand
+
+# -- signals ------------------------------------------------------------------------------------------------------
+# `signal` in a simulated process: handlers are those of its own process, and are called in its main thread.
+# A handler is called where the main thread waits, at the instant at which the signal comes, and the waiting goes on
+# after it. SIGINT comes from Ctrl-C and from launch, SIGTERM from launch; a process may send itself any signal.
+
+_UNTOUCHABLE = {getattr(module, "SIGKILL", -1), getattr(module, "SIGSTOP", -1)}
+_IGNORED_BY_DEFAULT = {getattr(module, name, -1) for name in ("SIGCHLD", "SIGURG", "SIGWINCH", "SIGCONT")}
+
+
+def _process() -> Process | None:
+    """The running process, if it is no notebook, whose signals are the kernel's."""
+    strand = getcurrent()
+    return strand.process if type(strand) is Strand and not strand.process.is_notebook else None
+
+
+def signal(real: Any, signalnum: int, handler: Any) -> Any:
+    """Set the handler of a signal; returns the one before."""
+    process = _process()
+    if process is None:
+        return real(signalnum, handler)
+    number = module.Signals(signalnum)
+    if running_strand() is not process.main_strand:
+        raise ValueError("signal only works in main thread of the main interpreter")
+    if not callable(handler) and handler not in (module.SIG_IGN, module.SIG_DFL):
+        raise TypeError("signal handler must be signal.SIG_IGN, signal.SIG_DFL, or a callable object")
+    if number in _UNTOUCHABLE:
+        raise OSError(22, "Invalid argument")
+    before = _handler_of(process, number)
+    _keep(process, number, handler)
+    return before
+
+
+def _keep(process: Process, number: int, handler: Any) -> None:
+    be_careful(process.simulation)
+    process.signal_handlers.pop(number, None)
+    if handler is module.SIG_IGN or (handler is module.SIG_DFL and number in _IGNORED_BY_DEFAULT):
+        process.signal_handlers[number] = _ignore
+    elif handler is module.SIG_DFL and number == module.SIGINT:
+        process.signal_handlers[number] = lambda *_: process.kill()
+    elif handler not in (module.SIG_DFL, module.default_int_handler):
+        process.signal_handlers[number] = handler
+
+
+def _ignore(number: int, frame: object) -> None:
+    """What stands for SIG_IGN."""
+
+
+def _handler_of(process: Process, number: int) -> Any:
+    default = module.default_int_handler if number == module.SIGINT else module.SIG_DFL
+    found = process.signal_handlers.get(number, default)
+    return module.SIG_IGN if found is _ignore else found
+
+
+def getsignal(real: Any, signalnum: int) -> Any:
+    """The handler of a signal."""
+    process = _process()
+    return real(signalnum) if process is None else _handler_of(process, module.Signals(signalnum))
+
+
+def raise_signal(real: Any, signalnum: int, /) -> None:
+    """Send this process a signal."""
+    process = _process()
+    if process is None:
+        real(signalnum)
+    else:
+        _send(process, signalnum)
+
+
+def interrupt_main(real: Any, signum: int = module.SIGINT, /) -> None:
+    """Send this process SIGINT, or another signal."""
+    raise_signal(real, signum)
+
+
+def kill(real: Any, pid: int, signal: int, /) -> None:
+    """Send a process a signal: a program that was read from a file itself, all others whom they want."""
+    process = _process()
+    if process is not None and process.modules is not None and pid in (os.getpid(), process.pid):
+        _send(process, signal)
+    else:
+        real(pid, signal)
+
+
+def _send(process: Process, number: int) -> None:
+    """Send a process a signal; 0 only asks whether it is there."""
+    if number and (number not in _IGNORED_BY_DEFAULT or number in process.signal_handlers):
+        process.send_signal(number)
+
+
+def pause(real: Callable[[], None]) -> None:
+    """Wait until a signal comes that is handled."""
+    strand = running_strand()
+    if strand is None:
+        real()
+        return
+    be_careful(strand.simulation)
+    before = strand.process.signals_handled
+    while strand.process.signals_handled == before:
+        strand.park()
+
+
+def alarm(real: Callable[[int], int], seconds: int, /) -> int:
+    """SIGALRM after some seconds of robot time; returns what was left of an earlier one."""
+    process = _process()
+    if process is None:
+        return real(seconds)
+    found: _Alarm = process.locals.setdefault("signal.alarm", _Alarm(process))
+    return found.set(seconds)
+
+
+class _Alarm:
+    """The alarm clock of a process."""
+
+    def __init__(self, process: Process) -> None:
+        self._process = process
+        self._due: int | None = None
+
+    def set(self, seconds: int) -> int:
+        """Ring in so many seconds, or (0) not at all; the seconds that were left, as a whole number."""
+        simulation = self._process.simulation
+        left = 0 if self._due is None else self._due - simulation.now
+        self._due = simulation.now + seconds * NANOSECONDS if seconds else None
+        if self._due is not None:
+            simulation.call_later(self._due - simulation.now, self._ring, self._due)
+        return -(-left // NANOSECONDS)
+
+    def _ring(self, due: int) -> None:
+        if due == self._due:
+            self._due = None
+            self._process.send_signal(module.SIGALRM)
+
+
+REPLACEMENTS: tuple[Callable[..., Any], ...] = (signal, getsignal, raise_signal, pause, alarm)
+
+
+# -- exits --------------------------------------------------------------------------------------------------------
+# `atexit` in a simulated process: what a program registers is called when that process ends.
+# What a library registers while a program imports it is left to Python itself: the library is there for all
+# processes.
+
+
+def register(real: Any, func: Any, /, *args: Any, **kwargs: Any) -> Any:
+    """Have a function called at the end."""
+    process = _exiting_process()
+    if process is None:
+        return real(func, *args, **kwargs)
+    if not callable(func):
+        raise TypeError("the first argument must be callable")
+    process.exit_functions.append(partial(func, *args, **kwargs))
+    return func
+
+
+def unregister(real: Any, func: Any, /) -> None:
+    """No longer have it called."""
+    process = _exiting_process()
+    if process is None:
+        real(func)
+    else:
+        kept = [each for each in process.exit_functions if not isinstance(each, partial) or each.func != func]
+        process.exit_functions[:] = kept
+
+
+def exit_now(real: Any, status: int) -> None:
+    """`os._exit`: the process ends here and now, and nothing is cleaned up."""
+    strand = getcurrent()
+    if type(strand) is not Strand or strand.process.is_notebook:
+        real(status)
+    else:
+        strand.process.end_now(status)
+
+
+def _exiting_process() -> Process | None:
+    """The running process, if it is its own program that calls."""
+    strand = getcurrent()
+    if type(strand) is not Strand or strand.process.is_notebook:
+        return None
+    return None if is_library(sys._getframe(2).f_code.co_filename) else strand.process

@@ -1,0 +1,305 @@
+"""`threading` in a simulated process: threads, their identity, and what happens to them when a program ends."""
+
+from __future__ import annotations
+
+import sys
+import threading
+import time
+from collections.abc import Callable
+from traceback import format_exception_only
+from typing import TYPE_CHECKING, Any
+
+from greenlet import GreenletExit, getcurrent
+
+from ..sim.errors import format_error, learners_frames
+from ..sim.run_blocking import drive
+from ..sim.strand import Strand, running_strand
+from .deadlock import look_after
+from .locks import VirtualLock
+from .ownership import is_called_by_learner, notebook_here, process_here
+from .polling import looked_in_vain
+from .pools import is_worker, remember
+
+if TYPE_CHECKING:
+    from ..sim.process import Process
+
+
+# -- threads ------------------------------------------------------------------------------------------------------
+# `threading.Thread` in a simulated process: a strand of it, in virtual time.
+# The class stays Python's own; `start` decides whose thread it is. A thread begins at once: its starter continues
+# when it waits for the first time, as in Python, where `start` waits until the thread runs. In the notebook it begins
+# at this instant of robot time, and lives on whenever the simulation runs.
+
+real_start = threading.Thread.start
+
+
+def start(self: threading.Thread) -> None:
+    """Start the thread's activity. RuntimeError if that was done before."""
+    process = process_here()
+    if process is None:
+        real_start(self)
+        return
+    if not self._initialized:  # type: ignore[attr-defined]
+        raise RuntimeError("thread.__init__() not called")
+    if self._started.is_set():  # type: ignore[attr-defined]
+        raise RuntimeError("threads can only be started once")
+    _begin(self, process)
+
+
+def _begin(thread: threading.Thread, process: Process) -> None:
+    simulation, starter = process.simulation, running_strand()
+    strand = process.add_strand(lambda: _run(thread, strand))
+    become(thread, strand)
+    if is_worker(thread):
+        remember(process)
+    strand.parked = True
+    simulation.wake(strand)
+    if starter is not None:
+        simulation.at(simulation.now, simulation.wake, starter)
+        simulation.park(starter)
+    elif not simulation.running:
+        simulation.settle()
+
+
+def _run(thread: threading.Thread, strand: Strand) -> None:
+    try:
+        thread.run()
+    except GreenletExit:
+        raise
+    except SystemExit:
+        pass  # ends this thread alone, in silence
+    except BaseException as error:
+        _tell(thread, strand, error)
+    finally:
+        end(thread)
+        look_after(strand)
+
+
+def _tell(thread: threading.Thread, strand: Strand, error: BaseException) -> None:
+    """Say that an error has ended a thread: by the program's own hook, or with the learner's lines alone."""
+    modules, hook = strand.process.modules, threading.excepthook
+    if modules is not None and modules.made(hook):
+        hook(threading.ExceptHookArgs((type(error), error, error.__traceback__, thread)))
+        return
+    lines = [format_error(error)] if learners_frames(error.__traceback__) else format_exception_only(error)
+    print(f"Exception in thread {thread.name}:\n{''.join(lines)}", end="", file=sys.stderr)
+
+
+def wait_for_end(real: Any) -> Any:
+    """`Thread._wait_for_tstate_lock` of Python up to 3.12, which takes an interrupted wait for the thread's end."""
+
+    def wait_for_tstate_lock(self: Any, block: bool = True, timeout: float = -1) -> None:
+        handle = vars(self).get("_virtual")
+        if handle is None:
+            real(self, block, timeout)
+        elif self._tstate_lock is not None and handle.lock.acquire(block, timeout):
+            handle.lock.release()
+            self._stop()
+
+    return wait_for_tstate_lock
+
+
+def sleep_of_a_cell(seconds: float) -> bool:
+    """Sleep in robot time, if a cell of the learner's does, and a thread lives that cells have started; whether it did."""
+    notebook = notebook_here()
+    if notebook is None or notebook.simulation.running or not is_called_by_learner():
+        return False
+    threads = [strand.thread for strand in notebook.strands if not strand.dead]
+    if not any(thread is not None and "_virtual" in vars(thread) for thread in threads):
+        return False
+    drive(notebook.simulation, notebook, time.sleep, seconds)
+    return True
+
+
+def start_new_thread(real: Any, function: Any, args: tuple[Any, ...], kwargs: dict[str, Any] | None = None, /) -> int:
+    """`_thread.start_new_thread`, which is older and does less."""
+    if running_strand() is None:
+        return real(function, args, kwargs or {})
+    thread = threading.Thread(target=function, args=args, kwargs=kwargs, daemon=True)
+    thread.start()
+    return thread.ident or 0
+
+
+# -- identity -----------------------------------------------------------------------------------------------------
+# Which thread is this? Strands of a simulated process have `threading.Thread` objects and numbers of their own.
+
+HAS_HANDLES = hasattr(threading, "_ThreadHandle")
+"""Python 3.13 and newer keep in an object of its own whether a thread has ended."""
+
+
+class Handle:
+    """Knows whether a simulated thread has ended, and waits for that."""
+
+    def __init__(self, ident: int) -> None:
+        self.ident = ident
+        self.lock = VirtualLock()
+
+    def is_done(self) -> bool:
+        """Whether it has ended."""
+        return not self.lock.locked() or looked_in_vain()
+
+    def join(self, timeout: float | None = None) -> None:
+        """Wait until it has, at most `timeout` s."""
+        if self.lock.acquire(True, -1 if timeout is None else timeout):
+            self.lock.release()
+
+
+class _MainThread(threading.Thread):
+    """The main thread of a simulated process."""
+
+    def __init__(self) -> None:
+        super().__init__(name="MainThread", daemon=False)
+
+
+class _DummyThread(threading.Thread):
+    """A thread that nobody has started by `threading`, such as a worker of an executor."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__(name=name, daemon=True)
+
+
+def thread_of(strand: Strand) -> threading.Thread:
+    """The thread object of a strand, made when it is first asked for."""
+    if strand.thread is None:
+        kind = _MainThread() if strand is strand.process.main_strand else _DummyThread(strand.name or "Dummy")
+        become(kind, strand)
+    return strand.thread
+
+
+def become(thread: threading.Thread, strand: Strand) -> None:
+    """Let a thread object stand for a strand, as if it had been started."""
+    process, state = strand.process, vars(thread)
+    handle = Handle(process.next_ident())
+    handle.lock.acquire(False)
+    handle.lock.owner, handle.lock.surely = strand, True
+    strand.thread, state["_strand"] = thread, strand
+    state["_ident"] = state["_native_id"] = handle.ident
+    if HAS_HANDLES:
+        state["_handle"] = handle
+    else:
+        state["_tstate_lock"] = handle.lock
+    state["_virtual"] = handle
+    state["_started"].set()
+
+
+def end(thread: threading.Thread) -> None:
+    """The thread has ended: the threads that join it continue."""
+    handle: Handle = vars(thread)["_virtual"]
+    if handle.lock.locked():
+        handle.lock.release()
+
+
+# -- what programs ask ---------------------------------------------------------------------------------------------------
+
+
+def get_ident(real: Any) -> int:
+    """The number of the running thread."""
+    strand = getcurrent()
+    return real() if type(strand) is not Strand else thread_of(strand).ident or 0
+
+
+def get_native_id(real: Any) -> int:
+    """The same number."""
+    strand = getcurrent()
+    return real() if type(strand) is not Strand else thread_of(strand).native_id or 0
+
+
+def current_thread(real: Any) -> threading.Thread:
+    """The running thread."""
+    strand = getcurrent()
+    return real() if type(strand) is not Strand else thread_of(strand)
+
+
+def main_thread(real: Any) -> threading.Thread:
+    """The main thread of the running process."""
+    strand = getcurrent()
+    if type(strand) is not Strand or strand.process.main_strand is None:
+        return real()
+    return thread_of(strand.process.main_strand)
+
+
+def enumerate(real: Any) -> list[threading.Thread]:
+    """The threads that live in the running process."""
+    strand = getcurrent()
+    if type(strand) is Strand and strand.process.main_strand is not None:
+        return _threads(strand.process)
+    process = strand.process if type(strand) is Strand else notebook_here()
+    return real() + (_threads(process) if process is not None else [])
+
+
+def active_count(real: Any) -> int:
+    """How many there are."""
+    return len(threading.enumerate())
+
+
+def _threads(process: Process) -> list[threading.Thread]:
+    threads = [thread_of(strand) for strand in process.strands if not strand.dead]
+    return [thread for thread in threads if "_virtual" in vars(thread) and thread.is_alive()]
+
+
+def _newname(real: Any, name_template: str) -> str:
+    """A name for a thread; those of each simulated process are numbered by themselves."""
+    process = process_here()
+    if process is None:
+        return real(name_template)
+    counts: dict[str, int] = process.locals.setdefault("threading.names", {})
+    counts[name_template] = counts.get(name_template, 0) + 1
+    return name_template % counts[name_template]
+
+
+REPLACEMENTS: tuple[Callable[..., Any], ...] = (
+    get_ident,
+    get_native_id,
+    current_thread,
+    main_thread,
+    enumerate,
+    active_count,
+    _newname,
+)
+
+
+# -- ending -------------------------------------------------------------------------------------------------------
+# What Python does between the end of a main program and that of its process: it waits for threads, and tidies up.
+# The order is CPython's: pools end their work, then the threads that are no daemons are waited for, then comes what
+# was given to `atexit.register`. Daemons end with the process, wherever they stand.
+
+
+def wind_down(process: Process) -> None:
+    """Wait for what is still at work in a process whose main program has ended; its main strand calls this."""
+    try:
+        while process.before_exit:
+            process.before_exit.pop()()
+        _wait_for_threads(process)
+    except KeyboardInterrupt as error:  # somebody has no patience: then nobody is waited for
+        print(f"Exception ignored in: <module 'threading'>\n{format_error(error)}", end="", file=sys.stderr)
+    while process.exit_functions:
+        _call(process.exit_functions.pop())
+
+
+def _wait_for_threads(process: Process) -> None:
+    if all(strand.thread is None for strand in process.strands):
+        return  # by far the most programs have none
+    pass  # HOUSE: was an import of this file
+
+    main = process.main_strand
+    if main is not None:
+        end(thread_of(main))
+    while waited_for := _living(process):
+        waited_for[0].join()
+
+
+def _living(process: Process) -> list[threading.Thread]:
+    threads = [strand.thread for strand in process.strands if strand.thread is not None and not strand.dead]
+    return [thread for thread in threads if not thread.daemon and thread.is_alive()]
+
+
+def _call(function: Callable[[], object]) -> None:
+    try:
+        function()
+    except SystemExit:
+        pass
+    except Exception as error:
+        function = getattr(function, "func", function)
+        name = getattr(function, "__qualname__", repr(function))
+        print(f"Exception ignored in atexit callback: <function {name}>", file=sys.stderr)
+        print(format_error(error), end="", file=sys.stderr)

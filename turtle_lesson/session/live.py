@@ -1,0 +1,212 @@
+"""Live mode: robot time goes on by itself, paced to the wall clock, while other cells can be run."""
+
+from __future__ import annotations
+
+import asyncio
+from collections import deque
+from typing import TYPE_CHECKING, Any
+
+from ..ros.sim.errors import print_error
+from ..ros.sim.run_blocking import drive_within
+from ..ros.sim.simulation import NANOSECONDS
+from ..ros.stdlib.clocks import real_monotonic
+
+if TYPE_CHECKING:
+    from ..ros.runtime.world import World
+
+
+STEP = 1 / 30
+LONGEST_WORK = 0.03
+"""How long a step may keep the notebook busy, in seconds; a rate that needs more is as fast as the computer can."""
+
+BREATH = 0.004
+"""Seconds that the notebook has to itself, to answer and to draw, after a step that was cut short."""
+
+LONGEST_STEP = 0.25
+"""After a cell that computed for long, live mode does not rush to catch up: at most this many seconds a step."""
+
+PIECE = NANOSECONDS // 10
+"""A step is run in pieces of so much robot time, between which the wall clock is looked at."""
+
+MOST = 1e6
+"""Seconds of robot time in one step at most; an infinite rate, which is as fast as possible, never gets there."""
+
+
+LONGEST_CALLBACK = 150 * NANOSECONDS
+"""Robot time, in ns, for which a callback or function of a cell may hold a check or live mode up."""
+
+
+class CellNodes:
+    """Lets robot time pass, and has the callbacks of the nodes that were made in the notebook's cells called meanwhile."""
+
+    def __init__(self, world: World) -> None:
+        self._world = world
+        self._executor: Any = None  # one for all steps: it keeps the coroutines that wait from one step to the next
+
+    def run_until(self, end: int) -> None:
+        """Go on until `end` (ns of robot time). Raises what a callback raises; then not all of that time has passed."""
+        if not self._spin(end):
+            self._world.sim.run_until(end)
+
+    def _spin(self, end: int) -> bool:
+        """Spin the nodes until `end`; whether there are any, and time has passed."""
+        context = self._world.notebook.locals.get("rclpy.context")
+        nodes = list(context._nodes) if context is not None and context.ok() else []
+        if not nodes:
+            return False
+        from rclpy.executors import SingleThreadedExecutor
+        from rclpy.task import Future
+
+        executor = next((node._ros_executor for node in nodes if node._ros_executor is not None), None)
+        if executor is None:
+            executor = self._executor = self._executor or SingleThreadedExecutor()
+        added = [node for node in nodes if node._ros_executor is None and executor.add_node(node)]
+        try:
+            before = self._world.now
+            seconds = (end - before) / NANOSECONDS
+            drive_within(
+                LONGEST_CALLBACK,
+                self._world.sim,
+                self._world.notebook,
+                lambda: executor.spin_until_future_complete(Future(), seconds),
+            )
+            return self._world.now > before  # an executor that was shut down lets no time pass
+        finally:
+            for node in added:
+                executor.remove_node(node)
+
+
+class Player:
+    """Plays a world in the notebook's event loop. Nodes that were made in cells are spun meanwhile."""
+
+    def __init__(self, world: World) -> None:
+        self._simulation = world.sim
+        self._cells = CellNodes(world)
+        self._task: asyncio.Task[None] | None = None
+        self._rate = 1.0
+        self._watch = Stopwatch()
+
+    @property
+    def playing(self) -> bool:
+        """Whether robot time goes on by itself."""
+        return self._task is not None and not self._task.done()
+
+    @property
+    def rate(self) -> float:
+        """How many times as fast as real time; `math.inf` is as fast as possible. Can be changed at any time."""
+        return self._rate
+
+    @rate.setter
+    def rate(self, rate: float) -> None:
+        if isinstance(rate, bool) or not isinstance(rate, (int, float)) or not rate > 0:
+            raise ValueError(
+                f"rate must be a number above 0, got {rate!r}: 1.0 is real time, 10 is ten times faster, "
+                "math.inf as fast as possible"
+            )
+        self._rate = float(rate)
+
+    @property
+    def wall_seconds(self) -> float:
+        """Seconds of real time for which it has played since `play()`."""
+        return self._watch.seconds
+
+    @property
+    def speed(self) -> float:
+        """How many times as fast as real time it really went in the last second; 0 if it did not play."""
+        return self._watch.speed
+
+    def play(self, rate: float) -> None:
+        """Go on by itself at `rate` times real time; if it does so already, only change the rate."""
+        self.rate = rate
+        if self.playing:
+            return
+        try:
+            loop = asyncio.get_running_loop()
+        except RuntimeError:
+            raise RuntimeError(
+                "play() needs a notebook, whose event loop runs between cells; in a script use lesson.run(seconds)"
+            ) from None
+        self._watch.start(real_monotonic())
+        self._task = loop.create_task(self._play())
+
+    def pause(self) -> None:
+        """Stop."""
+        if self._task is not None:
+            self._task.cancel()
+            self._task = None
+
+    async def _play(self) -> None:
+        simulation = self._simulation
+        last, done = real_monotonic(), True
+        while not simulation.closed:
+            await asyncio.sleep(STEP if done else BREATH)
+            now = real_monotonic()
+            step = min(max(min(now - last, LONGEST_STEP), BREATH) * self.rate, MOST)
+            last, begun = now, simulation.now
+            if simulation.closed:
+                return
+            try:
+                done = self._run(begun + round(step * NANOSECONDS))
+            except KeyboardInterrupt:  # which would end Jupyter's event loop, and with it the kernel
+                self._task = None
+                print("Live mode was interrupted; lesson.play() continues it.")
+                return
+            except Exception as error:
+                self._task = None
+                print("Live mode has stopped because of this error; lesson.play() continues it.")
+                print_error(error)
+                return
+            self._watch.mark(real_monotonic(), simulation.now - begun)
+
+    def _run(self, until: int) -> bool:
+        """Run towards `until` (ns), but at most for `LONGEST_WORK` of real time, so that cells stay usable at any rate.
+
+        Returns whether it got there.
+        """
+        simulation = self._simulation
+        simulation.keyboard.live = True
+        deadline = real_monotonic() + LONGEST_WORK
+        try:
+            while simulation.now < until and real_monotonic() < deadline:
+                self._cells.run_until(min(until, simulation.now + PIECE))
+        finally:
+            simulation.keyboard.live = False
+        return simulation.now >= until
+
+
+class Stopwatch:
+    """Real time since a start, and how fast robot time went by in its last second."""
+
+    WINDOW = 1.0
+
+    def __init__(self) -> None:
+        self._began = self._last = 0.0
+        self._played = 0
+        self._marks: deque[tuple[float, int]] = deque()
+
+    def start(self, now: float) -> None:
+        """Begin anew at this moment (s)."""
+        self._began = self._last = now
+        self._played = 0
+        self._marks = deque([(now, 0)])
+
+    def mark(self, now: float, played: int) -> None:
+        """By this moment (s) so much more robot time (ns) went by."""
+        self._last = now
+        self._played += played
+        self._marks.append((now, self._played))
+        while len(self._marks) > 2 and self._marks[1][0] < now - self.WINDOW:
+            self._marks.popleft()
+
+    @property
+    def seconds(self) -> float:
+        """Real time from the start to the last mark, s."""
+        return self._last - self._began
+
+    @property
+    def speed(self) -> float:
+        """Robot time by real time in the last second; 0 before there is a second mark."""
+        if len(self._marks) < 2:
+            return 0.0
+        (first, before), (last, after) = self._marks[0], self._marks[-1]
+        return (after - before) / NANOSECONDS / max(last - first, 1e-9)

@@ -1,0 +1,97 @@
+"""The front door to a robot: `connect()` shows a real, running ROS 2 with the widgets and pictures of the lab."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Hashable
+from typing import TYPE_CHECKING
+
+from ..ros.idl import finder
+from .ros_detection import real_ros
+from .views import Shelf, Widget
+
+if TYPE_CHECKING:
+    from ..lab.graph import GraphPicture
+    from ..lab.recorder import Recorder
+    from ..lab.widgets.backend import Station
+    from .robot_backend import RobotStation
+
+
+_newest: Robot | None = None
+
+
+def connect() -> Robot:
+    """Join the ROS 2 system that runs here with a hidden node, `/_lab`, and return the `Robot` that shows it.
+
+    A cell can be run twice: what the `connect()` before has made is closed. ROS_DOMAIN_ID and its kin count, as for any
+    node. The node has a context of its own, so that `rclpy.init()` and `rclpy.shutdown()` in the notebook stay its own.
+
+    Raises RuntimeError where no real ROS 2 is sourced, and in a script, which has no event loop that goes on.
+    """
+    global _newest
+    _check_real_ros()
+    _check_loop()
+    finder.uninstall()  # or what is not installed on the real one would be imported from the simulated one, and not fit
+    from .robot_backend import RobotStation
+
+    if _newest is not None:
+        _newest.close()
+    _newest = Robot(RobotStation())
+    return _newest
+
+
+def _check_real_ros() -> None:
+    if real_ros() in ("", "nowhere"):
+        raise RuntimeError(
+            "there is no real ROS 2 here to connect to, only the simulated one. In a terminal: source "
+            "/opt/ros/jazzy/setup.bash (or that of your release), and start Jupyter from there. In the simulated world "
+            "you get the same widgets from: from turtle_lesson import start; lesson = start()"
+        )
+
+
+def _check_loop() -> None:
+    try:
+        asyncio.get_running_loop()
+    except RuntimeError:
+        raise RuntimeError(
+            "connect() needs a notebook, whose event loop receives the messages; in a script use rclpy itself"
+        ) from None
+
+
+class Robot(Shelf):
+    """A real system, seen from a notebook. Times are in seconds since `connect()`."""
+
+    def __init__(self, station: RobotStation) -> None:
+        self._station = station
+
+    def __repr__(self) -> str:
+        return f"<Robot: {self._station.state}>"
+
+    @property
+    def now(self) -> float:
+        """Seconds since `connect()`, on the clock of the node."""
+        return self._station.now
+
+    def close(self) -> None:
+        """Leave the system: the widgets end, what was heard stays. Nothing waits for it."""
+        self._station.close()
+
+    def plot_graph(self) -> GraphPicture:
+        """Which nodes there are, and by which topics and services they are joined."""
+        self._check_connected()
+        return super().plot_graph()
+
+    def _widget(self, key: Hashable, make: Callable[[Station], Widget]) -> Widget:
+        self._check_connected()
+        return super()._widget(key, make)
+
+    def _check_connected(self) -> None:
+        if self._station.ended:
+            raise RuntimeError("this connection has ended: robot = connect() makes a new one")
+
+    def _make_station(self) -> Station:
+        return self._station
+
+    @property
+    def _recording(self) -> Recorder:
+        return self._station.recorder

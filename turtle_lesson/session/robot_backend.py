@@ -1,0 +1,309 @@
+"""The lab's station on a robot: its hidden node, spun in a thread of its own, heard in the notebook's event loop."""
+
+from __future__ import annotations
+
+import atexit
+import inspect
+import threading
+from collections.abc import Callable
+from functools import wraps
+from typing import TYPE_CHECKING, Any
+
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.subscription import Subscription
+
+from ..lab.obstacle_board import ObstacleBoard
+from ..lab.recorder import ON_A_ROBOT, Recorder
+from ..lab.widgets.backend import Clock, Loop
+
+if TYPE_CHECKING:
+    from ..ros.sim.keyboard import Keyboard
+
+
+BREATH = 0.02
+"""Seconds of pause after an error, so that one that comes again and again does not take the whole computer."""
+
+PATIENCE = 2.0
+"""Seconds that the end of Python waits for the thread at most."""
+
+
+class RobotStation:
+    """A `Station` (see lab/widgets/backend.py) on a real ROS 2. To be made in the notebook's event loop.
+
+    The thread does nothing but wait for ROS and hop. All else, from creating a subscription to destroying the node, happens
+    in the loop.
+    """
+
+    clock: Clock | None = None
+    keyboard: Keyboard | None = None
+
+    def __init__(self) -> None:
+        self.loop = Loop()
+        self.at_close: list[Callable[[], object]] = []
+        self._closing = threading.Event()
+        self._left = False
+        self._last = 0
+        self._trouble = ""
+        self._context = Context()
+        # Signals and logs stay as the notebook's own nodes have them.
+        self._context.init(args=[], initialize_logging=False)
+        self.node: Any = LabNode(self._context, self._hop)
+        self.recorder = Recorder(self.node, advice=ON_A_ROBOT)
+        self.board = ObstacleBoard(self.recorder)
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self.node)
+        self._thread = threading.Thread(target=self._spin, name="turtle_lesson", daemon=True)
+        self._thread.start()
+        atexit.register(self._close_and_wait)
+
+    @property
+    def now(self) -> float:
+        """Seconds since this was made, on the node's clock; when it has ended, until then."""
+        now = self._last if self._left else self.node.get_clock().now().nanoseconds
+        return float(self.recorder.seconds(now))
+
+    @property
+    def ended(self) -> bool:
+        """Whether it was closed, or ROS was shut down (by a signal that reached all of this program)."""
+        return self._closing.is_set() or not self._context.ok()
+
+    @property
+    def state(self) -> str:
+        """How it stands, in a few words."""
+        if self.ended:
+            return "closed"
+        return f"connected, but the last error was {self._trouble}" if self._trouble else "connected"
+
+    def close(self) -> None:
+        """Leave the system. This waits for nothing: the thread ends, then the loop takes the node away."""
+        if not self._closing.is_set():
+            self._closing.set()
+            self._executor.create_task(_nothing)  # which ends its waiting
+
+    # -- in the thread -----------------------------------------------------------------------------------------------
+
+    def _spin(self) -> None:
+        while not self.ended:
+            try:
+                self._executor.spin_once()
+            except Exception as error:
+                # The rclpy of Humble says InvalidHandle of a subscription that was destroyed while it waited for it. No
+                # callback can be the cause: they happen in the loop.
+                self._trouble = "" if type(error).__name__ == "InvalidHandle" else f"{type(error).__name__}: {error}"
+                self._closing.wait(BREATH)
+        self._to_loop(self._leave)
+
+    def _hop(self, action: Callable[..., object], *arguments: Any) -> None:
+        if not self._closing.is_set():
+            self._to_loop(self._carry_out, action, arguments)
+
+    def _to_loop(self, action: Callable[..., object], *arguments: Any) -> None:
+        try:
+            self.loop.soon(action, *arguments)
+        except RuntimeError:  # the loop is closed: Python is about to end, and takes care of the rest
+            self._closing.set()
+
+    # -- in the loop -------------------------------------------------------------------------------------------------
+
+    def _carry_out(self, action: Callable[..., object], arguments: tuple[Any, ...]) -> None:
+        if not self.ended:
+            action(*arguments)
+
+    def _leave(self) -> None:
+        """Take the node out of the graph. Not while the thread spins it."""
+        if self._left:
+            return
+        self._last = self.node.get_clock().now().nanoseconds
+        self._left = True
+        self._closing.set()
+        for let_go in self.at_close:
+            let_go()
+        self.recorder.close()
+        self._executor.shutdown()
+        self.node.destroy_node()
+        self._context.try_shutdown()
+        atexit.unregister(self._close_and_wait)
+
+    def _close_and_wait(self) -> None:
+        """Python ends: a thread that still waits in ROS's own code could bring it down."""
+        self.close()
+        self._thread.join(PATIENCE)
+        if not self._thread.is_alive():
+            self._leave()
+
+
+def _nothing() -> None:
+    """A task that only wakes the executor."""
+
+
+# -- robot node ---------------------------------------------------------------------------------------------------
+# A node of any rclpy whose callbacks all happen in one event loop, whichever thread it is spun in.
+
+Action = Callable[..., object]
+Hop = Callable[..., object]
+"""Called with an action and its arguments, has the loop call that action."""
+
+LISTS = (
+    "get_node_names_and_namespaces",
+    "get_topic_names_and_types",
+    "get_service_names_and_types",
+    "get_publishers_info_by_topic",
+    "get_subscriptions_info_by_topic",
+    "get_publisher_names_and_types_by_node",
+    "get_subscriber_names_and_types_by_node",
+    "get_service_names_and_types_by_node",
+    "get_client_names_and_types_by_node",
+)
+COUNTS = ("count_publishers", "count_subscribers")
+"""What a node can be asked of the graph."""
+
+TELLS_TIMES = hasattr(Subscription, "CallbackType")
+"""Whether this rclpy gives a callback with two arguments the message's times: since Iron. Humble's only takes one."""
+
+
+class LabNode(Node):
+    """The lab's hidden node, `/_lab`: it offers no parameters and writes no log.
+
+    Nothing is called after it was destroyed, although its thread may have taken it already: the code that destroys and
+    creates in the loop sees what a node that is spun in the loop would show.
+    """
+
+    hears_times = True
+    """Callbacks with two arguments are told a message's time, whatever the rclpy (see lab/recorder.py)."""
+
+    def __init__(self, context: Context, hop: Hop) -> None:
+        self._lab_hop = hop  # first, since a Node makes some things of its own while it is made
+        self._lab_lives: dict[Any, Life] = {}
+        super().__init__(
+            "_lab", context=context, use_global_arguments=False, enable_rosout=False, start_parameter_services=False
+        )
+
+    # -- what is made ------------------------------------------------------------------------------------------------
+
+    def create_subscription(self, msg_type: Any, topic: str, callback: Action, *more: Any, **options: Any) -> Any:
+        """As every node's, but `callback(message, info)` works everywhere; info has at least `source_timestamp` (ns)."""
+        life = Life(self._lab_hop)
+        hear = self._hearing(callback, life)
+        return self._keep(super().create_subscription(msg_type, topic, hear, *more, **options), life)
+
+    def create_timer(self, timer_period_sec: float, callback: Action, *more: Any, **options: Any) -> Any:
+        """As every node's. Ticks for which the loop had no time are left out, as an executor leaves them out."""
+        life = Life(self._lab_hop)
+        return self._keep(super().create_timer(timer_period_sec, _beating(callback, life), *more, **options), life)
+
+    def create_client(self, srv_type: Any, srv_name: str, *more: Any, **options: Any) -> Any:
+        """As every node's; its futures, too, call back in the loop."""
+        life = Life(self._lab_hop)
+        client: Any = super().create_client(srv_type, srv_name, *more, **options)
+        client.call_async = _asking(client.call_async, life)
+        return self._keep(client, life)
+
+    # -- what is taken away ------------------------------------------------------------------------------------------
+
+    def destroy_subscription(self, subscription: Any) -> bool:
+        """As every node's."""
+        self._end(subscription)
+        return super().destroy_subscription(subscription)
+
+    def destroy_timer(self, timer: Any) -> bool:
+        """As every node's."""
+        self._end(timer)
+        return super().destroy_timer(timer)
+
+    def destroy_client(self, client: Any) -> bool:
+        """As every node's."""
+        self._end(client)
+        return super().destroy_client(client)
+
+    def destroy_node(self) -> None:
+        """As every node's. A later query of the graph, such as that of an old widget that is shown again, finds no nodes."""
+        super().destroy_node()
+        for name in LISTS:
+            setattr(self, name, _no_list)
+        for name in COUNTS:
+            setattr(self, name, _none)
+
+    # -- the machinery -----------------------------------------------------------------------------------------------
+
+    def _keep(self, entity: Any, life: Life) -> Any:
+        self._lab_lives[entity] = life
+        return entity
+
+    def _end(self, entity: Any) -> None:
+        life = self._lab_lives.pop(entity, None)
+        if life is not None:
+            life.over = True
+
+    def _hearing(self, callback: Action, life: Life) -> Action:
+        """A callback that takes as many arguments as this rclpy looks for."""
+        if _takes_one(callback):
+            return lambda message: life.hop(callback, message)
+        if TELLS_TIMES:
+            return lambda message, info: life.hop(callback, message, info)
+        clock = self.get_clock()  # read here, in the spinning thread: the loop may be busy for long
+        return lambda message: life.hop(callback, message, {"source_timestamp": clock.now().nanoseconds})
+
+
+class Life:
+    """The life of a subscription, a timer or a client: what it calls back hops to the loop, until it is over."""
+
+    def __init__(self, hop: Hop) -> None:
+        self._hop = hop
+        self.over = False
+
+    def hop(self, action: Action, *arguments: Any, **keywords: Any) -> None:
+        """Have the loop call the action, unless all is over by then."""
+        self._hop(self._call, action, arguments, keywords)
+
+    def _call(self, action: Action, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> None:
+        if not self.over:
+            action(*arguments, **keywords)
+
+
+def _no_list(*arguments: Any, **options: Any) -> list[Any]:
+    return []
+
+
+def _none(*arguments: Any, **options: Any) -> int:
+    return 0
+
+
+def _takes_one(callback: Action) -> bool:
+    """Whether a callback can be called with a message alone: rclpy's own question."""
+    try:
+        inspect.signature(callback).bind(object())
+    except TypeError:
+        return False
+    return True
+
+
+def _beating(callback: Action, life: Life) -> Action:
+    """`wraps`, since newer rclpy looks whether the callback wants a TimerInfo, which it passes by keyword."""
+    waiting = False
+
+    @wraps(callback)
+    def beat(**info: Any) -> None:
+        nonlocal waiting
+        if not waiting:
+            waiting = True
+            life.hop(call, **info)
+
+    def call(**info: Any) -> None:
+        nonlocal waiting
+        waiting = False
+        callback(**info)
+
+    return beat
+
+
+def _asking(ask: Callable[..., Any], life: Life) -> Callable[..., Any]:
+    @wraps(ask)
+    def call_async(*request: Any, **options: Any) -> Any:
+        future = ask(*request, **options)
+        add = future.add_done_callback
+        future.add_done_callback = lambda action: add(lambda done: life.hop(action, done))
+        return future
+
+    return call_async

@@ -1,0 +1,156 @@
+"""Where troubles are put on: what can be done to a world by public means, as from its terminals."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..ros import launching
+from ..ros.build.package import Package
+from ..ros.build.source import overlay, overlays, remove_all
+from ..ros.cli.jobs import Job, jobs
+from ..ros.idl.registry import registry
+from ..ros.runtime.console import CellOutput
+from ..ros.runtime.files import home
+from ..ros.sim.process import Process
+from .ros_detection import HERE
+
+if TYPE_CHECKING:
+    from ..lab.troubles import Program
+    from ..ros.runtime.world import World
+
+
+PACKAGE = "robot_controller"
+WORKSPACE = "trouble_ws"
+MARK = ".made_for_a_case"
+"""An empty file in a `trouble_ws` that was made here: only such a folder is ever replaced."""
+
+DRAFTS = HERE / "lab" / "troubles" / "robot_draft"
+STAYS = frozenset({"lab", "turtlesim", "turtlesim_node"})
+MESSAGE_FILE = re.compile(r'"?\bmsg/TurtleStatus\.msg"?')
+
+
+class WorldStage:
+    """A `Stage` (see lab/troubles/faults.py) in a world of this notebook. `install` makes the finished package findable.
+
+    Where the learner's own package is sourced when the first case is opened, the cases are about that one. Its files are
+    only read: what is to be broken in files is broken in a copy, which goes with the next case and with the world.
+    """
+
+    def __init__(self, world: World, install: Callable[[], None]) -> None:
+        self._world = world
+        self._install = install
+        sourced = list(dict.fromkeys(each.install for each in overlays(world)))
+        self._sourced: list[Path] = world.notebook.locals.setdefault("sourced before a case", sourced)
+        if "robot_draft" not in world.packages:
+            files = {path.stem: path for path in sorted(DRAFTS.glob("*.py"))}
+            world.packages.add(Package("robot_draft", DRAFTS, executables=dict(files)))
+
+    @property
+    def ended(self) -> bool:
+        """Whether a newer `start()` has taken this world's place."""
+        return self._world.sim.closed
+
+    def clear(self) -> None:
+        """Ctrl-C for every program but the simulator; the simulator and the package are there again, as before."""
+        for process in self._programs():
+            if process.name not in STAYS:
+                process.interrupt()
+        self._world.sim.settle()
+        for process in self._programs():
+            if process.name not in STAYS:
+                process.kill()
+        if not any(process.name.startswith("turtlesim") for process in self._programs()):
+            out = CellOutput(self._world.sim)
+            target = self._world.packages.executable("turtlesim", "turtlesim_node")
+            self._world.spawn(target, name="turtlesim", argv=["turtlesim_node"], stdout=out, stderr=out)
+        remove_all(self._world)
+        remove_scratch()
+        for folder in self._sourced:
+            overlay(self._world, folder)
+        if PACKAGE not in self._world.packages:
+            self._install()
+        self._world.sim.settle()
+
+    def _programs(self) -> list[Process]:
+        return [process for process in self._world.processes if process.alive]
+
+    def start(self, programs: tuple[Program, ...]) -> None:
+        """Launch nodes: one launch, whose lines tell their pids, and which is a job as after `ros2 launch`."""
+        if not programs:
+            return
+        from launch import LaunchDescription
+        from launch_ros.actions import Node
+
+        nodes = [
+            Node(
+                package=each.package,
+                executable=each.executable,
+                name=each.name or each.executable,
+                output="screen",
+                parameters=[each.parameters] if each.parameters else [],
+                remappings=list(each.remaps.items()),
+            )
+            for each in programs
+        ]
+        handle = launching.launch_description(self._world, LaunchDescription(nodes))
+        jobs(self._world).add(Job("ros2 launch trouble.launch.py", handle))
+        handle.wait_until_up()
+
+    def stop_simulator(self) -> None:
+        """Ctrl-C for the turtle simulator."""
+        for process in self._programs():
+            if process.name.startswith("turtlesim"):
+                process.interrupt()
+        self._world.sim.settle()
+
+    def make_workspace(self, fault: str) -> None:
+        """Copy the package's source into the workspace `trouble_ws`; from now on the package is found nowhere else.
+
+        Raises FileExistsError for a `trouble_ws` that was not made here, ValueError for a package without the message.
+        """
+        folder = home() / WORKSPACE
+        if folder.exists():
+            raise FileExistsError(f"{WORKSPACE} is a folder of your own: give it another name, then run this again")
+        written = self._world.packages.get(PACKAGE).source
+        assert written is not None, "what is sourced here was built here, or lies in its source folder"
+        source = folder / "src" / PACKAGE
+        shutil.copytree(written, source, ignore=shutil.ignore_patterns("__pycache__"))
+        (folder / MARK).touch()
+        self._world.notebook.at_exit.append(remove_scratch)
+        if fault == "not in CMakeLists.txt":
+            text = (source / "CMakeLists.txt").read_text(encoding="utf-8")
+            if not MESSAGE_FILE.search(text):
+                raise ValueError(
+                    'your CMakeLists.txt does not name "msg/TurtleStatus.msg", so this case cannot be made from it'
+                )
+            (source / "CMakeLists.txt").write_text(MESSAGE_FILE.sub("", text), encoding="utf-8")
+        if fault != "not built":
+            self._build(folder)
+        remove_all(self._world)
+        while PACKAGE in self._world.packages:
+            self._world.packages.remove(PACKAGE)
+        if PACKAGE in registry.packages():
+            registry.remove(PACKAGE)
+
+    def _build(self, folder: Path) -> None:
+        """`colcon build`, which somebody has done before: nothing of it is shown."""
+        import io
+
+        from ..ros.build import colcon
+
+        said = io.StringIO()
+        colcon.run(self._world, ["build"], stdout=said, stderr=said, cwd=folder)
+
+
+def remove_scratch() -> None:
+    """Delete the `trouble_ws` that a case has made; a terminal that is in it goes back to its first folder."""
+    folder = home() / WORKSPACE
+    if (folder / MARK).is_file():
+        if Path.cwd().is_relative_to(folder):
+            os.chdir(home())
+        shutil.rmtree(folder, ignore_errors=True)

@@ -1,0 +1,125 @@
+"""What shows one system: pictures that stay, and widgets, each made when it is first asked for.
+
+Asked for again, a widget is the same one in another place. So a cell that is run twice leaves nothing behind, and two views
+of a widget are always in step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable
+from typing import TYPE_CHECKING, Any, TypeVar
+
+if TYPE_CHECKING:
+    from ..lab.graph import GraphPicture
+    from ..lab.picture import Picture
+    from ..lab.recorder import Recorder
+    from ..lab.widgets.backend import Station
+    from ..lab.widgets.dashboard import Dashboard, LabView
+    from ..lab.widgets.form import Form
+    from ..lab.widgets.live_plot import LivePlot
+    from ..lab.widgets.parameters import ParametersPanel
+    from ..lab.widgets.scene import Scene
+    from ..lab.widgets.teleop import Teleop
+
+
+Widget = TypeVar("Widget")
+
+
+class Shelf:
+    """What shows a running system and acts on it. A subclass says where: `_make_station()` and `_recording`."""
+
+    _widgets: dict[Hashable, Any]
+
+    def _make_station(self) -> Station:
+        raise NotImplementedError
+
+    @property
+    def _recording(self) -> Recorder:
+        raise NotImplementedError
+
+    # -- widgets -----------------------------------------------------------------------------------------------------
+
+    def _widget(self, key: Hashable, make: Callable[[Station], Widget]) -> Widget:
+        """The widget of this key; made now if there is none yet."""
+        if not hasattr(self, "_widgets"):
+            self._widgets = {}
+            self._make_station().at_close.append(self._end_widgets)
+        widgets = self._widgets
+        if key not in widgets or widgets[key].comm is None:  # not made yet, or closed
+            from ..lab.widgets.backend import Link
+
+            station: Any = Link(self._make_station())
+            widgets[key] = make(station)
+        return widgets[key]
+
+    def _end_widgets(self) -> None:
+        for widget in self._widgets.values():
+            widget.end()
+
+    def goal_pad(self) -> LabView:
+        """A map that is alive: click on it, and the turtle goes there; drag to say how it shall face."""
+        from ..lab.widgets.dashboard import GOAL_PAD, LabView
+
+        return self._widget("goal pad", lambda station: LabView(station, GOAL_PAD))
+
+    def dashboard(self) -> Dashboard:
+        """Everything at once: map, clock, status, scan, rates, nodes, services and log."""
+        from ..lab.widgets.dashboard import Dashboard
+
+        return self._widget("dashboard", Dashboard)
+
+    def teleop(self, topic: str = "/turtle1/cmd_vel") -> Teleop:
+        """Drive by hand, with keys or a stick: publishes geometry_msgs/msg/Twist on a topic."""
+        from ..lab.widgets.teleop import Teleop
+
+        return self._widget(("teleop", topic), lambda station: Teleop(station, topic))
+
+    def form(self, name: str) -> Form:
+        """A form for the messages of a topic, or for the requests of a service: "/turtle1/cmd_vel", "/navigate_to"."""
+        from ..lab.widgets.form import Form
+
+        return self._widget(("form", name), lambda station: Form(station, name))
+
+    def live_plot(self, *fields: str, seconds: float = 30.0) -> LivePlot:
+        """Curves that go on: a topic and a field each, such as "/robot/status/battery" or "/turtle1/pose/x"."""
+        from ..lab.widgets.live_plot import LivePlot
+
+        return self._widget(("live plot", fields, seconds), lambda station: LivePlot(station, fields, seconds))
+
+    def parameters(self, node: str) -> ParametersPanel:
+        """The parameters of a node, each with a slider or a field: "/navigator"."""
+        from ..lab.widgets.parameters import ParametersPanel
+
+        return self._widget(("parameters", node), lambda station: ParametersPanel(station, node))
+
+    def scene(self) -> Scene:
+        """The world in three dimensions."""
+        from ..lab.widgets.scene import Scene
+
+        return self._widget("scene", Scene)
+
+    # -- pictures ----------------------------------------------------------------------------------------------------
+
+    def plot_path(self, **options: Any) -> Picture:
+        """The way that the turtle went, on the map, from what /turtle1/pose said."""
+        from ..lab.path import plot_path
+
+        return plot_path(self._recording, **options)
+
+    def plot_status(self, **options: Any) -> Picture:
+        """Position, heading, velocity and battery over time, from what /robot/status said."""
+        from ..lab.status import plot_status
+
+        return plot_status(self._recording, **options)
+
+    def plot_scan(self) -> Picture:
+        """The last scan that /obstacles brought, as the turtle sees it."""
+        from ..lab.scan import plot_scan
+
+        return plot_scan(self._recording)
+
+    def plot_graph(self) -> GraphPicture:
+        """Which nodes there are, and by which topics and services they are joined."""
+        from ..lab.graph import plot_graph
+
+        return plot_graph(self._recording.node)
