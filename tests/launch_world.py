@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any, cast
 
 import turtle_lesson  # noqa: F401  (makes launch and launch_ros importable)
-from turtle_lesson.ros.build.index import PackageIndex
-from turtle_lesson.ros.build.package import Package
+from turtle_lesson.ros.ament.index import PackageIndex
+from turtle_lesson.ros.ament.package import Package
 from turtle_lesson.ros.launching import LaunchHandle, launch_file
 
 

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from turtle_lesson.ros.build.cmake import CMakeFile, Installed, Program, evaluate
-from turtle_lesson.ros.build.cmake_syntax import CMakeError, read_calls
+from turtle_lesson.ros.ament.cmake import CMakeFile, Installed, Program, evaluate
+from turtle_lesson.ros.ament.cmake_syntax import CMakeError, read_calls
 
 PACKAGE = """\
 cmake_minimum_required(VERSION 3.8)

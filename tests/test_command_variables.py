@@ -10,7 +10,7 @@ from unittest.mock import patch
 import pytest
 from launch_world import write
 
-from turtle_lesson.ros.build.package import Package
+from turtle_lesson.ros.ament.package import Package
 from turtle_lesson.ros.cli.cells import translate
 from turtle_lesson.ros.cli.shell import run_line
 from turtle_lesson.ros.runtime.world import World

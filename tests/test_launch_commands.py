@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from launch_world import write, write_launch_file
 
-from turtle_lesson.ros.build.package import Package
+from turtle_lesson.ros.ament.package import Package
 from turtle_lesson.ros.launching import LaunchError, LaunchHandle, launch_file
 from turtle_lesson.ros.runtime.world import World, open_world
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from launch_world import FakeWorld, launch, node, write, write_launch_file
 
-from turtle_lesson.ros.build.package import Package
+from turtle_lesson.ros.ament.package import Package
 from turtle_lesson.ros.launching import LaunchError, find_launch_file, launch_file
 from turtle_lesson.ros.sim.errors import learners_frames
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from launch_world import FakeWorld, launch, node, write, write_launch_file
 
-from turtle_lesson.ros.build.package import Package
+from turtle_lesson.ros.ament.package import Package
 from turtle_lesson.ros.launching import LaunchError, launch_file, show_arguments
 
 OTHERS = "Node(package='robot_controller', executable='obstacle_detector'),"

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from launch_world import write
 
-from turtle_lesson.ros.build.package import Package
+from turtle_lesson.ros.ament.package import Package
 from turtle_lesson.ros.launching import LaunchHandle, launch_file
 from turtle_lesson.ros.runtime.world import World, open_world
 

@@ -10,7 +10,7 @@ import pytest
 from launch_world import write_launch_file
 
 from turtle_lesson import Lesson, start
-from turtle_lesson.ros.build.package import Package
+from turtle_lesson.ros.ament.package import Package
 from turtle_lesson.ros.cli.shell import run_line
 from turtle_lesson.ros.launching import LaunchHandle, launch_file
 

@@ -9,15 +9,15 @@ from pathlib import Path
 import pytest
 
 import turtle_lesson
-from turtle_lesson.ros.build.cmake_syntax import CMakeError
-from turtle_lesson.ros.build.errors import (
+from turtle_lesson.ros.ament.cmake_syntax import CMakeError
+from turtle_lesson.ros.ament.errors import (
     ExecutableNotFoundError,
     LaunchFileNotFoundError,
     PackageError,
     PackageNotFoundError,
 )
-from turtle_lesson.ros.build.index import PackageIndex, find_launch_file, seeing
-from turtle_lesson.ros.build.package import Package, read_source_package
+from turtle_lesson.ros.ament.index import PackageIndex, find_launch_file, seeing
+from turtle_lesson.ros.ament.package import Package, read_source_package
 
 XML = """\
 <?xml version="1.0"?>

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from turtle_lesson.ros.build.package import PythonProgram
+from turtle_lesson.ros.ament.package import PythonProgram
 from turtle_lesson.ros.runtime.world import World
 
 Capture = pytest.CaptureFixture[str]

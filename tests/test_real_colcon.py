@@ -17,7 +17,7 @@ from test_workspace_build import BROKEN
 from workspace_cases import XML, change, colcon, make_package
 
 from turtle_lesson import start
-from turtle_lesson.ros.build.create import create_package, parse
+from turtle_lesson.ros.ament.create import create_package, parse
 from turtle_lesson.ros.runtime.world import open_world
 
 PACKAGES = "colcon python3-colcon-ros python3-colcon-bash python3-colcon-output ament-cmake rosidl-core g++ make"
@@ -248,7 +248,7 @@ except InvalidPackage as error:
 def test_our_reader_refuses_what_catkin_pkg_refuses(tmp_path: Path, name: str) -> None:
     from xml.etree import ElementTree
 
-    from turtle_lesson.ros.build.manifest import faults_in
+    from turtle_lesson.ros.ament.manifest import faults_in
 
     text = WRONG[name](XML)
     assert (text == XML) == (name == "nothing")

@@ -13,8 +13,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from workspace_cases import change, colcon, make_package, source_in, timeless
 
-from turtle_lesson.ros.build.colcon import run
-from turtle_lesson.ros.build.errors import CompiledProgramError
+from turtle_lesson.ros.ament.colcon import run
+from turtle_lesson.ros.ament.errors import CompiledProgramError
 from turtle_lesson.ros.cli.shell import run_line
 from turtle_lesson.ros.runtime.world import World
 
@@ -441,7 +441,7 @@ def test_an_interface_that_changed_takes_its_time(package: Path, world: World) -
 @pytest.fixture
 def python_package(tmp_path: Path, world: World, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A package that `ros2 pkg create` made."""
-    from turtle_lesson.ros.build.create import create_package, parse
+    from turtle_lesson.ros.ament.create import create_package, parse
 
     (tmp_path / "src").mkdir()
     monkeypatch.chdir(tmp_path)

@@ -12,8 +12,8 @@ import pytest
 from command_cases import cases
 from workspace_cases import colcon, source_in, started
 
-from turtle_lesson.ros.build.create import LICENCES, create_package, parse
-from turtle_lesson.ros.build.manifest import install_scripts, read_manifest, read_setup
+from turtle_lesson.ros.ament.create import LICENCES, create_package, parse
+from turtle_lesson.ros.ament.manifest import install_scripts, read_manifest, read_setup
 from turtle_lesson.ros.runtime.world import World
 
 

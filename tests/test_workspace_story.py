@@ -12,7 +12,7 @@ import pytest
 
 from turtle_lesson.learner import story
 from turtle_lesson.learner.workspace import Workspace, workspace
-from turtle_lesson.ros.build import colcon, create
+from turtle_lesson.ros.ament import colcon, create
 from turtle_lesson.ros.runtime.world import World
 
 NODE = "robot_controller/navigator_node.py"

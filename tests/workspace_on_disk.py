@@ -5,7 +5,7 @@ from __future__ import annotations
 import textwrap
 from pathlib import Path
 
-from turtle_lesson.ros.build.package import Package
+from turtle_lesson.ros.ament.package import Package
 from turtle_lesson.ros.idl.registry import registry
 from turtle_lesson.ros.runtime.world import World
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..ros.build.create import TO_DO_DESCRIPTION, cmake_lists
+from ..ros.ament.create import TO_DO_DESCRIPTION, cmake_lists
 from ..ros.runtime import files
 from ..ros.runtime.files import home
 from . import story
@@ -110,7 +110,7 @@ class Workspace:
 
     def build(self, world: World) -> str:
         """`colcon build` of the package, in this world's terminal. Returns what it printed if it failed, else ""."""
-        from ..ros.build import colcon
+        from ..ros.ament import colcon
 
         said = io.StringIO()
         words = ["build", "--packages-select", PACKAGE]
@@ -123,7 +123,7 @@ class Workspace:
 
     def source(self, world: World) -> None:
         """`source install/setup.bash`, as the start-up file of a terminal does it; nothing where nothing was built."""
-        from ..ros.build.source import overlay
+        from ..ros.ament.source import overlay
 
         if (self.folder / "install" / "setup.bash").exists():
             overlay(world, self.folder / "install")

@@ -223,7 +223,7 @@ def _plan(args: Any, shell: bool) -> tuple[Any, list[str]] | None:
     Raises:
         NotImplementedError: for a command that the computer could not run, and the world cannot.
     """
-    from .build.errors import PackageNotFoundError
+    from .ament.errors import PackageNotFoundError
     from .launching import commands
 
     one = isinstance(args, (str, bytes, os.PathLike))

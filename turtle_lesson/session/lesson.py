@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 from ..learner.story import page_named
 from ..learner.workspace import Workspace, workspace
-from ..ros.build.package import read_source_package
-from ..ros.build.source import make_importable
+from ..ros.ament.package import read_source_package
+from ..ros.ament.source import make_importable
 from ..ros.cli.run_world import set_player
 from ..ros.cli.shell import open_terminal
 from ..ros.distro import chosen_release
@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from ..lab.obstacle_board import ObstacleBoard
     from ..lab.recorder import Recorder
     from ..lab.widgets.backend import Station
+    from ..ros.ament.export import Exported
     from ..ros.bags.recorder import Recording
-    from ..ros.build.export import Exported
     from ..ros.launching import LaunchHandle
     from ..ros.rmw.network import Conditions
     from ..turtlesim.obstacles import Obstacle
@@ -318,7 +318,7 @@ class Lesson(Shelf, Insight):
         `package` is a name ("robot_controller": the learner's, or else the finished one) or a folder. It is checked with
         every rule of the build first. Raises PackageError, which says what a real build would refuse and where.
         """
-        from ..ros.build.export import export_package
+        from ..ros.ament.export import export_package
 
         return export_package(self._world, package, to, overwrite=overwrite)
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from importlib.util import find_spec
 from pathlib import Path
 
-from ..ros.build.package import Package, Target
+from ..ros.ament.package import Package, Target
 from ..ros.tools import demo_packages, program, tf2_packages
 
 # -- sourced ------------------------------------------------------------------------------------------------------

@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..ros import launching
-from ..ros.build.package import Package
-from ..ros.build.source import overlay, overlays, remove_all
+from ..ros.ament.package import Package
+from ..ros.ament.source import overlay, overlays, remove_all
 from ..ros.cli.jobs import Job, jobs
 from ..ros.idl.registry import registry
 from ..ros.runtime.console import CellOutput
@@ -141,7 +141,7 @@ class WorldStage:
         """`colcon build`, which somebody has done before: nothing of it is shown."""
         import io
 
-        from ..ros.build import colcon
+        from ..ros.ament import colcon
 
         said = io.StringIO()
         colcon.run(self._world, ["build"], stdout=said, stderr=said, cwd=folder)

@@ -6,10 +6,10 @@ import sys
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
 
-from ..build.create import add_arguments as add_create_arguments
-from ..build.create import create_package
-from ..build.index import current_packages, package_hint
-from ..build.package import Package
+from ..ament.create import add_arguments as add_create_arguments
+from ..ament.create import create_package
+from ..ament.index import current_packages, package_hint
+from ..ament.package import Package
 from ..idl.names import did_you_mean
 from ..idl.registry import registry
 from ..sim.errors import shown_path

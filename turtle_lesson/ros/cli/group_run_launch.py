@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .. import launching
-from ..build.errors import ExecutableNotFoundError
-from ..build.index import changed_since_built
+from ..ament.errors import ExecutableNotFoundError
+from ..ament.index import changed_since_built
 from ..launching import LaunchError
 from ..runtime.console import FileOutput
 from ..runtime.world import current_world

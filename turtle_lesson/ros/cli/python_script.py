@@ -9,9 +9,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..build.index import current_packages
-from ..build.install_tree import python_folders
-from ..build.package import PythonProgram
+from ..ament.index import current_packages
+from ..ament.install_tree import python_folders
+from ..ament.package import PythonProgram
 from .jobs import lasting
 
 if TYPE_CHECKING:

@@ -186,7 +186,7 @@ class Shell:
 
 def _workspace(world: World, words: Sequence[str], out: Any, error: Any) -> int:
     """`colcon …` and `source …`: the workspace does them."""
-    from ..build import colcon, source
+    from ..ament import colcon, source
 
     program = colcon.run if words[0] == "colcon" else source.source
     return program(world, list(words[1:]), stdout=out, stderr=error, cwd=Path.cwd())

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from types import ModuleType
 
-from ..build.catalog import missing_module
+from ..ament.catalog import missing_module
 from ..idl.names import did_you_mean
 from ..idl.registry import INSTALLED_SEPARATELY, SHARE, registry
 from .attributes import module_left_out, name_left_out
@@ -110,7 +110,7 @@ def _parent(name: str) -> str:
 
 def _left_out(above: str, last: str) -> str:
     """What to do about a folder of modules that is there, but that setup.py does not list."""
-    from ..build.index import current_packages
+    from ..ament.index import current_packages
 
     top = above.partition(".")[0]
     packages = current_packages()

@@ -40,7 +40,7 @@ def find_launch_file(world: World, package: str, file_name: str) -> Path:
     Raises:
         LaunchError: with the words of `ros2 launch`, and what to try.
     """
-    from ..build import index
+    from ..ament import index
 
     try:
         return index.find_launch_file(world.packages, package, file_name)

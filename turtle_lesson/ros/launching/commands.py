@@ -20,9 +20,9 @@ from typing import Any
 
 from launch.actions._processes import Program
 
-from ..build.catalog import why_not_here
-from ..build.errors import ExecutableNotFoundError, NotHereError, PackageNotFoundError
-from ..build.index import current_packages
+from ..ament.catalog import why_not_here
+from ..ament.errors import ExecutableNotFoundError, NotHereError, PackageNotFoundError
+from ..ament.index import current_packages
 from ..sim.errors import shown_path
 from ..sim.process import INTERRUPTED
 

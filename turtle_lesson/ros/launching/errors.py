@@ -9,9 +9,9 @@ import re
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from ..build import catalog
-from ..build.errors import PackageNotFoundError
-from ..build.index import is_launch_file
+from ..ament import catalog
+from ..ament.errors import PackageNotFoundError
+from ..ament.index import is_launch_file
 from ..idl.names import did_you_mean
 from ..sim.errors import is_ours, learners_frames, shorten, shown_path
 

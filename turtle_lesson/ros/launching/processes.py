@@ -20,7 +20,7 @@ from launch.events.process import (
 )
 from launch.utilities import perform_substitutions
 
-from ..build.package import PythonProgram
+from ..ament.package import PythonProgram
 from ..sim.strand import running_strand
 
 if TYPE_CHECKING:

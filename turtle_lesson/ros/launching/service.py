@@ -20,8 +20,8 @@ from launch.actions import EmitEvent
 from launch.event_handlers import OnActionEventBase
 from launch.events import IncludeLaunchDescription, Shutdown
 
-from ..build.errors import NotHereError
-from ..build.index import LaunchedPackages, seeing
+from ..ament.errors import NotHereError
+from ..ament.index import LaunchedPackages, seeing
 from ..runtime.world import current_world
 from ..sim.strand import running_strand
 from .errors import LaunchError, hint_for, place_of, reason_of

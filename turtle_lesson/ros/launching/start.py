@@ -13,7 +13,7 @@ from launch import LaunchDescription, LaunchDescriptionSource
 from launch.actions import IncludeLaunchDescription
 from launch.launch_description_sources import AnyLaunchDescriptionSource
 
-from ..build.index import LaunchedPackages, is_launch_file, seeing
+from ..ament.index import LaunchedPackages, is_launch_file, seeing
 from ..cli.run_world import run_for
 from ..idl.names import did_you_mean
 from ..runtime.world import World

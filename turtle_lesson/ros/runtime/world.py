@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from .. import subprocesses
-from ..build.index import PackageIndex
+from ..ament.index import PackageIndex
 from ..distro import UNCHECKED_FIELDS, VARIABLE, chosen_release
 from ..hints import advice
 from ..idl import checks

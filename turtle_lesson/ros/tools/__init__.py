@@ -15,7 +15,7 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
-from ..build.package import Package, Target
+from ..ament.package import Package, Target
 
 HERE = Path(__file__).resolve().parent
 SITE = HERE.parent / "site"

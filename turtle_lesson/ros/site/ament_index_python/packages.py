@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from turtle_lesson.ros.build.errors import PackageNotFoundError
-from turtle_lesson.ros.build.index import current_packages
+from turtle_lesson.ros.ament.errors import PackageNotFoundError
+from turtle_lesson.ros.ament.index import current_packages
 
 __all__ = [
     "PackageNotFoundError",

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from turtle_lesson.ros.build.index import current_packages
+from turtle_lesson.ros.ament.index import current_packages
 
 from .constants import RESOURCE_INDEX_SUBFOLDER
 from .packages import get_packages_with_prefixes

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from turtle_lesson.ros.build.index import current_packages
+from turtle_lesson.ros.ament.index import current_packages
 
 
 def get_search_paths() -> list[str]:

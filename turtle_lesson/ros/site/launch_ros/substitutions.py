@@ -13,11 +13,11 @@ from launch.substitutions import SubstitutionFailure
 from launch.substitutions._values import arguments
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
-from turtle_lesson.ros.build.errors import ExecutableNotFoundError
-from turtle_lesson.ros.build.index import current_packages
+from turtle_lesson.ros.ament.errors import ExecutableNotFoundError
+from turtle_lesson.ros.ament.index import current_packages
 
 if TYPE_CHECKING:
-    from turtle_lesson.ros.build.package import Target
+    from turtle_lesson.ros.ament.package import Target
 
 __all__ = ["ExecutableInPackage", "FindPackage", "FindPackagePrefix", "FindPackageShare"]
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
-from turtle_lesson.ros.build.index import current_packages
+from turtle_lesson.ros.ament.index import current_packages
 from turtle_lesson.ros.idl.registry import FOLDERS, registry
 
 SITE = Path(__file__).resolve().parents[1]

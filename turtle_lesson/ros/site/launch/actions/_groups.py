@@ -6,8 +6,8 @@ import os
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
-from turtle_lesson.ros.build import catalog
-from turtle_lesson.ros.build.errors import NotHereError
+from turtle_lesson.ros.ament import catalog
+from turtle_lesson.ros.ament.errors import NotHereError
 
 from .._context import EventHandler, LaunchContext
 from .._entities import Action, LaunchDescription, LaunchDescriptionEntity, SomeSubstitutionsType, Substitution

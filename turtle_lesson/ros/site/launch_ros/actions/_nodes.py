@@ -16,7 +16,7 @@ from launch.frontend import Entity, Parser, expose_action
 from launch.substitutions import SubstitutionFailure
 from launch.utilities import ensure_argument_type, normalize_to_list_of_substitutions, perform_substitutions
 
-from turtle_lesson.ros.build.errors import NotHereError
+from turtle_lesson.ros.ament.errors import NotHereError
 from turtle_lesson.ros.sim.errors import shown_path
 
 from ..descriptions import COMPOSABLE, ComposableNode

@@ -1,0 +1,1 @@
+"""ROS packages on disk: `package.xml`, `CMakeLists.txt` and `setup.py` are read, built as `colcon` builds, and found."""

@@ -1,0 +1,345 @@
+"""What `colcon build` makes of an `ament_python` package: its modules, its data files, and a program an entry point.
+
+Of MANIFEST.in, by which `include_package_data=True` goes (facts: setuptools' documentation), what takes files away again
+(`exclude`, `prune`) is not read.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import keyword
+import os
+import re
+from glob import glob
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+from ..idl.names import did_you_mean
+from ..sim.errors import shown_path
+from .discover import Found
+from .install_tree import PYTHON, BuildFailure, Environment, Item, Outcome, check_targets, with_hint
+from .manifest import SetupError, hint_for, install_scripts, read_setup
+
+SITE = f"lib/{PYTHON}/site-packages"
+_ENTRY = re.compile(r"\s*([\w.-]+)\s*=\s*([\w.]+)\s*:\s*([\w.]+)\s*(\[.*\])?\s*")
+PROGRAMS = ("console_scripts", "gui_scripts")
+
+
+def build_ament_python(found: Found, environment: Environment) -> Outcome:
+    """Build one package: what it prints, and what is to be installed if nothing is refused."""
+    try:
+        return _Build(found, environment).run()
+    except SetupError as error:
+        return Outcome(1, with_hint(str(error), [_setup_hint(found, str(error))]), seconds=0.3)
+    except BuildFailure as failure:
+        return Outcome(failure.code, with_hint(failure.text, [failure.hint]), seconds=failure.seconds)
+
+
+def _setup_hint(found: Found, text: str) -> str:
+    where = shown_path(str(found.path / "setup.py"))
+    if "SyntaxError" in text:
+        return f"In {where}: look at this line and at the end of the one before: is a comma or a bracket missing?"
+    return "" if "setup.cfg" in text else f"In {where}."
+
+
+class _Build:
+    """The build of one package."""
+
+    def __init__(self, found: Found, environment: Environment) -> None:
+        self.found = found
+        self.environment = environment
+        self.hints: list[str] = []
+        self.warnings: list[str] = []
+        self.setup: dict[str, Any] = {}
+
+    def run(self) -> Outcome:
+        self._check()
+        self.setup = read_setup(self.found.path)
+        name = str(self.setup.get("name", ""))
+        if name.replace("-", "_") != self.found.name.replace("-", "_"):
+            self.hints.append(
+                f"setup.py says name='{name}', but package.xml says '{self.found.name}': write the same name in both."
+            )
+        if self.setup.get("cmdclass"):
+            self.hints.append("setup.py has commands of its own (cmdclass=…), which are not carried out here.")
+        items = [*self._modules(), *self._data(), *self._programs()]
+        check_targets(items)
+        seconds = 1.7 if self.environment.symlink else 1.3
+        text = with_hint("".join(self.warnings), self.hints)
+        return Outcome(0, text, [], seconds, items, self.found.runtime_dependencies(), [SITE])
+
+    def _check(self) -> None:
+        if self.found.xml_error:
+            file = shown_path(str(self.found.path / "package.xml"))
+            hint = f"{file}: {self.found.xml_error}. {hint_for(self.found.xml_error)}".strip()
+            self.hints.append(f"{hint} Until it is mended, colcon takes the folder for a Python package without ROS.")
+        if not (self.found.path / "setup.py").is_file():
+            where = shown_path(str(self.found.path))
+            hint = "An ament_python package is built from its setup.py."
+            if (self.found.path / "CMakeLists.txt").is_file():
+                hint += " There is a CMakeLists.txt: is <build_type>ament_cmake</build_type> meant in package.xml?"
+            raise BuildFailure(f"error: there is no setup.py in {where}\n", hint, seconds=0.1)
+
+    # -- modules ---------------------------------------------------------------------------------------------------
+
+    def _modules(self) -> list[Item]:
+        items = []
+        packages = self._names("packages")
+        top = {name.partition(".")[0] for name in packages}
+        for name in packages:
+            if not self._folder(name).is_dir():
+                place = self._folder(name).relative_to(self.found.path).as_posix()
+                text = f"error: package directory '{place}' does not exist\n"
+                raise BuildFailure(text, f"setup.py names it in packages=…; make {place}/__init__.py.", seconds=0.5)
+        if self.environment.symlink:  # colcon then puts the whole source folder on the path
+            items += [Item(f"{SITE}/{name}", self._folder(name)) for name in sorted(top)]
+        else:
+            items += [item for name in dict.fromkeys(packages) for item in self._files_of(name)]
+        for module in self._names("py_modules"):
+            file = self.found.path / f"{module}.py"
+            if not file.is_file():
+                hint = "setup.py names it in py_modules=…."
+                raise BuildFailure(f"error: file '{module}.py' does not exist\n", hint, seconds=0.5)
+            items.append(Item(f"{SITE}/{module}.py", file))
+        version = self.setup.get("version", "0.0.0")
+        info = f"{SITE}/{self.found.name}-{version}-py{PYTHON.removeprefix('python')}.egg-info"
+        items.append(
+            Item(f"{info}/PKG-INFO", text=f"Metadata-Version: 2.1\nName: {self.found.name}\nVersion: {version}\n")
+        )
+        items.append(Item(f"{info}/entry_points.txt", text=entry_text(self._entries())))
+        items.append(Item(f"{info}/top_level.txt", text="".join(f"{name}\n" for name in sorted(top))))
+        return items
+
+    def _files_of(self, package: str) -> list[Item]:
+        """What is installed of a package: its own modules, and the other files that `package_data=` names."""
+        folder = self._folder(package)
+        patterns = self.setup.get("package_data") or {}
+        patterns = patterns if isinstance(patterns, dict) else {}
+        wanted = ["*.py", *_texts(patterns.get("")), *_texts(patterns.get(package))]
+        found = [match for pattern in wanted for match in glob(str(folder / pattern), recursive=True)]
+        if self.setup.get("include_package_data"):
+            found += files_in_manifest(self.found.path)
+        inside = [Path(os.path.normpath(match)) for match in found]
+        files = sorted({file for file in inside if file.is_file() and file.is_relative_to(folder)})
+        place = PurePosixPath(SITE, *package.split("."))
+        kept = [file for file in files if file.suffix != ".pyc"]
+        return [Item(f"{place}/{file.relative_to(folder).as_posix()}", file) for file in kept]
+
+    def _names(self, option: str) -> list[str]:
+        """The modules that `packages=` or `py_modules=` lists. setuptools takes `a/b` for `a.b`, too."""
+        given = self.setup.get(option) or []
+        if option == "packages" and isinstance(given, list):
+            given = [name.replace("/", ".").strip(".") if isinstance(name, str) else name for name in given]
+        if not isinstance(given, list) or not all(
+            isinstance(name, str) and all(map(str.isidentifier, name.split("."))) for name in given
+        ):
+            text = f"error in {self.found.name} setup command: '{option}' must be a list of module names\n"
+            raise BuildFailure(text, f"Write {option}=['{self.found.name}'], with brackets.", seconds=0.5)
+        return given
+
+    def _folder(self, package: str) -> Path:
+        """Where a package lies: in its own folder, unless `package_dir=` says otherwise."""
+        given = self.setup.get("package_dir") or {}
+        places = {str(name): str(place) for name, place in given.items()} if isinstance(given, dict) else {}
+        top, *inner = package.split(".")
+        place = places.get(top) or "/".join(filter(None, (places.get("", ""), top)))
+        folder = self.found.path.joinpath(place, *inner)
+        if not folder.resolve().is_relative_to(self.found.path.resolve()):
+            text = f"error: package_dir: '{place[:80]}' lies outside the package's folder\n"
+            raise BuildFailure(text, "Put the modules into the package.", seconds=0.5)
+        return folder
+
+    # -- data files ------------------------------------------------------------------------------------------------
+
+    def _data(self) -> list[Item]:
+        items = []
+        given = self.setup.get("data_files") or []
+        for entry in given if isinstance(given, list) else [given]:
+            if isinstance(entry, str):
+                items.append(self._data_file("", entry))
+                continue
+            files = entry[1] if isinstance(entry, list) and len(entry) == 2 else None
+            if isinstance(files, str) and isinstance(entry[0], str):
+                hint = f"data_files needs a list of files, even for a single one: write ('{entry[0]}', ['{files}'])."
+                raise BuildFailure("AssertionError\n", hint, seconds=0.5)
+            if not isinstance(files, list) or not all(isinstance(name, str) for name in [entry[0], *files]):
+                text = f"error: data_files has {str(entry)[:80]}, which is not of the form ('folder', ['file', …])\n"
+                raise BuildFailure(text, "Write ('share/' + package_name, ['package.xml']),.", seconds=0.5)
+            items += [self._data_file(entry[0], name) for name in files]
+        return self._with_markers(items)
+
+    def _data_file(self, place: str, name: str) -> Item:
+        source = self.found.path / name
+        parts = PurePosixPath(place.replace(os.sep, "/"))
+        if parts.is_absolute() or ".." in parts.parts or ":" in place:
+            text = f"error: data_files: '{place}' lies outside the package's install folder\n"
+            raise BuildFailure(text, f"Use a place such as 'share/{self.found.name}'.", seconds=0.5)
+        if Path(name).is_absolute():
+            text = f"AssertionError: 'data_files' must be relative, '{name}' is absolute\n"
+            inside = source.relative_to(self.found.path) if source.is_relative_to(self.found.path) else source.name
+            hint = f"Give the path relative to the folder of setup.py: '{inside}'."
+            raise BuildFailure(text, hint, seconds=0.5)
+        if not source.is_file():
+            there = [
+                path.relative_to(self.found.path).as_posix() for path in self.found.path.rglob("*") if path.is_file()
+            ]
+            text = f"error: can't copy '{name}': doesn't exist or not a regular file\n"
+            raise BuildFailure(
+                text, f"setup.py names it in data_files. {did_you_mean(name, there)}".strip(), seconds=0.6
+            )
+        can_run = os.name != "nt" and os.access(source, os.X_OK)  # a program stays one
+        return Item((parts / source.name).as_posix(), source, program=can_run)
+
+    def _with_markers(self, items: list[Item]) -> list[Item]:
+        """The items and what ROS 2 finds the package by, which colcon adds where setup.py does not name it."""
+        name = self.found.name
+        targets = {item.target for item in items}
+        marker = f"share/ament_index/resource_index/packages/{name}"
+        start = f"WARNING:colcon.colcon_ros.task.ament_python.build:Package '{name}' doesn't explicitly install"
+        end = "(colcon-ros currently does it implicitly but that fallback will be removed in the future)\n"
+        if self.found.kind == "python":
+            if marker not in targets:
+                entry = f"('{marker.rpartition('/')[0]}', ['resource/{name}'])"
+                self.hints.append(f"ros2 does not find {name} on a robot: add {entry} to data_files in setup.py.")
+            return items
+        if marker not in targets:
+            self.warnings.append(f"{start} a marker in the package index {end}")
+            items.append(Item(marker))
+        if f"share/{name}/package.xml" not in targets:
+            self.warnings.append(f"{start} the 'package.xml' file {end}")
+            items.append(Item(f"share/{name}/package.xml", self.found.path / "package.xml"))
+        return items
+
+    # -- programs --------------------------------------------------------------------------------------------------
+
+    def _entries(self) -> dict[str, list[str]]:
+        groups = entry_groups(self.setup.get("entry_points") or {})
+        if groups is None:
+            hint = "Write entry_points={'console_scripts': ['name = package.module:main']},."
+            raise BuildFailure("error: entry_points must be a dictionary\n", hint, seconds=0.5)
+        return groups
+
+    def _programs(self) -> list[Item]:
+        place = install_scripts(self.found.path)
+        items = []
+        for name in _texts(self.setup.get("scripts")):
+            source = self.found.path / name
+            if not source.is_file():
+                text = f"error: file '{source}' does not exist\n"
+                raise BuildFailure(text, f"setup.py names {name} in scripts=….", seconds=0.5)
+            items.append(Item(f"{place or 'bin'}/{source.name}", source, program=True))
+        for line in program_lines(self._entries()):
+            match = _ENTRY.fullmatch(line)
+            if match is None:
+                text = f"error in {self.found.name} setup command: ('Invalid entry point: ', {line!r})\n"
+                hint = f"It looks like 'my_node = {self.found.name}.my_node:main'."
+                raise BuildFailure(text, hint, seconds=0.5)
+            name, module, function = match[1], match[2], match[3]
+            self._check_entry(name, module, function)
+            text = _PROGRAM.format(line=line.strip(), imports=_imports(module, function), function=function)
+            items.append(Item(f"{place or 'bin'}/{name}", text=text, program=True))
+        if items and place != f"lib/{self.found.name}":
+            self.hints.append(
+                f"setup.cfg puts programs into {place or 'bin'}/, where ros2 run does not look: write in it [develop] "
+                f"script_dir=$base/lib/{self.found.name} and [install] install_scripts=$base/lib/{self.found.name}."
+            )
+        return items
+
+    def _check_entry(self, name: str, module: str, function: str) -> None:
+        """A real build does not look; the program would end with an error when it is run."""
+        file = self._folder(module)
+        source = file.with_suffix(".py") if file.with_suffix(".py").is_file() else file / "__init__.py"
+        own = module.partition(".")[0] in {each.partition(".")[0] for each in self._names("packages")}
+        if source.is_file():
+            text = source.read_text(encoding="utf-8", errors="replace")
+            if not re.search(rf"\b{re.escape(function.partition('.')[0])}\b", text):
+                self.hints.append(f"entry point '{name}': {module} has no {function}(), so `ros2 run` will fail.")
+        elif own or importlib.util.find_spec(module.partition(".")[0]) is None:
+            modules = [
+                ".".join(path.relative_to(self.found.path).with_suffix("").parts)
+                for path in sorted(self.found.path.rglob("*.py"))
+            ]
+            close = did_you_mean(module, modules)
+            self.hints.append(
+                f"entry point '{name}': there is no module {module}, so `ros2 run` will fail. {close}".strip()
+            )
+
+
+_PROGRAM = """\
+#!/usr/bin/python3
+# EASY-INSTALL-ENTRY-SCRIPT: made by colcon build from the entry point '{line}'
+{imports}
+
+sys.exit({function}())
+"""
+
+
+def _imports(module: str, function: str) -> str:
+    """The lines that import `function`. A name such as 2_turtles.py suits no `import`, but is loaded all the same."""
+    first = function.partition(".")[0]
+    if all(part.isidentifier() and not keyword.iskeyword(part) for part in module.split(".")):
+        return f"import sys\n\nfrom {module} import {first}"
+    return f"import importlib\nimport sys\n\n{first} = importlib.import_module({module!r}).{first}"
+
+
+def _texts(given: Any) -> list[str]:
+    """The texts of an option that may be a list, a text or left out."""
+    return [given] if isinstance(given, str) else [each for each in given or [] if isinstance(each, str)]
+
+
+def entry_groups(given: Any) -> dict[str, list[str]] | None:
+    """The lines of each group; None if this is neither a dictionary nor a text with a `[group]` above its lines."""
+    groups = _sections(given) if isinstance(given, str) else given
+    if not isinstance(groups, dict):
+        return None
+    found: dict[str, list[str]] = {}
+    for group, lines in groups.items():
+        if isinstance(lines, str):
+            found[str(group)] = [line for line in lines.splitlines() if line.strip()]
+        else:
+            found[str(group)] = list(map(str, lines if isinstance(lines, list) else [lines] if lines else []))
+    return found
+
+
+def program_lines(groups: dict[str, list[str]]) -> list[str]:
+    """The lines that become programs."""
+    return [line for group in PROGRAMS for line in groups.get(group, [])]
+
+
+def entry_text(groups: dict[str, list[str]]) -> str:
+    """What an installed package's entry_points.txt says, where `importlib.metadata` finds plugins of all packages."""
+    return "\n".join(f"[{group}]\n" + "".join(f"{line.strip()}\n" for line in lines) for group, lines in groups.items())
+
+
+def _sections(text: str) -> dict[str, list[str]]:
+    groups: dict[str, list[str]] = {}
+    for line in filter(None, map(str.strip, text.splitlines())):
+        if line.startswith("[") and line.endswith("]"):
+            groups[line[1:-1].strip()] = []
+        elif groups and not line.startswith(("#", ";")):
+            groups[list(groups)[-1]].append(line)
+    return groups
+
+
+def files_in_manifest(folder: Path) -> list[str]:
+    """The paths of the files that a folder's MANIFEST.in names; none without one."""
+    manifest = folder / "MANIFEST.in"
+    if not manifest.is_file():
+        return []
+    lines = manifest.read_text(encoding="utf-8", errors="replace").splitlines()
+    return [path for line in lines for path in _named(folder, line.partition("#")[0].split())]
+
+
+def _named(folder: Path, words: list[str]) -> list[str]:
+    match words:
+        case ["include", *patterns]:
+            places = [folder / pattern for pattern in patterns]
+        case ["recursive-include", below, *patterns]:
+            places = [folder / below / "**" / pattern for pattern in patterns]
+        case ["graft", below]:
+            places = [folder / below / "**"]
+        case ["global-include", *patterns]:
+            places = [folder / "**" / pattern for pattern in patterns]
+        case _:
+            places = []
+    return [path for place in places for path in glob(str(place), recursive=True)]

@@ -1,0 +1,379 @@
+"""`colcon`: its verbs `build`, `list` and `graph`, their arguments, and what it says about wrong ones."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING, NoReturn, TextIO
+
+from ..idl.names import did_you_mean
+from ..idl.registry import INSTALLED_SEPARATELY, Registry
+from ..sim.errors import shown_path
+from ..sim.simulation import NANOSECONDS
+from .build import DEFAULTS, OTHERS, Plan, build
+from .catalog import CMAKE_PACKAGES, PYTHON_PACKAGES
+from .discover import (
+    ColconError,
+    Found,
+    UnknownPackageError,
+    add_selection,
+    build_type_hint,
+    choose,
+    discover,
+    in_order,
+    needed_by,
+)
+from .install_tree import prefix_of
+
+if TYPE_CHECKING:
+    from ..runtime.world import World
+
+
+VERBS = (
+    "build", "extension-points", "extensions", "graph", "info", "list", "metadata", "test", "test-result",
+    "version-check",
+)  # fmt: skip
+_HERE = ("build", "graph", "list")
+_INSTEAD = {
+    "info": "colcon list shows the packages, and each package.xml says more about its package.",
+    "test": "run a package's tests with pytest: !python -m pytest src/<package>/test",
+    "test-result": "pytest itself says how the tests went.",
+}
+_USAGE = (
+    "usage: colcon [-h] [--log-base LOG_BASE] [--log-level LOG_LEVEL]\n              {{{verbs}}}\n              ...\n"
+)
+_HELP = """\
+
+Build the packages of a workspace, each one after those that it depends on.
+
+verbs:
+  build   build packages and install them into install/ (colcon build -h says more)
+  list    show the packages below this folder: name, place, type
+  graph   show which package depends on which
+"""
+_ROS = "/opt/ros/humble"
+_TEXT = """\
+Some selected packages are already built in one or more underlay workspaces:
+\t{where}
+If a package in a merged underlay workspace is overridden and it installs headers, then all packages in the overlay must \
+sort their include directories by workspace order. Failure to do so may result in build failures or undefined behavior at \
+run time.
+If the overridden package is used by another package in any underlay, then the overriding package in the overlay must be \
+API and ABI compatible or undefined behavior at run time may occur.
+
+If you understand the risks and want to override a package anyways, add the following to the command line:
+\t--allow-overriding {names}
+
+This may be promoted to an error in a future release of colcon-override-check."""
+
+
+class _Exit(Exception):
+    """The command ends with this exit code."""
+
+    def __init__(self, code: int) -> None:
+        super().__init__(code)
+        self.code = code
+
+
+class _Parser(argparse.ArgumentParser):
+    """An argument parser that prints to the command's own streams."""
+
+    out: TextIO
+    err: TextIO
+
+    def _print_message(self, message: str, file: object = None) -> None:
+        self.out.write(message)
+
+    def exit(self, status: int = 0, message: str | None = None) -> NoReturn:
+        """End the command."""
+        if message:
+            self.err.write(message)
+        raise _Exit(status)
+
+    def error(self, message: str) -> NoReturn:
+        """Say what is wrong with the arguments."""
+        self.refuse(f"{self.format_usage()}{self.prog}: error: {message[:300]}")
+
+    def refuse(self, text: str, hint: str = "") -> NoReturn:
+        """End with a text, and with what to try."""
+        self.err.write(f"{text}\n{hint}\n" if hint else f"{text}\n")
+        raise _Exit(2)
+
+    def parse_all(self, words: list[str]) -> argparse.Namespace:
+        """The arguments; what is left over is refused in colcon's words."""
+        args, unknown = self.parse_known_args(words)
+        if unknown:
+            options = [each for action in self._actions for each in action.option_strings if each.startswith("--")]
+            text = f"{_USAGE.format(verbs=','.join(VERBS))}colcon: error: unrecognized arguments: {' '.join(unknown)[:300]}"
+            hint = did_you_mean(unknown[0].partition("=")[0][:60], options)
+            self.refuse(text, hint or f"{self.prog} -h lists what it takes.")
+        return args
+
+
+def run(world: World, words: list[str], *, stdout: TextIO, stderr: TextIO, cwd: Path | None = None) -> int:
+    """Carry out `colcon WORDS…` in a folder; return the exit code."""
+    usage = _USAGE.format(verbs=",".join(VERBS))
+    while words and words[0].partition("=")[0] in {"--log-base", "--log-level"}:
+        words = words[1 if "=" in words[0] else 2 :]  # accepted, but without effect here
+    if not words:
+        stdout.write(usage + "\n")
+        stderr.write("Error: No verb provided\n")
+        return 1
+    if words[0] in {"-h", "--help"}:
+        stdout.write(usage + _HELP)
+        return 0
+    verb = words[0]
+    if verb not in VERBS:
+        choices = ", ".join(map(repr, VERBS))
+        said = f"colcon: error: argument verb_name: invalid choice: {verb[:60]!r} (choose from {choices})\n"
+        close = did_you_mean(verb[:60], VERBS)
+        stderr.write(usage + said + (f"{close}\n" if close else ""))
+        return 2
+    if verb not in _HERE:
+        instead = _INSTEAD.get(verb, "build, list and graph are.")
+        stderr.write(f"colcon {verb} is not available here; {instead}\n")
+        return 1
+    command = _Command(world, verb, stdout, stderr, (cwd or Path.cwd()).resolve())
+    try:
+        return command.run(words[1:])
+    except _Exit as end:
+        return end.code
+    except UnknownPackageError as error:
+        stderr.write(f"{error}\n")
+        return 1
+    except ColconError as error:
+        stderr.write(f"[{command.clock()}s] ERROR:colcon:colcon {verb}: {error}\n")
+        return 1
+    except (OSError, ValueError, RuntimeError) as error:  # an unusable folder, or a loop of links
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        named = f": {str(error.filename)[:100]}" if isinstance(error, OSError) and error.filename else ""
+        stderr.write(f"[{command.clock()}s] ERROR:colcon:colcon {verb}: {reason}{named}\n")
+        return 1
+
+
+class _Command:
+    """One `colcon` command."""
+
+    def __init__(self, world: World, verb: str, out: TextIO, err: TextIO, cwd: Path) -> None:
+        self.world = world
+        self.verb = verb
+        self.out, self.err = out, err
+        self.cwd = cwd
+        self.began = world.now
+
+    def clock(self) -> str:
+        """What colcon writes before its warnings: the seconds since it began."""
+        return f"{(self.world.now - self.began) / NANOSECONDS + 0.2:.3f}"
+
+    def run(self, words: list[str]) -> int:
+        args = self._parse(words)
+        found = self._found(args)
+        chosen = choose(args, found, self._warn)
+        if self.verb == "list":
+            return self._list(args, chosen)
+        if self.verb == "graph":
+            return self._graph(chosen)
+        return self._build(args, chosen, found)
+
+    def _parse(self, words: list[str]) -> argparse.Namespace:
+        parser = _Parser(
+            f"colcon {self.verb}",
+            description=_DESCRIPTIONS[self.verb],
+            formatter_class=lambda prog: argparse.HelpFormatter(prog, width=80),
+        )
+        parser.out, parser.err = self.out, self.err
+        add_selection(parser)
+        if self.verb == "build":
+            _add_build(parser)
+        elif self.verb == "list":
+            either = parser.add_mutually_exclusive_group()
+            either.add_argument("--names-only", "-n", action="store_true", help="show only the names")
+            either.add_argument("--paths-only", "-p", action="store_true", help="show only the places")
+            parser.add_argument("-g", "--topological-graph", action="store_true", help=argparse.SUPPRESS)
+            parser.add_argument(
+                "-t",
+                "--topological-order",
+                action="store_true",
+                help="order them so that each comes after those it depends on",
+            )
+        return parser.parse_all(_without_cmake_arguments(words, parser))
+
+    def _warn(self, text: str, module: str = "colcon.colcon_core.package_selection") -> None:
+        self.err.write(f"[{self.clock()}s] WARNING:{module}:{text}\n")
+
+    def _found(self, args: argparse.Namespace) -> list[Found]:
+        found: list[Found] = []
+        for base in args.base_paths or ["."]:
+            folder = (self.cwd / base).resolve()
+            if not folder.is_dir():
+                self._warn(f"the base path '{base}' doesn't exist", "colcon.colcon_core.package_discovery")
+                continue
+            found += [each for each in discover(folder, self.cwd) if each.path not in {other.path for other in found}]
+        return found
+
+    def _list(self, args: argparse.Namespace, chosen: list[Found]) -> int:
+        if args.topological_graph:
+            obsolete = "The list options --topological-graph / -g are obsolete, instead use `colcon graph`"
+            self.err.write(f"{obsolete}\n")
+            return 1
+        ordered = in_order(chosen)
+        for each in ordered if args.topological_order else sorted(chosen, key=lambda each: each.name):
+            line = f"{each.name}\t{each.shown}\t({each.kind})"
+            self.out.write((each.name if args.names_only else each.shown if args.paths_only else line) + "\n")
+        return 0
+
+    def _graph(self, chosen: list[Found]) -> int:
+        ordered = in_order(chosen)
+        width = max((len(each.name) for each in ordered), default=0) + 2
+        for place, each in enumerate(ordered):
+            marks = "".join(_mark(each, other, chosen) for other in ordered[place + 1 :])
+            self.out.write(f"{each.name.ljust(width + place)}+{marks}\n")
+        return 0
+
+    def _build(self, args: argparse.Namespace, chosen: list[Found], found: list[Found]) -> int:
+        for each in chosen:
+            if not each.buildable:
+                text = f"No task extension to 'build' a '{each.kind}' package"
+                self._warn(text, "colcon.colcon_core.verb")
+                place = f"{each.shown}/package.xml"
+                self.err.write(f"Hint: {place}: the build_type is unknown. {build_type_hint(each.build_type)}\n")
+        if not found:
+            where = "its src/" if (self.cwd / "src").is_dir() else "it"
+            above = self.cwd.parent / "src"
+            hint = "Go to the workspace first: cd .." if above.is_dir() and above != self.cwd else ""
+            text = f"Hint: no folder in {where} has a package.xml; ros2 pkg create makes one. {hint}".rstrip()
+            self.err.write(f"{text}\n")
+        if text := overridden(self.world, chosen, self.cwd / args.install_base, args.allow_overriding):
+            self._warn(text)
+        plan = Plan(
+            base=self.cwd,
+            packages=chosen,
+            install=self.cwd / args.install_base,
+            build=self.cwd / args.build_base,
+            log=self.cwd / "log",
+            workspace=found,
+            symlink=args.symlink_install,
+            merged=args.merge_install,
+            go_on=args.continue_on_error,
+            workers=1 if args.executor == "sequential" else max(1, args.parallel_workers),
+            handlers=self._handlers(args.event_handlers or []),
+        )
+        for folder in (plan.install, plan.build):
+            if folder.exists() and not folder.is_dir():
+                raise ColconError(f"{folder.name} is a file; it must be a folder")
+            if any(each.path.is_relative_to(folder.resolve() / each.name) for each in found):
+                raise ColconError(f"{folder.name} is the folder of the sources; choose another folder")
+        if self.cwd.name == "src" and found and not (self.cwd / "src").is_dir():
+            self.err.write(
+                "Hint: this is src/, so install/ is made in it. Packages are usually built in the folder above.\n"
+            )
+        return build(self.world, plan, stdout=self.out, stderr=self.err)
+
+    def _handlers(self, words: list[str]) -> dict[str, bool]:
+        handlers = {}
+        for word in words:
+            name, sign = word[:-1], word[-1:]
+            if sign not in {"+", "-"} or name not in {*DEFAULTS, *OTHERS}:
+                known = sorted({*DEFAULTS, *OTHERS})
+                text = f"--event-handlers: '{word[:60]}' is not NAME+ or NAME-."
+                hint = did_you_mean(name if sign in {"+", "-"} else word, known) or f"Known are {', '.join(known)}."
+                raise ColconError(f"{text} {hint}")
+            if name in DEFAULTS:
+                handlers[name] = sign == "+"
+        return handlers
+
+
+def _mark(each: Found, other: Found, chosen: list[Found]) -> str:
+    """How `other` depends on a package: itself, through others, or not at all."""
+    if each.name in other.dependencies:
+        return "*"
+    return "." if each.name in needed_by(chosen, [other.name]) else " "
+
+
+_DESCRIPTIONS = {
+    "build": "Build the packages below this folder, and install them into install/.",
+    "list": "Show the packages below this folder.",
+    "graph": "Show which package depends on which: a * marks a direct dependency.",
+}
+
+
+_CMAKE_ARGUMENTS = {"--cmake-args", "--ament-cmake-args", "--catkin-cmake-args"}
+
+
+def _without_cmake_arguments(words: list[str], parser: argparse.ArgumentParser) -> list[str]:
+    """The words without what CMake is to get, such as `-DCMAKE_BUILD_TYPE=Release` after `--cmake-args`."""
+    options = {option for action in parser._actions for option in action.option_strings}
+    kept: list[str] = []
+    for_cmake = False
+    for word in words:
+        for_cmake = word in _CMAKE_ARGUMENTS or (for_cmake and word not in options)
+        if not for_cmake:
+            kept.append(word)
+    return kept
+
+
+def _add_build(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--build-base", default="build", help="folder for intermediate files (default: build)")
+    parser.add_argument("--install-base", default="install", help="folder for installed files (default: install)")
+    parser.add_argument(
+        "--merge-install", action="store_true", help="one folder for all packages instead of one for each"
+    )
+    parser.add_argument(
+        "--symlink-install", action="store_true", help="link to the files in src/, so that an edit takes effect at once"
+    )
+    parser.add_argument(
+        "--continue-on-error", action="store_true", help="continue with the packages that do not depend on a failed one"
+    )
+    parser.add_argument(
+        "--executor",
+        choices=["parallel", "sequential"],
+        default="parallel",
+        help="whether to build several packages at a time",
+    )
+    parser.add_argument(
+        "--parallel-workers", type=int, default=4, metavar="NUMBER", help="how many packages to build at a time"
+    )
+    parser.add_argument("--event-handlers", nargs="*", metavar="NAME+", help="e.g. console_direct+ shows all output")
+    for option in sorted(_CMAKE_ARGUMENTS):
+        parser.add_argument(option, nargs="*", metavar="*", help="accepted, but without effect here")
+    parser.add_argument("--allow-overriding", nargs="+", default=[], metavar="PKG_NAME", help="of an underlay")
+    parser.add_argument("--cmake-clean-first", action="store_true", help="accepted, but without effect here")
+    parser.add_argument("--cmake-clean-cache", action="store_true", help="accepted, but without effect here")
+    parser.add_argument("--cmake-force-configure", action="store_true", help="accepted, but without effect here")
+
+
+def overridden(world: World, chosen: list[Found], install: Path, allowed: list[str]) -> str:
+    """The warning about packages that are built although an underlay has them, and other packages there need them.
+
+    It is empty where there are none. The last package of a chain, on which nothing else depends (such as robot_controller), may
+    be overridden without a word. Facts: colcon-override-check 0.0.1, which comes with ROS 2.
+    """
+    built_in = {*CMAKE_PACKAGES, *PYTHON_PACKAGES, *Registry().packages()} - INSTALLED_SEPARATELY
+    needed = _needed_in_underlays(world, install)
+    places: dict[str, str] = {}
+    for found in chosen:
+        if found.name in allowed:
+            continue
+        if found.name in built_in:
+            places[found.name] = _ROS
+        elif found.name in needed:
+            places[found.name] = needed[found.name]
+    where = "\n\t".join(f"'{name}' is in: {place}" for name, place in places.items())
+    return _TEXT.format(where=where, names=" ".join(sorted(places))) if places else ""
+
+
+def _needed_in_underlays(world: World, install: Path) -> dict[str, str]:
+    """The packages of other install folders on which packages there depend, each with its place."""
+    install = install.resolve()
+    outside = {
+        each.name: each.prefix
+        for each in world.packages
+        if each.prefix and each.prefix not in {install, prefix_of(install, each.prefix.name)}
+    }
+    places = {}
+    for name, prefix in outside.items():
+        file = prefix / "share" / "colcon-core" / "packages" / name
+        for other in file.read_text(encoding="utf-8").split(":") if file.is_file() else []:
+            if other in outside:
+                places[other] = shown_path(str(outside[other]))
+    return places

@@ -1,0 +1,258 @@
+"""`lesson.export(…)`: a package as it goes to a robot: checked with every rule of the build, and with a README."""
+
+from __future__ import annotations
+
+import ast
+import shutil
+import tempfile
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..idl.names import did_you_mean
+from ..idl.registry import registry
+from ..sim.errors import shown_path
+from .ament_cmake import build_ament_cmake
+from .ament_python import build_ament_python
+from .catalog import CMAKE_PACKAGES, PYTHON_PACKAGES
+from .discover import Found, build_type_hint, discover, read_found
+from .errors import PackageError
+from .index import is_launch_file
+from .install_tree import Environment, Outcome
+
+if TYPE_CHECKING:
+    from ..distro import Release
+    from ..runtime.world import World
+
+__all__ = [
+    "Exported",
+    "export_package",
+]
+
+
+_LEFT_OUT = (
+    "__pycache__",
+    "*.pyc",
+    ".git",
+    ".ipynb_checkpoints",
+    ".mypy_cache",
+    ".pytest_cache",
+    "build",
+    "install",
+    "log",
+)
+_TEXT = {".py", ".xml", ".txt", ".msg", ".srv", ".action", ".cfg", ".yaml", ".yml", ".md", ""}
+_OURS = "turtle_lesson"
+
+
+@dataclass
+class Exported:
+    """What was written: the workspace's folder, the package in it, and what to look at before a robot runs it."""
+
+    folder: Path
+    package: Path
+    name: str
+    programs: list[str] = field(default_factory=list)
+    interfaces: list[str] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+
+    def __repr__(self) -> str:
+        lines = [f"{self.name} is in {shown_path(str(self.package))}/; README.md beside src/ says how to build it."]
+        lines.append(
+            "Copy src/ and README.md to the robot, but not build/, install/ or log/: the robot builds its own."
+        )
+        lines.append(f"programs: {', '.join(self.programs) or 'none'}")
+        lines.append(f"interfaces: {', '.join(self.interfaces) or 'none'}")
+        return "\n".join(lines + [f"look at: {note}" for note in self.notes])
+
+
+def export_package(world: World, package: str | Path, to: str | Path, *, overwrite: bool = False) -> Exported:
+    """Write a package into `to`/src, and a README of the commands to build it.
+
+    Args:
+        world: where a package of this name is looked for, unless it is below the current folder.
+        package: its name, or the folder of its source.
+        to: the workspace's folder; it is made where it is missing.
+        overwrite: whether to replace a package that lies there already.
+
+    Raises:
+        PackageError: there is no such package, or a real build would refuse it (with the build's own words).
+    """
+    found = _find(world, package)
+    target = Path(to).expanduser().resolve() / "src" / found.name
+    _check_target(found, target, overwrite)
+    outcome = _checked(found)
+    for file, tree in _sources(found.path):
+        for name, line in _imports(tree):
+            if name == _OURS:
+                raise PackageError(
+                    f"this imports {_OURS}", file, line, "A robot does not have it: use only rclpy and the topics."
+                )
+    if target.exists():
+        shutil.rmtree(target)
+    shutil.copytree(found.path, target, ignore=shutil.ignore_patterns(*_LEFT_OUT))
+    _make_fit(found, target, outcome)
+    result = _describe(found, target, outcome, world.release)
+    (target.parent.parent / "README.md").write_text(_readme(result, found), encoding="utf-8", newline="\n")
+    return result
+
+
+def _find(world: World, package: str | Path) -> Found:
+    folder = Path(package)
+    if (folder / "package.xml").is_file():
+        return read_found(folder.resolve(), folder.resolve().parent)
+    name = str(package)
+    here = {each.name: each for each in discover(Path.cwd() / "src", Path.cwd())}
+    if name in here:
+        return here[name]
+    known = {each.name: each.source for each in world.packages if each.source is not None}
+    source = known.get(name)
+    if source is None and name == "robot_controller":
+        source = Path(__file__).resolve().parents[2] / "robot_controller"
+    if source is None:
+        names = {*here, *known, "robot_controller"}
+        hint = did_you_mean(name, names) or f"There are: {', '.join(sorted(names))}."
+        raise PackageError(f"the source of the package {name!r} is not known", hint=hint)
+    return read_found(source, source.parent)
+
+
+def _check_target(found: Found, target: Path, overwrite: bool) -> None:
+    if target == found.path or found.path in target.parents or target in found.path.parents:
+        raise PackageError(f"{shown_path(str(target))} is the package's own source; export it to another folder")
+    readme = target.parent.parent / "README.md"
+    own = readme.exists() and "package from Turtle Lesson" not in readme.read_text(encoding="utf-8", errors="replace")
+    if (target.exists() or own) and not overwrite:
+        hint = "Choose another folder, or write overwrite=True."
+        raise PackageError(f"{shown_path(str(readme if own else target))} already exists", hint=hint)
+
+
+def _checked(found: Found) -> Outcome:
+    """What a build makes of it; an error where a build would fail."""
+    if not found.buildable:
+        hint = build_type_hint(found.build_type)
+        raise PackageError(f"the build_type '{found.build_type}' is unknown", found.path / "package.xml", hint=hint)
+    from .build import types_for
+
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = Path(scratch)
+        types = types_for(found, {})
+        environment = Environment(folder / "install", folder / "build", frozenset(registry.packages()), types)
+        outcome = (build_ament_python if found.is_python else build_ament_cmake)(found, environment)
+    if outcome.code:
+        raise PackageError(f"a real build would refuse {found.name}:\n{outcome.stderr.strip()}")
+    return outcome
+
+
+def _sources(folder: Path) -> Iterator[tuple[Path, ast.Module]]:
+    for file in sorted(folder.rglob("*.py")):
+        if not {"build", "install", "log", "test"} & set(file.relative_to(folder).parts):
+            try:
+                yield file, ast.parse(file.read_bytes())
+            except SyntaxError as error:
+                raise PackageError(f"this is not valid Python ({error.msg})", file, error.lineno) from None
+
+
+def _imports(tree: ast.Module) -> Iterator[tuple[str, int]]:
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from ((alias.name.partition(".")[0], node.lineno) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
+            yield node.module.partition(".")[0], node.lineno
+
+
+def _make_fit(found: Found, target: Path, outcome: Outcome) -> None:
+    """Line ends as Linux wants them, and programs that can be run."""
+    for file in target.rglob("*"):
+        if file.is_file() and file.suffix in _TEXT and b"\r\n" in (data := file.read_bytes()):
+            file.write_bytes(data.replace(b"\r\n", b"\n"))
+    for item in outcome.items:
+        if item.program and item.source is not None:
+            (target / item.source.relative_to(found.path)).chmod(0o755)
+
+
+def _describe(found: Found, target: Path, outcome: Outcome, release: Release) -> Exported:
+    programs = [item.target.rpartition("/")[2] for item in outcome.items if item.program]
+    share = f"share/{found.name}/"
+    interfaces = [item.target.removeprefix(share) for item in outcome.items if item.source and item.copied]
+    notes = [line.removeprefix("Hint: ") for line in outcome.stderr.splitlines() if line.startswith("Hint: ")]
+    notes += _missing_dependencies(found)
+    notes += _newer_than(release, found)
+    if (Path.cwd() / "src").is_dir() and Path.cwd() in target.parents:
+        notes.append(
+            f"{shown_path(str(target))} lies in this workspace, where colcon build now finds {found.name} twice"
+        )
+    folder = target.parent.parent
+    if built := [f"{name}/" for name in ("build", "install", "log") if (folder / name).is_dir()]:
+        notes.append(
+            f"{shown_path(str(folder))} holds {', '.join(built)} from a build on this computer: do not copy them"
+        )
+    text = (target / "package.xml").read_text(encoding="utf-8")
+    notes += [
+        f"package.xml still says '{word}'" for word in ("TODO: Package description", "TODO: License") if word in text
+    ]
+    return Exported(target.parent.parent, target, found.name, sorted(programs), sorted(interfaces), notes)
+
+
+def _missing_dependencies(found: Found) -> list[str]:
+    """Packages that the code imports and that package.xml does not name: `rosdep` would not install them."""
+    known = {*registry.packages(), *CMAKE_PACKAGES, *PYTHON_PACKAGES} - {found.name}
+    notes: dict[str, str] = {}
+    for file, tree in _sources(found.path):
+        for name, line in _imports(tree):
+            if name in known and name not in found.dependencies:
+                place = f"{file.relative_to(found.path).as_posix()}, line {line}"
+                notes.setdefault(name, f"{place}, imports {name}: add <exec_depend>{name}</exec_depend> to package.xml")
+    return list(notes.values())
+
+
+def _newer_than(release: Release, found: Found) -> Iterator[str]:
+    """What the package's programs have used in this world, although the world's release lacks it."""
+    for (change, place), line in release.lacked.items():
+        for file in found.path.rglob(Path(place).name):
+            if file.parts[-2:] == Path(place).parts[-2:]:  # programs may run from a copy that a build has made
+                used = f"{file.relative_to(found.path).as_posix()}, line {line}, uses what {release.title} lacks"
+                yield f"{used}. Since {change.since.capitalize()} {change.what}; before, {change.before}"
+                break
+
+
+def _readme(result: Exported, found: Found) -> str:
+    launch_files = sorted(path.name for path in result.package.rglob("*") if is_launch_file(path.name))
+    run = [f"ros2 launch {result.name} {name}" for name in launch_files]
+    run = run or [f"ros2 run {result.name} {name}" for name in result.programs]
+    if "turtlesim" in found.dependencies:
+        run.insert(
+            0, "ros2 run turtlesim turtlesim_node        # in a terminal of its own, which sources the same files"
+        )
+    notes = "".join(f"- {note}\n" for note in result.notes)
+    look = f"\n## Look at these first\n\n{notes}" if notes else ""
+    return _README.format(name=result.name, run="\n".join(run) or "# it has no program yet", look=look)
+
+
+_README = """\
+# {name}
+
+A ROS 2 package from Turtle Lesson. It builds on ROS 2 Humble and every newer release, on the Ubuntu that belongs to it.
+
+## Build
+
+```sh
+source /opt/ros/humble/setup.bash            # or jazzy, kilted, rolling: the one that is installed
+sudo apt install python3-colcon-common-extensions python3-rosdep
+sudo rosdep init; rosdep update              # once on each computer; it does no harm if init was done before
+rosdep install --from-paths src --ignore-src --rosdistro $ROS_DISTRO -y
+colcon build
+source install/setup.bash
+```
+
+Type these commands in the folder of this file. If colcon complains, its message names the file and the line.
+
+The sources in `src/` are all that a robot needs. If `build/`, `install/` or `log/` were copied from another computer, delete
+them first: `rm -rf build install log`.
+
+## Run
+
+```sh
+{run}
+```
+{look}"""

@@ -1,0 +1,274 @@
+"""The packages of a world, found by name: what `source install/setup.bash` fills in a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from difflib import SequenceMatcher
+from pathlib import Path
+
+from ..idl.names import did_you_mean
+from ..sim.errors import shown_path
+from .catalog import left_out, place_of, why_not_here
+from .cmake import compiled_programs
+from .errors import (
+    CompiledProgramError,
+    ExecutableNotFoundError,
+    LaunchFileNotFoundError,
+    NotHereError,
+    PackageNotFoundError,
+)
+from .package import Package, Target
+
+_given: list[PackageIndex] = []
+
+
+class PackageIndex:
+    """Packages by name. One that is added later hides an earlier one of the same name, as an overlay does."""
+
+    def __init__(self) -> None:
+        self._layers: dict[str, list[Package]] = {}
+
+    def __repr__(self) -> str:
+        return f"<PackageIndex: {', '.join(self.names()) or 'empty'}>"
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._layers
+
+    def __iter__(self) -> Iterator[Package]:
+        return iter([layers[-1] for layers in self._layers.values()])
+
+    def add(self, package: Package) -> None:
+        """Make a package findable."""
+        self._layers.setdefault(package.name, []).append(package)
+
+    def remove(self, name: str) -> None:
+        """Take the uppermost package of this name out; what it hid is found again."""
+        self.get(name)
+        self._layers[name].pop()
+        if not self._layers[name]:
+            del self._layers[name]
+
+    def remove_package(self, package: Package) -> None:
+        """Take this very package out, wherever it lies among those of its name; nothing happens if it is not there."""
+        layers = self._layers.get(package.name, [])
+        layers[:] = [each for each in layers if each is not package]
+        if not layers:
+            self._layers.pop(package.name, None)
+
+    def names(self) -> list[str]:
+        """The names of all packages, sorted."""
+        return sorted(self._layers)
+
+    def get(self, name: str) -> Package:
+        """The package of this name.
+
+        Raises:
+            PackageNotFoundError: with the real text, and with the name that was perhaps meant.
+        """
+        if name in self._layers:
+            return self._layers[name][-1]
+        text = f"package '{name}' not found, searching: {self.search_path()}"
+        raise PackageNotFoundError(
+            text, package_hint(name, self._layers) or "Is it built, and is its setup file sourced?"
+        )
+
+    def search_path(self) -> list[str]:
+        """Where packages are looked for, the uppermost first, each place once."""
+        places = [shown_path(str(package.prefix or package.share)) for package in self]
+        return list(dict.fromkeys(reversed(places)))
+
+    def executable(self, package: str, executable: str) -> Target:
+        """What runs as `executable` of a package.
+
+        Raises:
+            PackageNotFoundError: if there is no such package.
+            ExecutableNotFoundError: if it has no such executable, with the real text.
+        """
+        found = self.get(package)
+        if executable in found.executables:
+            return found.executables[executable]
+        raise _no_executable(found, executable)
+
+    def program_at(self, path: str) -> tuple[str, str] | None:
+        """Package and name of the program that lies at a path, as ExecutableInPackage gives it; None for other paths."""
+        place = Path(path).absolute()
+        package = self._layers[place.parent.name][-1] if place.parent.name in self._layers else None
+        if package is None or place.name not in package.executables or place.parent != package.libexec.absolute():
+            return None
+        return package.name, place.name
+
+
+class LaunchedPackages(PackageIndex):
+    """The packages as a launch file sees them: what a robot has and the simulation has not is left out of the launch.
+
+    The folder of such a package can be asked for, as launch files do when they are loaded; there is nothing in it.
+    """
+
+    def __init__(self, packages: PackageIndex) -> None:
+        super().__init__()
+        self._layers = packages._layers
+
+    def get(self, name: str) -> Package:
+        """The package of this name, an absent one included."""
+        if _why_absent(name, self._layers):
+            return Package(name, place_of(name))
+        return super().get(name)
+
+    def executable(self, package: str, executable: str) -> Target:
+        """What runs as `executable` of a package.
+
+        Raises:
+            NotHereError: if only a robot can start it.
+            PackageNotFoundError, ExecutableNotFoundError: as otherwise.
+        """
+        if _why_absent(package, self._layers):
+            raise left_out(package if package == executable else f"{executable} of {package}", package)
+        try:
+            return super().executable(package, executable)
+        except CompiledProgramError as error:
+            raise NotHereError(f"{executable} of {package}", f"it is {error.why}") from None
+
+
+def package_hint(name: str, known: Iterable[str]) -> str:
+    """What is known about a package that is not there: which one was perhaps meant, or that only robots have it."""
+    known = list(known)
+    why = _why_absent(name, known)
+    return f"{name} is not available here: {why}." if why else _package_meant(name, known)
+
+
+def _why_absent(name: str, known: Iterable[str]) -> str:
+    """Why a package is only on robots; nothing for one that is known, and for what is the slip of one that is known."""
+    why = "" if name in known else why_not_here(name)
+    return "" if why and _package_meant(name, known) else why
+
+
+def _package_meant(name: str, known: Iterable[str]) -> str:
+    return did_you_mean(name, [each for each in known if _close_in_all_words(name, each)])
+
+
+def _close_in_all_words(one: str, other: str) -> bool:
+    """Whether two names may be one package's: `lifecycle_py` is another than `lifecycle`, and `a_cpp` another than `a_py`."""
+    if one.replace("_", "") == other.replace("_", ""):
+        return True
+    words, others = one.split("_"), other.split("_")
+    close = (SequenceMatcher(None, *pair).ratio() > 0.78 for pair in zip(words, others, strict=False))
+    return len(words) == len(others) and all(close)
+
+
+def _no_executable(package: Package, executable: str) -> ExecutableNotFoundError:
+    libexec = shown_path(str(package.libexec))
+    compiled = compiled_programs(package.source) if package.source else {}
+    if executable in compiled:
+        text = f"executable '{executable}' not found on the libexec directory '{libexec}'"
+        return CompiledProgramError(text, executable, compiled[executable])
+    lying = sorted(path.name for path in package.libexec.iterdir()) if package.libexec.is_dir() else []
+    if executable in lying:
+        file = shown_path(str((package.libexec / executable).resolve()))
+        text = f"executable '{executable}' not found on the libexec directory '{libexec}'"
+        return ExecutableNotFoundError(
+            text, f"The file exists, but is not executable: !chmod +x {file}, then source again."
+        )
+    if not package.executables:
+        prefix = shown_path(str(package.prefix or package.share))
+        text = f"package '{package.name}' found at '{prefix}', but libexec directory '{libexec}' does not exist"
+        if compiled:
+            hint = f"{package.name} has C++ programs alone, which are not built here: {', '.join(compiled)}."
+            return ExecutableNotFoundError(text, f"{did_you_mean(executable, compiled)} {hint}".strip())
+        return ExecutableNotFoundError(
+            text,
+            "The package installs no program; write in its CMakeLists.txt install(PROGRAMS <file> DESTINATION "
+            f"lib/${{PROJECT_NAME}} RENAME {executable}).",
+        )
+    names = ", ".join(sorted(package.executables))
+    close = did_you_mean(executable, package.executables)
+    hint = f"{close} {package.name} has: {names}. {_entry_point(package, executable)}".strip()
+    text = f"executable '{executable}' not found on the libexec directory '{libexec}'"
+    return ExecutableNotFoundError(text, hint)
+
+
+def _entry_point(package: Package, executable: str) -> str:
+    """What to add to setup.py for a module that is there, and is no program yet."""
+    folder = package.source / package.name if package.source else None
+    module = executable.removesuffix(".py")
+    if folder is None or executable in ("__init__", "setup") or not _is_python(package):
+        return ""
+    if module in package.executables or not (folder / f"{module}.py").is_file():
+        return ""
+    entry = f"{module} = {package.name}.{module}:main"
+    return f"For {module}.py add '{entry}' to console_scripts in setup.py, and build again."
+
+
+def changed_since_built(package: Package) -> Path | None:
+    """A module of an ament_python package that is another in its source than as it was installed; None if there is none."""
+    if package.source is None or package.prefix is None or not _is_python(package):
+        return None
+    for folder in package.prefix.glob(f"lib/python3*/site-packages/{package.name}"):
+        for installed in sorted(folder.rglob("*.py")):
+            source = package.source / package.name / installed.relative_to(folder)
+            if source.is_file() and source.read_bytes() != installed.read_bytes():
+                return source
+    return None
+
+
+def _is_python(package: Package) -> bool:
+    """Whether a package is built by its setup.py."""
+    return package.source is not None and not (package.source / "CMakeLists.txt").is_file()
+
+
+def find_launch_file(packages: PackageIndex, package: str, file_name: str) -> Path:
+    """The launch file of this name that a package has installed.
+
+    Raises:
+        PackageNotFoundError, LaunchFileNotFoundError: with the texts of `ros2 launch`, and what to try.
+    """
+    found = packages.get(package)
+    files = found.shared_files(file_name)
+    if len(files) == 1:
+        return files[0]
+    share = shown_path(str(found.prefix / "share" / package if found.prefix else found.share))
+    directory = f"in the share directory of package '{package}'"
+    if files:
+        shown = [shown_path(str(file)) for file in files]
+        raise LaunchFileNotFoundError(f"file '{file_name}' was found more than once {directory}: {shown}")
+    text = f"file '{file_name}' was not found {directory} which is at '{share}'"
+    raise LaunchFileNotFoundError(text, _launch_file_hint(found, file_name))
+
+
+def is_launch_file(name: str) -> bool:
+    """Whether a file is named as launch files are, such as `start.launch.py` or `start_launch.xml`."""
+    return name.endswith(tuple(f"{sign}launch.{kind}" for sign in "._" for kind in ("py", "xml", "yaml", "yml")))
+
+
+def _launch_file_hint(package: Package, file_name: str) -> str:
+    if package.source and (lying := sorted(package.source.rglob(file_name))):
+        place = lying[0].parent.relative_to(package.source).as_posix()
+        if _is_python(package):
+            entry = f"('share/{package.name}/{place}', ['{place}/{file_name}'])"
+            return f"The file is in {place}/, but it is not installed: add {entry} to data_files in setup.py and build again."
+        return (
+            f"The file is in {place}/, but it is not installed: write install(DIRECTORY {place} DESTINATION "
+            "share/${PROJECT_NAME}) in CMakeLists.txt and build again."
+        )
+    known = sorted({file.name for file in package.shared_files("*launch.*") if is_launch_file(file.name)})
+    there_are = f"There are: {', '.join(known)}." if known else "The package installs no launch file."
+    return did_you_mean(file_name, known) or there_are
+
+
+def current_packages() -> PackageIndex:
+    """The index of packages in force."""
+    if _given:
+        return _given[-1]
+    from ..runtime.world import current_world
+
+    return current_world().packages
+
+
+@contextmanager
+def seeing(packages: PackageIndex) -> Iterator[None]:
+    """Have `current_packages()` be this index for a while."""
+    _given.append(packages)
+    try:
+        yield
+    finally:
+        _given.pop()

@@ -1,0 +1,396 @@
+"""What building a package comes to, and the install folder: written by a build, and read back by `source`.
+
+A build's result is what it prints, how long it takes, and the items that it installs: the package's own files, what is made of
+its interfaces, the ament index, and the setup files.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path, PurePosixPath
+
+from ..idl.names import module_name
+from ..idl.registry import Registry
+from ..runtime import files
+from ..sim.errors import shown_path
+from .discover import ColconError, Found
+from .package import Package
+
+PYTHON = "python3.10"
+"""The Python of ROS 2 Humble, which is in the names of installed folders, whatever Python runs here."""
+
+SHELLS = ("bash", "sh", "zsh")
+LAYOUT = ".colcon_install_layout"
+"""The file in which an install folder says `isolated` (a folder a package) or `merged` (one for all)."""
+PYTHON_FOLDERS = (f"lib/{PYTHON}/site-packages", f"local/lib/{PYTHON}/dist-packages")
+_INDEX = "share/ament_index/resource_index"
+
+
+@dataclass(frozen=True)
+class Item:
+    """One file or folder to install.
+
+    Attributes:
+        target: its place below the package's install prefix, with `/`.
+        source: the file or folder that is copied; None where `text` is written.
+        text: the content of a file that the build makes.
+        program: whether it can be run.
+        copied: whether it is copied even by `--symlink-install`.
+    """
+
+    target: str
+    source: Path | None = None
+    text: str = ""
+    program: bool = False
+    copied: bool = False
+
+
+@dataclass
+class Outcome:
+    """How a build went.
+
+    Attributes:
+        code: the exit code, 0 if it went well.
+        stderr: what colcon shows between `--- stderr: name` and `---`.
+        stdout: what CMake or setuptools say meanwhile.
+        seconds: how long it takes, in robot time.
+        items: what is installed if it went well.
+        dependencies: the packages that are needed when it runs.
+        paths: folders below the prefix that hold Python packages of the learner's.
+        colcon_error: what colcon itself says where it does not even begin.
+        left_out: the C++ programs and libraries that are not built here, and scripts that are not Python.
+        lacking: the packages that these need and that are not here.
+    """
+
+    code: int = 0
+    stderr: str = ""
+    stdout: list[str] = field(default_factory=list)
+    seconds: float = 1.0
+    items: list[Item] = field(default_factory=list)
+    dependencies: list[str] = field(default_factory=list)
+    paths: list[str] = field(default_factory=list)
+    colcon_error: str = ""
+    left_out: list[str] = field(default_factory=list)
+    lacking: list[str] = field(default_factory=list)
+
+
+@dataclass
+class Environment:
+    """Where a package is built, and what it finds there."""
+
+    install: Path
+    build: Path
+    findable: frozenset[str] = frozenset()
+    types: Registry = field(default_factory=Registry)
+    symlink: bool = False
+
+
+class BuildFailure(Exception):
+    """A package cannot be built: the text that the real tool prints, the exit code, and what to try."""
+
+    def __init__(self, text: str, hint: str = "", *, code: int = 1, seconds: float = 0.9) -> None:
+        super().__init__(text)
+        self.text = text
+        self.hint = hint
+        self.code = code
+        self.seconds = seconds
+
+
+def with_hint(text: str, hints: Iterable[str]) -> str:
+    """The real tool's text, and below it what to try."""
+    lines = "".join(f"Hint: {hint}\n" for hint in hints if hint)
+    return f"{text}{lines}" if lines else text
+
+
+def check_targets(items: Iterable[Item]) -> None:
+    """Nothing is installed outside of the package's own folder.
+
+    Raises:
+        BuildFailure: something would be.
+    """
+    for item in items:
+        place = PurePosixPath(item.target)
+        if place.is_absolute() or ".." in place.parts or "\0" in item.target:
+            raise BuildFailure(f"error: '{item.target}' lies outside the package's install folder\n")
+
+
+def prepare(install: Path, build: Path, log: Path, layout: str = "isolated") -> None:
+    """Make the three folders, marked so that colcon looks for no packages in them.
+
+    Raises:
+        ColconError: the install folder has the other layout.
+    """
+    before = layout_of(install)
+    if before not in {"", layout}:
+        raise ColconError(
+            f"The install directory '{install.name}' was created with the layout '{before}'. Please remove the install "
+            f"directory, pick a different one or {'add' if before == 'merged' else 'remove'} the '--merge-install' option."
+        )
+    for folder in (install, build, log):
+        files.save(folder / "COLCON_IGNORE", "")
+    files.save(install / LAYOUT, f"{layout}\n")
+    files.save(build / ".built_by", "colcon\n")
+
+
+def install_package(found: Found, outcome: Outcome, environment: Environment) -> list[str]:
+    """Write a package's files in place of those of its last build; return the lines `-- Installing: …`."""
+    prefix = prefix_of(environment.install, found.name)
+    manifest = environment.build / found.name / "install_manifest.txt"
+    _uninstall(prefix, manifest)
+    lines = []
+    items = [*outcome.items, *_index(found, outcome), *_environment(found, outcome)]
+    files.save(manifest, "".join(f"{target}\n" for item in items for target in _targets(item)))
+    for item in items:
+        _write(item, prefix / item.target, environment.symlink)
+        lines.append(f"-- Installing: {shown_path(str(prefix))}/{item.target}")
+    _note_build(found, environment)
+    return lines
+
+
+def _targets(item: Item) -> Iterator[str]:
+    """The files that come of an item."""
+    if item.source is not None and item.source.is_dir():
+        yield from (f"{item.target}/{path.relative_to(item.source).as_posix()}" for path in _files_in(item.source))
+    else:
+        yield item.target
+
+
+def _uninstall(prefix: Path, manifest: Path) -> None:
+    """Delete what the last build of a package has installed, and nothing else, whatever the manifest says."""
+    names = manifest.read_text(encoding="utf-8").splitlines() if manifest.is_file() else []
+    for name in names:
+        file = prefix / name
+        if file.parent.resolve().is_relative_to(prefix.resolve()) and (file.is_symlink() or file.is_file()):
+            files.check(file, removes=True)
+            file.unlink()
+            for folder in file.parents:
+                if folder == prefix or any(folder.iterdir()):
+                    break
+                folder.rmdir()
+
+
+def _write(item: Item, target: Path, symlink: bool) -> None:
+    if item.source is None:
+        files.save(target, item.text)
+    elif symlink and not item.copied:
+        _link(item.source, target)
+        return
+    elif item.source.is_dir():
+        files.copy(item.source, target, shutil.ignore_patterns("__pycache__", "*.pyc"))
+    else:
+        files.check(target).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(item.source, target)
+    if item.program:
+        target.chmod(0o755)
+
+
+def _link(source: Path, target: Path) -> None:
+    """A link where the computer allows one (Windows may not), otherwise a copy. Folders stay folders, as with colcon."""
+    if source.is_dir():
+        for inner in _files_in(source):
+            _link(inner, target / inner.relative_to(source))
+        return
+    files.check(target, follow=False).parent.mkdir(parents=True, exist_ok=True)
+    target.unlink(missing_ok=True)
+    try:
+        target.symlink_to(source.resolve())
+    except OSError:
+        shutil.copyfile(source, target)
+
+
+def _files_in(folder: Path) -> Iterator[Path]:
+    for place, folders, names in os.walk(folder):
+        folders[:] = sorted(name for name in folders if name != "__pycache__")
+        yield from (Path(place, name) for name in sorted(names) if not name.endswith(".pyc"))
+
+
+def _index(found: Found, outcome: Outcome) -> Iterator[Item]:
+    """The entries in the ament index, by which ROS 2 finds the package."""
+    name = found.name
+    index = "share/ament_index/resource_index"
+    targets = {item.target for item in outcome.items}
+    if not found.is_python:
+        yield Item(f"{index}/packages/{name}")
+        yield Item(f"{index}/package_run_dependencies/{name}", text=";".join(outcome.dependencies))
+        yield Item(f"{index}/parent_prefix_path/{name}", text="/opt/ros/humble")
+        yield Item(f"share/{name}/cmake/{name}Config.cmake", text=_CONFIG.format(name=name))
+    if f"share/{name}/package.xml" not in targets:
+        yield Item(f"share/{name}/package.xml", found.path / "package.xml")
+    yield Item(f"share/colcon-core/packages/{name}", text=":".join(sorted(set(outcome.dependencies))))
+
+
+_CONFIG = "# By this file find_package({name}) finds the package.\nset({name}_FOUND TRUE)\n"
+
+
+def _environment(found: Found, outcome: Outcome) -> Iterator[Item]:
+    """What the package adds to the environment, one line a variable, as colcon's own .dsv files have it."""
+    share = f"share/{found.name}"
+    hooks = {"ament_prefix_path": "prepend-non-duplicate;AMENT_PREFIX_PATH;"}
+    made = [item.target.partition("/dist-packages/")[0] for item in outcome.items if "/dist-packages/" in item.target]
+    for folder in outcome.paths or [f"{place}/dist-packages" for place in made[:1]]:
+        hooks["pythonpath"] = f"prepend-non-duplicate;PYTHONPATH;{folder}"
+    place = "hook" if found.is_python else "environment"
+    for name, line in hooks.items():
+        yield Item(f"{share}/{place}/{name}.dsv", text=line)
+    sources = [f"source;{share}/{place}/{name}.dsv\n" for name in hooks]
+    yield Item(f"{share}/package.dsv", text="".join(sources))
+    for shell in SHELLS:
+        yield Item(f"{share}/package.{shell}", text=_shell_lines(found.name, hooks, "$COLCON_CURRENT_PREFIX"))
+
+
+def _shell_lines(name: str, hooks: dict[str, str], prefix: str) -> str:
+    lines = [f"# What the package {name} adds to the environment; COLCON_CURRENT_PREFIX is its folder.\n"]
+    for line in hooks.values():
+        _, variable, folder = line.split(";")
+        place = f"{prefix}/{folder}" if folder else prefix
+        lines.append(f'export {variable}="{place}${{{variable}:+:${variable}}}"\n')
+    return "".join(lines)
+
+
+def _note_build(found: Found, environment: Environment) -> None:
+    """The build folder, which remembers where the source is and that it went well.
+
+    There is no CMakeCache.txt in it: a real colcon, to which this folder may be taken, runs CMake where there is none.
+    """
+    folder = environment.build / found.name
+    files.save(folder / "colcon_build.rc", "0\n")
+    files.save(folder / "source_folder.txt", f"{found.path.resolve()}\n")
+
+
+def write_setup_files(install: Path, names: Iterable[str]) -> None:
+    """`setup.bash`, `local_setup.bash` and the others, which overlay the packages in the order of `names`."""
+    for shell in SHELLS:
+        place = "${BASH_SOURCE[0]}" if shell == "bash" else "${(%):-%x}" if shell == "zsh" else "$0"
+        lines = [
+            "# Made by colcon build. In a page `source` reads the folder itself; a real terminal can run this, too.\n",
+            f'_folder="$(cd "$(dirname "{place}")" > /dev/null && pwd)"\n',
+        ]
+        for name in names:
+            inner = "" if prefix_of(install, name) == install else f"/{name}"
+            lines.append(f'COLCON_CURRENT_PREFIX="$_folder{inner}"\n')
+            lines.append(f'. "$COLCON_CURRENT_PREFIX/share/{name}/package.{shell}"\n')
+        lines.append("unset COLCON_CURRENT_PREFIX _folder\n")
+        files.save(install / f"local_setup.{shell}", "".join(lines))
+        chain = f'. "$(cd "$(dirname "{place}")" > /dev/null && pwd)/local_setup.{shell}"\n'
+        files.save(install / f"setup.{shell}", f"# Made by colcon build.\n{chain}")
+
+
+def layout_of(install: Path) -> str:
+    """`isolated`, `merged`, or nothing where colcon has not installed anything yet."""
+    file = install / LAYOUT
+    return file.read_text(encoding="utf-8").strip() if file.is_file() else ""
+
+
+def prefix_of(install: Path, name: str) -> Path:
+    """The folder that a package is installed in."""
+    return install if layout_of(install) == "merged" else install / name
+
+
+def installed_names(install: Path) -> list[str]:
+    """The packages in an install folder, each after those it needs."""
+    pattern = "share/colcon-core/packages/*" if layout_of(install) == "merged" else "*/share/colcon-core/packages/*"
+    files = {file.name: file for file in install.glob(pattern) if file.is_file()}
+    needs = {name: set(file.read_text(encoding="utf-8").split(":")) & set(files) for name, file in files.items()}
+    ordered: list[str] = []
+    while needs:
+        ready = sorted(name for name, others in needs.items() if others <= {*ordered, name}) or sorted(needs)
+        ordered += ready
+        needs = {name: others for name, others in needs.items() if name not in ready}
+    return ordered
+
+
+def read_installed(install: Path, name: str) -> Package:
+    """One package of an install folder. Its programs are the files that can be run, as `ros2 pkg executables` counts them."""
+    prefix = prefix_of(install, name)
+    libexec, listed = prefix / "lib" / name, prefix / _INDEX / "rosidl_interfaces" / name
+    lying = sorted(libexec.iterdir()) if libexec.is_dir() else []
+    lines = listed.read_text(encoding="utf-8").splitlines() if listed.is_file() else []
+    return Package(
+        name=name,
+        share=prefix / "share" / name,
+        executables={
+            path.name: path for path in lying if path.is_file() and (os.name == "nt" or os.access(path, os.X_OK))
+        },
+        interfaces=[line for line in lines if "_Re" not in line.rpartition("/")[2] and not line.endswith(".idl")],
+        source=source_of(install, name),
+        prefix=prefix,
+    )
+
+
+def source_of(install: Path, name: str) -> Path | None:
+    """The folder that an installed package was built from, if it is still there."""
+    file = install.parent / "build" / name / "source_folder.txt"
+    if not file.is_file():
+        return None
+    folder = Path(file.read_text(encoding="utf-8").strip())
+    return folder if folder.is_dir() else None
+
+
+def python_folders(prefix: Path) -> list[Path]:
+    """The folders with Python packages of the learner's own, which are put on the import path."""
+    index = prefix / _INDEX / "rosidl_interfaces"
+    made = {path.name for path in index.iterdir()} if index.is_dir() else set()
+    return [
+        folder
+        for folder in (prefix / place for place in PYTHON_FOLDERS)
+        if folder.is_dir()
+        and any(path.name not in made and not path.name.endswith(".egg-info") for path in folder.iterdir())
+    ]
+
+
+def definitions(folder: Path) -> Iterator[Path]:
+    """The definition files of a package, where they are looked for."""
+    for kind in ("msg", "srv", "action"):
+        yield from sorted((folder / kind).glob(f"*.{kind}"))
+
+
+def interface_items(found: Found, files: list[str]) -> list[Item]:
+    """What is installed for the interface files of a package, such as `msg/TurtleStatus.msg`."""
+    name = found.name
+    # Copied, as the classes are made from these: with --symlink-install, too, a new field counts after a build.
+    items = [Item(f"share/{name}/{file}", found.path / file, copied=True) for file in files]
+    for file in files:
+        items += _parts(found, file)
+    listed = sorted(item.target.removeprefix(f"share/{name}/") for item in items)
+    items.append(Item(f"share/ament_index/resource_index/rosidl_interfaces/{name}", text="\n".join(listed)))
+    return items + _modules(name, files)
+
+
+def _parts(found: Found, file: str) -> list[Item]:
+    """`NavigateTo_Request.msg` and `NavigateTo_Response.msg` of a service."""
+    path = Path(file)
+    if path.suffix != ".srv":
+        return []
+    request, _, response = (found.path / file).read_text(encoding="utf-8").partition("\n---")
+    texts = {"Request": request.removeprefix("---"), "Response": response.partition("\n")[2]}
+    stem = f"share/{found.name}/{path.with_suffix('').as_posix()}"
+    return [Item(f"{stem}_{part}.msg", text=text.strip("\n") + "\n") for part, text in texts.items()]
+
+
+def _modules(package: str, files: list[str]) -> list[Item]:
+    """The Python package, whose modules get their classes from the simulation."""
+    folder = f"local/lib/{PYTHON}/dist-packages/{package}"
+    items = [Item(f"{folder}/__init__.py")]
+    kinds: dict[str, list[str]] = {}
+    for file in files:
+        kind, _, rest = file.partition("/")
+        kinds.setdefault(kind, []).append(rest.rpartition(".")[0])
+    for kind, names in kinds.items():
+        lines = [f"from {package}.{kind}.{module_name(name)} import {name}  # noqa: F401\n" for name in names]
+        items.append(Item(f"{folder}/{kind}/__init__.py", text="".join(lines)))
+        for name in names:
+            text = _MODULE.format(package=package, kind=kind, name=name)
+            items.append(Item(f"{folder}/{kind}/{module_name(name)}.py", text=text))
+    return items
+
+
+_MODULE = '''\
+"""{package}/{kind}/{name}: made from {kind}/{name}.{kind} by colcon build."""
+
+from turtle_lesson.ros.idl.registry import registry
+
+{name} = registry.get("{package}/{kind}/{name}")
+'''

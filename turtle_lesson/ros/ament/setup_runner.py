@@ -1,0 +1,107 @@
+"""Runs a `setup.py` with a stand-in for setuptools, and writes what `setup(…)` was given as JSON.
+
+It is a program of its own (`python -I setup_runner.py FOLDER ANSWER`), so that a setup.py that loops, ends the process or
+changes Python's modules does no harm; it imports nothing of this library.
+"""
+
+from __future__ import annotations
+
+import json
+import logging
+import os
+import sys
+import traceback
+from fnmatch import fnmatchcase
+from pathlib import Path
+from types import ModuleType
+from typing import Any, ClassVar
+
+
+def main(folder: str, answer: str) -> None:
+    """Run the folder's setup.py; the file `answer` gets `{"setup": …}` or `{"error": …}`."""
+    given: list[dict[str, Any]] = []
+    result: dict[str, Any] = {}
+    os.chdir(folder)
+    sys.path.insert(0, folder)
+    sys.argv = ["setup.py"]
+    _put_stand_ins(given)
+    try:
+        source = Path("setup.py").read_bytes()
+        exec(compile(source, "setup.py", "exec"), {"__name__": "__main__", "__file__": "setup.py"})
+    except BaseException as error:
+        result["error"] = _text(error)
+    else:
+        if given:
+            result["setup"] = given[-1]
+    Path(answer).write_text(json.dumps(result, default=_plain), encoding="utf-8")
+
+
+def _plain(value: Any) -> Any:
+    return sorted(value, key=str) if isinstance(value, (set, frozenset)) else str(value)
+
+
+def _put_stand_ins(given: list[dict[str, Any]]) -> None:
+    """Have `import setuptools` and `distutils`, which setuptools brings, find the stand-ins."""
+
+    def setup(**options: Any) -> None:
+        given.append(options)
+
+    setup.__qualname__ = "setup"
+    finders = {"find_packages": find_packages, "find_namespace_packages": find_packages}
+    for name in ("setuptools", "distutils", "distutils.core"):
+        _put(name, setup=setup, Command=Command, **finders)
+    # distutils.log is a thin layer above logging (setuptools' _distutils/log.py); what it logs is seen nowhere here.
+    words = ("debug", "info", "warning", "error", "fatal", "DEBUG", "INFO", "WARN", "ERROR", "FATAL")
+    set_level = logging.getLogger().setLevel
+    levels = {word: getattr(logging, word) for word in words} | {"warn": logging.warning}
+    _put("distutils.log", set_threshold=set_level, set_verbosity=set_level, **levels)
+    for package in ("setuptools", "distutils"):
+        _put(f"{package}.command")
+        for name in ("build_ext", "build_py", "develop", "egg_info", "install", "sdist", "test"):
+            _put(f"{package}.command.{name}", **{name: type(name, (Command,), {})})
+
+
+class Command:
+    """What a setup.py's own commands are derived from; it is not carried out, as only `setup(…)` is looked at."""
+
+    user_options: ClassVar[list[Any]] = []
+
+
+def _put(name: str, **content: Any) -> None:
+    """Make a module that can be imported, and is an attribute of the one above it."""
+    module = ModuleType(name)
+    module.__dict__.update(content)
+    module.__path__ = []
+    sys.modules[name] = module
+    above, _, own = name.rpartition(".")
+    if above:
+        setattr(sys.modules[above], own, module)
+
+
+def find_packages(where: str = ".", exclude: Any = (), include: Any = ("*",)) -> list[str]:
+    """The names of the packages in a folder, as setuptools finds them."""
+    found = []
+    for file in sorted(Path(where).rglob("__init__.py")):
+        parts = file.parent.relative_to(where).parts
+        inside = all((Path(where).joinpath(*parts[:end]) / "__init__.py").is_file() for end in range(1, len(parts)))
+        name = ".".join(parts)
+        wanted = any(fnmatchcase(name, pattern) for pattern in include)
+        if name and inside and wanted and not any(fnmatchcase(name, pattern) for pattern in exclude):
+            found.append(name)
+    return found
+
+
+def _text(error: BaseException) -> str:
+    frames = [frame for frame in traceback.extract_tb(error.__traceback__) if frame.filename == "setup.py"]
+    lines = ["Traceback (most recent call last):\n"] if frames else []
+    file = Path("setup.py")
+    source = file.read_text(encoding="utf-8", errors="replace").splitlines() if file.is_file() else []
+    for frame in frames[-5:]:
+        lines.append(f'  File "setup.py", line {frame.lineno}, in {frame.name}\n')
+        if frame.lineno and frame.lineno <= len(source):
+            lines.append(f"    {source[frame.lineno - 1].strip()}\n")
+    return "".join([*lines, *traceback.format_exception_only(error)])
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], sys.argv[2])

@@ -1,0 +1,161 @@
+"""`source install/setup.bash`: what was built becomes findable and importable, on top of what was there before."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, TextIO
+
+from ..idl.names import did_you_mean
+from ..idl.registry import registry
+from .install_tree import LAYOUT, installed_names, python_folders, read_installed
+from .package import Package, PythonProgram, forget_below
+
+if TYPE_CHECKING:
+    from ..runtime.world import World
+
+__all__ = [
+    "make_importable",
+    "overlay",
+    "overlays",
+    "remove_all",
+    "source",
+]
+
+
+_SETUP_FILES = {f"{name}.{shell}" for name in ("setup", "local_setup") for shell in ("bash", "sh", "zsh", "ps1")}
+_UNDERLAY = "/opt/ros/"
+
+
+def source(world: World, words: list[str], *, cwd: Path | None = None, stdout: TextIO, stderr: TextIO) -> int:
+    """`source FILE`: returns bash's exit code; a wrong name is answered in bash's words, and with what to try."""
+    if not words:
+        print("bash: source: filename argument required\nsource: usage: source filename [arguments]", file=stderr)
+        return 2
+    if words[0].startswith(_UNDERLAY):
+        return 0  # the simulation's own packages are always there
+    file = (cwd or Path.cwd()) / Path(words[0]).expanduser()
+    if problem := _problem(words[0], file):
+        print(problem, file=stderr)
+        return 1
+    overlay(world, file.resolve().parent)
+    return 0
+
+
+def _problem(word: str, file: Path) -> str:
+    if file.is_dir():
+        return f"bash: source: {word}: is a directory. Name the file in it: source {word.rstrip('/')}/setup.bash"
+    if not file.is_file():
+        text = f"bash: {word}: No such file or directory"
+        if file.parent.is_dir() and (close := did_you_mean(file.name, _SETUP_FILES)):
+            return f"{text}. {close}" if (file.parent / LAYOUT).is_file() else text
+        return f"{text}. Have you run colcon build, and are you in the workspace's folder (the one that contains src/)?"
+    if file.name not in _SETUP_FILES or not (file.parent / LAYOUT).is_file():
+        return f"bash: {word}: this simulated terminal sources only what colcon build makes: source install/setup.bash"
+    return ""
+
+
+# -- overlays ----------------------------------------------------------------------------------------------------------
+
+
+@dataclass
+class _Overlay:
+    """One sourced package, and what it hides in the registry of interfaces."""
+
+    install: Path
+    package: Package
+    paths: list[Path]
+    hidden: tuple[Path, tuple[str, ...] | None] | None
+
+
+def overlay(world: World, install: Path) -> list[str]:
+    """Make the packages of an install folder findable; return their names, each after those it needs."""
+    names = installed_names(install)
+    for name in names:
+        _add(world, install, name)
+    importlib.invalidate_caches()
+    return names
+
+
+def resource(world: World, install: Path, name: str) -> None:
+    """Read one package anew, if it is sourced: its files have changed."""
+    install = install.resolve()
+    if any((each.install, each.package.name) == (install, name) for each in overlays(world)):
+        _add(world, install, name)
+        importlib.invalidate_caches()
+
+
+def overlays(world: World) -> list[_Overlay]:
+    """What is sourced, in its order."""
+    sourced: list[_Overlay] = world.notebook.locals.setdefault("overlays", [])
+    return sourced
+
+
+def _add(world: World, install: Path, name: str) -> None:
+    if not overlays(world):
+        world.notebook.at_exit.append(lambda: remove_all(world))
+    _remove(world, install, name)
+    package = read_installed(install, name)
+    prefix = package.prefix or install
+    paths = python_folders(prefix)
+    if paths:
+        package.executables = {
+            name: PythonProgram(target, tuple(paths)) if isinstance(target, Path) else target
+            for name, target in package.executables.items()
+        }
+    hidden = None  # the interfaces of this name that were known before
+    if package.interfaces and package.name in registry.packages():
+        before = registry.package(package.name)
+        hidden = before.directory, before.files
+    overlays(world).append(_Overlay(install, package, paths, hidden))
+    world.packages.add(package)
+    if package.interfaces:
+        registry.add(package.name, package.share, package.interfaces)
+    forget_below([prefix])
+    for path in paths:
+        if str(path) not in sys.path:
+            sys.path.append(str(path))
+
+
+def _remove(world: World, install: Path, name: str) -> None:
+    for each in [each for each in overlays(world) if (each.install, each.package.name) == (install, name)]:
+        overlays(world).remove(each)
+        world.packages.remove_package(each.package)
+        _restore(each)
+        for path in each.paths:
+            shared = any(path in other.paths for other in overlays(world))  # in a merged install folder
+            if str(path) in sys.path and not shared:
+                sys.path.remove(str(path))
+        forget_below([each.package.prefix or each.install])
+
+
+def _restore(each: _Overlay) -> None:
+    if not each.package.interfaces or each.package.name not in registry.packages():
+        return
+    if registry.package(each.package.name).directory != each.package.share:
+        return  # somebody else has put another in its place
+    registry.remove(each.package.name)
+    if each.hidden is not None:
+        registry.add(each.package.name, *each.hidden)
+
+
+def remove_all(world: World) -> None:
+    """Undo every `source` of a world."""
+    for each in reversed(overlays(world)[:]):
+        _remove(world, each.install, each.package.name)
+
+
+def make_importable(world: World, package: Package) -> None:
+    """Have the modules of a package that is used as it lies there be found, as long as the world lasts."""
+    added = [str(path) for path in package.modules if str(path) not in sys.path]
+    sys.path += added
+    forget_below(package.modules)
+    importlib.invalidate_caches()
+
+    def undo() -> None:
+        sys.path[:] = [path for path in sys.path if path not in added]
+        forget_below(package.modules)
+
+    world.notebook.at_exit.append(undo)
