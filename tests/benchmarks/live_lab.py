@@ -301,7 +301,7 @@ def main() -> None:
         page.set_default_timeout(60_000)
         page.add_init_script(METER)
         wire = Wire(page)
-        write_notebook(page, lab, "bench.ipynb", [SYSTEM, DASHBOARD, PICTURE])
+        write_notebook(lab, "bench.ipynb", [SYSTEM, DASHBOARD, PICTURE])
         open_notebook(page, lab, "bench.ipynb")
         run_cell(page, 0)
         idle = idle_share(page)

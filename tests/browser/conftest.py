@@ -5,14 +5,16 @@ from __future__ import annotations
 import os
 import shutil
 from collections.abc import Iterator
+from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
-from jupyter_pages import FLAGS, PATIENCE, find_chromium, jupyterlab
+from jupyter_pages import FLAGS, PATIENCE, Lab, find_chromium, jupyterlab
 from playwright.sync_api import Browser, Page, expect, sync_playwright
 
 expect.set_options(timeout=PATIENCE)
-NOTEBOOKS = Path(__file__).resolve().parents[2] / "notebooks"
+HERE = Path(__file__).resolve().parent
+NOTEBOOKS = HERE.parents[1] / "notebooks"
 
 
 @pytest.fixture(scope="session")
@@ -28,21 +30,67 @@ def chromium() -> str:
 
 
 @pytest.fixture(scope="session")
-def lab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    """The address of a JupyterLab that serves a copy of the notebooks, on this machine only."""
+def lab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lab]:
+    """A JupyterLab that serves a copy of the notebooks, on this machine only."""
     folder = tmp_path_factory.mktemp("lab")
     shutil.copytree(NOTEBOOKS, folder / "notebooks", ignore=shutil.ignore_patterns(".ipynb_checkpoints"))
-    with jupyterlab(folder) as address:
-        yield address
+    with jupyterlab(folder) as lab:
+        yield lab
+
+
+class Chromium:
+    """A headless browser with a window: opened by the first test that wants it, and closed after the last one.
+
+    While Playwright runs, so does an event loop of its own, so it is not kept for tests of other folders.
+    """
+
+    def __init__(self) -> None:
+        self._open = ExitStack()
+        self._browser: Browser | None = None
+        self._window: Page | None = None
+
+    def browser(self, path: str) -> Browser:
+        """The browser."""
+        if self._browser is None:
+            playwright = self._open.enter_context(sync_playwright())
+            self._browser = playwright.chromium.launch(executable_path=path, args=FLAGS, timeout=PATIENCE)
+            self._open.callback(self._browser.close)
+        return self._browser
+
+    def window(self, path: str) -> Page:
+        """Its window, which the tests of one file after the other use."""
+        if self._window is None:
+            self._window = self.browser(path).new_page()
+            self._window.set_default_timeout(PATIENCE)
+        return self._window
+
+    def close(self) -> None:
+        """Close it; who asks for it again gets a new one."""
+        self._browser = self._window = None
+        self._open.close()
+
+
+_chromium = Chromium()
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_teardown(item: pytest.Item, nextitem: pytest.Item | None) -> Iterator[None]:
+    """Close the browser after the last test of this folder."""
+    yield
+    if nextitem is None or HERE not in nextitem.path.parents:
+        _chromium.close()
 
 
 @pytest.fixture(scope="module")
-def browser(chromium: str) -> Iterator[Browser]:
-    """A headless browser. It is closed with the module: while Playwright runs, so does an event loop of its own."""
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=chromium, args=FLAGS, timeout=PATIENCE)
-        yield browser
-        browser.close()
+def browser(chromium: str) -> Browser:
+    """A headless browser."""
+    return _chromium.browser(chromium)
+
+
+@pytest.fixture(scope="module")
+def desktop(chromium: str) -> Page:
+    """The window that all files share; `notebook_in` opens a notebook there."""
+    return _chromium.window(chromium)
 
 
 @pytest.fixture

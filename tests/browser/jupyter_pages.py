@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import socket
@@ -12,6 +13,7 @@ import urllib.error
 import urllib.request
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -56,9 +58,20 @@ def isolated(folder: Path) -> dict[str, str]:
     return {**os.environ, **{name: str(home) for name in ("HOME", "JUPYTER_CONFIG_DIR", "JUPYTER_DATA_DIR")}}
 
 
+@dataclass(frozen=True)
+class Lab:
+    """A JupyterLab: its address, which is also what it is as a text, and the folder that it serves."""
+
+    address: str
+    folder: Path
+
+    def __str__(self) -> str:
+        return self.address
+
+
 @contextmanager
-def jupyterlab(folder: Path) -> Iterator[str]:
-    """The address of a JupyterLab that serves `folder` on this machine only, with nobody's settings."""
+def jupyterlab(folder: Path) -> Iterator[Lab]:
+    """A JupyterLab that serves `folder` on this machine only, with nobody's settings."""
     port = free_port()
     options = {
         "ServerApp.ip": "127.0.0.1",
@@ -69,6 +82,7 @@ def jupyterlab(folder: Path) -> Iterator[str]:
         "ServerApp.allow_root": True,
         "LabApp.expose_app_in_browser": True,
         "LabApp.check_for_updates_class": "jupyterlab.NeverCheckForUpdate",
+        "LanguageServerManager.autodetect": False,
     }
     words = [f"--{name}={value}" for name, value in options.items()]
     with (folder / "server.log").open("w") as log:
@@ -77,7 +91,7 @@ def jupyterlab(folder: Path) -> Iterator[str]:
     address = f"http://127.0.0.1:{port}"
     try:
         wait_until_it_answers(f"{address}/api/status", server, folder / "server.log")
-        yield address
+        yield Lab(address, folder)
     finally:
         server.terminate()
         server.wait(100)
@@ -112,7 +126,27 @@ def new_window(browser: Browser, problems: list[str], width: int = 1280) -> Page
     return page
 
 
-def write_notebook(page: Page, lab: str, name: str, cells: Sequence[str]) -> None:
+@contextmanager
+def notebook_in(page: Page, lab: Lab, name: str, problems: list[str], width: int = 1280) -> Iterator[Page]:
+    """A window with a notebook. It may show JupyterLab already, which takes seconds to load; afterwards it is empty again.
+
+    What the browser complains of meanwhile is added to `problems`.
+    """
+    hear = {
+        "pageerror": lambda error: problems.append(str(error)),
+        "console": lambda message: problems.append(message.text) if message.type == "error" else None,
+    }
+    page.set_viewport_size({"width": width, "height": 1000})
+    for event, listener in hear.items():
+        page.on(event, listener)  # type: ignore[call-overload]
+    open_notebook(page, lab, name)
+    yield page
+    for event, listener in hear.items():
+        page.remove_listener(event, listener)
+    close_all(page)
+
+
+def write_notebook(lab: Lab, name: str, cells: Sequence[str]) -> None:
     """Put a notebook with these cells where the server finds it."""
     empty: dict[str, Any] = {"cell_type": "code", "metadata": {}, "outputs": [], "execution_count": None}
     kernel = {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"}
@@ -122,17 +156,31 @@ def write_notebook(page: Page, lab: str, name: str, cells: Sequence[str]) -> Non
         "nbformat": 4,
         "nbformat_minor": 5,
     }
-    page.goto(f"{lab}/lab?reset")
-    page.wait_for_function("window.jupyterapp?.serviceManager?.contents")
-    save = "([name, model]) => window.jupyterapp.serviceManager.contents.save(name, model).then(() => true)"
-    assert page.evaluate(save, [name, {"type": "notebook", "format": "json", "content": notebook}])
+    (lab.folder / name).write_text(json.dumps(notebook), encoding="utf-8")
 
 
-def open_notebook(page: Page, lab: str, name: str) -> None:
+def open_notebook(page: Page, lab: Lab, name: str) -> None:
     """Open a notebook alone, and wait until its kernel is there."""
-    page.goto(f"{lab}/doc/tree/{name}?reset")
+    if page.url.startswith(f"{lab}/"):
+        execute(page, "docmanager:open", {"path": name, "factory": "Notebook"})
+    else:
+        page.goto(f"{lab}/doc/tree/{name}?reset")
+        page.wait_for_selector(".jp-Notebook .jp-Cell")
+    page.wait_for_function(f"name => {NOTEBOOK}?.context?.path === name", arg=name)
     page.wait_for_selector(".jp-Notebook .jp-Cell")
     page.wait_for_function(f"{KERNEL}?.status === 'idle'")
+
+
+def close_all(page: Page) -> None:
+    """Close all documents of a window, unsaved, and end all kernels of the server."""
+    choose_theme(page, "Light")
+    page.evaluate("""async () => {
+      for (const each of Array.from(window.jupyterapp.shell.widgets('main'))) {
+        if (each.context) each.context.model.dirty = false;
+        each.close();
+      }
+      await window.jupyterapp.serviceManager.sessions.shutdownAll();
+    }""")
 
 
 def execute(page: Page, command: str, arguments: dict[str, Any] | None = None) -> None:

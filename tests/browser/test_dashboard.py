@@ -6,28 +6,27 @@ import re
 from collections.abc import Iterator
 
 import pytest
-from jupyter_pages import PATIENCE, execute, open_notebook
+from jupyter_pages import PATIENCE, Lab, execute, notebook_in, open_notebook
 from playwright.sync_api import Browser, Page, expect
 
 NOTEBOOK = "notebooks/lab.ipynb"
 
 
 @pytest.fixture(scope="module")
-def window(browser: Browser, lab: str) -> Iterator[Page]:
+def opened(desktop: Page, lab: Lab) -> Iterator[Page]:
+    """A window with the page, which shows its picture until it is run."""
+    with notebook_in(desktop, lab, NOTEBOOK, [], width=1600) as page:
+        expect(page.locator(".jp-OutputArea img").first).to_be_visible()
+        assert page.locator(".tl-dashboard").count() == 0
+        yield page
+
+
+@pytest.fixture(scope="module")
+def window(opened: Page) -> Page:
     """A window in which the page was run: five seconds of robot time, and then it stands still."""
-    page = browser.new_page(viewport={"width": 1600, "height": 1000})
-    page.set_default_timeout(PATIENCE)
-    open_notebook(page, lab, NOTEBOOK)
-    execute(page, "notebook:run-all-cells")
-    page.wait_for_selector(".tl-dashboard")
-    yield page
-    page.close()
-
-
-def test_its_picture_stands_there_until_it_is_run(page: Page, lab: str) -> None:
-    open_notebook(page, lab, NOTEBOOK)
-    expect(page.locator(".jp-OutputArea img").first).to_be_visible()
-    assert page.locator(".tl-dashboard").count() == 0
+    execute(opened, "notebook:run-all-cells")
+    opened.wait_for_selector(".tl-dashboard")
+    return opened
 
 
 def test_everything_is_there_and_as_expected(window: Page) -> None:
@@ -47,7 +46,7 @@ def test_status_and_log_run_when_time_does(window: Page) -> None:
     window.get_by_role("button", name="Pause").click()
 
 
-def test_two_windows_are_in_step(window: Page, browser: Browser, lab: str) -> None:
+def test_two_windows_are_in_step(window: Page, browser: Browser, lab: Lab) -> None:
     other = browser.new_page(viewport={"width": 900, "height": 1000})
     other.set_default_timeout(PATIENCE)
     open_notebook(other, lab, NOTEBOOK)

@@ -11,8 +11,9 @@ from typing import Any
 import pytest
 from jupyter_pages import (
     PATIENCE,
+    Lab,
     execute,
-    new_window,
+    notebook_in,
     open_notebook,
     python,
     serious_violations,
@@ -92,15 +93,13 @@ def problems() -> list[str]:
 
 
 @pytest.fixture(scope="module")
-def window(browser: Browser, lab: str, problems: list[str]) -> Iterator[Page]:
+def window(desktop: Page, lab: Lab, problems: list[str]) -> Iterator[Page]:
     """A window in which the cells were run."""
-    page = new_window(browser, problems)
-    write_notebook(page, lab, NAME, CELLS)
-    open_notebook(page, lab, NAME)
-    execute(page, "notebook:run-all-cells")
-    page.wait_for_selector(".tl-map")
-    yield page
-    page.close()
+    write_notebook(lab, NAME, CELLS)
+    with notebook_in(desktop, lab, NAME, problems) as page:
+        execute(page, "notebook:run-all-cells")
+        page.wait_for_selector(".tl-map")
+        yield page
 
 
 @pytest.fixture
@@ -270,7 +269,7 @@ def test_obstacles_are_changed_by_numbers_and_keys(pad: Pad) -> None:
     expect(pad.words).to_contain_text("radius must be a number above zero")
 
 
-def test_two_windows_are_in_step(pad: Pad, browser: Browser, lab: str) -> None:
+def test_two_windows_are_in_step(pad: Pad, browser: Browser, lab: Lab) -> None:
     page = browser.new_page(viewport={"width": 800, "height": 1000})
     page.set_default_timeout(PATIENCE)
     open_notebook(page, lab, NAME)

@@ -6,14 +6,13 @@ lead from an empty page to a robot of one's own on the dashboard.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import nbformat
 import pytest
-from jupyter_pages import KERNEL, NOTEBOOK, execute, jupyterlab, new_window, open_notebook
-from playwright.sync_api import Browser, Page
+from jupyter_pages import KERNEL, NOTEBOOK, Lab, execute, notebook_in
+from playwright.sync_api import Page
 
 from turtle_lesson.teaching.learner import LearnersFolder
 
@@ -24,24 +23,25 @@ LONGEST = 300_000
 
 
 @pytest.fixture(scope="module")
-def lesson(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Path, str]]:
-    """A learner's folder, and the address of a JupyterLab in it."""
-    folder = tmp_path_factory.mktemp("learner") / "my-lesson"
+def folder(lab: Lab) -> Path:
+    """A learner's folder, in the one that JupyterLab serves."""
+    folder = lab.folder / "my-lesson"
     LearnersFolder(folder).update()
-    with jupyterlab(folder) as address:
-        yield folder, address
+    return folder
 
 
 @pytest.mark.parametrize("name", PAGES)
-def test_a_page_is_played_from_empty_cells_to_right_answers(
-    browser: Browser, lesson: tuple[Path, str], name: str
-) -> None:
-    folder, address = lesson
+def test_a_page_is_played_from_empty_cells_to_right_answers(desktop: Page, lab: Lab, folder: Path, name: str) -> None:
     problems: list[str] = []
-    page = new_window(browser, problems)
-    open_notebook(page, address, f"{name}.ipynb")
+    with notebook_in(desktop, lab, f"my-lesson/{name}.ipynb", problems) as page:
+        play(page, folder / f"{name}.ipynb")
+    assert problems == []
+
+
+def play(page: Page, file: Path) -> None:
+    """Type the solutions, run all cells, and look."""
     assert not any(cell.get("outputs") for cell in page.evaluate(CELLS)), "nothing is given away before it is run"
-    solutions = type_solutions(page, folder / f"{name}.ipynb")
+    solutions = type_solutions(page, file)
     run_all(page)
     cells = page.evaluate(CELLS)
     assert [cell["source"] for cell in cells if unexpected_error(cell)] == []
@@ -50,11 +50,9 @@ def test_a_page_is_played_from_empty_cells_to_right_answers(
     for cell in checks:
         said = "".join(cell["outputs"][-1]["data"]["text/plain"])
         assert said.startswith("✓"), said
-    if name.startswith("06"):
+    if file.name.startswith("06"):
         dashboard = page.locator(".jp-OutputArea-output", has_text="obstacle_detector").last
         dashboard.wait_for(state="attached")
-    page.close()
-    assert problems == []
 
 
 def type_solutions(page: Page, file: Path) -> int:
@@ -88,7 +86,7 @@ def run_all(page: Page) -> None:
         && cell.outputs.some(output => output.output_type === 'error');
       return {KERNEL}?.status === 'idle' && (code.at(-1).execution_count || code.some(fatal));
     }}"""
-    page.wait_for_function(ended, timeout=LONGEST)
+    page.wait_for_function(ended, timeout=LONGEST, polling=200)  # not at each frame: it reads the whole page
 
 
 def unexpected_error(cell: dict[str, Any]) -> bool:

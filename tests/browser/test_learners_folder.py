@@ -17,6 +17,7 @@ def test_page_00_opens_and_works_and_says_what_to_run_after_a_restart(page: Page
     port = free_port()
     words = [sys.executable, "-m", "turtle_lesson", "open", "--no-browser", "--port", str(port)]
     words += ["--allow-root", "--IdentityProvider.token=", "--LabApp.expose_app_in_browser=True"]
+    words += ["--LanguageServerManager.autodetect=False"]
     with (tmp_path / "server.log").open("w") as log:
         server = subprocess.Popen(words, cwd=tmp_path, env=isolated(tmp_path), stdout=log, stderr=log)
     try:

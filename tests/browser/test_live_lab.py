@@ -12,9 +12,11 @@ from collections.abc import Iterator
 
 import pytest
 from jupyter_pages import (
+    Lab,
     choose_theme,
     execute,
     new_window,
+    notebook_in,
     open_notebook,
     python,
     serious_violations,
@@ -136,15 +138,13 @@ def problems() -> list[str]:
 
 
 @pytest.fixture(scope="module")
-def window(browser: Browser, lab: str, problems: list[str]) -> Iterator[Page]:
+def window(desktop: Page, lab: Lab, problems: list[str]) -> Iterator[Page]:
     """A window in which all cells were run."""
-    page = new_window(browser, problems)
-    write_notebook(page, lab, NAME, CELLS)
-    open_notebook(page, lab, NAME)
-    execute(page, "notebook:run-all-cells")
-    all_are_there(page)
-    yield page
-    page.close()
+    write_notebook(lab, NAME, CELLS)
+    with notebook_in(desktop, lab, NAME, problems) as page:
+        execute(page, "notebook:run-all-cells")
+        all_are_there(page)
+        yield page
 
 
 def all_are_there(page: Page) -> None:
@@ -226,7 +226,7 @@ def test_fifty_steps_in_a_second_are_fifty_steps(board: Board) -> None:
 
 
 def test_a_window_that_opens_the_saved_page_is_in_step(
-    board: Board, browser: Browser, lab: str, problems: list[str]
+    board: Board, browser: Browser, lab: Lab, problems: list[str]
 ) -> None:
     execute(board.page, "docmanager:save")
     page = new_window(browser, problems, width=900)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import pytest
-from jupyter_pages import choose_theme, execute, new_window, open_notebook, serious_violations, value, write_notebook
-from playwright.sync_api import Browser, Page, expect
+from jupyter_pages import Lab, choose_theme, execute, notebook_in, serious_violations, value, write_notebook
+from playwright.sync_api import Page, expect
 
 CELLS = (
     """%load_ext turtle_lesson
@@ -26,23 +26,22 @@ NAME = "prediction.ipynb"
 
 
 @pytest.fixture(scope="module")
-def window(browser: Browser, lab: str) -> Iterator[Page]:
+def window(desktop: Page, lab: Lab) -> Iterator[Page]:
     """A window in which all cells but the outcome's were run."""
     problems: list[str] = []
-    page = new_window(browser, problems)
-    write_notebook(page, lab, NAME, CELLS[:-1])
-    open_notebook(page, lab, NAME)
-    execute(page, "notebook:run-all-cells")
-    page.wait_for_selector(".tl-guess-map", state="attached")
-    expect(page.get_by_text("In words")).to_have_count(1)
-    yield page
+    write_notebook(lab, NAME, CELLS[:-1])
+    with notebook_in(desktop, lab, NAME, problems) as page:
+        execute(page, "notebook:run-all-cells")
+        page.wait_for_selector(".tl-guess-map", state="attached")
+        expect(page.get_by_text("In words")).to_have_count(1)
+        yield page
     assert problems == []
-    page.close()
 
 
 def test_a_place_is_guessed_by_keys_alone(window: Page) -> None:
     guess = window.locator(".tl-guess-map")
     guess.scroll_into_view_if_needed()
+    window.keyboard.press("Escape")  # as by a reader who uses keys: after a click the focus need not be shown
     guess.focus()
     assert guess.evaluate("node => getComputedStyle(node).outlineStyle") == "solid", "it shows that it has the focus"
     for key in ["ArrowLeft", "ArrowLeft", "Shift+ArrowUp", "Enter"]:

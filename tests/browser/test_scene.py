@@ -9,16 +9,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from jupyter_pages import PATIENCE, serious_violations
+from jupyter_pages import NOTEBOOK, Lab, notebook_in, serious_violations, write_notebook
 from PIL import Image
 from playwright.sync_api import Browser, Page
 
 from turtle_lesson import start
 
-NOTEBOOK = "window.jupyterapp.shell.currentWidget"
 CELLS = [
-    """
-import psutil
+    """import psutil
 from turtle_lesson import start
 lesson = start(seed=0)
 _ = lesson.launch("robot_controller", "start_system.launch.py", source="world")
@@ -27,8 +25,7 @@ def listening():
     here = psutil.Process()
     return {each.laddr for process in (here, *here.children(True)) for each in process.net_connections()
             if each.status == psutil.CONN_LISTEN}
-ports = listening()
-""",
+ports = listening()""",
     "lesson.scene()",
     "lesson.goal_pad().desk.send(9.0, 9.0, 0.0)\nlesson.run(4)",
     "lesson.set_obstacles('three pillars')\nlesson.run(1.5)",
@@ -48,33 +45,13 @@ def problems() -> list[str]:
 
 
 @pytest.fixture(scope="module")
-def page(browser: Browser, lab: str, problems: list[str]) -> Iterator[Page]:
+def page(desktop: Page, lab: Lab, problems: list[str]) -> Iterator[Page]:
     """One window for all tests of this file, which go through its cells from the first to the last."""
-    page = browser.new_page(viewport={"width": 1280, "height": 900})
-    page.set_default_timeout(PATIENCE)
-    page.on("console", lambda message: problems.append(message.text) if message.type == "error" else None)
-    page.on("pageerror", lambda error: problems.append(str(error)))
-    page.goto(f"{lab}/lab?reset")
-    page.wait_for_function("window.jupyterapp?.serviceManager?.isReady")
-    page.evaluate("notebook => window.jupyterapp.serviceManager.contents.save('scene.ipynb', notebook)", notebook())
-    page.goto(f"{lab}/doc/tree/scene.ipynb")
-    page.wait_for_selector(".jp-Notebook .jp-Cell")
-    page.wait_for_function(f"{NOTEBOOK}?.sessionContext?.session?.kernel?.status == 'idle'")
-    run(page, 0)
-    run(page, 1)
-    yield page
-    page.close()
-
-
-def notebook() -> dict[str, Any]:
-    cells = [
-        {"cell_type": "code", "id": f"cell-{number}", "source": source.strip(), "metadata": {}, "outputs": []}
-        | {"execution_count": None}
-        for number, source in enumerate(CELLS)
-    ]
-    kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3"}}
-    content = {"cells": cells, "metadata": kernel, "nbformat": 4, "nbformat_minor": 5}
-    return {"type": "notebook", "format": "json", "content": content}
+    write_notebook(lab, "scene.ipynb", CELLS)
+    with notebook_in(desktop, lab, "scene.ipynb", problems) as page:
+        run(page, 0)
+        run(page, 1)
+        yield page
 
 
 def run(page: Page, number: int) -> None:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 import pytest
-from jupyter_pages import execute, new_window, open_notebook, serious_violations, write_notebook
+from jupyter_pages import Lab, execute, new_window, notebook_in, open_notebook, serious_violations, write_notebook
 from playwright.sync_api import Browser, Locator, Page, expect
 
 CELLS = (
@@ -32,16 +32,14 @@ def problems() -> list[str]:
 
 
 @pytest.fixture(scope="module")
-def window(browser: Browser, lab: str, problems: list[str]) -> Iterator[Page]:
+def window(desktop: Page, lab: Lab, problems: list[str]) -> Iterator[Page]:
     """A window in which all cells were run."""
-    page = new_window(browser, problems)
-    write_notebook(page, lab, NAME, CELLS)
-    open_notebook(page, lab, NAME)
-    execute(page, "notebook:run-all-cells")
-    page.wait_for_selector(".tl-parameters", state="attached")
-    expect(page.locator(".tl-teleop")).to_have_count(2)
-    yield page
-    page.close()
+    write_notebook(lab, NAME, CELLS)
+    with notebook_in(desktop, lab, NAME, problems) as page:
+        execute(page, "notebook:run-all-cells")
+        page.wait_for_selector(".tl-parameters", state="attached")
+        expect(page.locator(".tl-teleop")).to_have_count(2)
+        yield page
 
 
 def speed(widget: Locator) -> Locator:
@@ -192,9 +190,9 @@ while sys.stdin.read(1) != "q":
 )
 
 
-def test_keys_go_to_a_program_that_reads_them(browser: Browser, lab: str, problems: list[str]) -> None:
+def test_keys_go_to_a_program_that_reads_them(browser: Browser, lab: Lab, problems: list[str]) -> None:
     window = new_window(browser, problems)
-    write_notebook(window, lab, "keys.ipynb", KEY_CELLS)
+    write_notebook(lab, "keys.ipynb", KEY_CELLS)
     open_notebook(window, lab, "keys.ipynb")
     execute(window, "notebook:run-all-cells")
     teleop = window.locator(".tl-teleop").first
