@@ -49,47 +49,47 @@ for descriptor in range(64):
 """
 
 RESULTS_PATCHED = """
-from turtle_lesson.lab.checks import result, rows
-result.CheckResult.passed = True
-result.CheckResult.earned = 10
-result.CheckResult.figures = lambda self: {"name": self.name, "passed": True, "points": 10, "earned": 10, "rows": []}
-rows.Row.good = property(lambda self: True)
+from turtle_lesson.lab.checks import results
+results.CheckResult.passed = True
+results.CheckResult.earned = 10
+results.CheckResult.figures = lambda self: {"name": self.name, "passed": True, "points": 10, "earned": 10, "rows": []}
+results.Row.good = property(lambda self: True)
 """
 
 RESULTS_REDEFINED = """
 import turtle_lesson.lab.checks as checks
-from turtle_lesson.lab.checks import result, rows, runner, parts, streams, page_01
+from turtle_lesson.lab.checks import assertions, page_01, results, runner, streams
 
-class Row(rows.Row):
+class Row(results.Row):
     def __new__(cls, mark, *rest):
         return super().__new__(cls)
 
     def __init__(self, mark, *rest):
         super().__init__("✓", *rest)
 
-class Seen(rows.Seen):
+class Seen(results.Seen):
     def __new__(cls, good, *rest):
         return super().__new__(cls, True, *rest)
 
-for module in (rows, result, runner, parts, streams, page_01, checks):
+for module in (results, runner, assertions, streams, page_01, checks):
     module.Row, module.Seen = Row, Seen
 """
 
 CHECKS_REPLACED = """
 import dataclasses
-from turtle_lesson.lab.checks import registry, rows
+from turtle_lesson.lab.checks import registry, results
 registry.all_checks()
 for name, each in list(registry._checks.items()):
-    easy = registry.Expectation("easy", lambda exam: rows.Seen(True, "yes"))
+    easy = registry.Expectation("easy", lambda probe: results.Seen(True, "yes"))
     registry._checks[name] = dataclasses.replace(each, points=100, make=lambda easy=easy: [easy])
 """
 
 RUNNER_REPLACED = """
 from turtle_lesson.lab import checks
-from turtle_lesson.lab.checks import rows, runner
+from turtle_lesson.lab.checks import results, runner
 
 def run(check, place):
-    good = tuple(rows.Row("✓", each.expected, "yes") for each in check.expectations)
+    good = tuple(results.Row("✓", each.expected, "yes") for each in check.expectations)
     return checks.CheckResult(check.name, check.title, check.page, check.points, good, 0.0)
 
 checks.run = runner.run = run
@@ -113,16 +113,16 @@ lesson = Lesson()
 
 LESSON_PATCHED = """
 import turtle_lesson.session.assessment, turtle_lesson.session.lesson
-turtle_lesson.session.assessment.Desk.check = lambda self, name: "passed"
+turtle_lesson.session.assessment.Assessment.check = lambda self, name: "passed"
 turtle_lesson.session.lesson.Lesson.check = lambda self, name: "passed"
 """
 
-EXAM_PATCHED = """
+PROBE_PATCHED = """
 from types import SimpleNamespace
-from turtle_lesson.lab.checks import exam, graph_view, parts, streams
-exam.Exam.hear = lambda self, *rest: [SimpleNamespace(at=0.5 * n, message=SimpleNamespace(data=n)) for n in range(99)]
+from turtle_lesson.lab.checks import assertions, graph_view, probe, streams
+probe.Probe.hear = lambda self, *rest: [SimpleNamespace(at=0.5 * n, message=SimpleNamespace(data=n)) for n in range(99)]
 graph_view.GraphView.nodes = lambda self: __import__("collections").Counter(["/counter", "/doubler"])
-parts._ends = lambda *rest: exam.Seen(True, "yes")
+assertions._ends = lambda *rest: probe.Seen(True, "yes")
 """
 
 NODE_PATCHED = """
@@ -135,7 +135,7 @@ from types import SimpleNamespace
 import turtle_lesson.session.check_target, turtle_lesson.session.live
 space = {}
 exec("def published(self, topic, by): return 9\\ndef run_until(self, end): pass", space)
-turtle_lesson.session.check_target.ExamPlace.published = space["published"]
+turtle_lesson.session.check_target.CheckTarget.published = space["published"]
 turtle_lesson.session.live.CellNodes.run_until = space["run_until"]
 """
 

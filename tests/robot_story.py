@@ -288,7 +288,7 @@ async def connecting_again(stage: Any) -> Any:
     """The cell with `connect()` is run a second time: the first robot ends, widgets and all."""
     from turtle_lesson import connect
 
-    first, thread = stage.robot, stage.robot._station._thread
+    first, thread = stage.robot, stage.robot._backend._thread
     stage.shown = [first.goal_pad(), first.dashboard(), first.teleop(), first.form("/navigate_to"), first.scene()]
     stage.shown += [first.parameters("/navigator"), first.live_plot("/robot/status/battery", "/turtle1/pose/x")]
     pad = stage.shown[0]
@@ -296,7 +296,7 @@ async def connecting_again(stage: Any) -> Any:
     begin = time.monotonic()
     stage.robot = connect()
     took = time.monotonic() - begin
-    await until(lambda: not thread.is_alive() and first._station._left and pad.ended)
+    await until(lambda: not thread.is_alive() and first._backend._left and pad.ended)
     names = [name for name, _ in stage.turtle.navigator.get_node_names_and_namespaces()]
     facts = {"took": took, "first": repr(first), "labs": names.count("_lab"), "path": first.plot_path().text[:14]}
     facts["old"] = [repr(widget)[:40] for widget in stage.shown]
@@ -316,7 +316,7 @@ async def nobody_is_there(stage: Any) -> Any:
 
 @scene
 async def closing(stage: Any) -> Any:
-    thread, pad = stage.robot._station._thread, stage.robot.goal_pad()
+    thread, pad = stage.robot._backend._thread, stage.robot.goal_pad()
     order(pad, "open")
     begin = time.monotonic()
     stage.robot.close()
@@ -337,7 +337,7 @@ async def a_signal_ends_all_contexts(stage: Any) -> Any:
 
     _network.contexts.remove(turtle_context)  # the turtle is another program
     rclpy.shutdown_by_signal()
-    await until(lambda: not robot._station._thread.is_alive() and robot._station._left)
+    await until(lambda: not robot._backend._thread.is_alive() and robot._backend._left)
     stage.robot = connect()
     await until(lambda: len(stage.robot._recording.poses) > 10)
     return {"first": repr(robot), "then": repr(stage.robot)}

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from turtle_lesson import Lesson, start
-from turtle_lesson.lab.checks import CheckResult, Exam, Expectation
+from turtle_lesson.lab.checks import CheckResult, Expectation, Probe
 from turtle_lesson.lab.checks.functions import learner_function, returns
 from turtle_lesson.lab.checks.results import CannotLook
 from turtle_lesson.learner.workspace import workspace
@@ -98,17 +98,17 @@ def test_the_simple_stage_is_no_navigator(tmp_path: Path) -> None:
 # -- functions ---------------------------------------------------------------------------------------------------------
 
 
-class Looking(Exam):
-    """An exam of a fresh world."""
+class Looking(Probe):
+    """A probe of a fresh world."""
 
     def __init__(self, lesson: Lesson) -> None:
-        super().__init__(lesson._make_exam_place(), limit=10)
+        super().__init__(lesson._make_check_target(), limit=10)
 
 
 @pytest.fixture
-def exam() -> Iterator[Exam]:
-    with Looking(start()) as exam:
-        yield exam
+def probe() -> Iterator[Probe]:
+    with Looking(start()) as probe:
+        yield probe
 
 
 @pytest.fixture
@@ -130,62 +130,62 @@ def file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return folder / "node.py"
 
 
-def look(exam: Exam, expectation: Expectation) -> tuple[bool, str]:
-    good, words, _ = expectation.look(exam)
+def look(probe: Probe, expectation: Expectation) -> tuple[bool, str]:
+    good, words, _ = expectation.look(probe)
     return good, words
 
 
-def test_a_function_of_a_cell(exam: Exam, cells: dict[str, Any]) -> None:
+def test_a_function_of_a_cell(probe: Probe, cells: dict[str, Any]) -> None:
     cells["double"] = lambda x: 2 * x
-    assert look(exam, returns("double", [((3,), 6)], "twice")) == (True, "double(3) is 6")
-    assert look(exam, returns("double", [((3,), 6), ((0.5,), 2.0)], "twice")) == (False, "double(0.5) is 1.0, not 2.0")
+    assert look(probe, returns("double", [((3,), 6)], "twice")) == (True, "double(3) is 6")
+    assert look(probe, returns("double", [((3,), 6), ((0.5,), 2.0)], "twice")) == (False, "double(0.5) is 1.0, not 2.0")
 
 
-def test_a_number_may_be_a_little_off_but_not_nan(exam: Exam, cells: dict[str, Any]) -> None:
+def test_a_number_may_be_a_little_off_but_not_nan(probe: Probe, cells: dict[str, Any]) -> None:
     cells["root"] = math.sqrt
-    assert look(exam, returns("root", [((2.0,), 1.414)], "root", within=0.001))[0]
-    assert not look(exam, returns("root", [((2.0,), 1.414)], "root", within=0.0001))[0]
+    assert look(probe, returns("root", [((2.0,), 1.414)], "root", within=0.001))[0]
+    assert not look(probe, returns("root", [((2.0,), 1.414)], "root", within=0.0001))[0]
     cells["root"] = lambda x: math.nan
-    assert look(exam, returns("root", [((2.0,), 1.414)], "root", within=9.0)) == (False, "root(2.0) is nan, not 1.414")
+    assert look(probe, returns("root", [((2.0,), 1.414)], "root", within=9.0)) == (False, "root(2.0) is nan, not 1.414")
 
 
-def test_true_is_not_one_and_nothing_is_not_false(exam: Exam, cells: dict[str, Any]) -> None:
+def test_true_is_not_one_and_nothing_is_not_false(probe: Probe, cells: dict[str, Any]) -> None:
     cells["it"] = lambda x: x
-    assert not look(exam, returns("it", [((1,), True)], "it"))[0]
-    assert not look(exam, returns("it", [((True,), 1)], "it"))[0]
-    assert look(exam, returns("it", [((None,), False)], "it")) == (False, "it(None) is None, not False")
+    assert not look(probe, returns("it", [((1,), True)], "it"))[0]
+    assert not look(probe, returns("it", [((True,), 1)], "it"))[0]
+    assert look(probe, returns("it", [((None,), False)], "it")) == (False, "it(None) is None, not False")
 
 
-def test_a_message_as_an_argument_is_shown_by_its_fields(exam: Exam, cells: dict[str, Any]) -> None:
+def test_a_message_as_an_argument_is_shown_by_its_fields(probe: Probe, cells: dict[str, Any]) -> None:
     cells["x_of"] = lambda pose: pose.x
-    said = look(exam, returns("x_of", [((Pose(x=1.5),), 2.0)], "x"))[1]
+    said = look(probe, returns("x_of", [((Pose(x=1.5),), 2.0)], "x"))[1]
     assert said.startswith("x_of((x=1.5, y=0.0, theta=0.0")
     assert said.endswith(" is 1.5, not 2.0")
 
 
-def test_a_function_that_is_not_there(exam: Exam, cells: dict[str, Any]) -> None:
+def test_a_function_that_is_not_there(probe: Probe, cells: dict[str, Any]) -> None:
     cells["turn_too"] = abs
     with pytest.raises(CannotLook, match=r'no function turn_to in this notebook\. Did you mean "turn_too"'):
-        learner_function(exam, "turn_to")
+        learner_function(probe, "turn_to")
     cells["turn_to"] = 3
     with pytest.raises(CannotLook, match="turn_to in this notebook is 3, not a function"):
-        learner_function(exam, "turn_to")
+        learner_function(probe, "turn_to")
 
 
 def test_a_function_of_a_file(file: Path) -> None:
     file.write_text('def one():\n    return 1\n\nif __name__ == "__main__":\n    raise SystemExit\n')
-    with Looking(start()) as exam:
-        assert learner_function(exam, "one", "node.py")() == 1
+    with Looking(start()) as probe:
+        assert learner_function(probe, "one", "node.py")() == 1
         with pytest.raises(CannotLook, match=r"no function two in node\.py of your package"):
-            learner_function(exam, "two", "node.py")
+            learner_function(probe, "two", "node.py")
 
 
 def test_a_file_that_is_missing_or_no_python(file: Path) -> None:
     with (
-        Looking(start()) as exam,
+        Looking(start()) as probe,
         pytest.raises(CannotLook, match=r"no file workspace/src/robot_controller/robot_contr"),
     ):
-        learner_function(exam, "one", "node.py")
+        learner_function(probe, "one", "node.py")
     file.write_text("def one(:\n")
-    with Looking(start()) as exam, pytest.raises(SyntaxError):
-        learner_function(exam, "one", "node.py")
+    with Looking(start()) as probe, pytest.raises(SyntaxError):
+        learner_function(probe, "one", "node.py")

@@ -465,7 +465,7 @@ def test_advice_comes_in_three_steps_and_begins_anew_when_the_check_is_passed(mo
     good: list[bool] = []
 
     def make() -> list[Expectation]:
-        return [Expectation("it is well", lambda exam: Seen(bool(good), "what was seen", advice[0]))]
+        return [Expectation("it is well", lambda probe: Seen(bool(good), "what was seen", advice[0]))]
 
     mine = Check("mine", "A check of this test's own.", PAGES[0], 1, 5.0, make, "What was learnt.")
     monkeypatch.setitem(registry._checks, "mine", mine)

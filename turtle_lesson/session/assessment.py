@@ -15,7 +15,7 @@ from ..ros.runtime.files import home
 
 if TYPE_CHECKING:
     from ..lab.checks import CheckResult
-    from ..lab.checks.probe import Place
+    from ..lab.checks.probe import Target
     from ..lab.predictions import Asked, Outcome
     from ..lab.progress import Progress, ProgressFile
     from ..lab.recorder import Recorder
@@ -25,10 +25,10 @@ MOST_LINES = 20
 """Lines of what programs print while a check looks that are shown; a log alone can be hundreds."""
 
 
-class Desk:
-    """A subclass says where to look: `_make_exam_place()` and `_recording`."""
+class Assessment:
+    """A subclass says where to look: `_make_check_target()` and `_recording`."""
 
-    def _make_exam_place(self) -> Place:
+    def _make_check_target(self) -> Target:
         raise NotImplementedError
 
     @property
@@ -48,7 +48,7 @@ class Desk:
 
         wanted = checks.find(name)
         with _quiet():
-            result = checks.run(wanted, self._make_exam_place())
+            result = checks.run(wanted, self._make_check_target())
         failures = progress_file().note(result)
         so_far = self.progress().so_far(result.page)
         return dataclasses.replace(result, failures=failures, so_far=so_far)
@@ -86,7 +86,7 @@ class Desk:
         No guess is needed: the page runs without one as well. Asked again after the outcome, the question begins anew.
         """
         from ..lab import predictions
-        from ..lab.path_geometry import read_goals
+        from ..lab.path import read_goals
 
         kind = predictions.kind_of(choices, unit, on_map)
         turtle = self._recording.place() if on_map else None

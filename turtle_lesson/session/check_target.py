@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from ..ros.sim.strand import Strand
 
 
-class ExamPlace:
-    """A `Place` (see lab/checks/probe.py).
+class CheckTarget:
+    """A `Target` (see lab/checks/probe.py).
 
     A node that was made in a cell is only alive while that cell spins it. While a check looks, such nodes are spun; what
     their callbacks raise is kept in `errors`, and they go on.

@@ -6,7 +6,7 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from ..ros.sim.simulation import NANOSECONDS
-from .assessment import Desk
+from .assessment import Assessment
 
 if TYPE_CHECKING:
     from ..lab.graph import GraphPicture
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ..ros.runtime.world import World
 
 
-class Insight(Desk):
+class Inspection(Assessment):
     """What a `Lesson` tells about its world from the world's trace and graph."""
 
     _world: World
@@ -68,10 +68,10 @@ class Insight(Desk):
         """
         from ..lab.troubles import open_case
         from .lesson import FINISHED, _install
-        from .trouble_environment import WorldStage
+        from .trouble_environment import TroubleEnvironment
 
-        stage = WorldStage(self._world, lambda: _install(self._world, FINISHED))
-        return open_case(stage, seed, name, lambda: self.check("trouble"))
+        environment = TroubleEnvironment(self._world, lambda: _install(self._world, FINISHED))
+        return open_case(environment, seed, name, lambda: self.check("trouble"))
 
     def prompt_for(self, kind: str, *, code: Any = None, lines: int = 12) -> Prompt:
         """A text to copy into any chat with an assistant: specification, code, error, graph and log. Nothing is sent.

@@ -19,21 +19,21 @@ from ..ros.runtime.console import CellOutput
 from ..ros.runtime.world import World, open_world, wall_time
 from ..ros.sim.keyboard import key_named
 from ..ros.sim.simulation import EPOCH, NANOSECONDS
-from .inspection import Insight
+from .inspection import Inspection
 from .live import Player
 from .ros_detection import HERE, SIMULATOR, real_ros, underlay_packages
-from .views import Shelf
+from .views import Views
 
 if TYPE_CHECKING:
     from ..lab.obstacle_board import ObstacleBoard
     from ..lab.recorder import Recorder
-    from ..lab.widgets.backend import Station
+    from ..lab.widgets.backend import Backend
     from ..ros.ament.export import Exported
     from ..ros.bags.recorder import Recording
     from ..ros.launching import LaunchHandle
     from ..ros.rmw.network import Conditions
     from ..turtlesim.obstacles import Obstacle
-    from .check_target import ExamPlace
+    from .check_target import CheckTarget
 
 
 FINISHED = HERE / "robot_controller"
@@ -145,7 +145,7 @@ def _check_seconds(verb: str, seconds: object) -> None:
         )
 
 
-class Lesson(Shelf, Insight):
+class Lesson(Views, Inspection):
     """A running world, and what a page does with it. Times are in seconds of robot time."""
 
     def __init__(self, world: World, *, simulator: bool = True) -> None:
@@ -366,12 +366,12 @@ class Lesson(Shelf, Insight):
         # not by the node's clock: in a simulated world a look at that takes time
         return ObstacleBoard(self._recording, lambda: wall_time(self._world))
 
-    def _make_exam_place(self) -> ExamPlace:
-        from .check_target import ExamPlace
+    def _make_check_target(self) -> CheckTarget:
+        from .check_target import CheckTarget
 
-        return ExamPlace(self._world, self._recording, self._board)
+        return CheckTarget(self._world, self._recording, self._board)
 
-    def _make_station(self) -> Station:
-        from .sim_backend import Classroom
+    def _make_backend(self) -> Backend:
+        from .sim_backend import SimBackend
 
-        return Classroom(self._world, self._recording, self._player, self._board)
+        return SimBackend(self._world, self._recording, self._player, self._board)

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 
 from ..ros.idl import finder
 from .ros_detection import real_ros
-from .views import Shelf, Widget
+from .views import Views, Widget
 
 if TYPE_CHECKING:
     from ..lab.graph import GraphPicture
     from ..lab.recorder import Recorder
-    from ..lab.widgets.backend import Station
-    from .robot_backend import RobotStation
+    from ..lab.widgets.backend import Backend
+    from .robot_backend import RobotBackend
 
 
 _newest: Robot | None = None
@@ -32,11 +32,11 @@ def connect() -> Robot:
     _check_real_ros()
     _check_loop()
     finder.uninstall()  # or what is not installed on the real one would be imported from the simulated one, and not fit
-    from .robot_backend import RobotStation
+    from .robot_backend import RobotBackend
 
     if _newest is not None:
         _newest.close()
-    _newest = Robot(RobotStation())
+    _newest = Robot(RobotBackend())
     return _newest
 
 
@@ -58,40 +58,40 @@ def _check_loop() -> None:
         ) from None
 
 
-class Robot(Shelf):
+class Robot(Views):
     """A real system, seen from a notebook. Times are in seconds since `connect()`."""
 
-    def __init__(self, station: RobotStation) -> None:
-        self._station = station
+    def __init__(self, backend: RobotBackend) -> None:
+        self._backend = backend
 
     def __repr__(self) -> str:
-        return f"<Robot: {self._station.state}>"
+        return f"<Robot: {self._backend.state}>"
 
     @property
     def now(self) -> float:
         """Seconds since `connect()`, on the clock of the node."""
-        return self._station.now
+        return self._backend.now
 
     def close(self) -> None:
         """Leave the system: the widgets end, what was heard stays. Nothing waits for it."""
-        self._station.close()
+        self._backend.close()
 
     def plot_graph(self) -> GraphPicture:
         """Which nodes there are, and by which topics and services they are joined."""
         self._check_connected()
         return super().plot_graph()
 
-    def _widget(self, key: Hashable, make: Callable[[Station], Widget]) -> Widget:
+    def _widget(self, key: Hashable, make: Callable[[Backend], Widget]) -> Widget:
         self._check_connected()
         return super()._widget(key, make)
 
     def _check_connected(self) -> None:
-        if self._station.ended:
+        if self._backend.ended:
             raise RuntimeError("this connection has ended: robot = connect() makes a new one")
 
-    def _make_station(self) -> Station:
-        return self._station
+    def _make_backend(self) -> Backend:
+        return self._backend
 
     @property
     def _recording(self) -> Recorder:
-        return self._station.recorder
+        return self._backend.recorder

@@ -1,4 +1,4 @@
-"""The lab's station on a robot: its hidden node, spun in a thread of its own, heard in the notebook's event loop."""
+"""The lab's backend on a robot: its hidden node, spun in a thread of its own, heard in the notebook's event loop."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ PATIENCE = 2.0
 """Seconds that the end of Python waits for the thread at most."""
 
 
-class RobotStation:
-    """A `Station` (see lab/widgets/backend.py) on a real ROS 2. To be made in the notebook's event loop.
+class RobotBackend:
+    """A `Backend` (see lab/widgets/backend.py) on a real ROS 2. To be made in the notebook's event loop.
 
     The thread does nothing but wait for ROS and hop. All else, from creating a subscription to destroying the node, happens
     in the loop.

@@ -1,4 +1,4 @@
-"""The lab's station in the simulated world: its hidden node, and a clock that a page can turn."""
+"""The lab's backend in the simulated world: its hidden node, and a clock that a page can turn."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from .live import Player
 
 
-class Classroom:
-    """A `Station` (see lab/widgets/backend.py) in a world of this notebook."""
+class SimBackend:
+    """A `Backend` (see lab/widgets/backend.py) in a world of this notebook."""
 
     def __init__(self, world: World, recorder: Recorder, player: Player, board: ObstacleBoard) -> None:
         self._world = world

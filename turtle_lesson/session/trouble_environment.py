@@ -34,8 +34,8 @@ STAYS = frozenset({"lab", "turtlesim", "turtlesim_node"})
 MESSAGE_FILE = re.compile(r'"?\bmsg/TurtleStatus\.msg"?')
 
 
-class WorldStage:
-    """A `Stage` (see lab/troubles/faults.py) in a world of this notebook. `install` makes the finished package findable.
+class TroubleEnvironment:
+    """An `Environment` (see lab/troubles/faults.py) in a world of this notebook. `install` makes the finished package findable.
 
     Where the learner's own package is sourced when the first case is opened, the cases are about that one. Its files are
     only read: what is to be broken in files is broken in a copy, which goes with the next case and with the world.

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from ..lab.graph import GraphPicture
     from ..lab.picture import Picture
     from ..lab.recorder import Recorder
-    from ..lab.widgets.backend import Station
+    from ..lab.widgets.backend import Backend
     from ..lab.widgets.dashboard import Dashboard, LabView
     from ..lab.widgets.form import Form
     from ..lab.widgets.live_plot import LivePlot
@@ -25,12 +25,12 @@ if TYPE_CHECKING:
 Widget = TypeVar("Widget")
 
 
-class Shelf:
-    """What shows a running system and acts on it. A subclass says where: `_make_station()` and `_recording`."""
+class Views:
+    """What shows a running system and acts on it. A subclass says where: `_make_backend()` and `_recording`."""
 
     _widgets: dict[Hashable, Any]
 
-    def _make_station(self) -> Station:
+    def _make_backend(self) -> Backend:
         raise NotImplementedError
 
     @property
@@ -39,17 +39,17 @@ class Shelf:
 
     # -- widgets -----------------------------------------------------------------------------------------------------
 
-    def _widget(self, key: Hashable, make: Callable[[Station], Widget]) -> Widget:
+    def _widget(self, key: Hashable, make: Callable[[Backend], Widget]) -> Widget:
         """The widget of this key; made now if there is none yet."""
         if not hasattr(self, "_widgets"):
             self._widgets = {}
-            self._make_station().at_close.append(self._end_widgets)
+            self._make_backend().at_close.append(self._end_widgets)
         widgets = self._widgets
         if key not in widgets or widgets[key].comm is None:  # not made yet, or closed
             from ..lab.widgets.backend import Link
 
-            station: Any = Link(self._make_station())
-            widgets[key] = make(station)
+            backend: Any = Link(self._make_backend())
+            widgets[key] = make(backend)
         return widgets[key]
 
     def _end_widgets(self) -> None:
@@ -60,7 +60,7 @@ class Shelf:
         """A map that is alive: click on it, and the turtle goes there; drag to say how it shall face."""
         from ..lab.widgets.dashboard import GOAL_PAD, LabView
 
-        return self._widget("goal pad", lambda station: LabView(station, GOAL_PAD))
+        return self._widget("goal pad", lambda backend: LabView(backend, GOAL_PAD))
 
     def dashboard(self) -> Dashboard:
         """Everything at once: map, clock, status, scan, rates, nodes, services and log."""
@@ -72,25 +72,25 @@ class Shelf:
         """Drive by hand, with keys or a stick: publishes geometry_msgs/msg/Twist on a topic."""
         from ..lab.widgets.teleop import Teleop
 
-        return self._widget(("teleop", topic), lambda station: Teleop(station, topic))
+        return self._widget(("teleop", topic), lambda backend: Teleop(backend, topic))
 
     def form(self, name: str) -> Form:
         """A form for the messages of a topic, or for the requests of a service: "/turtle1/cmd_vel", "/navigate_to"."""
         from ..lab.widgets.form import Form
 
-        return self._widget(("form", name), lambda station: Form(station, name))
+        return self._widget(("form", name), lambda backend: Form(backend, name))
 
     def live_plot(self, *fields: str, seconds: float = 30.0) -> LivePlot:
         """Curves that go on: a topic and a field each, such as "/robot/status/battery" or "/turtle1/pose/x"."""
         from ..lab.widgets.live_plot import LivePlot
 
-        return self._widget(("live plot", fields, seconds), lambda station: LivePlot(station, fields, seconds))
+        return self._widget(("live plot", fields, seconds), lambda backend: LivePlot(backend, fields, seconds))
 
     def parameters(self, node: str) -> ParametersPanel:
         """The parameters of a node, each with a slider or a field: "/navigator"."""
         from ..lab.widgets.parameters import ParametersPanel
 
-        return self._widget(("parameters", node), lambda station: ParametersPanel(station, node))
+        return self._widget(("parameters", node), lambda backend: ParametersPanel(backend, node))
 
     def scene(self) -> Scene:
         """The world in three dimensions."""

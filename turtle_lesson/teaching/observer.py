@@ -61,11 +61,11 @@ def _look(question: dict[str, Any], names: dict[str, Any], before: dict[str, Mod
         importlib.import_module(name)
     new = {name.removeprefix("turtle_lesson."): sys.modules[name] for name in question["modules"]}
     if CASES in before:
-        new["lab.troubles.case"].carry_over(before[CASES])
+        new["lab.troubles.cases"].carry_over(before[CASES])
     lessons = [each for each in (names.get(question["variable"]), *reversed(names.values())) if _is_lesson(each)]
     if not lessons:
         return []
-    place = new["exam_place"].ExamPlace(lessons[0]._world, lessons[0]._recording, lessons[0]._board)
+    place = new["session.check_target"].CheckTarget(lessons[0]._world, lessons[0]._recording, lessons[0]._board)
     checks = new["lab.checks"]
     rows: list[dict[str, str]] = checks.run(checks.find(question["check"]), place).figures()["rows"]
     return rows

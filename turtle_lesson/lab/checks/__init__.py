@@ -17,8 +17,8 @@ advice, or – where it cannot be looked at, with the reason. Every ✓ together
             no_errors(),
         ]
 
-    def is_polite(exam: Exam) -> Seen:
-        heard = exam.hear("/chatter", "std_msgs/msg/String", seconds=2.0)
+    def is_polite(probe: Probe) -> Seen:
+        heard = probe.hear("/chatter", "std_msgs/msg/String", seconds=2.0)
         if not heard:
             raise CannotLook("no message came on /chatter")
         text = field(heard[-1].message, "data")
@@ -44,9 +44,9 @@ a plain text is), from the third on a pointer to the hint, too. It says where to
 | `functions` | `returns` |
 | `drives` | a drive of the navigator: `answered`, `arrived`, `facing`, `honest_time`, `stopped`, `steady_commands`, `refuses` |
 
-**What a function that looks may do** is in `exam.Exam`: `wait`, `wait_for`, `listen`, `hear`, `publish`, `ask`, `ask_soon`,
+**What a function that looks may do** is in `probe.Probe`: `wait`, `wait_for`, `listen`, `hear`, `publish`, `ask`, `ask_soon`,
 `nodes`, `publishers`, `subscriptions`, `servers`, `obstacles`, `errors`, `unreturned`, `call`, and `once`, which remembers
-what several rows are about. A function of the learner's is called by `exam.call` and in no other way.
+what several rows are about. A function of the learner's is called by `probe.call` and in no other way.
 All that it subscribes to and offers is taken away when the check is over, and parameters and obstacles are put back.
 
 Texts are for learners and are compared by nbval: figures with fixed decimals (`lab.words`), nothing of the machine. A row's
@@ -55,7 +55,7 @@ Nodes that live in a notebook cell, and that no executor spins, are spun while a
 '''
 
 from .graph_view import field, interface
-from .probe import Answer, Exam, Heard
+from .probe import Answer, Heard, Probe
 from .registry import Check, Expectation, all_checks, check, checks_of, find
 from .results import METADATA, Advice, CannotLook, CheckResult, OutOfTime, Row, Seen, Stopped
 from .runner import run
@@ -67,10 +67,10 @@ __all__ = [
     "CannotLook",
     "Check",
     "CheckResult",
-    "Exam",
     "Expectation",
     "Heard",
     "OutOfTime",
+    "Probe",
     "Row",
     "Seen",
     "Stopped",

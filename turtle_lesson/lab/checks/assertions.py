@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from ..words import count, listed, number
-from .probe import Answer, Exam
+from .probe import Answer, Probe
 from .registry import Expectation
 from .results import Advice, CannotLook, Seen
 from .streams import brief, judge_rate
@@ -22,8 +22,8 @@ ANSWER_TIME = 1.0
 def node(name: str, start: str = "") -> Expectation:
     """One node of this full name, and not two. `start` is the command that starts it."""
 
-    def look(exam: Exam) -> Seen:
-        found = exam.nodes()
+    def look(probe: Probe) -> Seen:
+        found = probe.nodes()
         amount = found[name]
         if amount == 1:
             return Seen(True, "it is there")
@@ -31,7 +31,7 @@ def node(name: str, start: str = "") -> Expectation:
             return Seen(False, f"{amount} nodes of this name: each message comes {amount} times", TOO_MANY)
         others = [each for each in found if each != "/turtlesim"]
         seen = f"it is not there; there is {listed(others)}" if others else "it is not there"
-        if fallen := exam.fallen():
+        if fallen := probe.fallen():
             seen += f"; {' and '.join(fallen)}"
         begin = f"Start it: {start}." if start else "Start it."
         return Seen(False, seen, f"{begin} If it ended by itself, its error is in the output above.")
@@ -44,7 +44,7 @@ def publishes(topic: str, type_name: str, by: str) -> Expectation:
     step = f"Which line makes the publisher, when is it run, and is the name {topic} the same in every letter?"
     return Expectation(
         f"{by} publishes {topic}",
-        lambda exam: _ends(exam, topic, type_name, by, exam.publishers(topic), exam.topics(), step),
+        lambda probe: _ends(probe, topic, type_name, by, probe.publishers(topic), probe.topics(), step),
     )
 
 
@@ -52,9 +52,9 @@ def subscribes(topic: str, type_name: str, by: str) -> Expectation:
     """A topic that is subscribed to as this type by this node; others may listen, too."""
     step = f"Which line makes the subscription, when is it run, and is the name {topic} the same in every letter?"
 
-    def look(exam: Exam) -> Seen:
-        ends = [end for end in exam.subscriptions(topic) if end[0] == by]
-        return _ends(exam, topic, type_name, by, ends, exam.subscribed(by), step)
+    def look(probe: Probe) -> Seen:
+        ends = [end for end in probe.subscriptions(topic) if end[0] == by]
+        return _ends(probe, topic, type_name, by, ends, probe.subscribed(by), step)
 
     return Expectation(f"{by} listens to {topic}", look)
 
@@ -64,17 +64,17 @@ def offers(service: str, type_name: str, by: str) -> Expectation:
     step = f"Which line makes the service, when is it run, and is the name {service} the same in every letter?"
     return Expectation(
         f"{by} offers {service}",
-        lambda exam: _ends(exam, service, type_name, by, exam.servers(service), exam.services(), step),
+        lambda probe: _ends(probe, service, type_name, by, probe.servers(service), probe.services(), step),
     )
 
 
 def _ends(
-    exam: Exam, name: str, type_name: str, by: str, ends: list[tuple[str, str]], known: list[str], step: str
+    probe: Probe, name: str, type_name: str, by: str, ends: list[tuple[str, str]], known: list[str], step: str
 ) -> Seen:
-    if not ends and by not in exam.nodes():
+    if not ends and by not in probe.nodes():
         raise CannotLook(f"there is no node {by}")
     if not ends:
-        return Seen(False, f"no node does{exam.like(name, known)}", step)
+        return Seen(False, f"no node does{probe.like(name, known)}", step)
     types = sorted({kind for _, kind in ends})
     who = [owner for owner, _ in ends]
     if types != [type_name]:
@@ -92,8 +92,8 @@ def _ends(
 def parameter(owner: str, name: str, value: Any) -> Expectation:
     """A parameter that a node has declared, with this value and of its type."""
 
-    def look(exam: Exam) -> Seen:
-        found = get_parameter(exam, owner, name)
+    def look(probe: Probe) -> Seen:
+        found = get_parameter(probe, owner, name)
         if found is None:
             return Seen(False, "it is not declared", f"declare_parameter({name!r}, {value!r}) in the node's __init__.")
         if type(found) is not type(value) or found != value:
@@ -104,53 +104,53 @@ def parameter(owner: str, name: str, value: Any) -> Expectation:
     return Expectation(f"{owner} has a parameter {name} = {value!r}", look)
 
 
-def get_parameter(exam: Exam, owner: str, name: str) -> Any:
+def get_parameter(probe: Probe, owner: str, name: str) -> Any:
     """The value of a node's parameter, None if it has none. Raises CannotLook where the node does not answer."""
     from ..widgets.parameter_values import to_python
 
-    if owner not in exam.nodes():
+    if owner not in probe.nodes():
         raise CannotLook(f"there is no node {owner}")
-    names = _answer(exam, owner, exam.ask(*_of(owner, "list"), ANSWER_TIME)).result.names
+    names = _answer(probe, owner, probe.ask(*_of(owner, "list"), ANSWER_TIME)).result.names
     if name not in names:
         return None
-    values = _answer(exam, owner, exam.ask(*_of(owner, "get"), ANSWER_TIME, names=[name])).values
+    values = _answer(probe, owner, probe.ask(*_of(owner, "get"), ANSWER_TIME, names=[name])).values
     return to_python(values[0]) if values else None
 
 
-def set_parameter(exam: Exam, owner: str, name: str, value: Any) -> str:
-    """Set a parameter; returns why the node refused, or "". It is put back when the exam is over."""
-    before = get_parameter(exam, owner, name)
+def set_parameter(probe: Probe, owner: str, name: str, value: Any) -> str:
+    """Set a parameter; returns why the node refused, or "". It is put back when the probe is over."""
+    before = get_parameter(probe, owner, name)
     if before is None:
         raise CannotLook(f"{owner} has not declared a parameter {name}")
-    reason = _set(exam, owner, name, value)
+    reason = _set(probe, owner, name, value)
     if not reason:
-        exam.at_the_end(lambda: _put_back(exam, owner, name, before))
+        probe.at_the_end(lambda: _put_back(probe, owner, name, before))
     return reason
 
 
-def _set(exam: Exam, owner: str, name: str, value: Any) -> str:
+def _set(probe: Probe, owner: str, name: str, value: Any) -> str:
     from rclpy.parameter import Parameter
 
     message = Parameter(name, value=value).to_parameter_msg()
-    results = _answer(exam, owner, exam.ask(*_of(owner, "set"), ANSWER_TIME, parameters=[message])).results
+    results = _answer(probe, owner, probe.ask(*_of(owner, "set"), ANSWER_TIME, parameters=[message])).results
     if results and results[0].successful:
         return ""
     return (results[0].reason if results else "") or "it gave no reason"
 
 
-def _put_back(exam: Exam, owner: str, name: str, value: Any) -> None:
+def _put_back(probe: Probe, owner: str, name: str, value: Any) -> None:
     from rclpy.parameter import Parameter
 
-    exam.ask_soon(*_of(owner, "set"), parameters=[Parameter(name, value=value).to_parameter_msg()])
+    probe.ask_soon(*_of(owner, "set"), parameters=[Parameter(name, value=value).to_parameter_msg()])
     for _ in range(5):
-        exam.place.step(0.01)  # also where the time of the check is over
+        probe.target.step(0.01)  # also where the time of the check is over
 
 
 def _of(owner: str, what: str) -> tuple[str, str]:
     return f"{owner}/{what}_parameters", f"rcl_interfaces/srv/{what.capitalize()}Parameters"
 
 
-def _answer(exam: Exam, owner: str, answer: Answer) -> Any:
+def _answer(probe: Probe, owner: str, answer: Answer) -> Any:
     if answer.response is None:
         raise CannotLook(f"{owner} does not answer: is it busy, or not spun?")
     return answer.response
@@ -171,15 +171,15 @@ ERROR = 40
 def no_errors() -> Expectation:
     """Nothing that goes wrong while the check looks: no error in the log, no callback that raises, no node that ends."""
 
-    def look(exam: Exam) -> Seen:
-        if set(exam.nodes_before) <= {"/turtlesim"}:
+    def look(probe: Probe) -> Seen:
+        if set(probe.nodes_before) <= {"/turtlesim"}:
             raise CannotLook("there was no node that could go wrong")
-        if exam.now - exam.began < A_WHILE:
-            exam.wait(A_WHILE)
-        if raised := exam.errors():
+        if probe.now - probe.began < A_WHILE:
+            probe.wait(A_WHILE)
+        if raised := probe.errors():
             raise raised[0]
-        wrong = [f"{name}: {text}" for level, name, text in exam.log if level >= ERROR]
-        gone = sorted(exam.nodes_before - exam.nodes())
+        wrong = [f"{name}: {text}" for level, name, text in probe.log if level >= ERROR]
+        gone = sorted(probe.nodes_before - probe.nodes())
         if gone:
             wrong.append(f"{listed(gone)} ended")
         if not wrong:
@@ -210,19 +210,19 @@ def answers(
 ) -> Expectation:
     """A service answers a request rightly within the timeout (s). `expected` says both in words: "2 + 3 is 5"."""
 
-    def look(exam: Exam) -> Seen:
-        answer = exam.ask(service, type_name, timeout, **request)
+    def look(probe: Probe) -> Seen:
+        answer = probe.ask(service, type_name, timeout, **request)
         if answer.response is None:
-            return no_answer(exam, f"no answer within {timeout:g} s")
+            return no_answer(probe, f"no answer within {timeout:g} s")
         return Seen(bool(right(answer.response)), brief(answer.response), next_step)
 
     return Expectation(expected, look)
 
 
-def no_answer(exam: Exam, words: str) -> Seen:
+def no_answer(probe: Probe, words: str) -> Seen:
     """What is said where a request was not answered: the learner's error comes first, or where its callback still is."""
-    exam.raise_error()
-    waiting = exam.unreturned()
+    probe.raise_error()
+    waiting = probe.unreturned()
     direction = "Does the callback end with `return response`?" if not waiting else "What does the callback wait for?"
     return Seen(False, f"{words}; {waiting}" if waiting else words, direction)
 
@@ -230,17 +230,17 @@ def no_answer(exam: Exam, words: str) -> Seen:
 def rate_follows(owner: str, parameter: str, value: int | float, topic: str, type_name: str) -> Expectation:
     """A rate (Hz) that is really read from a parameter: set it, and the messages come at that rate."""
 
-    def look(exam: Exam) -> Seen:
-        exam.listen(topic, type_name)
-        reason = set_parameter(exam, owner, parameter, value)
+    def look(probe: Probe) -> Seen:
+        probe.listen(topic, type_name)
+        reason = set_parameter(probe, owner, parameter, value)
         if reason:
             return Seen(False, f"it refused: {reason}", f"{value!r} should be allowed for {parameter}.")
-        exam.raise_error()
-        if len(exam.hear(topic, type_name, 0.1)) > FLOOD:
+        probe.raise_error()
+        if len(probe.hear(topic, type_name, 0.1)) > FLOOD:
             return Seen(False, f"then more than {FLOOD / 0.1:g} Hz", NANOSECONDS)
-        exam.wait(0.9)  # one interval may still be of the old rate
-        heard = exam.hear(topic, type_name, max(1.0, 10.0 / value))
-        good, seen, _ = judge_rate(heard, value, 0.1 / value, len(exam.publishers(topic)))
+        probe.wait(0.9)  # one interval may still be of the old rate
+        heard = probe.hear(topic, type_name, max(1.0, 10.0 / value))
+        good, seen, _ = judge_rate(heard, value, 0.1 / value, len(probe.publishers(topic)))
         return Seen(good, f"then {seen}", FOLLOW)
 
     return Expectation(f"{parameter} set to {value!r}: {topic} at {value:g} Hz", look)
@@ -259,16 +259,16 @@ FOLLOW = Advice(
 )
 
 
-def gives_up(owner: str, parameter: str, seconds: float, ask: Callable[[Exam], Any]) -> Expectation:
+def gives_up(owner: str, parameter: str, seconds: float, ask: Callable[[Probe], Any]) -> Expectation:
     """A timeout (s) that is really read: a request that needs longer is answered with success False at that time."""
 
-    def look(exam: Exam) -> Seen:
-        reason = set_parameter(exam, owner, parameter, seconds)
+    def look(probe: Probe) -> Seen:
+        reason = set_parameter(probe, owner, parameter, seconds)
         if reason:
             return Seen(False, f"it refused: {reason}", f"{seconds!r} should be allowed for {parameter}.")
-        answer = ask(exam)
+        answer = ask(probe)
         if answer.response is None:
-            return no_answer(exam, "the goal was never answered")
+            return no_answer(probe, "the goal was never answered")
         good = not answer.response.success and abs(answer.seconds - seconds) <= LATEST
         seen = f"success is {answer.response.success} after {number(answer.seconds)} s"
         step = (

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 from ..words import did_you_mean
-from .probe import Exam
+from .probe import Probe
 from .registry import Expectation
 from .results import Advice, CannotLook, Seen
 
@@ -15,18 +15,18 @@ Example = tuple[Sequence[Any], Any]
 """The arguments of a call, and what it should return."""
 
 
-def learner_function(exam: Exam, name: str, file: str = "") -> Callable[..., Any]:
+def learner_function(probe: Probe, name: str, file: str = "") -> Callable[..., Any]:
     """The learner's function of this name: from the notebook's cells, or from a file of the package where one is named.
 
-    Call it by `exam.call(function, …)`, so that it is stopped if it computes without end. Raises CannotLook where there is no
+    Call it by `probe.call(function, …)`, so that it is stopped if it computes without end. Raises CannotLook where there is no
     such function, and what the file raises where it cannot be read as Python.
 
     Args:
-        exam: the look at the system that needs it; within one exam a file is read once.
+        probe: the look at the system that needs it; within one probe a file is read once.
         name: the function's name, such as "turn_to".
         file: a file in the package's folder of nodes, such as "navigator_node.py".
     """
-    names = exam.once(("functions", file), lambda: _names_in(exam, file)) if file else _names_in_cells()
+    names = probe.once(("functions", file), lambda: _names_in(probe, file)) if file else _names_in_cells()
     place = f"{file} of your package" if file else "this notebook"
     found = names.get(name)
     if found is None:
@@ -51,11 +51,11 @@ def returns(
     The first example that it does not meet is shown, with the value that came. What it raises is shown by its line.
     """
 
-    def look(exam: Exam) -> Seen:
-        function = learner_function(exam, name, file)
+    def look(probe: Probe) -> Seen:
+        function = learner_function(probe, name, file)
         said = ""
         for arguments, wanted in examples:
-            came = exam.call(function, *arguments)
+            came = probe.call(function, *arguments)
             said = f"{name}({', '.join(map(_shown, arguments))}) is {_shown(came)}"
             if not agrees(came, wanted, within):
                 return Seen(False, f"{said}, not {_shown(wanted)}", advice)
@@ -86,7 +86,7 @@ def _names_in_cells() -> dict[str, Any]:
     return vars(sys.modules["__main__"])
 
 
-def _names_in(exam: Exam, file: str) -> dict[str, Any]:
+def _names_in(probe: Probe, file: str) -> dict[str, Any]:
     """All names that a file of the package makes when it is read; its `main` is not started."""
     from ...learner.workspace import workspace
 
@@ -95,5 +95,5 @@ def _names_in(exam: Exam, file: str) -> dict[str, Any]:
     if not path.is_file():
         raise CannotLook(f"there is no file {path.relative_to(mine.folder.parent).as_posix()}")
     names = {"__name__": path.stem, "__file__": str(path)}
-    exam.call(exec, compile(path.read_text(encoding="utf-8"), str(path), "exec"), names)
+    probe.call(exec, compile(path.read_text(encoding="utf-8"), str(path), "exec"), names)
     return names

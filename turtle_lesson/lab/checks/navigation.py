@@ -11,7 +11,7 @@ from typing import Any
 from ..path_geometry import WORLD
 from ..words import angle, number, point, turned
 from .assertions import no_answer
-from .probe import Answer, Exam, Heard
+from .probe import Answer, Heard, Probe
 from .registry import Expectation
 from .results import Advice, CannotLook, Seen
 
@@ -100,72 +100,72 @@ def is_moving(pose: Any) -> bool:
     return abs(pose.linear_velocity) > STILL or abs(pose.angular_velocity) > STILL
 
 
-def where(exam: Exam) -> Any:
+def where(probe: Probe) -> Any:
     """The turtle's newest pose. Raises CannotLook where none comes."""
-    heard = exam.listen(POSE, POSE_TYPE)
-    if not exam.wait_for(lambda: heard, 0.5):
+    heard = probe.listen(POSE, POSE_TYPE)
+    if not probe.wait_for(lambda: heard, 0.5):
         raise CannotLook(f"no pose comes on {POSE}")
-    exam.wait(2 * TICK)
+    probe.wait(2 * TICK)
     return heard[-1].message
 
 
-def put(exam: Exam, place: Goal) -> None:
+def put(probe: Probe, place: Goal) -> None:
     """Put the turtle somewhere. Raises CannotLook where the simulator does not answer."""
     x, y, theta = place
-    if exam.ask(TELEPORT, TELEPORT_TYPE, 1.0, x=x, y=y, theta=theta).response is None:
+    if probe.ask(TELEPORT, TELEPORT_TYPE, 1.0, x=x, y=y, theta=theta).response is None:
         raise CannotLook(f"{TELEPORT} does not answer")
-    exam.wait(3 * TICK)
+    probe.wait(3 * TICK)
 
 
-def ask_for(exam: Exam, goal: Goal, timeout: float) -> Answer:
+def ask_for(probe: Probe, goal: Goal, timeout: float) -> Answer:
     """Ask the navigator for a goal, and let robot time pass until it answers or the timeout (s) is over."""
-    return exam.ask(NAVIGATE, NAVIGATE_TYPE, timeout, **_fields(goal))
+    return probe.ask(NAVIGATE, NAVIGATE_TYPE, timeout, **_fields(goal))
 
 
-def ask_soon_for(exam: Exam, goal: Goal) -> Callable[[], Answer | None]:
+def ask_soon_for(probe: Probe, goal: Goal) -> Callable[[], Answer | None]:
     """Ask the navigator for a goal without waiting; returns a function that gives the answer once it has come."""
-    return exam.ask_soon(NAVIGATE, NAVIGATE_TYPE, **_fields(goal))
+    return probe.ask_soon(NAVIGATE, NAVIGATE_TYPE, **_fields(goal))
 
 
 def _fields(goal: Goal) -> dict[str, float]:
     return dict(zip(("x", "y", "theta"), goal, strict=True))
 
 
-def drive(exam: Exam, name: str, choose: Any) -> Drive:
+def drive(probe: Probe, name: str, choose: Any) -> Drive:
     """Drive to the goal that `choose(pose)` gives; the first time it is done, from then on remembered by its name.
 
     On a Way the turtle is put at its beginning, and time passes until it has come to rest.
     """
-    return exam.once(("drive", name), lambda: _drive(exam, choose))
+    return probe.once(("drive", name), lambda: _drive(probe, choose))
 
 
-def go(exam: Exam, way: Way) -> Drive:
+def go(probe: Probe, way: Way) -> Drive:
     """The drive on a way; the first time it is done, from then on it is remembered."""
-    return drive(exam, way.name, way)
+    return drive(probe, way.name, way)
 
 
-def driven(exam: Exam, way: Way) -> Drive:
+def driven(probe: Probe, way: Way) -> Drive:
     """The drive on a way, whose goal was answered. Raises CannotLook where it was not."""
-    it = go(exam, way)
+    it = go(probe, way)
     it.response  # noqa: B018  (raises where there is none)
     return it
 
 
-def _drive(exam: Exam, choose: Any) -> Drive:
+def _drive(probe: Probe, choose: Any) -> Drive:
     if isinstance(choose, Way):
-        put(exam, choose.begin)
-    begin = where(exam)
+        put(probe, choose.begin)
+    begin = where(probe)
     goal = choose(begin)
-    poses = exam.listen(POSE, POSE_TYPE)
+    poses = probe.listen(POSE, POSE_TYPE)
     try:
-        commands = exam.listen(COMMANDS, COMMAND_TYPE)
+        commands = probe.listen(COMMANDS, COMMAND_TYPE)
     except CannotLook:
         commands = []
     first_pose, first_command = len(poses), len(commands)
-    answer = ask_for(exam, goal, LONGEST)
-    exam.wait(1.0)
+    answer = ask_for(probe, goal, LONGEST)
+    probe.wait(1.0)
     if isinstance(choose, Way) and answer.response is not None:
-        come_to_rest(exam, LONGEST)
+        come_to_rest(probe, LONGEST)
     return Drive(goal, begin, answer, commands[first_command:], poses[first_pose:])
 
 
@@ -174,9 +174,9 @@ def at_rest(poses: list[Heard]) -> bool:
     return not any(is_moving(each.message) for each in poses[-round(AT_REST / TICK) :])
 
 
-def come_to_rest(exam: Exam, timeout: float) -> None:
+def come_to_rest(probe: Probe, timeout: float) -> None:
     """Let robot time pass until the turtle has come to rest, or the timeout (s) is over."""
-    exam.wait_for(lambda: at_rest(exam.listen(POSE, POSE_TYPE)), timeout)
+    probe.wait_for(lambda: at_rest(probe.listen(POSE, POSE_TYPE)), timeout)
 
 
 # -- goals -------------------------------------------------------------------------------------------------------------
@@ -195,10 +195,10 @@ def far_away(pose: Any) -> Goal:
 def answered(way: Way) -> Expectation:
     """A goal is answered in time, with success True."""
 
-    def look(exam: Exam) -> Seen:
-        it = go(exam, way)
+    def look(probe: Probe) -> Seen:
+        it = go(probe, way)
         if it.answer.response is None:
-            return no_answer(exam, f"no answer to the goal {point(*it.goal[:2])} in {LONGEST:g} s")
+            return no_answer(probe, f"no answer to the goal {point(*it.goal[:2])} in {LONGEST:g} s")
         seen = f"success is {it.response.success} after {number(it.answer.seconds)} s"
         return Seen(bool(it.response.success), seen, "What is response.success when on_goal returns the response?")
 
@@ -208,8 +208,8 @@ def answered(way: Way) -> Expectation:
 def arrived(way: Way, at_rest: bool = False) -> Expectation:
     """The turtle is near the goal when the answer comes, or when it has come to rest."""
 
-    def look(exam: Exam) -> Seen:
-        it = driven(exam, way)
+    def look(probe: Probe) -> Seen:
+        it = driven(probe, way)
         end, distance = it.end(at_rest), it.distance(at_rest)
         seen = f"at {point(end.x, end.y)}, {number(distance)} m from {point(*it.goal[:2])}"
         if at_rest and is_moving(end):
@@ -224,8 +224,8 @@ def arrived(way: Way, at_rest: bool = False) -> Expectation:
 def facing(way: Way, at_rest: bool = False, near: float = 0.2) -> Expectation:
     """The turtle has the goal's heading, within an angle (rad), when the answer comes or when it has come to rest."""
 
-    def look(exam: Exam) -> Seen:
-        it = driven(exam, way)
+    def look(probe: Probe) -> Seen:
+        it = driven(probe, way)
         error = turned(it.goal[2] - it.end(at_rest).theta)
         return Seen(abs(error) <= near, f"{angle(error)} off", "At the goal the turtle turns to the goal's theta.")
 
@@ -235,8 +235,8 @@ def facing(way: Way, at_rest: bool = False, near: float = 0.2) -> Expectation:
 def turns_little(way: Way, most: float) -> Expectation:
     """The turtle comes to the goal, and all its turns, to and fro, are an angle (in degrees) at most."""
 
-    def look(exam: Exam) -> Seen:
-        it = driven(exam, way)
+    def look(probe: Probe) -> Seen:
+        it = driven(probe, way)
         degrees = math.degrees(turning([it.begin, *(each.message for each in it.poses)]))
         seen = f"it came within {number(it.distance(at_rest=True))} m and turned by {number(degrees, 0)}° in all"
         step = Advice(
@@ -259,8 +259,8 @@ def turning(poses: list[Any]) -> float:
 def honest_time(way: Way, within: float = 0.1) -> Expectation:
     """time_taken is how long the turtle really moved, give or take (s)."""
 
-    def look(exam: Exam) -> Seen:
-        it = go(exam, way)
+    def look(probe: Probe) -> Seen:
+        it = go(probe, way)
         begin, end = it.moving()
         truth, said = end - begin, float(it.response.time_taken)
         seen = f"it said {number(said)} s; the turtle moved for {number(truth)} s"
@@ -273,8 +273,8 @@ def honest_time(way: Way, within: float = 0.1) -> Expectation:
 def stopped(way: Way) -> Expectation:
     """The last command is all zero, and the turtle stands when it should have come to rest."""
 
-    def look(exam: Exam) -> Seen:
-        it = driven(exam, way)
+    def look(probe: Probe) -> Seen:
+        it = driven(probe, way)
         if not it.commands:
             raise CannotLook(f"no command came on {COMMANDS}")
         last = it.commands[-1].message
@@ -291,8 +291,8 @@ def stopped(way: Way) -> Expectation:
 def steady_commands(way: Way, most: float = 0.15) -> Expectation:
     """No two commands on the way are farther apart than this (s): ten a second."""
 
-    def look(exam: Exam) -> Seen:
-        it = go(exam, way)
+    def look(probe: Probe) -> Seen:
+        it = go(probe, way)
         begin, end = it.moving()
         times = [each.at for each in it.commands if begin - 0.2 <= each.at <= end + 0.2]
         gaps = [after - before for before, after in itertools.pairwise(times)]
@@ -307,9 +307,9 @@ def steady_commands(way: Way, most: float = 0.15) -> Expectation:
 def refuses(what: str, *goals: Goal) -> Expectation:
     """Goals that make no sense are refused at once: success False within a second, and the turtle stays."""
 
-    def look(exam: Exam) -> Seen:
+    def look(probe: Probe) -> Seen:
         for goal in goals:
-            if fault := _fault(exam, goal):
+            if fault := _fault(probe, goal):
                 step = "Which of the three numbers has to be looked at, and with which limits, before the goal is accepted?"
                 return Seen(False, f"{_typed(goal)}: {fault}", Advice(direction=step, hint=HINTS))
         return Seen(True, f"{len(goals)} goals, all of them refused at once")
@@ -324,12 +324,12 @@ def _typed(goal: Goal) -> str:
     return "({}, {}, {})".format(*(f"{each:g}" for each in goal))
 
 
-def _fault(exam: Exam, goal: Goal) -> str:
+def _fault(probe: Probe, goal: Goal) -> str:
     """What happened when a goal that makes no sense was not refused, or ""; then the turtle is led back to the middle."""
-    begin = where(exam)
-    answer = ask_for(exam, goal, 5.0)
-    exam.wait(0.3)
-    end = where(exam)
+    begin = where(probe)
+    answer = ask_for(probe, goal, 5.0)
+    probe.wait(0.3)
+    end = where(probe)
     if answer.response is None:
         fault = "no answer in 5 s"
     elif answer.response.success:
@@ -339,8 +339,8 @@ def _fault(exam: Exam, goal: Goal) -> str:
     else:
         fault = "the turtle moved" if math.hypot(end.x - begin.x, end.y - begin.y) > 0.05 else ""
     if fault:
-        ask_for(exam, MIDDLE, 5.0)
-        come_to_rest(exam, 10.0)
+        ask_for(probe, MIDDLE, 5.0)
+        come_to_rest(probe, 10.0)
     return fault
 
 
@@ -350,9 +350,9 @@ MIDDLE = (5.5, 5.5, 0.0)
 def accepts(what: str, *ways: Way) -> Expectation:
     """Goals on the boundary of what makes sense are accepted."""
 
-    def look(exam: Exam) -> Seen:
+    def look(probe: Probe) -> Seen:
         for way in ways:
-            response = go(exam, way).response
+            response = go(probe, way).response
             if not response.success:
                 step = "Which numbers does your comparison still accept? The ends belong to the world."
                 return Seen(False, f"{_typed(way.goal)}: success is False", Advice(direction=step, hint=HINTS))

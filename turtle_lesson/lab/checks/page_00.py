@@ -10,7 +10,7 @@ import numpy as np
 from ..recording import NANOSECONDS
 from ..words import angle, number, point, turned
 from .navigation import NEAR, where
-from .probe import Exam
+from .probe import Probe
 from .registry import Expectation, check
 from .results import Advice, Seen
 
@@ -54,9 +54,9 @@ class Motion:
     command: float = 0.0
 
 
-def last_motion(exam: Exam) -> Motion:
+def last_motion(probe: Probe) -> Motion:
     """What the turtle did last, from what was recorded of it; so a cell that was run twice is judged by its second run."""
-    record = exam.place.recording
+    record = probe.target.recording
     poses, commands = record.poses.array(), record.commands.newest(1)
     if not len(commands):
         return Motion()
@@ -72,8 +72,8 @@ def last_motion(exam: Exam) -> Motion:
     return Motion(float(turn[first:].sum()), float(way[first:].sum()), command)
 
 
-def _facing_up(exam: Exam) -> Seen:
-    heading, motion = where(exam).theta, exam.once("motion", lambda: last_motion(exam))
+def _facing_up(probe: Probe) -> Seen:
+    heading, motion = where(probe).theta, probe.once("motion", lambda: last_motion(probe))
     good = abs(turned(heading - UP)) <= LITTLE or abs(motion.turn - UP) <= LITTLE
     seen = f"its heading is {angle(heading)}; the last command said angular.z = {number(motion.command)} rad/s"
     advice = Advice(
@@ -86,8 +86,8 @@ def _facing_up(exam: Exam) -> Seen:
     return Seen(good, seen, advice)
 
 
-def _on_the_spot(exam: Exam) -> Seen:
-    way = exam.once("motion", lambda: last_motion(exam)).way
+def _on_the_spot(probe: Probe) -> Seen:
+    way = probe.once("motion", lambda: last_motion(probe)).way
     advice = Advice(
         direction="Which field of the command makes it drive? To begin again: ros2 service call /reset std_srvs/srv/Empty"
     )
@@ -102,8 +102,8 @@ def corner() -> list[Expectation]:
     return [Expectation(f"the turtle within {NEAR:g} m of {point(*CORNER)}", _in_the_corner)]
 
 
-def _in_the_corner(exam: Exam) -> Seen:
-    pose = where(exam)
+def _in_the_corner(probe: Probe) -> Seen:
+    pose = where(probe)
     away = math.hypot(pose.x - CORNER[0], pose.y - CORNER[1])
     seen = f"it is at {point(pose.x, pose.y)}, {number(away)} m from there"
     advice = Advice(

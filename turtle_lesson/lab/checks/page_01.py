@@ -8,7 +8,7 @@ from ..words import count, number
 from .assertions import no_errors, node, publishes, subscribes
 from .graph_view import field
 from .navigation import COMMAND_TYPE, COMMANDS, POSE, POSE_TYPE
-from .probe import Exam, Heard
+from .probe import Heard, Probe
 from .registry import Expectation, check
 from .results import Advice, CannotLook, Seen
 from .streams import rate, relays, some
@@ -40,12 +40,12 @@ def counter() -> list[Expectation]:
     ]
 
 
-def _counts(exam: Exam) -> Seen:
+def _counts(probe: Probe) -> Seen:
     """Each number that came since the check began, compared with how many the node has sent by then."""
-    heard = exam.listen(COUNT, NUMBER)
+    heard = probe.listen(COUNT, NUMBER)
     if len(heard) < ENOUGH:
-        some(exam, COUNT, NUMBER, 3.0)
-    sent = exam.place.published(COUNT, "/counter")
+        some(probe, COUNT, NUMBER, 3.0)
+    sent = probe.target.published(COUNT, "/counter")
     if not sent:
         raise CannotLook(f"/counter sent nothing on {COUNT}")
     first = sent - len(heard) + 1
@@ -86,14 +86,14 @@ def doubler() -> list[Expectation]:
     ]
 
 
-def _answers_each(exam: Exam) -> Seen:
-    if not exam.subscriptions(COUNT):
+def _answers_each(probe: Probe) -> Seen:
+    if not probe.subscriptions(COUNT):
         raise CannotLook(f"no node listens to {COUNT}")
-    answers = exam.listen(DOUBLED, NUMBER)
+    answers = probe.listen(DOUBLED, NUMBER)
     before, given = len(answers), (1001, 1002, 1003)
     for each in given:
-        exam.publish(COUNT, NUMBER, data=each)
-    exam.wait(1.5)
+        probe.publish(COUNT, NUMBER, data=each)
+    probe.wait(1.5)
     said = Counter(each.message.data for each in answers[before:])
     direction = "The callback is called once for each message: publish there, once."
     for each in given:
@@ -123,19 +123,19 @@ def reporter() -> list[Expectation]:
     ]
 
 
-def _is_news(exam: Exam) -> Seen:
+def _is_news(probe: Probe) -> Seen:
     """Drive the turtle once round a circle, and compare each report with the pose before it."""
-    poses, reports = exam.listen(POSE, POSE_TYPE), exam.listen(REPORT, REPORT_TYPE)
-    exam.wait(0.1)
+    poses, reports = probe.listen(POSE, POSE_TYPE), probe.listen(REPORT, REPORT_TYPE)
+    probe.wait(0.1)
     if not poses:
         raise CannotLook(f"no pose comes on {POSE}")
     first_pose, first_report = len(poses) - 1, len(reports)
-    end = exam.now + ROUND
-    while exam.now < end:
-        exam.publish(COMMANDS, COMMAND_TYPE, linear__x=1.0, angular__z=1.0)
-        exam.wait(0.1)
-    exam.publish(COMMANDS, COMMAND_TYPE)
-    exam.wait(0.1)
+    end = probe.now + ROUND
+    while probe.now < end:
+        probe.publish(COMMANDS, COMMAND_TYPE, linear__x=1.0, angular__z=1.0)
+        probe.wait(0.1)
+    probe.publish(COMMANDS, COMMAND_TYPE)
+    probe.wait(0.1)
     xs = [each.message.x for each in poses[first_pose:]]
     if max(xs) - min(xs) < 0.1:
         raise CannotLook(f"the turtle does not move when {COMMANDS} says so")

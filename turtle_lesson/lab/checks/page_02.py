@@ -7,7 +7,7 @@ from typing import Any
 
 from .assertions import answers, no_errors, node, offers
 from .graph_view import interface
-from .probe import Exam
+from .probe import Probe
 from .registry import Expectation, check
 from .results import Advice, CannotLook, Seen
 
@@ -73,7 +73,7 @@ def has_fields(
     """An interface that can be imported and has exactly these fields, in this order."""
     what = f"{type_name}{f' ({part})' if part else ''}"
 
-    def look(exam: Exam) -> Seen:
+    def look(probe: Probe) -> Seen:
         try:
             found = dict(choose(interface(type_name)).get_fields_and_field_types())
         except CannotLook as reason:

@@ -37,7 +37,7 @@ from .navigation import (
     turns_little,
     where,
 )
-from .probe import Exam
+from .probe import Probe
 from .registry import Expectation, check
 from .results import Advice, CannotLook, Seen
 
@@ -103,10 +103,10 @@ def _seconds(way: Way) -> float:
 def _takes(way: Way) -> Expectation:
     wanted = _seconds(way)
 
-    def look(exam: Exam) -> Seen:
-        it = go(exam, way)
+    def look(probe: Probe) -> Seen:
+        it = go(probe, way)
         if it.answer.response is None:
-            return no_answer(exam, f"no answer in {LONGEST:g} s")
+            return no_answer(probe, f"no answer in {LONGEST:g} s")
         said, took = float(it.response.time_taken), it.answer.seconds
         seen = f"time_taken is {number(said)} s, and the answer came after {number(took)} s"
         step = Advice(
@@ -121,8 +121,8 @@ def _takes(way: Way) -> Expectation:
 def _drives_ahead(way: Way) -> Expectation:
     metres = _seconds(way) * BLIND_SPEED
 
-    def look(exam: Exam) -> Seen:
-        it = go(exam, way)
+    def look(probe: Probe) -> Seen:
+        it = go(probe, way)
         it.moving()
         end = it.end(at_rest=True)
         ahead, beside = end.x - it.begin.x, end.y - it.begin.y
@@ -178,8 +178,8 @@ def short_way() -> list[Expectation]:
 
 
 def _half_a_turn() -> Expectation:
-    def look(exam: Exam) -> Seen:
-        came = exam.call(learner_function(exam, "turn_to"), math.pi, 0.0)
+    def look(probe: Probe) -> Seen:
+        came = probe.call(learner_function(probe, "turn_to"), math.pi, 0.0)
         if not isinstance(came, float):
             return Seen(False, f"turn_to(3.1416, 0.0) is {came!r}", "Does turn_to end with `return`, in every case?")
         return Seen(abs(abs(came) - math.pi) < 1e-6, f"turn_to(3.1416, 0.0) is {number(came, 4)}", DIFFERENCES)
@@ -190,17 +190,17 @@ def _half_a_turn() -> Expectation:
 def _steers_across(where_to: str, way: Way) -> Expectation:
     """The notebook's `steer`, which calls turn_to, drives the turtle across due west without a pirouette."""
 
-    def look(exam: Exam) -> Seen:
-        steer = learner_function(exam, "steer")
-        heard = exam.listen(POSE, POSE_TYPE)
-        put(exam, way.begin)
-        poses, goal = [where(exam)], _pose(way.goal)
+    def look(probe: Probe) -> Seen:
+        steer = learner_function(probe, "steer")
+        heard = probe.listen(POSE, POSE_TYPE)
+        put(probe, way.begin)
+        poses, goal = [where(probe)], _pose(way.goal)
         while math.hypot(poses[-1].x - goal.x, poses[-1].y - goal.y) > NEAR and len(poses) < 60:
-            speed, turn = exam.call(steer, poses[-1], goal)
-            exam.publish(COMMANDS, COMMAND_TYPE, linear__x=float(speed), angular__z=float(turn))
-            exam.wait(0.1)
+            speed, turn = probe.call(steer, poses[-1], goal)
+            probe.publish(COMMANDS, COMMAND_TYPE, linear__x=float(speed), angular__z=float(turn))
+            probe.wait(0.1)
             poses.append(heard[-1].message)
-        exam.publish(COMMANDS, COMMAND_TYPE)
+        probe.publish(COMMANDS, COMMAND_TYPE)
         degrees = math.degrees(turning(poses))
         there = math.hypot(poses[-1].x - goal.x, poses[-1].y - goal.y) <= NEAR
         seen = (
@@ -254,9 +254,9 @@ def navigator() -> list[Expectation]:
 def _logged(way: Way) -> Expectation:
     """A line of the navigator's log has both numbers of the goal."""
 
-    def look(exam: Exam) -> Seen:
-        driven(exam, way)
-        lines = [text for _, name, text in exam.log if name == "navigator"]
+    def look(probe: Probe) -> Seen:
+        driven(probe, way)
+        lines = [text for _, name, text in probe.log if name == "navigator"]
         x, y = (rf"(?<![\d.]){each:g}(\.0+)?(?!\.?\d)" for each in way.goal[:2])
         found = [text for text in lines if re.search(x, text) and re.search(y, text)]
         step = "Which line of on_goal writes to the log, and is it reached for a goal that is accepted?"
@@ -269,15 +269,15 @@ def _logged(way: Way) -> Expectation:
 def _keeps_its_goal() -> Expectation:
     """A goal that is refused on the way changes nothing."""
 
-    def look(exam: Exam) -> Seen:
-        put(exam, (3.0, 3.0, 0.0))
-        first = ask_soon_for(exam, (9.0, 3.0, 0.0))
-        exam.wait(0.5)
-        refused = ask_for(exam, (20.0, 5.0, 0.0), 1.0).response
+    def look(probe: Probe) -> Seen:
+        put(probe, (3.0, 3.0, 0.0))
+        first = ask_soon_for(probe, (9.0, 3.0, 0.0))
+        probe.wait(0.5)
+        refused = ask_for(probe, (20.0, 5.0, 0.0), 1.0).response
         if refused is None or refused.success:
             raise CannotLook("the goal (20, 5, 0) was not refused on the way")
-        exam.wait_for(lambda: first() and at_rest(exam.listen(POSE, POSE_TYPE)), 20.0)
-        end = where(exam)
+        probe.wait_for(lambda: first() and at_rest(probe.listen(POSE, POSE_TYPE)), 20.0)
+        end = where(probe)
         step = Advice(
             direction="Is self.goal changed before the goal has been judged?", hint="Open Hint 1 under the exercise."
         )

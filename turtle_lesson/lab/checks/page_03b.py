@@ -25,7 +25,7 @@ from .navigation import (
     where,
 )
 from .page_03 import A_GOAL, TO_THE_LEFT, navigator_is_there
-from .probe import Exam
+from .probe import Probe
 from .registry import Expectation, check
 from .results import Advice, CannotLook, Seen
 
@@ -67,8 +67,8 @@ def on_arrival() -> list[Expectation]:
 
 
 def _soon(way: Way) -> Expectation:
-    def look(exam: Exam) -> Seen:
-        it = driven(exam, way)
+    def look(probe: Probe) -> Seen:
+        it = driven(probe, way)
         seen = f"after {number(it.answer.seconds)} s, {number(it.distance())} m from the goal"
         step = "How long does the answer wait once the turtle is there?"
         return Seen(it.answer.seconds <= WAITING and it.distance() <= NEAR, seen, step)
@@ -79,17 +79,17 @@ def _soon(way: Way) -> Expectation:
 def _answers_meanwhile() -> Expectation:
     """Another request is answered while a goal is under way."""
 
-    def look(exam: Exam) -> Seen:
-        put(exam, (2.0, 2.0, 0.0))
-        first = ask_soon_for(exam, (8.0, 8.0, 0.0))
-        exam.wait(HALFWAY)
+    def look(probe: Probe) -> Seen:
+        put(probe, (2.0, 2.0, 0.0))
+        first = ask_soon_for(probe, (8.0, 8.0, 0.0))
+        probe.wait(HALFWAY)
         if first() is not None:
-            come_to_rest(exam, 15.0)
+            come_to_rest(probe, 15.0)
             raise CannotLook("a goal 8 m away was answered at once")
-        answer = exam.ask("/navigator/list_parameters", "rcl_interfaces/srv/ListParameters", 1.0)
-        exam.wait_for(first, 30.0)
+        answer = probe.ask("/navigator/list_parameters", "rcl_interfaces/srv/ListParameters", 1.0)
+        probe.wait_for(first, 30.0)
         if answer.response is None:
-            return no_answer(exam, "its parameters were not told within 1 s")
+            return no_answer(probe, "its parameters were not told within 1 s")
         return Seen(True, "its parameters were told while it drove")
 
     return Expectation("it answers other questions meanwhile", look)
@@ -126,56 +126,56 @@ GUARD = Advice(
 class _Crowd:
     """A goal, and two others that come while it is under way."""
 
-    def __init__(self, exam: Exam) -> None:
-        put(exam, (3.0, 3.0, 0.0))
-        first = ask_soon_for(exam, FIRST)
-        exam.wait(HALFWAY)
+    def __init__(self, probe: Probe) -> None:
+        put(probe, (3.0, 3.0, 0.0))
+        first = ask_soon_for(probe, FIRST)
+        probe.wait(HALFWAY)
         if first() is not None:
             raise CannotLook("the first goal, 6 m away, was answered at once")
-        self.others = [ask_for(exam, each, 0.5) for each in OTHERS]
-        exam.wait_for(first, 15.0)
+        self.others = [ask_for(probe, each, 0.5) for each in OTHERS]
+        probe.wait_for(first, 15.0)
         self.first = first()
-        come_to_rest(exam, 15.0)
-        self.end = where(exam)
+        come_to_rest(probe, 15.0)
+        self.end = where(probe)
 
 
-def _crowd(exam: Exam) -> _Crowd:
-    return exam.once("crowd", lambda: _Crowd(exam))
+def _crowd(probe: Probe) -> _Crowd:
+    return probe.once("crowd", lambda: _Crowd(probe))
 
 
-def _refused(exam: Exam, number_of_it: int = 0) -> Seen:
-    answer = _crowd(exam).others[number_of_it]
+def _refused(probe: Probe, number_of_it: int = 0) -> Seen:
+    answer = _crowd(probe).others[number_of_it]
     if answer.response is None:
-        return no_answer(exam, f"no answer to {point(*OTHERS[number_of_it][:2])} within 0.5 s")
+        return no_answer(probe, f"no answer to {point(*OTHERS[number_of_it][:2])} within 0.5 s")
     seen = f"success is {answer.response.success} after {number(answer.seconds)} s"
     return Seen(not answer.response.success, seen, GUARD)
 
 
-def _refused_again(exam: Exam) -> Seen:
-    return _refused(exam, 1)
+def _refused_again(probe: Probe) -> Seen:
+    return _refused(probe, 1)
 
 
-def _first_reached(exam: Exam) -> Seen:
-    end = _crowd(exam).end
+def _first_reached(probe: Probe) -> Seen:
+    end = _crowd(probe).end
     away = math.hypot(end.x - FIRST[0], end.y - FIRST[1])
     return Seen(
         away <= NEAR, f"it came to rest at {point(end.x, end.y)}, {number(away)} m from {point(*FIRST[:2])}", GUARD
     )
 
 
-def _first_answered(exam: Exam) -> Seen:
-    first = _crowd(exam).first
+def _first_answered(probe: Probe) -> Seen:
+    first = _crowd(probe).first
     if first is None:
-        return no_answer(exam, "no answer within 15 s")
+        return no_answer(probe, "no answer within 15 s")
     seen = f"success is {first.response.success}, time_taken {number(first.response.time_taken)} s"
     return Seen(bool(first.response.success), seen, GUARD)
 
 
-def _accepted_again(exam: Exam) -> Seen:
-    _crowd(exam)
-    answer = ask_for(exam, (5.0, 5.0, 0.0), 15.0)
+def _accepted_again(probe: Probe) -> Seen:
+    _crowd(probe)
+    answer = ask_for(probe, (5.0, 5.0, 0.0), 15.0)
     if answer.response is None:
-        return no_answer(exam, "no answer within 15 s")
-    end = where(exam)
+        return no_answer(probe, "no answer within 15 s")
+    end = where(probe)
     seen = f"success is {answer.response.success}, with the turtle at {point(end.x, end.y)}"
     return Seen(bool(answer.response.success) and math.hypot(end.x - 5, end.y - 5) <= NEAR, seen, GUARD)

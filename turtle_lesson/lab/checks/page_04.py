@@ -12,7 +12,7 @@ from ..words import angle, count, number, turned
 from .assertions import no_errors, node, publishes, subscribes
 from .graph_view import field
 from .navigation import COMMAND_TYPE, COMMANDS, POSE, POSE_TYPE
-from .probe import Exam, Heard
+from .probe import Heard, Probe
 from .registry import Expectation, check
 from .results import Advice, CannotLook, Seen
 from .streams import rate, some
@@ -121,21 +121,21 @@ class Ride:
         ]
 
 
-def ride(exam: Exam) -> Ride:
+def ride(probe: Probe) -> Ride:
     """Drive the turtle in a circle. Raises CannotLook where nothing is heard, or the turtle does not move."""
-    return exam.once("ride", lambda: _ride(exam))
+    return probe.once("ride", lambda: _ride(probe))
 
 
-def _ride(exam: Exam) -> Ride:
-    poses, statuses = exam.listen(POSE, POSE_TYPE), exam.listen(STATUS, STATUS_TYPE)
-    exam.wait(0.3)
-    began, first_pose, first_status = exam.now, len(poses), len(statuses)
+def _ride(probe: Probe) -> Ride:
+    poses, statuses = probe.listen(POSE, POSE_TYPE), probe.listen(STATUS, STATUS_TYPE)
+    probe.wait(0.3)
+    began, first_pose, first_status = probe.now, len(poses), len(statuses)
     for _ in range(round(10 * CIRCLE)):
-        exam.publish(COMMANDS, COMMAND_TYPE, linear__x=SPEED, angular__z=TURN)
-        exam.wait(0.1)
-    exam.publish(COMMANDS, COMMAND_TYPE)
-    ended = exam.now
-    exam.wait(1.0)
+        probe.publish(COMMANDS, COMMAND_TYPE, linear__x=SPEED, angular__z=TURN)
+        probe.wait(0.1)
+    probe.publish(COMMANDS, COMMAND_TYPE)
+    ended = probe.now
+    probe.wait(1.0)
     found = Ride(began, ended, poses[first_pose:], statuses[first_status:])
     xs = [each.message.x for each in found.poses] or [0.0]
     if max(xs) - min(xs) < 0.1:
@@ -148,8 +148,8 @@ def _ride(exam: Exam) -> Ride:
 def pose_follows() -> Expectation:
     """x, y and theta are those of the turtle, also while it moves."""
 
-    def look(exam: Exam) -> Seen:
-        pairs = [(status.message, pose.message) for status, pose in ride(exam).pairs()]
+    def look(probe: Probe) -> Seen:
+        pairs = [(status.message, pose.message) for status, pose in ride(probe).pairs()]
         away = {name: max(abs(field(a, name) - field(b, name)) for a, b in pairs) for name in ("x", "y")}
         off = max(abs(turned(field(a, "theta") - b.theta)) for a, b in pairs)
         seen = f"at most {number(away['x'])} m off in x, {number(away['y'])} m in y, {angle(off)} in theta"
@@ -162,8 +162,8 @@ def pose_follows() -> Expectation:
 def velocity_follows(axis: str, part: Callable[[float], float]) -> Expectation:
     """vel_x or vel_y is the speed along that axis of the map, all around a circle; `part` is the cosine or the sine."""
 
-    def look(exam: Exam) -> Seen:
-        it = ride(exam)
+    def look(probe: Probe) -> Seen:
+        it = ride(probe)
         driving = [
             (float(field(status.message, f"vel_{axis}")), pose.message)
             for status, pose in it.pairs()
@@ -198,8 +198,8 @@ def _off(said: float, wanted: float) -> float:
 def no_velocity_at_rest() -> Expectation:
     """Both components are 0 again when the turtle stands."""
 
-    def look(exam: Exam) -> Seen:
-        it = ride(exam)
+    def look(probe: Probe) -> Seen:
+        it = ride(probe)
         at_rest = [each.message for each in it.statuses if each.at > it.ended + 0.3]
         if not at_rest:
             raise CannotLook(f"no message came on {STATUS} when the turtle stood")
@@ -217,9 +217,9 @@ def no_velocity_at_rest() -> Expectation:
 def battery_starts_full() -> Expectation:
     """The first message that is heard has as much charge as it can have by then."""
 
-    def look(exam: Exam) -> Seen:
-        some(exam, STATUS, STATUS_TYPE, 0.5)
-        first = exam.listen(STATUS, STATUS_TYPE)[0]
+    def look(probe: Probe) -> Seen:
+        some(probe, STATUS, STATUS_TYPE, 0.5)
+        first = probe.listen(STATUS, STATUS_TYPE)[0]
         charge = float(field(first.message, "battery"))
         by_then = max(0.0, 100.0 - 10 * DROP * (first.at + 0.2))
         seen = f"{number(charge, 1)} % after {number(first.at, 1)} s"
@@ -229,11 +229,11 @@ def battery_starts_full() -> Expectation:
     return Expectation("battery starts at 100 %", look)
 
 
-def battery_falls(heard: Callable[[Exam], list[Heard]], hint: str = "") -> Expectation:
+def battery_falls(heard: Callable[[Probe], list[Heard]], hint: str = "") -> Expectation:
     """Each message has 0.1 less than the one before, or 0."""
 
-    def look(exam: Exam) -> Seen:
-        charges = [float(field(each.message, "battery")) for each in heard(exam)]
+    def look(probe: Probe) -> Seen:
+        charges = [float(field(each.message, "battery")) for each in heard(probe)]
         if len(charges) < 2:
             raise CannotLook("one message shows no change")
         wrong = [
@@ -253,30 +253,30 @@ def battery_falls(heard: Callable[[Exam], list[Heard]], hint: str = "") -> Expec
     return Expectation(f"battery falls by {DROP:g} a message", look)
 
 
-def a_while(exam: Exam) -> list[Heard]:
+def a_while(probe: Probe) -> list[Heard]:
     """What was heard of the status until now, 3 s of it at least."""
-    some(exam, STATUS, STATUS_TYPE, 3.0)
-    return exam.listen(STATUS, STATUS_TYPE)
+    some(probe, STATUS, STATUS_TYPE, 3.0)
+    return probe.listen(STATUS, STATUS_TYPE)
 
 
-def until_it_is_empty(exam: Exam) -> list[Heard]:
+def until_it_is_empty(probe: Probe) -> list[Heard]:
     """What is heard of the status until the battery has been empty for a second."""
-    return exam.once("discharge", lambda: _discharge(exam))
+    return probe.once("discharge", lambda: _discharge(probe))
 
 
-def _discharge(exam: Exam) -> list[Heard]:
-    some(exam, STATUS, STATUS_TYPE, 0.5)
-    heard = exam.listen(STATUS, STATUS_TYPE)
-    exam.wait_for(lambda: float(field(heard[-1].message, "battery")) < DROP / 2, 102.0)
-    exam.wait(1.0)
+def _discharge(probe: Probe) -> list[Heard]:
+    some(probe, STATUS, STATUS_TYPE, 0.5)
+    heard = probe.listen(STATUS, STATUS_TYPE)
+    probe.wait_for(lambda: float(field(heard[-1].message, "battery")) < DROP / 2, 102.0)
+    probe.wait(1.0)
     return heard
 
 
 def battery_ends_at_zero(hint: str) -> Expectation:
     """However much time passes, the battery stays from 0 to 100, and at the end it is 0."""
 
-    def look(exam: Exam) -> Seen:
-        charges = [float(field(each.message, "battery")) for each in until_it_is_empty(exam)]
+    def look(probe: Probe) -> Seen:
+        charges = [float(field(each.message, "battery")) for each in until_it_is_empty(probe)]
         seen = f"from {number(max(charges), 1)} to {number(min(charges), 1)}, at the end {number(charges[-1], 1)}"
         good = min(charges) >= 0.0 and max(charges) <= 100.0 and charges[-1] < DROP / 2
         advice = Advice(
@@ -296,16 +296,16 @@ def battery_ends_at_zero(hint: str) -> Expectation:
 def says_low(expected: str, charges: tuple[float, ...]) -> Expectation:
     """Each status with one of these charges is answered by one Bool, and by the right one."""
 
-    def look(exam: Exam) -> Seen:
-        answers = _answers(exam)
+    def look(probe: Probe) -> Seen:
+        answers = _answers(probe)
         for charge in charges:
             before = len(answers)
-            exam.publish(STATUS, STATUS_TYPE, battery=charge)
-            exam.wait_for(partial(_more_than, before, answers), 1.0)
-            exam.wait(0.05)
+            probe.publish(STATUS, STATUS_TYPE, battery=charge)
+            probe.wait_for(partial(_more_than, before, answers), 1.0)
+            probe.wait(0.05)
             said = [each.message.data for each in answers[before:]]
             if not said:
-                exam.raise_error()
+                probe.raise_error()
                 step = Advice(direction="on_status must publish, whatever the charge is.", hint="Open Hint 2.")
                 return Seen(False, f"{charge:g} %: nothing came within 1 s", step)
             if len(said) > 1:
@@ -324,10 +324,10 @@ def says_low(expected: str, charges: tuple[float, ...]) -> Expectation:
 def silent_without_status() -> Expectation:
     """Nothing is published while no status comes."""
 
-    def look(exam: Exam) -> Seen:
-        answers = _answers(exam)
+    def look(probe: Probe) -> Seen:
+        answers = _answers(probe)
         before = len(answers)
-        exam.wait(1.0)
+        probe.wait(1.0)
         heard = answers[before:]
         advice = Advice(direction="Publish in on_status and nowhere else; no timer is needed.")
         return Seen(not heard, f"{count(len(heard), 'message')} in 1 s", advice)
@@ -335,14 +335,14 @@ def silent_without_status() -> Expectation:
     return Expectation("without a status it says nothing", look)
 
 
-def _answers(exam: Exam) -> list[Heard]:
+def _answers(probe: Probe) -> list[Heard]:
     """What the watch says from now on. Raises CannotLook where it cannot be asked."""
-    others = exam.publishers(STATUS)
+    others = probe.publishers(STATUS)
     if others:
         raise CannotLook(f"{others[0][0]} publishes {STATUS}: stop it first")
-    if not exam.subscriptions(STATUS):
+    if not probe.subscriptions(STATUS):
         raise CannotLook(f"no node listens to {STATUS}")
-    return exam.listen(LOW, LOW_TYPE)
+    return probe.listen(LOW, LOW_TYPE)
 
 
 def _more_than(amount: int, answers: list[Heard]) -> bool:

@@ -14,7 +14,7 @@ from .assertions import no_errors, node, publishes
 from .functions import agrees, learner_function, returns
 from .graph_view import field, interface
 from .navigation import where
-from .probe import Exam, Heard
+from .probe import Heard, Probe
 from .registry import Expectation, check
 from .results import Advice, CannotLook, Seen
 from .streams import messages, rate, some
@@ -167,8 +167,8 @@ def _ranges(heard: list[Heard]) -> Seen:
 def _counts(expected: str, fans: Iterable[tuple[float, float, float]]) -> Expectation:
     """how_many gives the beams from one angle to another in such steps, also with the 32-bit angles of a message."""
 
-    def look(exam: Exam) -> Seen:
-        how_many = learner_function(exam, "how_many", FILE)
+    def look(probe: Probe) -> Seen:
+        how_many = learner_function(probe, "how_many", FILE)
         said = []
         for low, high, step in fans:
             wanted = round((high - low) / step) + 1
@@ -176,7 +176,7 @@ def _counts(expected: str, fans: Iterable[tuple[float, float, float]]) -> Expect
                 angles = [each if exact else _as_float32(each) for each in (low, high, step)]
                 fan = interface(SCAN_TYPE)()
                 fan.angle_min, fan.angle_max, fan.angle_increment = angles
-                came = exam.call(how_many, fan)
+                came = probe.call(how_many, fan)
                 words = f"from {low:.4g} to {high:.4g} in steps of {step:.4g}: {came!r}"
                 if type(came) is not int or came != wanted:
                     advice = Advice(
@@ -204,11 +204,11 @@ Fan = tuple[int, int, int]
 def _nearest(expected: str, examples: Iterable[tuple[Fan, dict[int, float], float]]) -> Expectation:
     """nearest_ahead gives the smallest reading ahead; each example: a scanner, its near readings by their angle, the answer."""
 
-    def look(exam: Exam) -> Seen:
-        function = learner_function(exam, "nearest_ahead")
+    def look(probe: Probe) -> Seen:
+        function = learner_function(probe, "nearest_ahead")
         words = ""
         for fan, near, wanted in examples:
-            came = exam.call(function, _scan(fan, near))
+            came = probe.call(function, _scan(fan, near))
             things = " and ".join(f"{reading:g} m at {at}°" for at, reading in near.items()) or "nothing near"
             others = "" if fan == (-90, 90, 1) else f" (beams from {fan[0]}° to {fan[1]}°, each {fan[2]}°)"
             words = f"{things}{others}: {came!r}"
@@ -236,8 +236,8 @@ def _scan(fan: Fan, near: dict[int, float]) -> Any:
 def _says_ahead() -> Expectation:
     """An obstacle that the check puts straight ahead is what the node tells, to 5 cm."""
 
-    def look(exam: Exam) -> Seen:
-        distance, before, during = _put_ahead(exam, 0.0)
+    def look(probe: Probe) -> Seen:
+        distance, before, during = _put_ahead(probe, 0.0)
         seen = f"{number(during)} m, with its near side at {number(distance)} m; without it {number(before)} m"
         step = "Does the node say what nearest_ahead returns for each scan?"
         return Seen(abs(during - distance) <= CLOSE < before - distance, seen, step)
@@ -248,8 +248,8 @@ def _says_ahead() -> Expectation:
 def _keeps_quiet() -> Expectation:
     """An obstacle that the check puts at the side changes nothing."""
 
-    def look(exam: Exam) -> Seen:
-        distance, before, during = _put_ahead(exam, 75.0)
+    def look(probe: Probe) -> Seen:
+        distance, before, during = _put_ahead(probe, 75.0)
         seen = (
             f"{number(during)} m, although one is {number(distance)} m away at the side; without it {number(before)} m"
         )
@@ -258,23 +258,23 @@ def _keeps_quiet() -> Expectation:
     return Expectation("one at the side is not", look)
 
 
-def _put_ahead(exam: Exam, degrees: float) -> tuple[float, float, float]:
+def _put_ahead(probe: Probe, degrees: float) -> tuple[float, float, float]:
     """Put an obstacle in a direction. The distance of its near side, and what was told before and with it (m)."""
-    pose = where(exam)
+    pose = where(probe)
     turn, distance = pose.theta + math.radians(degrees), 0.8
     x, y = (start + way(turn) * (distance + RADIUS) for start, way in ((pose.x, math.cos), (pose.y, math.sin)))
     if not all(RADIUS * 2 < each < WORLD - RADIUS * 2 for each in (x, y)):
         raise CannotLook("the turtle stands too near to a wall: turn it to the middle first")
-    before = _told(exam)
-    with exam.obstacles(Circle(x, y, RADIUS)):
-        during = _told(exam)
+    before = _told(probe)
+    with probe.obstacles(Circle(x, y, RADIUS)):
+        during = _told(probe)
     return distance, before, during
 
 
-def _told(exam: Exam) -> float:
+def _told(probe: Probe) -> float:
     """What the node tells after a moment, m."""
-    exam.wait(0.4)
-    return float(field(some(exam, AHEAD, AHEAD_TYPE, 0.5)[-1].message, "data"))
+    probe.wait(0.4)
+    return float(field(some(probe, AHEAD, AHEAD_TYPE, 0.5)[-1].message, "data"))
 
 
 # -- what it sees ------------------------------------------------------------------------------------------------------
@@ -292,13 +292,13 @@ def _meets(expected: str, examples: Iterable[tuple[tuple[Any, ...], float]], hin
 def scan_shows_the_circles() -> Expectation:
     """Each beam of the newest scan ends at the nearest circle of the world, or reads 10 m."""
 
-    def look(exam: Exam) -> Seen:
-        circles = [each for each in exam.place.obstacles if isinstance(each, Circle)]
+    def look(probe: Probe) -> Seen:
+        circles = [each for each in probe.target.obstacles if isinstance(each, Circle)]
         if not circles:
             raise CannotLook("there is no circle in the world: run the cell that places them")
-        pose = where(exam)
-        exam.wait(0.25)
-        message = some(exam, SCAN, SCAN_TYPE, 0.3)[-1].message
+        pose = where(probe)
+        probe.wait(0.25)
+        message = some(probe, SCAN, SCAN_TYPE, 0.3)[-1].message
         if len(field(message, "ranges")) != beams(message):
             raise CannotLook("the scan has not one reading for each beam")
         low, step = field(message, "angle_min"), field(message, "angle_increment")
@@ -332,13 +332,13 @@ def _distance(pose: Any, bearing: float, circles: Iterable[Circle]) -> float:
 def sees_three() -> Expectation:
     """With three pillars in the world, the scans go on and show three things or more."""
 
-    def look(exam: Exam) -> Seen:
-        pose = where(exam)
+    def look(probe: Probe) -> Seen:
+        pose = where(probe)
         around = (Circle(pose.x + 1.0 * math.cos(pose.theta + turn), pose.y + 1.0 * math.sin(pose.theta + turn), 0.2)
                   for turn in (-0.9, 0.0, 0.9))  # fmt: skip
-        with exam.obstacles(*around):
-            exam.wait(0.5)
-            heard = some(exam, SCAN, SCAN_TYPE, 2.0)
+        with probe.obstacles(*around):
+            probe.wait(0.5)
+            heard = some(probe, SCAN, SCAN_TYPE, 2.0)
         near = [sum(each < 1.5 for each in field(one.message, "ranges")) for one in heard]
         seen = f"{count(len(heard), 'scan')} in 2 s, up to {count(max(near), 'near reading')} in one"
         return Seen(len(heard) >= 9 and max(near) >= 3, seen, "Does the detector still run?")

@@ -9,7 +9,7 @@ from ..words import listed
 from . import page_03, page_04, page_05
 from .assertions import get_parameter, gives_up, no_errors, node, parameter, publishes, rate_follows
 from .navigation import COMMANDS, NAVIGATE, ask_for, far_away, where
-from .probe import Answer, Exam
+from .probe import Answer, Probe
 from .registry import Expectation, check
 from .results import Advice, CannotLook, Seen
 from .streams import rate
@@ -89,15 +89,15 @@ ARGUMENTS: tuple[tuple[str, str, int | float], ...] = (
 """What a second launch is given: owner, name and value, none of which is a default."""
 
 
-def _far_goal(exam: Exam) -> Answer:
-    return ask_for(exam, far_away(where(exam)), 25.0)
+def _far_goal(probe: Probe) -> Answer:
+    return ask_for(probe, far_away(where(probe)), 25.0)
 
 
 def only(wanted: set[str]) -> Expectation:
     """These nodes and no others, each once."""
 
-    def look(exam: Exam) -> Seen:
-        found = exam.nodes()
+    def look(probe: Probe) -> Seen:
+        found = probe.nodes()
         more = [f"{amount} × {name}" if amount > 1 else name for name, amount in found.items()]
         extra = [text for text, name in zip(more, found, strict=True) if name not in wanted or found[name] > 1]
         advice = Advice(direction="Nothing else was asked for: what does the launch file start, and what ran before?")
@@ -106,11 +106,11 @@ def only(wanted: set[str]) -> Expectation:
     return Expectation("no other node", look)
 
 
-def _argument_reaches(owner: str, name: str, value: int | float) -> Callable[[Exam], Seen]:
+def _argument_reaches(owner: str, name: str, value: int | float) -> Callable[[Probe], Seen]:
     """Whether the parameter has the value of the argument, when the launch file is started with it."""
 
-    def look(exam: Exam) -> Seen:
-        found = exam.once("second launch", lambda: _launch_again(exam))
+    def look(probe: Probe) -> Seen:
+        found = probe.once("second launch", lambda: _launch_again(probe))
         if isinstance(found, str):
             return Seen(False, found, "Read the error from its last line up.")
         if found[owner] is None:
@@ -125,7 +125,7 @@ def _argument_reaches(owner: str, name: str, value: int | float) -> Callable[[Ex
     return look
 
 
-def _launch_again(exam: Exam) -> dict[str, Any] | str:
+def _launch_again(probe: Probe) -> dict[str, Any] | str:
     """The nodes' parameters in a second launch with other arguments, beside the first; or why it was refused."""
     from ...ros.launching import LaunchError
 
@@ -133,10 +133,10 @@ def _launch_again(exam: Exam) -> dict[str, Any] | str:
     renamed = {name: f"/{apart}{name}" for name in (STATUS, SCAN, NAVIGATE, COMMANDS)}
     arguments = {name: value for _, name, value in ARGUMENTS}
     try:
-        with exam.place.launched(PACKAGE, FILE, apart, renamed, arguments):
-            there = exam.nodes()
+        with probe.target.launched(PACKAGE, FILE, apart, renamed, arguments):
+            there = probe.nodes()
             return {
-                owner: get_parameter(exam, f"/{apart}/{owner}", name) if f"/{apart}/{owner}" in there else None
+                owner: get_parameter(probe, f"/{apart}/{owner}", name) if f"/{apart}/{owner}" in there else None
                 for owner, name, _ in ARGUMENTS
             }
     except LaunchError as error:
@@ -169,9 +169,9 @@ def side_by_side() -> list[Expectation]:
     ]
 
 
-def _is_there(side: str) -> Callable[[Exam], Seen]:
-    def look(exam: Exam) -> Seen:
-        found = exam.nodes()
+def _is_there(side: str) -> Callable[[Probe], Seen]:
+    def look(probe: Probe) -> Seen:
+        found = probe.nodes()
         monitors = listed([f"{found[name]} × {name}" for name in found if name.endswith("status_monitor")])
         advice = Advice(
             direction="What does each Node say about its namespace? A launch that failed says why in its output above.",
@@ -183,8 +183,8 @@ def _is_there(side: str) -> Callable[[Exam], Seen]:
     return look
 
 
-def _none_does(exam: Exam) -> Seen:
-    owners = [owner for owner, _ in exam.publishers(STATUS)]
+def _none_does(probe: Probe) -> Seen:
+    owners = [owner for owner, _ in probe.publishers(STATUS)]
     advice = Advice(
         direction=f"{STATUS} is an absolute name, which a namespace does not change. What replaces a name at the start?",
         hint="Open Hint 2 under the exercise.",

@@ -8,7 +8,7 @@ from ..words import angle, number, point, turned
 from . import page_04
 from .assertions import no_errors, node, parameter
 from .navigation import COMMAND_TYPE, COMMANDS, POSE, POSE_TYPE
-from .probe import Exam
+from .probe import Probe
 from .registry import Expectation, check
 from .results import Advice, CannotLook, Seen
 from .streams import rate, some
@@ -47,22 +47,22 @@ def second_turtle() -> list[Expectation]:
     ]
 
 
-def _twin_is_there(exam: Exam) -> Seen:
-    there = bool(exam.publishers(f"{TWIN}/pose"))
-    others = [topic for topic in exam.topics() if topic.endswith("/pose") and topic != POSE]
+def _twin_is_there(probe: Probe) -> Seen:
+    there = bool(probe.publishers(f"{TWIN}/pose"))
+    others = [topic for topic in probe.topics() if topic.endswith("/pose") and topic != POSE]
     seen = "it is" if there else f"there is {others[0]}" if others else "there is one turtle"
     return Seen(there, seen, Advice(direction="Which field of the request says what the turtle is called?"))
 
 
-def _twin_in_place(exam: Exam) -> Seen:
-    pose = some(exam, f"{TWIN}/pose", POSE_TYPE, 0.1)[-1].message
+def _twin_in_place(probe: Probe) -> Seen:
+    pose = some(probe, f"{TWIN}/pose", POSE_TYPE, 0.1)[-1].message
     away = math.hypot(pose.x - TWIN_PLACE[0], pose.y - TWIN_PLACE[1])
     advice = Advice(direction="x and y are fields of the request. (/kill takes a turtle away again.)")
     return Seen(away < 0.05, f"it is at {point(pose.x, pose.y)}", advice)
 
 
-def _twin_faces_up(exam: Exam) -> Seen:
-    pose = some(exam, f"{TWIN}/pose", POSE_TYPE, 0.1)[-1].message
+def _twin_faces_up(probe: Probe) -> Seen:
+    pose = some(probe, f"{TWIN}/pose", POSE_TYPE, 0.1)[-1].message
     advice = Advice(direction="theta is an angle in radians: how many are 90°? (/kill takes a turtle away again.)")
     return Seen(abs(turned(pose.theta - TWIN_PLACE[2])) < 0.02, f"it faces {angle(pose.theta)}", advice)
 
@@ -78,27 +78,27 @@ def circle() -> list[Expectation]:
     ]
 
 
-def _ten_a_second(exam: Exam) -> Seen:
+def _ten_a_second(probe: Probe) -> Seen:
     """A command that was started twice sends twice as many; that is no mistake in it."""
-    exam.wait(SOON)
-    amount = len([owner for owner, _ in exam.publishers(COMMANDS) if owner != "/navigator"])
+    probe.wait(SOON)
+    amount = len([owner for owner, _ in probe.publishers(COMMANDS) if owner != "/navigator"])
     if not amount:
         advice = Advice(direction="A command that is to go on while the check looks ends with &.")
         return Seen(False, "no command in a terminal publishes", advice)
-    heard = len(some(exam, COMMANDS, COMMAND_TYPE, 2.0)) / 2.0 / amount
+    heard = len(some(probe, COMMANDS, COMMAND_TYPE, 2.0)) / 2.0 / amount
     return Seen(
         abs(heard - 10.0) <= 0.5, f"{number(heard, 1)} a second", "ros2 topic pub -h names the option for the rate."
     )
 
 
-def _motion(exam: Exam) -> tuple[float, float]:
+def _motion(probe: Probe) -> tuple[float, float]:
     """The turtle's speed ahead (m/s) and its turn (rad/s); each the smallest in two seconds."""
-    return exam.once("motion", lambda: _measured(exam))
+    return probe.once("motion", lambda: _measured(probe))
 
 
-def _measured(exam: Exam) -> tuple[float, float]:
-    commands = [each.message for each in some(exam, COMMANDS, COMMAND_TYPE, 0.5)]
-    poses = [each.message for each in some(exam, POSE, POSE_TYPE, 2.0)]
+def _measured(probe: Probe) -> tuple[float, float]:
+    commands = [each.message for each in some(probe, COMMANDS, COMMAND_TYPE, 0.5)]
+    poses = [each.message for each in some(probe, POSE, POSE_TYPE, 2.0)]
     ahead = math.copysign(min(each.linear_velocity for each in poses), commands[-1].linear.x)
     turn = min((each.angular_velocity for each in poses), key=abs)
     if not math.isfinite(ahead + turn):
@@ -106,8 +106,8 @@ def _measured(exam: Exam) -> tuple[float, float]:
     return ahead, turn
 
 
-def _goes_round(exam: Exam) -> Seen:
-    ahead, turn = _motion(exam)
+def _goes_round(probe: Probe) -> Seen:
+    ahead, turn = _motion(probe)
     advice = Advice(
         direction="A circle is both at once, in one message: a speed ahead and a turn. Which sign is left?",
         hint="Open Hint 1 under the exercise.",
@@ -115,8 +115,8 @@ def _goes_round(exam: Exam) -> Seen:
     return Seen(ahead > 0.05 and turn > 0.05, f"{number(ahead)} m/s and {number(turn)} rad/s", advice)
 
 
-def _radius(exam: Exam) -> Seen:
-    ahead, turn = _motion(exam)
+def _radius(probe: Probe) -> Seen:
+    ahead, turn = _motion(probe)
     if abs(turn) < 1e-3 or abs(ahead) < 1e-3:
         raise CannotLook("the turtle drives no circle")
     radius = abs(ahead / turn)

@@ -9,7 +9,7 @@ from typing import Any
 from ..words import number, point
 from .assertions import get_parameter, no_answer, no_errors, node, offers, publishes, set_parameter
 from .navigation import NAVIGATE, NEAR, ask_for, where
-from .probe import Exam, Heard
+from .probe import Heard, Probe
 from .registry import Expectation, check
 from .results import Advice, CannotLook, Seen
 from .streams import rate
@@ -51,8 +51,8 @@ def steady() -> list[Expectation]:
     ]
 
 
-def _bakes(exam: Exam) -> Seen:
-    heard = exam.hear(OVEN, OVEN_TYPE, 4.2)
+def _bakes(probe: Probe) -> Seen:
+    heard = probe.hear(OVEN, OVEN_TYPE, 4.2)
     on = [each.at for each in heard if each.message.data]
     lasted = [after.at - before.at for before, after in itertools.pairwise(heard) if before.message.data]
     again = [after - before for before, after in itertools.pairwise(on)]
@@ -92,25 +92,25 @@ _STEP = Advice(
 )
 
 
-def _shift(exam: Exam) -> tuple[float | None, list[Heard], bool]:
+def _shift(probe: Probe) -> tuple[float | None, list[Heard], bool]:
     """One request to work: how long until the answer (s), the beats by then, and whether the node answered meanwhile."""
-    return exam.once("shift", lambda: _work(exam))
+    return probe.once("shift", lambda: _work(probe))
 
 
-def _work(exam: Exam) -> tuple[float | None, list[Heard], bool]:
-    beats = exam.listen(BEAT, BEAT_TYPE)
-    exam.wait(0.3)
-    first, began = len(beats), exam.now
-    answer = exam.ask_soon(WORK, WORK_TYPE)
-    exam.wait(0.2)
+def _work(probe: Probe) -> tuple[float | None, list[Heard], bool]:
+    beats = probe.listen(BEAT, BEAT_TYPE)
+    probe.wait(0.3)
+    first, began = len(beats), probe.now
+    answer = probe.ask_soon(WORK, WORK_TYPE)
+    probe.wait(0.2)
     try:
-        get_parameter(exam, "/worker", "use_sim_time")
+        get_parameter(probe, "/worker", "use_sim_time")
         responsive = answer() is None
     except CannotLook:
         responsive = False
-    exam.wait_for(answer, LONGEST)
+    probe.wait_for(answer, LONGEST)
     done = answer()
-    ended = done.answered if done else exam.now
+    ended = done.answered if done else probe.now
     return (
         done.seconds if done else None,
         [beat for beat in beats[first - 1 :] if began - 0.2 <= beat.at <= ended],
@@ -118,38 +118,38 @@ def _work(exam: Exam) -> tuple[float | None, list[Heard], bool]:
     )
 
 
-def _works(exam: Exam) -> Seen:
-    seconds, _, _ = _shift(exam)
+def _works(probe: Probe) -> Seen:
+    seconds, _, _ = _shift(probe)
     if seconds is None:
-        return _unanswered(exam)
+        return _unanswered(probe)
     step = "The work takes one second, as before: it is done when the pause is over."
     return Seen(LEAST - 0.01 <= seconds <= MOST, f"after {number(seconds)} s", step)
 
 
-def _unanswered(exam: Exam) -> Seen:
+def _unanswered(probe: Probe) -> Seen:
     """No answer came: the learner's error, the callback that has not returned, or else what may hold it up."""
-    seen = no_answer(exam, f"no answer in {LONGEST:g} s")
+    seen = no_answer(probe, f"no answer in {LONGEST:g} s")
     step = "What does the callback await, and is the callback group free in which it would come? Does it return the response?"
     return seen._replace(advice=Advice(direction=step, hint="Open Hint 2 under the exercise."))
 
 
-def _meanwhile(exam: Exam) -> tuple[list[Heard], bool]:
+def _meanwhile(probe: Probe) -> tuple[list[Heard], bool]:
     """The beats while it worked, and whether it answered. Raises CannotLook where the work took next to no time."""
-    seconds, beats, responsive = _shift(exam)
+    seconds, beats, responsive = _shift(probe)
     if seconds is not None and seconds < LEAST - 0.01:
         raise CannotLook("the work is over at once")
     return beats, responsive
 
 
-def _beats(exam: Exam) -> Seen:
-    beats, _ = _meanwhile(exam)
+def _beats(probe: Probe) -> Seen:
+    beats, _ = _meanwhile(probe)
     gaps = [after.at - before.at for before, after in itertools.pairwise(beats)]
     silent = max(gaps, default=LONGEST)
     return Seen(silent <= 0.15, f"the longest pause was {number(silent)} s", _STEP)
 
 
-def _answers(exam: Exam) -> Seen:
-    _, responsive = _meanwhile(exam)
+def _answers(probe: Probe) -> Seen:
+    _, responsive = _meanwhile(probe)
     return Seen(responsive, "it was" if responsive else "only when the work was done", _STEP)
 
 
@@ -172,52 +172,52 @@ def go_home() -> list[Expectation]:
     ]
 
 
-def _trip(exam: Exam) -> tuple[Any, Any]:
+def _trip(probe: Probe) -> tuple[Any, Any]:
     """The turtle is driven away, then sent home: the answer, and its pose when that came."""
-    return exam.once("trip", lambda: _go_home(exam))
+    return probe.once("trip", lambda: _go_home(probe))
 
 
-def _go_home(exam: Exam) -> tuple[Any, Any]:
-    if not exam.servers(HOME):
-        raise CannotLook(f"no node offers {HOME}{exam.like(HOME, exam.services())}")
-    _drive_away(exam)
-    answer = exam.ask(HOME, HOME_TYPE, LONGEST)
-    return answer, where(exam)
+def _go_home(probe: Probe) -> tuple[Any, Any]:
+    if not probe.servers(HOME):
+        raise CannotLook(f"no node offers {HOME}{probe.like(HOME, probe.services())}")
+    _drive_away(probe)
+    answer = probe.ask(HOME, HOME_TYPE, LONGEST)
+    return answer, where(probe)
 
 
-def _drive_away(exam: Exam) -> None:
-    away = ask_for(exam, AWAY, LONGEST)
+def _drive_away(probe: Probe) -> None:
+    away = ask_for(probe, AWAY, LONGEST)
     if away.response is None or not away.response.success:
         raise CannotLook("the navigator did not drive the turtle away from home first: is it running?")
 
 
-def _answers_from_home(exam: Exam) -> Seen:
-    answer, _ = _trip(exam)
+def _answers_from_home(probe: Probe) -> Seen:
+    answer, _ = _trip(probe)
     if answer.response is None:
-        return _unanswered(exam)
+        return _unanswered(probe)
     seen = f"success is {answer.response.success} after {number(answer.seconds)} s"
     return Seen(answer.response.success is True, seen, f"What has {NAVIGATE} answered, and what becomes of it?")
 
 
-def _passes_on_no(exam: Exam) -> Seen:
+def _passes_on_no(probe: Probe) -> Seen:
     """The navigator is given too little time for the way home."""
-    answer, _ = _trip(exam)
+    answer, _ = _trip(probe)
     if answer.response is None:
         raise CannotLook(f"{HOME} is not answered")
-    if get_parameter(exam, "/navigator", "goal_timeout") is None:
+    if get_parameter(probe, "/navigator", "goal_timeout") is None:
         return Seen(True, "not tried: the navigator has no goal_timeout")
-    _drive_away(exam)
-    if reason := set_parameter(exam, "/navigator", "goal_timeout", 0.1):
+    _drive_away(probe)
+    if reason := set_parameter(probe, "/navigator", "goal_timeout", 0.1):
         raise CannotLook(f"the navigator refused a goal_timeout of 0.1 s: {reason}")
-    answer = exam.ask(HOME, HOME_TYPE, LONGEST)
+    answer = probe.ask(HOME, HOME_TYPE, LONGEST)
     if answer.response is None:
-        return _unanswered(exam)
+        return _unanswered(probe)
     seen = f"success is {answer.response.success}"
     return Seen(answer.response.success is False, seen, f"What has {NAVIGATE} answered, and what becomes of it?")
 
 
-def _is_home(exam: Exam) -> Seen:
-    _, pose = _trip(exam)
+def _is_home(probe: Probe) -> Seen:
+    _, pose = _trip(probe)
     away = math.dist((pose.x, pose.y), MIDDLE)
     step = "Which goal was asked for, and does the answer wait until the turtle is there?"
     return Seen(away <= NEAR, f"it is at {point(pose.x, pose.y)}", step)

@@ -17,7 +17,7 @@ from .assertions import no_errors, publishes, subscribes
 from .functions import learner_function
 from .graph_view import interface
 from .navigation import NEAR, Drive, Goal, ask_for, drive, where
-from .probe import Exam, Heard
+from .probe import Heard, Probe
 from .registry import Expectation, check
 from .results import Advice, CannotLook, Seen
 from .streams import judge_rate, relays
@@ -69,11 +69,11 @@ def battery_test() -> list[Expectation]:
     ]
 
 
-def _judged(verdict: bool, charges: Sequence[float], advice: Advice) -> Callable[[Exam], Seen]:
-    def look(exam: Exam) -> Seen:
-        function = learner_function(exam, "battery_ok")
+def _judged(verdict: bool, charges: Sequence[float], advice: Advice) -> Callable[[Probe], Seen]:
+    def look(probe: Probe) -> Seen:
+        function = learner_function(probe, "battery_ok")
         for charge in charges:
-            said = exam.call(function, interface(page_04.STATUS_TYPE)(battery=charge))
+            said = probe.call(function, interface(page_04.STATUS_TYPE)(battery=charge))
             if said is not verdict:
                 return Seen(False, f"battery_ok returned {said!r} for {charge:g} %", advice)
         return Seen(True, f"battery_ok returned {verdict} for each")
@@ -109,16 +109,16 @@ def watchdog() -> list[Expectation]:
     ]
 
 
-def _before_the_first(exam: Exam) -> Seen:
+def _before_the_first(probe: Probe) -> Seen:
     """A new watchdog of the learner's class is asked, since the one in the notebook may have heard something already."""
     running = vars(sys.modules["__main__"]).get("watchdog")
     if not hasattr(running, "is_alive"):
         raise CannotLook("watchdog is not a node with a method is_alive")
-    fresh = exam.call(type(running))
+    fresh = probe.call(type(running))
     try:
-        said = exam.call(fresh.is_alive)
+        said = probe.call(fresh.is_alive)
     finally:
-        exam.call(fresh.destroy_node)
+        probe.call(fresh.destroy_node)
     advice = Advice(
         direction="What is heard_at before the first status, and what should is_alive say then?", hint=_HINT
     )
@@ -136,21 +136,21 @@ class Verdict:
     alive: Any
 
 
-def _while_it_comes(exam: Exam) -> Seen:
-    heard = _verdicts(exam)
-    _speak(exam, heard)
+def _while_it_comes(probe: Probe) -> Seen:
+    heard = _verdicts(probe)
+    _speak(probe, heard)
     step = "What does is_alive compare, and in which unit? A status that came 0.4 s ago is recent enough."
     wrong = [each.message.data for each in heard if each.message.data is not True]
     if not heard:
-        return _nothing_came(exam)
+        return _nothing_came(probe)
     return Seen(not wrong, f"it says {wrong[0] if wrong else True}", Advice(direction=step, hint=_HINT))
 
 
-def _in_silence(alive: bool) -> Callable[[Exam], Seen]:
-    def look(exam: Exam) -> Seen:
-        verdicts = [each for each in exam.once("silence", lambda: _hush(exam)) if (each.age < LIMIT) is alive]
+def _in_silence(alive: bool) -> Callable[[Probe], Seen]:
+    def look(probe: Probe) -> Seen:
+        verdicts = [each for each in probe.once("silence", lambda: _hush(probe)) if (each.age < LIMIT) is alive]
         if not verdicts:
-            return _nothing_came(exam)
+            return _nothing_came(probe)
         wrong = [each for each in verdicts if each.alive is not alive]
         shown = (wrong or verdicts)[-1 if alive else 0]
         step = "How long ago did the last status come, by the clock, each time that the timer ticks?"
@@ -160,52 +160,52 @@ def _in_silence(alive: bool) -> Callable[[Exam], Seen]:
     return look
 
 
-def _when_it_comes_again(exam: Exam) -> Seen:
-    exam.once("silence", lambda: _hush(exam))
-    heard = _verdicts(exam)
-    _speak(exam, heard)
+def _when_it_comes_again(probe: Probe) -> Seen:
+    probe.once("silence", lambda: _hush(probe))
+    heard = _verdicts(probe)
+    _speak(probe, heard)
     if not heard:
-        return _nothing_came(exam)
+        return _nothing_came(probe)
     step = "Does every status that comes bring the time up to date?"
     return Seen(heard[-1].message.data is True, f"it says {heard[-1].message.data}", step)
 
 
-def _nothing_came(exam: Exam) -> Seen:
-    exam.raise_error()
+def _nothing_came(probe: Probe) -> Seen:
+    probe.raise_error()
     return Seen(False, f"nothing came on {ALIVE}", "Publish from the timer, so that silence is reported, too.")
 
 
-def _verdicts(exam: Exam) -> list[Heard]:
+def _verdicts(probe: Probe) -> list[Heard]:
     """What the watchdog says, from now on. Raises CannotLook where a status comes that is not the check's own."""
-    if others := exam.publishers(page_04.STATUS):
+    if others := probe.publishers(page_04.STATUS):
         raise CannotLook(f"{others[0][0]} publishes {page_04.STATUS}, so there is no silence: stop it first")
-    return exam.listen(ALIVE, VERDICT_TYPE)
+    return probe.listen(ALIVE, VERDICT_TYPE)
 
 
-def _speak(exam: Exam, heard: list[Heard]) -> None:
+def _speak(probe: Probe, heard: list[Heard]) -> None:
     """A status every 0.4 s; `heard` keeps what is said meanwhile."""
-    exam.publish(page_04.STATUS, page_04.STATUS_TYPE, battery=50.0)
-    exam.wait(0.01)
+    probe.publish(page_04.STATUS, page_04.STATUS_TYPE, battery=50.0)
+    probe.wait(0.01)
     heard.clear()
     for _ in range(4):
-        exam.wait(0.39)
-        exam.publish(page_04.STATUS, page_04.STATUS_TYPE, battery=50.0)
-        exam.wait(0.01)
+        probe.wait(0.39)
+        probe.publish(page_04.STATUS, page_04.STATUS_TYPE, battery=50.0)
+        probe.wait(0.01)
 
 
-def _hush(exam: Exam) -> list[Verdict]:
+def _hush(probe: Probe) -> list[Verdict]:
     """What it says in two silences, with the last status so long before a tick that verdicts come shortly before and after
     the limit."""
-    heard, found = _verdicts(exam), list[Verdict]()
+    heard, found = _verdicts(probe), list[Verdict]()
     for before_a_tick in (0.06, 0.14):
         heard.clear()
-        if not exam.wait_for(lambda: heard, 1.0):
+        if not probe.wait_for(lambda: heard, 1.0):
             return found
-        exam.wait(heard[-1].at + 3 * TICK - before_a_tick - exam.now)
-        exam.publish(page_04.STATUS, page_04.STATUS_TYPE, battery=50.0)
-        last = exam.now
+        probe.wait(heard[-1].at + 3 * TICK - before_a_tick - probe.now)
+        probe.publish(page_04.STATUS, page_04.STATUS_TYPE, battery=50.0)
+        last = probe.now
         heard.clear()
-        exam.wait(1.2)
+        probe.wait(1.2)
         found += [Verdict(each.at - last, each.message.data) for each in heard]
     return sorted(found, key=lambda each: each.age)
 
@@ -238,19 +238,19 @@ def system() -> list[Expectation]:
 PROGRAMS = ("navigator", "status_monitor", "obstacle_detector")
 
 
-def running(exam: Exam, program: str) -> list[str]:
+def running(probe: Probe, program: str) -> list[str]:
     """The words of the command that runs a program of this name. Raises CannotLook where none does."""
-    found = [words for words in exam.place.commands if Path(words[0]).name == program]
+    found = [words for words in probe.target.commands if Path(words[0]).name == program]
     if not found:
         raise CannotLook(f"no program {program} runs")
     return found[-1]
 
 
-def _from_workspace(exam: Exam) -> Seen:
+def _from_workspace(probe: Probe) -> Seen:
     from ...learner.workspace import workspace
 
     mine = workspace().folder / "install"
-    others = [name for name in PROGRAMS if not Path(running(exam, name)[0]).is_relative_to(mine)]
+    others = [name for name in PROGRAMS if not Path(running(probe, name)[0]).is_relative_to(mine)]
     step = 'Which package does this world know? lesson = start(seed=0, package="mine") knows yours.'
     return Seen(not others, f"{listed(others)} came from elsewhere" if others else "they are", step)
 
@@ -266,24 +266,24 @@ class Shift:
     """Whether it went on to its end; it does not where something was wrong after the first goals."""
 
 
-def shift(exam: Exam) -> Shift:
+def shift(probe: Probe) -> Shift:
     """Do it once. Raises CannotLook where there is no navigator to ask."""
-    return exam.once("shift", lambda: _work(exam))
+    return probe.once("shift", lambda: _work(probe))
 
 
-def _work(exam: Exam) -> Shift:
-    exam.wait(SETTLING)
+def _work(probe: Probe) -> Shift:
+    probe.wait(SETTLING)
     done = Shift()
     for topic, kind, heard in (
         (page_04.STATUS, page_04.STATUS_TYPE, "statuses"),
         (page_05.SCAN, page_05.SCAN_TYPE, "scans"),
     ):
         with suppress(CannotLook):
-            setattr(done, heard, exam.listen(topic, kind))
-    end = exam.now + 60 * MINUTES
-    while done.whole and exam.now < end:
+            setattr(done, heard, probe.listen(topic, kind))
+    end = probe.now + 60 * MINUTES
+    while done.whole and probe.now < end:
         goal = GOALS[len(done.drives) % len(GOALS)]
-        done.drives.append(drive(exam, f"drive {len(done.drives)}", lambda pose, goal=goal: goal))
+        done.drives.append(drive(probe, f"drive {len(done.drives)}", lambda pose, goal=goal: goal))
         a_round = len(done.drives) % len(GOALS) == 0
         done.whole = not _missed(done.drives[-1]) and not (a_round and _uneven(done))
     return done
@@ -312,8 +312,8 @@ def _scan_rate(done: Shift) -> Seen:
     return judge_rate(done.scans, 5, 0.020)
 
 
-def _reached(exam: Exam) -> Seen:
-    done = shift(exam)
+def _reached(probe: Probe) -> Seen:
+    done = shift(probe)
     step = Advice(
         direction="Drive to that goal alone: what does the navigator's log say, and how long may a goal take?",
         hint="Open Hint 1 under the exercise.",
@@ -326,9 +326,9 @@ def _reached(exam: Exam) -> Seen:
     return Seen(True, f"{count(len(done.drives), 'goal')}, all of them, at most {number(far)} m off")
 
 
-def _honest(exam: Exam) -> Seen:
+def _honest(probe: Probe) -> Seen:
     worst = 0.0
-    for it in shift(exam).drives:
+    for it in shift(probe).drives:
         begin, end = it.moving()
         worst = max(worst, abs(it.response.time_taken - (end - begin)))
     step = (
@@ -337,12 +337,12 @@ def _honest(exam: Exam) -> Seen:
     return Seen(worst <= 0.1, f"at most {number(worst)} s off", step)
 
 
-def _near_goal(exam: Exam) -> Seen:
-    goal = _just_ahead(where(exam))
-    answer = ask_for(exam, goal, 30.0)
+def _near_goal(probe: Probe) -> Seen:
+    goal = _just_ahead(where(probe))
+    answer = ask_for(probe, goal, 30.0)
     if answer.response is None:
         return Seen(False, "no answer in 30 s", "Ask for that goal alone, and read the navigator's log.")
-    end = where(exam)
+    end = where(probe)
     away = math.dist(goal[:2], (end.x, end.y))
     seen = f"0.5 m: success is {answer.response.success} after {number(answer.seconds)} s"
     good = bool(answer.response.success) and answer.seconds <= 2.0 and away <= NEAR
@@ -359,13 +359,13 @@ def _just_ahead(pose: Any) -> Goal:
     raise CannotLook("the turtle stands in a corner")
 
 
-def _statuses(exam: Exam) -> Seen:
-    done = shift(exam)
+def _statuses(probe: Probe) -> Seen:
+    done = shift(probe)
     return _status_rate(done) if done.statuses else _silent(page_04.STATUS)
 
 
-def _scans(exam: Exam) -> Seen:
-    done = shift(exam)
+def _scans(probe: Probe) -> Seen:
+    done = shift(probe)
     return _scan_rate(done) if done.scans else _silent(page_05.SCAN)
 
 

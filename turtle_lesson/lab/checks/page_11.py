@@ -12,7 +12,7 @@ from . import page_04, page_05, page_06, page_10
 from .assertions import no_errors, node, parameter, publishes, subscribes
 from .functions import Example, returns
 from .navigation import COMMAND_TYPE, COMMANDS
-from .probe import Exam
+from .probe import Probe
 from .registry import Expectation, check
 from .results import Advice, CannotLook, Seen
 from .streams import rate
@@ -54,13 +54,13 @@ def on_site() -> list[Expectation]:
     ]
 
 
-def _exported(exam: Exam) -> Seen:
+def _exported(probe: Probe) -> Seen:
     from ...learner.workspace import workspace
     from ...session.lesson import FINISHED
 
     elsewhere = {"your workspace": workspace().folder, "the finished package": FINISHED}
     for program in page_10.PROGRAMS:
-        path = Path(page_10.running(exam, program)[0])
+        path = Path(page_10.running(probe, program)[0])
         for name, folder in elsewhere.items():
             if path.is_relative_to(folder):
                 step = Advice(
@@ -71,12 +71,12 @@ def _exported(exam: Exam) -> Seen:
     return Seen(True, "they are")
 
 
-def _unchanged(exam: Exam) -> Seen:
+def _unchanged(probe: Probe) -> Seen:
     """Whether each program has the text of the learner's own file, which is in the workspace."""
     from ...learner.workspace import workspace
 
     for program in page_10.PROGRAMS:
-        runs = Path(page_10.running(exam, program)[0])
+        runs = Path(page_10.running(probe, program)[0])
         mine = workspace().package / workspace().package.name / f"{program}_node.py"
         if not mine.is_file():
             raise CannotLook(f"there is no {mine.name} in your workspace")
@@ -86,9 +86,9 @@ def _unchanged(exam: Exam) -> Seen:
     return Seen(True, "they are")
 
 
-def _from_the_start(exam: Exam) -> Seen:
+def _from_the_start(probe: Probe) -> Seen:
     for program, name, value in SETTINGS:
-        command = page_10.running(exam, program)
+        command = page_10.running(probe, program)
         given = [word.rpartition(":=") for word in command if ":=" in word]
         values = [text for key, _, text in given if key.rpartition(":")[2] == name]
         if "--params-file" not in command and (not values or float(values[-1]) != value):
@@ -155,12 +155,12 @@ _ONE, _TWO = "Open Hint 1 under the exercise.", "Open Hint 2 under the exercise.
 
 
 def _lets_through(expected: str, name: str, distance: float | None, speed: float) -> Expectation:
-    def look(exam: Exam) -> Seen:
-        if others := exam.publishers(page_05.SCAN):
+    def look(probe: Probe) -> Seen:
+        if others := probe.publishers(page_05.SCAN):
             raise CannotLook(f"{others[0][0]} publishes {page_05.SCAN}, too: stop it first")
-        sent = exam.once(name, lambda: _last_speed(exam, distance))
+        sent = probe.once(name, lambda: _last_speed(probe, distance))
         if sent is None:
-            exam.raise_error()
+            probe.raise_error()
             return Seen(False, f"nothing came on {COMMANDS}", "Publish something for each message that comes.")
         step = "What does is_safe say for this distance, and for the age that the scan has then?"
         return Seen(sent == speed, f"it was sent {number(sent)} m/s", step)
@@ -168,17 +168,17 @@ def _lets_through(expected: str, name: str, distance: float | None, speed: float
     return Expectation(expected, look)
 
 
-def _last_speed(exam: Exam, distance: float | None) -> Any:
+def _last_speed(probe: Probe, distance: float | None) -> Any:
     """Want to drive for 1.2 s, with scans of this distance (m) or with none; the speed that was sent at last (m/s)."""
-    heard = exam.listen(COMMANDS, COMMAND_TYPE)
+    heard = probe.listen(COMMANDS, COMMAND_TYPE)
     heard.clear()
     for tick in range(12):
         if distance is not None and tick % 2 == 0:
             ranges = [distance] * BEAMS
-            exam.publish(page_05.SCAN, page_05.SCAN_TYPE, ranges=ranges, range_max=10.0)
-            exam.wait(0.02)
-        exam.publish(WANTED, COMMAND_TYPE, linear__x=SPEED)
-        exam.wait(0.1)
+            probe.publish(page_05.SCAN, page_05.SCAN_TYPE, ranges=ranges, range_max=10.0)
+            probe.wait(0.02)
+        probe.publish(WANTED, COMMAND_TYPE, linear__x=SPEED)
+        probe.wait(0.1)
     return heard[-1].message.linear.x if heard else None
 
 
@@ -207,31 +207,31 @@ def replay() -> list[Expectation]:
     ]
 
 
-def _no_monitor(exam: Exam) -> Seen:
-    there = "/status_monitor" in exam.nodes()
+def _no_monitor(probe: Probe) -> Seen:
+    there = "/status_monitor" in probe.nodes()
     return Seen(not there, "it runs" if there else "none does", "Begin with start(), and launch nothing.")
 
 
-def _played(exam: Exam) -> list[str]:
+def _played(probe: Probe) -> list[str]:
     """The topics that a player publishes, but for those that each node has."""
     own = {"/rosout", "/parameter_events", "/clock"}
-    return [topic for topic in exam.topics() if topic not in own and any(map(_is_player, exam.publishers(topic)))]
+    return [topic for topic in probe.topics() if topic not in own and any(map(_is_player, probe.publishers(topic)))]
 
 
 def _is_player(end: tuple[str, str]) -> bool:
     return end[0].rpartition("/")[2].startswith(PLAYER)
 
 
-def _from_a_bag(exam: Exam) -> Seen:
-    exam.wait_for(lambda: exam.publishers(page_04.STATUS), 1.0)  # what runs in the background has just been started
-    ends = exam.publishers(page_04.STATUS)
+def _from_a_bag(probe: Probe) -> Seen:
+    probe.wait_for(lambda: probe.publishers(page_04.STATUS), 1.0)  # what runs in the background has just been started
+    ends = probe.publishers(page_04.STATUS)
     owners = [owner for owner, _ in ends]
     step = Advice(direction="Does the player still run when the cell is done, and does it play this topic?", hint=_TWO)
     return Seen(len(ends) == 1 and _is_player(ends[0]), listed(owners) or "no node publishes it", step)
 
 
-def _nothing_else(exam: Exam) -> Seen:
-    topics = _played(exam)
+def _nothing_else(probe: Probe) -> Seen:
+    topics = _played(probe)
     if not topics:
         raise CannotLook("no bag is played")
     others = [topic for topic in topics if topic != page_04.STATUS]
@@ -239,19 +239,19 @@ def _nothing_else(exam: Exam) -> Seen:
     return Seen(not others, f"{listed(others)}, too" if others else "nothing else is", step)
 
 
-def _times(exam: Exam) -> list[float]:
+def _times(probe: Probe) -> list[float]:
     """When messages came, in s since it began to listen."""
-    return exam.once("times", lambda: _listen(exam))
+    return probe.once("times", lambda: _listen(probe))
 
 
-def _listen(exam: Exam) -> list[float]:
-    began = exam.now
-    return [each.at - began for each in exam.hear(page_04.STATUS, page_04.STATUS_TYPE, LONG)]
+def _listen(probe: Probe) -> list[float]:
+    began = probe.now
+    return [each.at - began for each in probe.hear(page_04.STATUS, page_04.STATUS_TYPE, LONG)]
 
 
-def _at_its_pace(exam: Exam) -> Seen:
+def _at_its_pace(probe: Probe) -> Seen:
     """By the median gap: where the bag begins again, one gap is another."""
-    times = _times(exam)
+    times = _times(probe)
     gaps = sorted(after - before for before, after in itertools.pairwise(times))
     if not gaps:
         return Seen(False, "none came", "Does the player still run when the cell is done?")
@@ -262,8 +262,8 @@ def _at_its_pace(exam: Exam) -> Seen:
     )
 
 
-def _again_and_again(exam: Exam) -> Seen:
-    times = _times(exam)
+def _again_and_again(probe: Probe) -> Seen:
+    times = _times(probe)
     seconds = {math.floor(each) for each in times}
     missing = [second for second in range(int(LONG)) if second not in seconds]
     step = Advice(direction="What does the player do when the bag is at its end?", hint=_ONE)

@@ -1,4 +1,4 @@
-"""An exam: looks at a running system through a node, lets robot time pass, and cleans up after itself.
+"""A probe: looks at a running system through a node, lets robot time pass, and cleans up after itself.
 
 It listens, asks, publishes and reads the graph as any node may, and reaches into nothing. What it has seen once it
 remembers (`once`), so that several expectations can be about the same drive.
@@ -39,7 +39,7 @@ MOST_HEARD = 500_000
 """Messages of one topic that are kept at most."""
 
 
-class Place(Protocol):
+class Target(Protocol):
     """Where the system is that is looked at."""
 
     node: Any
@@ -133,27 +133,27 @@ class Answer:
         return self.answered - self.asked
 
 
-class Exam(GraphView):
+class Probe(GraphView):
     """One look at a system, for at most `limit` seconds of robot time."""
 
-    def __init__(self, place: Place, limit: float) -> None:
-        self.place = place
-        self.node = place.node
-        self.began = place.now
-        self._until = place.now + limit
+    def __init__(self, target: Target, limit: float) -> None:
+        self.target = target
+        self.node = target.node
+        self.began = target.now
+        self._until = target.now + limit
         self._limit = limit
         self._work_begin = work_done()
         self._stopped = ""
-        self._origin = place.node.get_clock().now().nanoseconds - round(place.now * NANOSECONDS)
+        self._origin = target.node.get_clock().now().nanoseconds - round(target.now * NANOSECONDS)
         self._memory: dict[Hashable, Any] = {}
         self._clean_up: list[Callable[[], object]] = []
-        self._errors_before = [error for _, error in place.errors]
+        self._errors_before = [error for _, error in target.errors]
         self.nodes_before: Counter[str] = Counter()
         self.log: list[tuple[int, str, str]] = []
-        """Level, name of the logger and text of each line that was logged since the exam began."""
+        """Level, name of the logger and text of each line that was logged since the probe began."""
 
-    def __enter__(self) -> Exam:
-        self.place.limit_work(WORK)
+    def __enter__(self) -> Probe:
+        self.target.limit_work(WORK)
         self._hear_the_log()
         self.nodes_before = self.nodes()
         return self
@@ -161,13 +161,13 @@ class Exam(GraphView):
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self.place.limit_work(None)
+        self.target.limit_work(None)
         for each in reversed(self._clean_up):
             with suppress(Exception):  # what is gone already needs no cleaning
                 each()
 
     def at_the_end(self, action: Callable[[], object]) -> None:
-        """Have `action` called when the exam is over: to put back what it has changed."""
+        """Have `action` called when the probe is over: to put back what it has changed."""
         self._clean_up.append(action)
 
     def once(self, key: Hashable, look: Callable[[], T]) -> T:
@@ -187,7 +187,7 @@ class Exam(GraphView):
     @property
     def now(self) -> float:
         """Robot time, s."""
-        return self.place.now
+        return self.target.now
 
     def wait(self, seconds: float) -> None:
         """Let robot time pass. Raises OutOfTime where the check has no more of it."""
@@ -211,7 +211,7 @@ class Exam(GraphView):
                 "tiny, or does a callback compute for long?"
             )
         self._raise_if_stopped()
-        self.place.step(seconds)
+        self.target.step(seconds)
         self._raise_if_stopped()
 
     def _raise_if_stopped(self) -> None:
@@ -226,7 +226,7 @@ class Exam(GraphView):
         """Call a function of the learner's. Raises what it raises; Stopped if it computes without end."""
         self._raise_if_stopped()
         try:
-            return self.place.call(function, *arguments)
+            return self.target.call(function, *arguments)
         except ENDLESS as error:
             self._stopped = never_returned(error)
             raise Stopped(self._stopped) from None
@@ -264,7 +264,7 @@ class Exam(GraphView):
         return heard
 
     def subscribe(self, message_class: Any, topic: str, callback: Callable[..., None]) -> None:
-        """Call `callback` with each message until the exam is over; best effort, which hears every publisher."""
+        """Call `callback` with each message until the probe is over; best effort, which hears every publisher."""
         from rclpy.qos import QoSProfile, ReliabilityPolicy
 
         quality = QoSProfile(depth=1000, reliability=ReliabilityPolicy.BEST_EFFORT)
@@ -281,18 +281,18 @@ class Exam(GraphView):
         self.subscribe(Log, "/rosout", hear)
 
     def errors(self) -> list[Exception]:
-        """What the learner's code has raised since the exam began: in a callback of a cell's node, or in a program."""
-        return [error for _, error in self.place.errors if all(error is not old for old in self._errors_before)]
+        """What the learner's code has raised since the probe began: in a callback of a cell's node, or in a program."""
+        return [error for _, error in self.target.errors if all(error is not old for old in self._errors_before)]
 
     def raise_error(self) -> None:
-        """Raise the newest error of the learner's code since the exam began, if there is any."""
+        """Raise the newest error of the learner's code since the probe began, if there is any."""
         if raised := self.errors():
             raise raised[-1]
 
     def fallen(self) -> list[str]:
-        """The programs that an error had ended before the exam began, each with its error in words: the newest of a name."""
-        ended = {name: error for name, error in self.place.errors if name and error in self._errors_before}
-        return [f"{name} ended with {in_words(error)}" for name, error in ended.items() if not self.place.runs(name)]
+        """The programs that an error had ended before the probe began, each with its error in words: the newest of a name."""
+        ended = {name: error for name, error in self.target.errors if name and error in self._errors_before}
+        return [f"{name} ended with {in_words(error)}" for name, error in ended.items() if not self.target.runs(name)]
 
     @property
     def stopped(self) -> str:
@@ -301,7 +301,7 @@ class Exam(GraphView):
 
     def unreturned(self) -> str:
         """The callbacks that are not done at this moment, with the line that each is in; "" if there is none."""
-        return "; ".join(unreturned(self.place.strands))
+        return "; ".join(unreturned(self.target.strands))
 
     # -- acting ------------------------------------------------------------------------------------------------------
 
@@ -319,12 +319,12 @@ class Exam(GraphView):
     @contextmanager
     def obstacles(self, *added: Any) -> Iterator[None]:
         """Within this block these obstacles stand in the world, too; after it, what stood there before."""
-        before = self.place.obstacles
-        self.place.put([*before, *added])
+        before = self.target.obstacles
+        self.target.put([*before, *added])
         try:
             yield
         finally:
-            self.place.put(before)
+            self.target.put(before)
 
     def ask(self, service: str, type_name: str, timeout: float, **fields: Any) -> Answer:
         """Call a service, and let robot time pass until it answers or the timeout (s) is over.

@@ -12,7 +12,7 @@ from ..words import did_you_mean, enumerated
 from .results import Seen
 
 if TYPE_CHECKING:
-    from .probe import Exam
+    from .probe import Probe
 
 MODULES = tuple(f"page_{page.partition('_')[0]}" for page in PAGES)
 """The modules beside this one that define checks, one a page; they are imported when a check is first asked for."""
@@ -23,7 +23,7 @@ class Expectation:
     """One thing that should be so: in words, and how to look. `look` may raise CannotLook, or anything else."""
 
     expected: str
-    look: Callable[[Exam], Seen]
+    look: Callable[[Probe], Seen]
 
 
 @dataclass(frozen=True)

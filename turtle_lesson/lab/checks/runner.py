@@ -5,22 +5,22 @@ from __future__ import annotations
 from ...ros.sim.errors import learners_frames
 from .assertions import NO_ERROR
 from .failures import STOP_ADVICE, in_words, row_of
-from .probe import Exam, Place
+from .probe import Probe, Target
 from .registry import Check, Expectation
 from .results import BAD, GOOD, OPEN, STOPPED, Advice, CannotLook, CheckResult, Row, Seen, Stopped
 
 ENDS = "every callback returns"
 
 
-def run(check: Check, place: Place) -> CheckResult:
-    """Look at everything that a check expects of the system at `place`."""
-    if place.ended:
+def run(check: Check, target: Target) -> CheckResult:
+    """Look at everything that a check expects of the system at `target`."""
+    if target.ended:
         return _result(check, _over(check), 0.0)
-    began = place.now
-    with Exam(place, check.limit) as exam:
-        rows = [_look(each, exam) for each in check.expectations]
-        rows = _with_errors(rows, exam)
-    return _result(check, tuple(rows), round(place.now - began, 3))
+    began = target.now
+    with Probe(target, check.limit) as probe:
+        rows = [_look(each, probe) for each in check.expectations]
+        rows = _with_errors(rows, probe)
+    return _result(check, tuple(rows), round(target.now - began, 3))
 
 
 def _result(check: Check, rows: tuple[Row, ...], seconds: float) -> CheckResult:
@@ -35,9 +35,9 @@ def _over(check: Check) -> tuple[Row, ...]:
     return gone, *rest
 
 
-def _look(expectation: Expectation, exam: Exam) -> Row:
+def _look(expectation: Expectation, probe: Probe) -> Row:
     try:
-        seen = Seen(*expectation.look(exam))
+        seen = Seen(*expectation.look(probe))
     except Stopped:
         return Row(OPEN, expectation.expected, _because("your code was stopped"))
     except CannotLook as reason:
@@ -57,11 +57,11 @@ _ODD = Advice(
 )
 
 
-def _with_errors(rows: list[Row], exam: Exam) -> list[Row]:
+def _with_errors(rows: list[Row], probe: Probe) -> list[Row]:
     """The rows with the learner's own error first, since it explains the others; nothing is added to a good result."""
-    if exam.stopped:
-        return [Row(STOPPED, ENDS, exam.stopped, STOP_ADVICE), *(row for row in rows if row.mark != STOPPED)]
-    error = next(iter(exam.errors()), None)
+    if probe.stopped:
+        return [Row(STOPPED, ENDS, probe.stopped, STOP_ADVICE), *(row for row in rows if row.mark != STOPPED)]
+    error = next(iter(probe.errors()), None)
     if error is None or all(row.good for row in rows):
         return sorted(rows, key=lambda row: not row.trace)
     first = row_of(error, NO_ERROR)

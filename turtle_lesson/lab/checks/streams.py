@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from ..words import count, number
-from .probe import Exam, Heard
+from .probe import Heard, Probe
 from .registry import Expectation
 from .results import Advice, CannotLook, Seen
 
@@ -26,10 +26,10 @@ def rate(
     Robot time, s: they are heard for `seconds`, which begin `after` the expectation does.
     """
 
-    def look(exam: Exam) -> Seen:
-        exam.listen(topic, type_name)
-        exam.wait(after)
-        return judge_rate(exam.hear(topic, type_name, seconds), hz, within, len(exam.publishers(topic)))
+    def look(probe: Probe) -> Seen:
+        probe.listen(topic, type_name)
+        probe.wait(after)
+        return judge_rate(probe.hear(topic, type_name, seconds), hz, within, len(probe.publishers(topic)))
 
     milliseconds = f"{number(1000 / hz, 0)} ms ± {number(1000 * within, 0)} ms"
     return Expectation(f"{topic}: a message every {milliseconds}", look)
@@ -77,15 +77,15 @@ def _how_to_pace(low: float, high: float, mean: float, hz: float, uneven: bool) 
 def messages(topic: str, type_name: str, expected: str, judge: Judge, seconds: float = 2.0) -> Expectation:
     """Whatever a function judges of the messages that come in some seconds (at least one, or they are not looked at)."""
 
-    def look(exam: Exam) -> Seen:
-        return judge(some(exam, topic, type_name, seconds))
+    def look(probe: Probe) -> Seen:
+        return judge(some(probe, topic, type_name, seconds))
 
     return Expectation(expected, look)
 
 
-def some(exam: Exam, topic: str, type_name: str, seconds: float) -> list[Heard]:
+def some(probe: Probe, topic: str, type_name: str, seconds: float) -> list[Heard]:
     """The messages of some seconds. Raises CannotLook where none comes."""
-    heard = exam.hear(topic, type_name, seconds)
+    heard = probe.hear(topic, type_name, seconds)
     if not heard:
         raise CannotLook(f"no message came on {topic} in {number(seconds, 1)} s")
     return heard
@@ -105,26 +105,26 @@ def relays(
     `pairs`: the fields to send, whether a message is the right answer, and both in words ("21 → 42").
     """
 
-    def look(exam: Exam) -> Seen:
-        if not exam.subscriptions(heard_on):
+    def look(probe: Probe) -> Seen:
+        if not probe.subscriptions(heard_on):
             raise CannotLook(f"no node listens to {heard_on}")
-        answers = exam.listen(said_on, said_type)
+        answers = probe.listen(said_on, said_type)
         for fields, right, words in pairs:
             before = len(answers)
-            exam.publish(heard_on, heard_type, **fields)
-            if not exam.wait_for(_any_since(answers, before, right), timeout):
-                return _instead(exam, words, [each.message for each in answers[before:]], timeout, next_step)
+            probe.publish(heard_on, heard_type, **fields)
+            if not probe.wait_for(_any_since(answers, before, right), timeout):
+                return _instead(probe, words, [each.message for each in answers[before:]], timeout, next_step)
         return Seen(True, ", ".join(words for _, _, words in pairs))
 
     return Expectation(f"{heard_on} is answered on {said_on}", look)
 
 
-def _instead(exam: Exam, words: str, came: list[Any], timeout: float, advice: str | Advice) -> Seen:
+def _instead(probe: Probe, words: str, came: list[Any], timeout: float, advice: str | Advice) -> Seen:
     """What is said where the right message did not come: the learner's error, or what came instead."""
-    exam.raise_error()
+    probe.raise_error()
     if came:
         return Seen(False, f"{words}: {brief(came[-1])} came", advice)
-    waiting = exam.unreturned()
+    waiting = probe.unreturned()
     nothing = f"{words}: nothing came within {timeout:g} s"
     return Seen(False, f"{nothing}; {waiting}" if waiting else nothing, advice)
 

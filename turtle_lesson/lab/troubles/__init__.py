@@ -5,14 +5,14 @@ that was not started, a remapping, a parameter, a quality of service, a type, a 
 """
 
 from .cases import TROUBLES, Case, current_expectations, expectations_of, open_case
-from .faults import Fault, Program, Stage, Trouble
+from .faults import Environment, Fault, Program, Trouble
 
 __all__ = [
     "TROUBLES",
     "Case",
+    "Environment",
     "Fault",
     "Program",
-    "Stage",
     "Trouble",
     "current_expectations",
     "expectations_of",

@@ -7,9 +7,9 @@ from collections.abc import Callable
 from random import Random
 from typing import Any
 
-from ..checks import CannotLook, CheckResult, Exam, Expectation, Seen
+from ..checks import CannotLook, CheckResult, Expectation, Probe, Seen
 from . import faults
-from .faults import Fault, Stage, Trouble
+from .faults import Environment, Fault, Trouble
 
 # -- cases --------------------------------------------------------------------------------------------------------
 # The troubles: four of the lesson, and bugs that were found in published teaching code.
@@ -173,14 +173,14 @@ class Case:
         return self._fault.cause if self.mended else "It is not mended yet; case.check() says what is still wrong."
 
 
-_current: tuple[Case, Stage] | None = None
+_current: tuple[Case, Environment] | None = None
 
 
-def open_case(stage: Stage, seed: int | None, name: str | None, check: Callable[[], CheckResult]) -> Case:
+def open_case(environment: Environment, seed: int | None, name: str | None, check: Callable[[], CheckResult]) -> Case:
     """Put a trouble into a world and return its case.
 
     Args:
-        stage: the world.
+        environment: the world.
         seed: chooses the trouble, or, of a named one, the fault behind it.
         name: the trouble's name.
         check: looks at the system and says whether it is mended.
@@ -194,9 +194,9 @@ def open_case(stage: Stage, seed: int | None, name: str | None, check: Callable[
     chance = Random(f"trouble {number}")
     trouble = TROUBLES[chance.choice(sorted(TROUBLES))] if name is None else _named(name)
     fault = trouble.choose(Random(f"{trouble.name} {number}"))
-    _put_on(stage, fault)
+    _put_on(environment, fault)
     case = Case(number, name is not None, trouble, fault, check)
-    _current = (case, stage)
+    _current = (case, environment)
     return case
 
 
@@ -209,23 +209,23 @@ def _named(name: Any) -> Trouble:
     return TROUBLES[key]
 
 
-def _put_on(stage: Stage, fault: Fault) -> None:
-    stage.clear()
+def _put_on(environment: Environment, fault: Fault) -> None:
+    environment.clear()
     if fault.workspace:
-        stage.make_workspace(fault.workspace)
-    stage.start(fault.programs)
+        environment.make_workspace(fault.workspace)
+    environment.start(fault.programs)
     if not fault.simulator:
-        stage.stop_simulator()
+        environment.stop_simulator()
 
 
 def carry_over(before: Any) -> None:
     """Take over the open case of an earlier import of this module, `before`; what it expects is what is written here."""
     global _current
     if before._current is not None:
-        case, stage = before._current
+        case, environment = before._current
         _current = (
             Case(case.number, case.trouble is not None, TROUBLES[case._trouble.name], case._fault, case._check),
-            stage,
+            environment,
         )
 
 
@@ -240,7 +240,7 @@ def expectations_of(number: int, name: str) -> list[Expectation]:
     """The same, and that the current case is this one."""
     wanted = f'case = lesson.trouble({number}, name="{name}")'
 
-    def look(exam: Exam) -> Seen:
+    def look(probe: Probe) -> Seen:
         if _current is None or _current[1].ended:
             return Seen(False, "there is none in this world yet", f"Run the cell with {wanted} first.")
         return Seen(is_open(), f"it is {_current[0]._title}", f"Another one is asked for: {wanted}")
@@ -254,5 +254,5 @@ def expectations_of(number: int, name: str) -> list[Expectation]:
     return [case, *TROUBLES[name].expectations()] if is_open() else [case]
 
 
-def _no_case(exam: Exam) -> Seen:
+def _no_case(probe: Probe) -> Seen:
     raise CannotLook("there is none in this world yet: case = lesson.trouble(1)")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
-from ..checks import CannotLook, Exam, Expectation, Seen, interface
+from ..checks import CannotLook, Expectation, Probe, Seen, interface
 from ..checks.assertions import node, publishes
 from ..checks.navigation import COMMANDS, NAVIGATE, NAVIGATE_TYPE, NEAR, POSE, POSE_TYPE, Drive, drive, where
 from ..checks.streams import rate
@@ -19,7 +19,7 @@ SLOWEST = 10.0
 def importable(type_name: str) -> Expectation:
     """A type can be used here."""
 
-    def look(exam: Exam) -> Seen:
+    def look(probe: Probe) -> Seen:
         try:
             interface(type_name)
         except CannotLook:
@@ -33,7 +33,7 @@ def importable(type_name: str) -> Expectation:
 def found_in(folder: str, package: str) -> Expectation:
     """A package is found in the workspace of this name, and not elsewhere."""
 
-    def look(exam: Exam) -> Seen:
+    def look(probe: Probe) -> Seen:
         from ament_index_python.packages import PackageNotFoundError, get_package_prefix
 
         try:
@@ -54,8 +54,8 @@ def found_in(folder: str, package: str) -> Expectation:
 def advised(expectation: Expectation, step: str) -> Expectation:
     """The same expectation with another next step: here something is to be found, not written."""
 
-    def look(exam: Exam) -> Seen:
-        return expectation.look(exam)._replace(advice=step)
+    def look(probe: Probe) -> Seen:
+        return expectation.look(probe)._replace(advice=step)
 
     return Expectation(expectation.expected, look)
 
@@ -63,9 +63,9 @@ def advised(expectation: Expectation, step: str) -> Expectation:
 def settled(expectation: Expectation) -> Expectation:
     """The same a little later: a timer of a second may have begun before its rate was mended."""
 
-    def look(exam: Exam) -> Seen:
-        exam.wait(1.5)
-        return expectation.look(exam)
+    def look(probe: Probe) -> Seen:
+        probe.wait(1.5)
+        return expectation.look(probe)
 
     return Expectation(expectation.expected, look)
 
@@ -102,8 +102,8 @@ def drives(*goals: tuple[float, float]) -> list[Expectation]:
 def reaches(x: float, y: float) -> Expectation:
     """A goal is answered with success in reasonable time, and the turtle is there."""
 
-    def look(exam: Exam) -> Seen:
-        it = _drive_to(exam, x, y)
+    def look(probe: Probe) -> Seen:
+        it = _drive_to(probe, x, y)
         if it.answer.response is None:
             return Seen(False, f"no answer in {it.answer.seconds:g} s", 'lesson.plot_timeline("/navigator")')
         success, end = bool(it.response.success), it.end()
@@ -119,8 +119,8 @@ def reaches(x: float, y: float) -> Expectation:
 def commands_steady(x: float, y: float) -> Expectation:
     """On the way to a goal, commands come ten times a second."""
 
-    def look(exam: Exam) -> Seen:
-        it = _drive_to(exam, x, y)
+    def look(probe: Probe) -> Seen:
+        it = _drive_to(probe, x, y)
         begin, end = it.moving()
         times = [each.at for each in it.commands if begin - 0.2 <= each.at <= end]
         pause = (times[-1] - times[0]) / (len(times) - 1) if len(times) > 1 else end - begin
@@ -132,28 +132,28 @@ def commands_steady(x: float, y: float) -> Expectation:
     return Expectation(f"{COMMANDS}: ten commands a second meanwhile", look)
 
 
-def _drive_to(exam: Exam, x: float, y: float) -> Drive:
+def _drive_to(probe: Probe, x: float, y: float) -> Drive:
     """The drive to a place. Raises CannotLook where the navigator does not answer at all."""
-    if not exam.once(("answers",), lambda: _answers(exam)).good:
+    if not probe.once(("answers",), lambda: _answers(probe)).good:
         raise CannotLook(f"{NAVIGATE} does not answer")
-    return drive(exam, f"to {x} {y}", lambda pose: (x, y, 0.0))
+    return drive(probe, f"to {x} {y}", lambda pose: (x, y, 0.0))
 
 
 def answers_at_all() -> Expectation:
     """Asked to go where the turtle is, the navigator answers, whether the turtle can move or not."""
-    return Expectation(f"{NAVIGATE} answers", lambda exam: exam.once(("answers",), lambda: _answers(exam)))
+    return Expectation(f"{NAVIGATE} answers", lambda probe: probe.once(("answers",), lambda: _answers(probe)))
 
 
-def _answers(exam: Exam) -> Seen:
-    if not exam.servers(NAVIGATE):
+def _answers(probe: Probe) -> Seen:
+    if not probe.servers(NAVIGATE):
         step = "ros2 node list, ros2 service list: is the node there, and does it offer the service under another name?"
-        return Seen(False, f"no node offers it{exam.like(NAVIGATE, exam.services())}", step)
+        return Seen(False, f"no node offers it{probe.like(NAVIGATE, probe.services())}", step)
     try:
-        here = where(exam)
+        here = where(probe)
         x, y, theta = here.x, here.y, here.theta
     except CannotLook:
         x, y, theta = 5.5, 5.5, 0.0
-    answer = exam.ask(NAVIGATE, NAVIGATE_TYPE, 30.0, x=x, y=y, theta=theta)
+    answer = probe.ask(NAVIGATE, NAVIGATE_TYPE, 30.0, x=x, y=y, theta=theta)
     if answer.response is None:
         step = 'lesson.plot_timeline("/navigator"): which callback holds the thread? lesson.plot_sequence().'
         return Seen(False, "no answer in 30 s", step)
@@ -163,9 +163,9 @@ def _answers(exam: Exam) -> Seen:
 def status_follows() -> Expectation:
     """The status says where the turtle is."""
 
-    def look(exam: Exam) -> Seen:
-        poses, statuses = exam.listen(POSE, POSE_TYPE), exam.listen(STATUS, STATUS_TYPE)
-        exam.wait(0.5)
+    def look(probe: Probe) -> Seen:
+        poses, statuses = probe.listen(POSE, POSE_TYPE), probe.listen(STATUS, STATUS_TYPE)
+        probe.wait(0.5)
         if not poses or not statuses:
             raise CannotLook(f"nothing came on {STATUS if poses else POSE}")
         told, true = statuses[-1].message, poses[-1].message
@@ -181,8 +181,8 @@ def status_follows() -> Expectation:
 def battery_falls() -> Expectation:
     """The battery falls by a tenth of a percent a message, ten times a second."""
 
-    def look(exam: Exam) -> Seen:
-        heard = exam.hear(STATUS, STATUS_TYPE, 2.0)
+    def look(probe: Probe) -> Seen:
+        heard = probe.hear(STATUS, STATUS_TYPE, 2.0)
         if len(heard) < 2:
             raise CannotLook(f"nothing came on {STATUS}")
         first, last = heard[0], heard[-1]

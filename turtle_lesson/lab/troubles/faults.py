@@ -82,7 +82,7 @@ class Trouble:
     expectations: Callable[[], list[Expectation]]
 
 
-class Stage(Protocol):
+class Environment(Protocol):
     """Where a trouble is put on: what can be done to a world by public means."""
 
     def clear(self) -> None:

@@ -1,6 +1,6 @@
 """Where a widget stands: a hidden node in a running system, what it has heard, and the clock if it can be turned.
 
-The widgets see nothing else of the system. In the simulation the station is the lab's node in the simulated world; on a
+The widgets see nothing else of the system. In the simulation the backend is the lab's node in the simulated world; on a
 robot it is a node of the real rclpy (see session/robot_backend.py).
 """
 
@@ -56,7 +56,7 @@ class Clock(Protocol):
         ...
 
 
-class Station(Protocol):
+class Backend(Protocol):
     """What every widget needs of the system that it shows."""
 
     node: Any
@@ -86,28 +86,28 @@ class Station(Protocol):
 
 
 class Link:
-    """A widget's own link to its station. Once it is cut, nothing of the system is reached through it, or kept alive.
+    """A widget's own link to its backend. Once it is cut, nothing of the system is reached through it, or kept alive.
 
     A widget outlives its system: on the page, in Jupyter's `Out`, and in the list that ipywidgets keeps.
     """
 
-    def __init__(self, station: Station | Any) -> None:
-        self.loop: Loop = station.loop
-        self._station: Station | Any = station
+    def __init__(self, backend: Backend | Any) -> None:
+        self.loop: Loop = backend.loop
+        self._backend: Backend | Any = backend
 
     @property
     def ended(self) -> bool:
         """Whether the link is cut, or the system is gone."""
-        return self._station is None or self._station.ended
+        return self._backend is None or self._backend.ended
 
     def cut(self) -> None:
-        """Let go of the station."""
-        self._station = None
+        """Let go of the backend."""
+        self._backend = None
 
     def __getattr__(self, name: str) -> Any:
-        if self._station is None:
+        if self._backend is None:
             raise RuntimeError("this widget has ended, and its system with it: run the cell again that shows it")
-        return getattr(self._station, name)
+        return getattr(self._backend, name)
 
 
 # -- loop ---------------------------------------------------------------------------------------------------------

@@ -21,7 +21,7 @@ from .panels_world import ClockPanel, EditorPanel, GoalsPanel, MapPanel
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from .backend import Station
+    from .backend import Backend
     from .goal_client import Goal
 
 
@@ -75,16 +75,16 @@ class LabView(GoalsPanel, EditorPanel, MapPanel, ClockPanel):
     title = traitlets.Unicode("Goal pad").tag(sync=True)
     panels = traitlets.List(traitlets.Unicode()).tag(sync=True)
 
-    def __init__(self, station: Station, panels: list[str]) -> None:
+    def __init__(self, backend: Backend, panels: list[str]) -> None:
         self._esm = script("dom", *SCRIPTS, *LAYOUTS)
         self._css = styles(*STYLES)
-        super().__init__(station, panels=panels)
+        super().__init__(backend, panels=panels)
         self.tick()
 
     def text(self) -> str:
         """Where the turtle is, what became of the goals, and how many obstacles there are."""
         sentences = [
-            f"{self.title} at {number(self.station.now)} s of robot time: {self._place()}.",
+            f"{self.title} at {number(self.backend.now)} s of robot time: {self._place()}.",
             self.goals_in_words(),
             self.obstacles_in_words(),
         ]
@@ -93,10 +93,10 @@ class LabView(GoalsPanel, EditorPanel, MapPanel, ClockPanel):
     def picture(self) -> Picture | None:
         """The map with the path so far."""
         goals = [(goal.x, goal.y, goal.theta) for goal in self.desk.goals if goal.state in ("on its way", "reached")]
-        return plot_path(self.station.recorder, goal=goals[-1:] or None)
+        return plot_path(self.backend.recorder, goal=goals[-1:] or None)
 
     def _place(self) -> str:
-        poses = self.station.recorder.poses.newest(1)
+        poses = self.backend.recorder.poses.newest(1)
         if not len(poses):
             return "no pose heard yet"
         x, y, theta = (poses[0][name] for name in ("x", "y", "theta"))
@@ -112,24 +112,24 @@ DASHBOARD = ["clock", "map", "goals", "editor", "status", "log", "scan", "rates"
 class Dashboard(LogPanel, LightsPanel, RatesPanel, ScanPanel, StatusPanel, LabView):
     """The goal pad, and beside it status, scan, topics, nodes, services and log."""
 
-    def __init__(self, station: Station) -> None:
-        super().__init__(station, DASHBOARD)
+    def __init__(self, backend: Backend) -> None:
+        super().__init__(backend, DASHBOARD)
         self.title = "Dashboard"
 
     def text(self) -> str:
         """Time, place, battery, the nearest thing, what is missing, and how many goals were sent."""
         facts = [self._place(), *self._nearest(), self._presence(), f"{count(len(self.desk.goals), 'goal')} sent"]
-        return f"Dashboard at {number(self.station.now)} s of robot time: {'; '.join(facts)}."
+        return f"Dashboard at {number(self.backend.now)} s of robot time: {'; '.join(facts)}."
 
     def picture(self) -> Picture | None:
         """Path and status side by side."""
         pass  # HOUSE: was an import of this file
 
         kept = [goal for goal in self.desk.goals if goal.was_taken]
-        return dashboard_picture(self.station.recorder, self.text(), kept[-1] if kept else None)
+        return dashboard_picture(self.backend.recorder, self.text(), kept[-1] if kept else None)
 
     def _place(self) -> str:
-        recorder = self.station.recorder
+        recorder = self.backend.recorder
         poses, statuses = recorder.poses.newest(1), recorder.statuses.newest(1)
         if not len(poses):
             return "no pose heard yet"
@@ -138,12 +138,12 @@ class Dashboard(LogPanel, LightsPanel, RatesPanel, ScanPanel, StatusPanel, LabVi
         return f"the turtle is at {point(x, y)} m facing {angle(theta)}{battery}"
 
     def _nearest(self) -> list[str]:
-        scan = self.station.recorder.last_scan
+        scan = self.backend.recorder.last_scan
         if scan is None:
             return ["no scan heard yet"]
         words = in_words(read_beams(scan))
         return [f"nearest in the scan: {words['nearest']}"]
 
     def _presence(self) -> str:
-        lost = missing(look(self.station.node))
+        lost = missing(look(self.backend.node))
         return f"missing: {listed(lost)}" if lost else "all expected nodes and services are there"

@@ -8,7 +8,7 @@ from typing import Any
 import traitlets
 
 from ..words import count, did_you_mean, enumerated, is_hidden, listed
-from .backend import Station
+from .backend import Backend
 from .form_fields import FieldError, Group, Rows, Single, find_part
 from .lazy_endpoints import Caller, Outlet, let_time_go_on
 from .live_data import Pace
@@ -53,18 +53,18 @@ class Form(LiveWidget):
     """The newest answer in YAML."""
     unheard = traitlets.Unicode().tag(sync=True)
 
-    def __init__(self, station: Station, name: str) -> None:
+    def __init__(self, backend: Backend, name: str) -> None:
         self._esm = script("dom", "small", "form_fields", "form")
         self._css = styles("base", "small", "form")
-        full, kind, type_name = _look_up(station.node, name)
+        full, kind, type_name = _look_up(backend.node, name)
         message_class = find_class(type_name)
         self._whole = Group("", "", message_class if kind == "topic" else message_class.Request)
-        self._outlet = Outlet(station, full, message_class, type_name)
-        self._caller = Caller(station, message_class, full)
+        self._outlet = Outlet(backend, full, message_class, type_name)
+        self._caller = Caller(backend, message_class, full)
         self._timer: Any = None
         self._last: Any = None
         self._looks = Pace(3)
-        super().__init__(station, name=full, kind=kind, type_name=type_name)
+        super().__init__(backend, name=full, kind=kind, type_name=type_name)
         self._bring_up_to_date(fields_too=True)
         self.tick()
 
@@ -123,13 +123,13 @@ class Form(LiveWidget):
         """Publish once."""
         self._publish(self._sound().build(self._time))
         self.words = f"Published on {self.name}."
-        let_time_go_on(self.station)
+        let_time_go_on(self.backend)
 
     def do_repeat(self) -> None:
         """Publish at the rate, until `stop`. What is edited meanwhile is published as soon as it is sound."""
         self._publish(self._sound().build(self._time))
         self._publish_again_and_again()
-        let_time_go_on(self.station)
+        let_time_go_on(self.backend)
 
     def do_stop(self) -> None:
         """Publish no more; wait for no answer any more."""
@@ -148,19 +148,19 @@ class Form(LiveWidget):
         self.words = f"Asked {self.name}; waiting for its answer."
         self._caller.ask(request, self.timeout, self._answered)
         if self._caller.asking:
-            let_time_go_on(self.station)
+            let_time_go_on(self.backend)
 
     def _publish_again_and_again(self) -> None:
         self._drop_timer()
-        self._timer = self.station.node.create_timer(1 / self.rate, self._hop)
+        self._timer = self.backend.node.create_timer(1 / self.rate, self._hop)
         self.words = f"Publishing on {self.name}, {self.rate:g} times a second of robot time."
         self._bring_up_to_date()
 
     def _hop(self) -> None:
-        self.station.loop.now_or_soon(self._repeat)
+        self.backend.loop.now_or_soon(self._repeat)
 
     def _repeat(self) -> None:
-        if self._timer is not None and not self.station.ended:  # or it was stopped while this was on its way
+        if self._timer is not None and not self.backend.ended:  # or it was stopped while this was on its way
             self._publish(self._last if self.errors else self._whole.build(self._time))
 
     def _publish(self, message: Any) -> None:
@@ -178,7 +178,7 @@ class Form(LiveWidget):
         return self._whole
 
     def _time(self) -> Any:
-        return self.station.node.get_clock().now().to_msg()
+        return self.backend.node.get_clock().now().to_msg()
 
     # -- as time goes by ---------------------------------------------------------------------------------------------
 
@@ -192,7 +192,7 @@ class Form(LiveWidget):
 
     def closed(self) -> None:
         """The last view is gone: publish no more, ask no more."""
-        if not self.station.ended:
+        if not self.backend.ended:
             self.left()
 
     def left(self) -> None:
@@ -203,7 +203,7 @@ class Form(LiveWidget):
 
     def _drop_timer(self) -> None:
         if self._timer is not None:
-            self.station.node.destroy_timer(self._timer)
+            self.backend.node.destroy_timer(self._timer)
             self._timer = None
         self.running = False
 

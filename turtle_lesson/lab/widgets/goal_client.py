@@ -9,7 +9,7 @@ from typing import Any
 from weakref import WeakSet
 
 from ...ros.stdlib.clocks import real_monotonic
-from .backend import Station
+from .backend import Backend
 from .lazy_endpoints import Server
 from .live_data import Pace
 
@@ -65,31 +65,31 @@ class Goal:
 _desks: WeakSet[GoalDesk] = WeakSet()
 
 
-def goals_from(station: Station) -> list[Goal]:
+def goals_from(backend: Backend) -> list[Goal]:
     """All goals that were sent from this page, whichever of its widgets sent them, the oldest first."""
-    here = [desk for desk in _desks if desk.recorder is station.recorder]
+    here = [desk for desk in _desks if desk.recorder is backend.recorder]
     return sorted((goal for desk in here for goal in desk.goals), key=lambda goal: goal.sent)
 
 
 class GoalDesk:
     """Sends goals and keeps their list; `changed(goal)` is called with each news of one."""
 
-    def __init__(self, station: Station, changed: Callable[[Goal], None]) -> None:
-        self._station, self._changed = station, changed
+    def __init__(self, backend: Backend, changed: Callable[[Goal], None]) -> None:
+        self._backend, self._changed = backend, changed
         self._client: Any = None
         self._found_by = 0.0
         self._asked: dict[int, Any] = {}
         self._unexplained: dict[int, Goal] = {}
         self._look_pace = Pace(2)
         self._wanted = False
-        self.server = Server(station, SERVICE, self._explain)
+        self.server = Server(backend, SERVICE, self._explain)
         self.goals: list[Goal] = []
         _desks.add(self)
 
     @property
     def recorder(self) -> object:
         """What the desk's system is known by; None once it has ended."""
-        return None if self._station.ended else self._station.recorder
+        return None if self._backend.ended else self._backend.recorder
 
     @property
     def current(self) -> Goal | None:
@@ -101,8 +101,8 @@ class GoalDesk:
         for name, value in (("x", x), ("y", y), ("heading", theta)):
             if isinstance(value, bool) or not isinstance(value, Number) or not math.isfinite(value):
                 raise ValueError(f"A goal's {name} must be a number, got {value!r}.")
-        goal = Goal(len(self.goals) + 1, float(x), float(y), float(theta), self._station.now)
-        newest = self._station.recorder.poses.newest(1)
+        goal = Goal(len(self.goals) + 1, float(x), float(y), float(theta), self._backend.now)
+        newest = self._backend.recorder.poses.newest(1)
         if len(newest):
             goal.away = math.hypot(goal.x - float(newest["x"][0]), goal.y - float(newest["y"][0]))
         self.goals.append(goal)
@@ -140,7 +140,7 @@ class GoalDesk:
         self._asked.clear()
         self.server.close()
         if self._client is not None:
-            self._station.node.destroy_client(self._client)
+            self._backend.node.destroy_client(self._client)
             self._client = None
 
     # -- asking ------------------------------------------------------------------------------------------------------
@@ -161,20 +161,20 @@ class GoalDesk:
         now = real_monotonic()
         if self._client is None or self._client.srv_type is not service:  # built anew, it is another one
             self.close()
-            self._client = self._station.node.create_client(service, SERVICE)
-            self._found_by = now + (DISCOVERY if self._station.clock is None else 0)
+            self._client = self._backend.node.create_client(service, SERVICE)
+            self._found_by = now + (DISCOVERY if self._backend.clock is None else 0)
         if not self._client.service_is_ready():
             if now >= self._found_by:
                 self._finish(goal, "not sent", f"No node answers {SERVICE}. {self._how_to_start()}")
             return
-        self.server.listen()
         goal.state = "on its way"
         self._asked[goal.number] = future = self._client.call_async(request)
-        future.add_done_callback(lambda done: self._station.loop.now_or_soon(self._answered, goal, done))
+        self.server.listen()  # after the request, which need not wait for it: nothing is heard within this turn of the loop
+        future.add_done_callback(lambda done: self._backend.loop.now_or_soon(self._answered, goal, done))
 
     def _how_to_start(self) -> str:
         by_hand = "ros2 run robot_controller navigator"
-        if self._station.clock is None:
+        if self._backend.clock is None:
             return f"Start the navigator in a terminal: {by_hand}"
         return f'Start the navigator: lesson.launch("robot_controller", "start_system.launch.py") or {by_hand} &'
 
@@ -199,7 +199,7 @@ class GoalDesk:
         self._explain()
 
     def _why_not(self, goal: Goal, seconds: float) -> str:
-        if seconds or self._station.now - goal.sent > AT_ONCE:
+        if seconds or self._backend.now - goal.sent > AT_ONCE:
             return "not reached"
         busy = any(other.state == "on its way" and other.number < goal.number for other in self.goals)
         return "busy" if busy else "refused"
@@ -215,7 +215,7 @@ class GoalDesk:
                 self._changed(goal)
 
     def _finish(self, goal: Goal, state: str, answer: str) -> None:
-        goal.state, goal.answer, goal.ended = state, answer, self._station.now
+        goal.state, goal.answer, goal.ended = state, answer, self._backend.now
         self._changed(goal)
         self._leave_if_done()
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..recorder import with_time
 from ..words import enumerated, listed, number
-from .backend import Station
+from .backend import Backend
 from .message_types import plain
 
 # -- outlet -------------------------------------------------------------------------------------------------------
@@ -25,8 +25,8 @@ PATIENCE = 1.0
 class Outlet:
     """One topic of one message class. Until the first message nothing of it is to be seen in the graph."""
 
-    def __init__(self, station: Station, topic: str, message_class: Any, type_name: str) -> None:
-        self._station = station
+    def __init__(self, backend: Backend, topic: str, message_class: Any, type_name: str) -> None:
+        self._backend = backend
         self.topic, self.message_class, self.type_name = topic, message_class, type_name
         self._publisher: Any = None
         self._waiting: list[tuple[float, Any]] = []
@@ -34,8 +34,8 @@ class Outlet:
     def publish(self, message: Any) -> None:
         """Publish; on a real network the very first messages wait until the listeners were found."""
         if self._publisher is None:
-            self._publisher = self._station.node.create_publisher(self.message_class, self.topic, self._quality())
-        self._waiting.append((self._station.now, message))
+            self._publisher = self._backend.node.create_publisher(self.message_class, self.topic, self._quality())
+        self._waiting.append((self._backend.now, message))
         self.flush()
 
     def flush(self) -> None:
@@ -47,7 +47,7 @@ class Outlet:
         """Leave the topic."""
         self._waiting.clear()
         if self._publisher is not None:
-            self._station.node.destroy_publisher(self._publisher)
+            self._backend.node.destroy_publisher(self._publisher)
             self._publisher = None
 
     def listeners(self) -> int:
@@ -64,21 +64,21 @@ class Outlet:
             return f"The nodes that listen on {self.topic} expect {types}, not {self.type_name}."
         elsewhere = [
             name
-            for name, types in self._station.node.get_topic_names_and_types()
+            for name, types in self._backend.node.get_topic_names_and_types()
             if self.type_name in types and any(end.topic_type == self.type_name for end in self._others(name))
         ]
         hint = f" There are listeners on {enumerated(elsewhere)}." if elsewhere else ""
         return f"No node listens on {self.topic}.{hint}"
 
     def _others(self, topic: str) -> list[Any]:
-        me = (self._station.node.get_name(), self._station.node.get_namespace())
-        ends = self._station.node.get_subscriptions_info_by_topic(topic)
+        me = (self._backend.node.get_name(), self._backend.node.get_namespace())
+        ends = self._backend.node.get_subscriptions_info_by_topic(topic)
         return [end for end in ends if (end.node_name, end.node_namespace) != me]
 
     def _is_ready(self, since: float) -> bool:
-        if not self.listeners() or self._station.now - since >= PATIENCE:
+        if not self.listeners() or self._backend.now - since >= PATIENCE:
             return True
-        own = len(self._station.node.get_subscriptions_info_by_topic(self.topic)) - len(self._others(self.topic))
+        own = len(self._backend.node.get_subscriptions_info_by_topic(self.topic)) - len(self._others(self.topic))
         return self._publisher.get_subscription_count() > own  # the recorder's, which is found at once
 
     def _quality(self) -> Any:
@@ -92,19 +92,19 @@ class Outlet:
         )
 
 
-def let_time_go_on(station: Station) -> None:
+def let_time_go_on(backend: Backend) -> None:
     """Start robot time if it stands still and can be turned: who acts wants to see what comes of it."""
-    if station.clock is not None and not station.clock.playing:
+    if backend.clock is not None and not backend.clock.playing:
         with suppress(RuntimeError):  # a plain script has no event loop; there time is run by hand
-            station.clock.play(station.clock.rate)
+            backend.clock.play(backend.clock.rate)
 
 
-def in_a_moment(station: Station, future: Any) -> None:
+def in_a_moment(backend: Backend, future: Any) -> None:
     """Where robot time stands still, let a moment of it pass (0.05 s at most), so that an answer can come."""
     for _ in range(10):
-        if station.clock is None or station.clock.playing or future.done():
+        if backend.clock is None or backend.clock.playing or future.done():
             return
-        station.clock.step(0.005)
+        backend.clock.step(0.005)
 
 
 # -- ear ----------------------------------------------------------------------------------------------------------
@@ -117,8 +117,8 @@ KEPT = 1000
 class Ear:
     """Listens to one topic until it is closed. `trouble` says why it cannot, if it cannot."""
 
-    def __init__(self, station: Station, topic: str, type_name: str) -> None:
-        self._station = station
+    def __init__(self, backend: Backend, topic: str, type_name: str) -> None:
+        self._backend = backend
         self._stamps: deque[int] = deque(maxlen=KEPT)
         self._subscription: Any = None
         self.trouble = ""
@@ -135,7 +135,7 @@ class Ear:
     def close(self) -> None:
         """Listen no more."""
         if self._subscription is not None:
-            self._station.node.destroy_subscription(self._subscription)
+            self._backend.node.destroy_subscription(self._subscription)
             self._subscription = None
 
     def _subscribe(self, topic: str, type_name: str) -> Any:
@@ -143,14 +143,14 @@ class Ear:
 
         package, kind, name = type_name.split("/")
         message_type = getattr(importlib.import_module(f"{package}.{kind}"), name)
-        loop, add = self._station.loop, self._stamps.append
+        loop, add = self._backend.loop, self._stamps.append
 
         def hear(message: Any, info: Mapping[str, Any]) -> None:
             loop.now_or_soon(add, info["source_timestamp"])
 
-        node = self._station.node
+        node = self._backend.node
         quality = QoSProfile(depth=KEPT, reliability=ReliabilityPolicy.BEST_EFFORT)
-        bare = self._station.clock is None  # on a robot, where it may be images: never made into Python objects
+        bare = self._backend.clock is None  # on a robot, where it may be images: never made into Python objects
         return node.create_subscription(message_type, topic, with_time(node, hear), quality, raw=bare)
 
 
@@ -170,8 +170,8 @@ LONGEST_LIST = 50
 class Caller:
     """Calls one service, as any client would. Until the first question nothing of it is to be seen in the graph."""
 
-    def __init__(self, station: Station, service_class: Any, name: str) -> None:
-        self._station, self._class, self._name = station, service_class, name
+    def __init__(self, backend: Backend, service_class: Any, name: str) -> None:
+        self._backend, self._class, self._name = backend, service_class, name
         self._client: Any = None
         self._future: Any = None
         self._held: Any = None
@@ -189,11 +189,11 @@ class Caller:
             raise ValueError(f"{self._name} has not answered the last request yet: wait, or stop waiting.")
         self._answered = answered
         if self._client is None:
-            self._client = self._station.node.create_client(self._class, self._name)
-        self._asked, self._deadline = self._station.now, self._station.now + timeout
+            self._client = self._backend.node.create_client(self._class, self._name)
+        self._asked, self._deadline = self._backend.now, self._backend.now + timeout
         if self._client.service_is_ready():
             self._send(request)
-        elif self._station.clock is None:  # a real network, where a client finds no server in its first moments
+        elif self._backend.clock is None:  # a real network, where a client finds no server in its first moments
             self._held = request
         else:
             self._end(f"Not asked: {self.why_unheard()}", "")
@@ -204,7 +204,7 @@ class Caller:
             return
         if self._held is not None:
             self._look_again()
-        elif self._station.now > self._deadline:
+        elif self._backend.now > self._deadline:
             waited = number(self._deadline - self._asked, 1)
             self._end(f"No answer from {self._name} within {waited} s of robot time.", "")
         elif not self._is_offered():
@@ -220,7 +220,7 @@ class Caller:
         """Ask no more."""
         self.give_up()
         if self._client is not None:
-            self._station.node.destroy_client(self._client)
+            self._backend.node.destroy_client(self._client)
             self._client = None
 
     def why_unheard(self) -> str:
@@ -231,11 +231,11 @@ class Caller:
         """Looks at the graph alone where nothing was asked yet, so that looking leaves no client there."""
         if self._client is not None and self._held is None:
             return self._client.service_is_ready()
-        return any(self._name == name for name, _ in self._station.node.get_service_names_and_types())
+        return any(self._name == name for name, _ in self._backend.node.get_service_names_and_types())
 
     def _send(self, request: Any) -> None:
         self._future = future = self._client.call_async(request)
-        future.add_done_callback(lambda done: self._station.loop.now_or_soon(self._done, done))
+        future.add_done_callback(lambda done: self._backend.loop.now_or_soon(self._done, done))
 
     def _look_again(self) -> None:
         """Send the question that was held back, if there is somebody now."""
@@ -243,7 +243,7 @@ class Caller:
         if self._client.service_is_ready():
             self._held = None
             self._send(request)
-        elif self._station.now - self._asked > DISCOVERY:
+        elif self._backend.now - self._asked > DISCOVERY:
             self._held = None
             self._end(f"Not asked: {self.why_unheard()}", "")
 
@@ -255,7 +255,7 @@ class Caller:
         except Exception as error:
             self._end(f"The call failed: {error}", "")
             return
-        seconds = number(self._station.now - self._asked)
+        seconds = number(self._backend.now - self._asked)
         self._end(f"{self._name} answered after {seconds} s of robot time.", in_yaml(response))
 
     def _end(self, words: str, answer: str) -> None:
@@ -295,8 +295,8 @@ SLACK = 0.1
 class Server:
     """The node that offers one service. `said()` is called with each of its warnings."""
 
-    def __init__(self, station: Station, service: str, said: Callable[[], None]) -> None:
-        self._station, self._service, self._said = station, service, said
+    def __init__(self, backend: Backend, service: str, said: Callable[[], None]) -> None:
+        self._backend, self._service, self._said = backend, service, said
         self._subscription: Any = None
         self._names: list[str] = []
         self._ends: set[tuple[int, ...]] = set()
@@ -309,7 +309,7 @@ class Server:
         if self._subscription is None:
             from rcl_interfaces.msg import Log
 
-            node, loop = self._station.node, self._station.loop
+            node, loop = self._backend.node, self._backend.loop
             self._subscription = node.create_subscription(
                 Log, "/rosout", lambda message: loop.now_or_soon(self._hear, message), 1000
             )
@@ -317,7 +317,7 @@ class Server:
     def close(self) -> None:
         """Listen no more."""
         if self._subscription is not None:
-            self._station.node.destroy_subscription(self._subscription)
+            self._backend.node.destroy_subscription(self._subscription)
             self._subscription = None
 
     def is_there(self) -> bool:
@@ -341,11 +341,11 @@ class Server:
         names = [name.strip("/").replace("/", ".") for name in self._names]
         if message.level >= WARNING and any(f"{message.name}.".startswith(f"{name}.") for name in names):
             stamp = message.stamp.sec * 1_000_000_000 + message.stamp.nanosec
-            self._warnings.append((self._station.recorder.seconds(stamp), message.msg))
+            self._warnings.append((self._backend.recorder.seconds(stamp), message.msg))
             self._said()
 
     def _offering(self) -> list[str]:
-        node = self._station.node
+        node = self._backend.node
         return [
             f"{namespace.rstrip('/')}/{name}"
             for name, namespace in node.get_node_names_and_namespaces()
@@ -356,7 +356,7 @@ class Server:
         """What tells this very node from the next one of its name: the end with which it publishes its log."""
         return {
             tuple(end.endpoint_gid)
-            for end in self._station.node.get_publishers_info_by_topic("/rosout")
+            for end in self._backend.node.get_publishers_info_by_topic("/rosout")
             if f"{end.node_namespace.rstrip('/')}/{end.node_name}" in self._names
         }
 

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from ...ros.stdlib.clocks import real_monotonic
 from ..recording import NANOSECONDS
-from .backend import Station
+from .backend import Backend
 
 # -- pace ---------------------------------------------------------------------------------------------------------
 # What need not be brought up to date at every tick: histories, rates and lists are looked at more rarely.
@@ -42,11 +42,11 @@ def pack(numbers: ArrayLike) -> bytes:
 # Why nothing was heard on a topic, for those who look at a widget and may have no cell to type in.
 
 
-def why_silent(station: Station, topic: str) -> str:
+def why_silent(backend: Backend, topic: str) -> str:
     """A sentence on why nothing came on a topic that the recorder hears, and what to try."""
-    if station.node.count_publishers(topic):
+    if backend.node.count_publishers(topic):
         return f"No message has come on {topic} yet: messages come while robot time passes."
-    return station.recorder.why_silent(topic)
+    return backend.recorder.why_silent(topic)
 
 
 # -- frequency ----------------------------------------------------------------------------------------------------

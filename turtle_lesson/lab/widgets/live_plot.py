@@ -15,7 +15,7 @@ from ..recorder import Channel
 from ..recording import NANOSECONDS, OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC
 from ..status import spread
 from ..words import count, enumerated, is_hidden, number
-from .backend import Station
+from .backend import Backend
 from .curve import Curve, mistyped
 from .live_data import Pace, pack
 from .live_widget import LiveWidget, script, styles
@@ -46,23 +46,23 @@ class LivePlot(LiveWidget):
 
     RATE = 20.0
 
-    def __init__(self, station: Station, fields: Iterable[str], seconds: float) -> None:
+    def __init__(self, backend: Backend, fields: Iterable[str], seconds: float) -> None:
         self._esm = script("dom", "small", "live_plot")
         self._css = styles("base", "small", "live_plot")
-        self._curves = [Curve(asked) for asked in dict.fromkeys(_checked(station.node, fields))]
+        self._curves = [Curve(asked) for asked in dict.fromkeys(_checked(backend.node, fields))]
         self._channels: dict[str, Channel] = {}
         self._timer: Any = None
         self._looks, self._labels = Pace(2), Pace(0.5)
         if isinstance(seconds, bool) or not isinstance(seconds, (int, float)) or not 0.1 <= seconds <= 3600:
             raise ValueError(f"seconds must be a number of seconds from 0.1 to 3600, got {seconds!r}: try seconds=30.0")
-        self._refuse_mistakes(station)
-        super().__init__(station, seconds=float(seconds))
+        self._refuse_mistakes(backend)
+        super().__init__(backend, seconds=float(seconds))
         self._listen()
         self.tick()
 
-    def _refuse_mistakes(self, station: Station) -> None:
-        topics = dict(station.node.get_topic_names_and_types())
-        recorder = station.recorder
+    def _refuse_mistakes(self, backend: Backend) -> None:
+        topics = dict(backend.node.get_topic_names_and_types())
+        recorder = backend.recorder
         to_come = {STATUS_TOPIC, SCAN_TOPIC, OBSTACLE_TOPIC, recorder.pose_topic, recorder.command_topic}
         visible = [name for name in topics if not is_hidden(name)]
         for curve in self._curves:
@@ -75,17 +75,17 @@ class LivePlot(LiveWidget):
 
     def _listen(self) -> None:
         if self._timer is None:
-            self._timer = self.station.node.create_timer(1.0, self._hop)
+            self._timer = self.backend.node.create_timer(1.0, self._hop)
             self._look()
 
     def _hop(self) -> None:
-        self.station.loop.now_or_soon(self._look)
+        self.backend.loop.now_or_soon(self._look)
 
     def _look(self) -> None:
         """Find what is there by now, and listen to it."""
-        if self._timer is None or self.station.ended:
+        if self._timer is None or self.backend.ended:
             return
-        topics = dict(self.station.node.get_topic_names_and_types())
+        topics = dict(self.backend.node.get_topic_names_and_types())
         for curve in self._curves:
             if curve.topic not in self._channels:
                 self._try(curve, topics)
@@ -106,7 +106,7 @@ class LivePlot(LiveWidget):
                 if curve.topic == topic and not curve.problem:
                     curve.hear(message, info)
 
-        return Channel(self.station.node, topic, type_name, lambda _: hear, "It waits until a node does.")
+        return Channel(self.backend.node, topic, type_name, lambda _: hear, "It waits until a node does.")
 
     def opened(self) -> None:
         """Listen, if it does not yet."""
@@ -114,13 +114,13 @@ class LivePlot(LiveWidget):
 
     def closed(self) -> None:
         """The last view is gone: listen no more; what was heard stays."""
-        if not self.station.ended:
+        if not self.backend.ended:
             self.left()
 
     def left(self) -> None:
         """Listen no more."""
         if self._timer is not None:
-            self.station.node.destroy_timer(self._timer)
+            self.backend.node.destroy_timer(self._timer)
         for channel in self._channels.values():
             channel.close()
         self._timer = None
@@ -136,14 +136,14 @@ class LivePlot(LiveWidget):
     def window(self, curve: Curve) -> tuple[np.ndarray, np.ndarray]:
         """Times (s) and numbers of a curve's last `seconds`."""
         rows = curve.table.array()
-        since = self.station.recorder.origin + round((self.station.now - self.seconds) * NANOSECONDS)
+        since = self.backend.recorder.origin + round((self.backend.now - self.seconds) * NANOSECONDS)
         rows = rows[np.searchsorted(rows["stamp"], since) :]
-        return self.station.recorder.seconds(rows["stamp"]), rows["value"]
+        return self.backend.recorder.seconds(rows["stamp"]), rows["value"]
 
     def tick(self) -> None:
         """Bring points and figures up to date."""
-        self.anchor = math.floor(self.station.now / ANCHOR) * ANCHOR
-        self.now = self.station.now - self.anchor
+        self.anchor = math.floor(self.backend.now / ANCHOR) * ANCHOR
+        self.now = self.backend.now - self.anchor
         parts: list[np.ndarray] = []
         for curve in self._curves:
             times, values = thinned(*self.window(curve), self.seconds / COLUMNS)
@@ -171,7 +171,7 @@ class LivePlot(LiveWidget):
     def text(self) -> str:
         """Each curve in figures: how many messages, the last number, lowest and highest."""
         self._look()
-        begin = f"Live plot of the last {self.seconds:g} s at {number(self.station.now)} s of robot time."
+        begin = f"Live plot of the last {self.seconds:g} s at {number(self.backend.now)} s of robot time."
         return " ".join([begin, *map(self._sentence, self._curves)])
 
     def _sentence(self, curve: Curve) -> str:
@@ -185,7 +185,7 @@ class LivePlot(LiveWidget):
     def picture(self) -> Picture | None:
         """The curves as they are now."""
         windows = [(curve.name, *self.window(curve)) for curve in self._curves]
-        return draw(self.text(), windows, self.station.now, self.seconds)
+        return draw(self.text(), windows, self.backend.now, self.seconds)
 
 
 def thinned(times: np.ndarray, values: np.ndarray, width: float) -> tuple[np.ndarray, np.ndarray]:

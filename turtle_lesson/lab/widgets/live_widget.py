@@ -14,7 +14,7 @@ import traitlets
 
 from ...ros.stdlib.clocks import real_monotonic
 from ..picture import Picture
-from .backend import Link, Loop, Station
+from .backend import Backend, Link, Loop
 
 KEPT = 20
 """Of the widgets whose system has ended and that no page shows, so many can still be shown: a page that is run as a whole
@@ -54,13 +54,13 @@ class LiveWidget(anywidget.AnyWidget):
     RATE: ClassVar[float] = 30.0
     is_made = False
 
-    def __init__(self, station: Station, **traits: Any) -> None:
-        """`station` is a `Link` to it."""
-        self.station = station
+    def __init__(self, backend: Backend, **traits: Any) -> None:
+        """`backend` is a `Link` to it."""
+        self.backend = backend
         self._seen: dict[str, float] = {}
         super().__init__(**traits)
-        self._views = Views(station.loop, 1 / self.RATE, self._tick, self.opened, self.closed)
-        self.on_msg(station.loop.hopping(self._order))
+        self._views = Views(backend.loop, 1 / self.RATE, self._tick, self.opened, self.closed)
+        self.on_msg(backend.loop.hopping(self._order))
         self.is_made = True
 
     # -- for the widgets ---------------------------------------------------------------------------------------------
@@ -88,7 +88,7 @@ class LiveWidget(anywidget.AnyWidget):
     # -- the machinery -------------------------------------------------------------------------------------------------
 
     def _tick(self) -> None:
-        if self.station.ended:
+        if self.backend.ended:
             self.end()
             return
         try:
@@ -107,7 +107,7 @@ class LiveWidget(anywidget.AnyWidget):
         order = dict(content)
         name = order.pop("do", None)
         view = str(order.pop("view", ""))
-        if self.station.ended:
+        if self.backend.ended:
             self.end()
             if name in ("open", "alive"):
                 self._seen[view] = real_monotonic()
@@ -156,7 +156,7 @@ class LiveWidget(anywidget.AnyWidget):
         last = "This widget has ended."
         with suppress(Exception):
             last = self.text()
-        cast(Link, self.station).cut()
+        cast(Link, self.backend).cut()
         self.text = lambda: last  # type: ignore[method-assign]
         self.picture = lambda: None  # type: ignore[method-assign]
 

@@ -49,7 +49,7 @@ class StatusPanel(LiveWidget):
         super().tick()
         if not self._status_pace.due():
             return
-        recorder, now = self.station.recorder, self.station.now
+        recorder, now = self.backend.recorder, self.backend.now
         newest = recorder.statuses.newest(1)
         stamp = int(newest["stamp"][0]) if len(newest) else 0
         if self._status_seen != (now, stamp):
@@ -59,7 +59,7 @@ class StatusPanel(LiveWidget):
             age = now - float(recorder.seconds(stamp))
             self.status_note = f"No status for {age:.0f} s." if age > STATUS_IS_LATE else ""
         elif self._status_note_pace.due():
-            self.status_note = why_silent(self.station, STATUS_TOPIC)
+            self.status_note = why_silent(self.backend, STATUS_TOPIC)
 
 
 def _window(rows: np.ndarray, now: int) -> np.ndarray:
@@ -95,7 +95,7 @@ class LightsPanel(LiveWidget):
         """Look at the graph, now and then."""
         super().tick()
         if self._lights_pace.due():
-            self.lights = look(self.station.node)
+            self.lights = look(self.backend.node)
 
 
 def look(node: Any) -> list[dict[str, Any]]:
@@ -183,8 +183,8 @@ class LogPanel(LiveWidget):
         self._log_read_until = self._log_newest
         latched = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         hear = self._hear_log
-        loop = self.station.loop
-        self._rosout = self.station.node.create_subscription(
+        loop = self.backend.loop
+        self._rosout = self.backend.node.create_subscription(
             Log, "/rosout", lambda message: loop.now_or_soon(hear, message), latched
         )
 
@@ -192,7 +192,7 @@ class LogPanel(LiveWidget):
         """Listen no more."""
         super().closed()
         if self._rosout is not None:
-            self.station.node.destroy_subscription(self._rosout)
+            self.backend.node.destroy_subscription(self._rosout)
             self._rosout = None
 
     def tick(self) -> None:
@@ -220,7 +220,7 @@ class LogPanel(LiveWidget):
         lines: list[Line] = []
         for stamp, *what in heard:
             self._log_count += 1
-            lines.append([self._log_count, round(float(self.station.recorder.seconds(stamp)), 3), *what])
+            lines.append([self._log_count, round(float(self.backend.recorder.seconds(stamp)), 3), *what])
         new = [*self.log_new, *lines]
         if len(new) > BLOCK:
             self.log_old = [*self.log_old, *new][-KEPT:]
@@ -276,10 +276,10 @@ class RatesPanel(LiveWidget):
             self.rates = [*self._expected_rows(), *self._other_rows()]
 
     def _now(self) -> int:
-        return self.station.recorder.origin + round(self.station.now * NANOSECONDS)
+        return self.backend.recorder.origin + round(self.backend.now * NANOSECONDS)
 
     def _expected_rows(self) -> list[dict[str, Any]]:
-        recorder = self.station.recorder
+        recorder = self.backend.recorder
         known: list[tuple[str, Table, float]] = [
             (recorder.pose_topic, recorder.poses, 62.5),
             (STATUS_TOPIC, recorder.statuses, 10.0),
@@ -293,14 +293,14 @@ class RatesPanel(LiveWidget):
             state = verdict(hertz, expected)
             if topic == recorder.command_topic and state == "silent":
                 state = "at rest"  # nobody drives: no command is due
-            elif state == "silent" and self.station.now < PAUSE:
+            elif state == "silent" and self.backend.now < PAUSE:
                 state = "just begun"
             rows.append(_row(topic, hertz, expected, state))
         return rows
 
     def _other_rows(self) -> list[dict[str, Any]]:
         now, rows = self._now(), []
-        worlds = self.station.recorder.worlds
+        worlds = self.backend.recorder.worlds
         stamps = {topic: ear.stamps for topic, ear in (self._ears or {}).items()}
         if len(worlds):
             stamps[OBSTACLE_TOPIC] = worlds.newest(MOST_MESSAGES)["stamp"]
@@ -313,7 +313,7 @@ class RatesPanel(LiveWidget):
 
     def _follow_topics(self, ears: dict[str, Ear]) -> None:
         """Have an ear at each topic that somebody publishes and the recorder does not hear."""
-        node, recorder = self.station.node, self.station.recorder
+        node, recorder = self.backend.node, self.backend.recorder
         heard = {recorder.pose_topic, recorder.command_topic, STATUS_TOPIC, SCAN_TOPIC, OBSTACLE_TOPIC}
         found = {
             topic: types[0]
@@ -326,7 +326,7 @@ class RatesPanel(LiveWidget):
             ears.pop(topic).close()
         for topic, kind in shown.items():
             if topic not in ears:
-                ears[topic] = Ear(self.station, topic, kind)
+                ears[topic] = Ear(self.backend, topic, kind)
 
 
 def _row(topic: str, hertz: float, expected: float, state: str, note: str = "") -> dict[str, Any]:
@@ -357,14 +357,14 @@ class ScanPanel(LiveWidget):
         super().tick()
         if not self._scan_pace.due():
             return
-        recorder = self.station.recorder
+        recorder = self.backend.recorder
         scan = recorder.last_scan
         if scan is None:
             if self._scan_note_pace.due():
-                note = why_silent(self.station, SCAN_TOPIC)
+                note = why_silent(self.backend, SCAN_TOPIC)
                 self.scan_words = {"beam": -1, "nearest": "", "count": "", "note": note}
             return
-        age = self.station.now - float(recorder.seconds(recorder.scans.newest(1)["stamp"][0]))
+        age = self.backend.now - float(recorder.seconds(recorder.scans.newest(1)["stamp"][0]))
         note = f"No scan for {age:.0f} s." if age > SCAN_IS_LATE else ""
         if scan is not self._scan_read:
             self._scan_read = scan

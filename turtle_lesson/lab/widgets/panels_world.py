@@ -45,18 +45,18 @@ class MapPanel(LiveWidget):
 
     def __init__(self, *arguments: Any, **traits: Any) -> None:
         super().__init__(*arguments, **traits)
-        self._way = Trail(self.station.recorder.poses)
+        self._way = Trail(self.backend.recorder.poses)
         self._scan_drawn: Any = None
 
     def tick(self) -> None:
         """Read what was heard."""
         super().tick()
-        poses = self.station.recorder.poses.newest(1)
+        poses = self.backend.recorder.poses.newest(1)
         self.pose = pack([poses[0][name] for name in ("x", "y", "theta", "speed")] if len(poses) else [np.nan] * 4)
         self._way.grow()
         self.trail, self.tail = self._way.whole, self._way.tail
         self._show_scan()
-        self.obstacles = [as_state(each) for each in self.station.board.obstacles]
+        self.obstacles = [as_state(each) for each in self.backend.board.obstacles]
 
     def left(self) -> None:
         """Draw no more."""
@@ -64,12 +64,12 @@ class MapPanel(LiveWidget):
         del self._way
 
     def _show_scan(self) -> None:
-        recorder = self.station.recorder
+        recorder = self.backend.recorder
         scan = recorder.last_scan
         if scan is None:
             return
         stamp = recorder.scans.newest(1)["stamp"][0]
-        if self.station.now - recorder.seconds(stamp) > STALE:
+        if self.backend.now - recorder.seconds(stamp) > STALE:
             self.scanned_from = b""
         elif scan is not self._scan_drawn:
             self._scan_drawn = scan
@@ -113,8 +113,8 @@ class ClockPanel(LiveWidget):
     def tick(self) -> None:
         """Read the clock."""
         super().tick()
-        self.now = round(self.station.now, 3)
-        clock = self.station.clock
+        self.now = round(self.backend.now, 3)
+        clock = self.backend.clock
         if clock is None:
             self.clock = {"turns": False, "playing": True, "rate": 1.0}
             return
@@ -127,25 +127,25 @@ class ClockPanel(LiveWidget):
 
     def do_play(self) -> None:
         """Let robot time go on."""
-        if self.station.clock is not None:
-            self.station.clock.play(self.station.clock.rate)
+        if self.backend.clock is not None:
+            self.backend.clock.play(self.backend.clock.rate)
 
     def do_rate(self, rate: float | str) -> None:
         """Say how fast it shall go on; "max" is as fast as possible."""
-        if self.station.clock is not None:
-            self.station.clock.rate = math.inf if rate == FASTEST else rate  # type: ignore[assignment]
+        if self.backend.clock is not None:
+            self.backend.clock.rate = math.inf if rate == FASTEST else rate  # type: ignore[assignment]
 
     def do_pause(self) -> None:
         """Let robot time stand still."""
-        if self.station.clock is not None:
-            self.station.clock.pause()
+        if self.backend.clock is not None:
+            self.backend.clock.pause()
 
     def do_step(self, seconds: float) -> None:
         """Let a little robot time pass."""
         if not isinstance(seconds, int | float) or not 0 < seconds <= LONGEST_STEP:
             raise ValueError(f"A step takes from 0 to {LONGEST_STEP} s of robot time, not {seconds!r}.")
-        if self.station.clock is not None:
-            self.station.clock.step(float(seconds))
+        if self.backend.clock is not None:
+            self.backend.clock.step(float(seconds))
 
 
 # -- panel editor -------------------------------------------------------------------------------------------------
@@ -170,11 +170,11 @@ class EditorPanel(LiveWidget):
         """Put a fresh circle or box where there is room."""
         x, y = self._free_place()
         fresh: Obstacle = Box(x, y, **BOX) if shape == "box" else Circle(x, y, **CIRCLE)
-        self._put([*self.station.board.obstacles, fresh], f"Added a {fresh}.")
+        self._put([*self.backend.board.obstacles, fresh], f"Added a {fresh}.")
 
     def do_obstacle_change(self, number: int, done: bool = True, **fields: float) -> None:
         """Change some fields of one; `done` is False while it is being dragged."""
-        obstacles = list(self.station.board.obstacles)
+        obstacles = list(self.backend.board.obstacles)
         old = self._obstacle(number)
         known = {name: getattr(old, name) for name in old.__slots__}
         unknown = sorted(set(fields) - set(known))
@@ -191,7 +191,7 @@ class EditorPanel(LiveWidget):
     def do_obstacle_remove(self, number: int) -> None:
         """Take one away."""
         gone = self._obstacle(number)
-        left = [each for place, each in enumerate(self.station.board.obstacles) if place != number]
+        left = [each for place, each in enumerate(self.backend.board.obstacles) if place != number]
         self._put(left, f"Removed the {gone}.")
 
     def do_world(self, name: str) -> None:
@@ -200,26 +200,26 @@ class EditorPanel(LiveWidget):
 
     def obstacles_in_words(self) -> str:
         """How many obstacles there are."""
-        return f"{count(len(self.station.board.obstacles), 'obstacle').capitalize()} in the world."
+        return f"{count(len(self.backend.board.obstacles), 'obstacle').capitalize()} in the world."
 
     def _obstacle(self, number: int) -> Obstacle:
-        obstacles = self.station.board.obstacles
+        obstacles = self.backend.board.obstacles
         if not isinstance(number, int) or not 0 <= number < len(obstacles):
             raise ValueError("That obstacle is gone.")
         return obstacles[number]
 
     def _put(self, obstacles: list[Obstacle] | str, words: str) -> None:
-        self.station.board.put(obstacles)
+        self.backend.board.put(obstacles)
         if words:
-            clock = self.station.clock
+            clock = self.backend.clock
             later = clock is not None and not clock.playing
             hint = " The nodes notice it once robot time passes." if later else ""
             self.words = f"{words} {self.obstacles_in_words()}{hint}"
 
     def _free_place(self) -> tuple[float, float]:
         """A place away from the turtle and the obstacles, as near to the middle as can be."""
-        taken = [(each.x, each.y, _reach(each)) for each in self.station.board.obstacles]
-        taken += [(float(x), float(y), ROOM) for _, x, y, *_ in self.station.recorder.poses.newest(1)]
+        taken = [(each.x, each.y, _reach(each)) for each in self.backend.board.obstacles]
+        taken += [(float(x), float(y), ROOM) for _, x, y, *_ in self.backend.recorder.poses.newest(1)]
         steps = [0.5 + 0.5 * step for step in range(21)]
         places = sorted(product(steps, steps), key=lambda place: math.dist(place, (MIDDLE, MIDDLE)))
         for place in places:
@@ -250,7 +250,7 @@ class GoalsPanel(LiveWidget):
 
     def __init__(self, *arguments: Any, **traits: Any) -> None:
         super().__init__(*arguments, **traits)
-        self.desk = GoalDesk(self.station, self._goal_changed)
+        self.desk = GoalDesk(self.backend, self._goal_changed)
         self._goal_news = False
 
     def opened(self) -> None:
@@ -275,7 +275,7 @@ class GoalsPanel(LiveWidget):
     def do_goal(self, x: float, y: float, theta: float) -> None:
         """Send a goal, and let time go on if it stands still."""
         if self.desk.send(x, y, theta).waits:
-            let_time_go_on(self.station)
+            let_time_go_on(self.backend)
 
     def left(self) -> None:
         """Ask no more."""

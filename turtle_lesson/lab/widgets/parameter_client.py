@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from .backend import Station
+from .backend import Backend
 from .lazy_endpoints import DISCOVERY, in_a_moment
 from .parameter_values import to_python
 
@@ -33,8 +33,8 @@ class Found:
 class ParameterDesk:
     """Asks a node. `changed()` is called with all news; nothing here waits."""
 
-    def __init__(self, station: Station, node_name: str, changed: Callable[[], object]) -> None:
-        self._station, self._node_name, self._changed = station, node_name, changed
+    def __init__(self, backend: Backend, node_name: str, changed: Callable[[], object]) -> None:
+        self._backend, self._node_name, self._changed = backend, node_name, changed
         self._clients: dict[str, Any] = {}
         self._events: Any = None
         self._asked = 0
@@ -48,7 +48,7 @@ class ParameterDesk:
     @property
     def is_there(self) -> bool:
         """Whether the graph shows the node."""
-        return self._node_name in node_names(self._station.node)
+        return self._node_name in node_names(self._backend.node)
 
     # -- asking -----------------------------------------------------------------------------------------------------
 
@@ -57,16 +57,16 @@ class ParameterDesk:
         from rcl_interfaces.msg import ParameterEvent
 
         if self._events is None:
-            node = self._station.node
+            node = self._backend.node
             self._events = node.create_subscription(ParameterEvent, "/parameter_events", self._hear, 100)
         for what in SERVICES:
             self._client(what)  # now, since on a real network a client finds no server in its first moments
-        self._found_by = self._station.now + DISCOVERY
+        self._found_by = self._backend.now + DISCOVERY
         self.ask()
 
     def close(self) -> None:
         """Ask and listen no more."""
-        node = self._station.node
+        node = self._backend.node
         if self._events is not None:
             node.destroy_subscription(self._events)
             self._events = None
@@ -126,12 +126,12 @@ class ParameterDesk:
         if future is None:
             told(self.problem)
         else:
-            in_a_moment(self._station, future)
+            in_a_moment(self._backend, future)
 
     def ask_in_a_moment(self) -> None:
         """Ask now, and let a moment of robot time pass if it stands still."""
         self.ask()
-        clock = self._station.clock
+        clock = self._backend.clock
         for _ in range(10):
             if self.known or self.problem or clock is None or clock.playing:
                 return
@@ -149,7 +149,7 @@ class ParameterDesk:
         self.problem = ""
 
         def answered(future: Any) -> None:
-            if self._station.ended or (turn is not None and turn != self._asked):
+            if self._backend.ended or (turn is not None and turn != self._asked):
                 return
             try:
                 then(future.result())
@@ -158,7 +158,7 @@ class ParameterDesk:
                 self._changed()
 
         future = client.call_async(client.srv_type.Request(**content))
-        future.add_done_callback(lambda done: self._station.loop.now_or_soon(answered, done))
+        future.add_done_callback(lambda done: self._backend.loop.now_or_soon(answered, done))
         return future
 
     def _client(self, what: str) -> Any:
@@ -166,11 +166,11 @@ class ParameterDesk:
             from rcl_interfaces import srv
 
             kind = getattr(srv, SERVICES[what])
-            self._clients[what] = self._station.node.create_client(kind, f"{self._node_name}/{what}_parameters")
+            self._clients[what] = self._backend.node.create_client(kind, f"{self._node_name}/{what}_parameters")
         return self._clients[what]
 
     def _why_not(self) -> str:
-        if self._station.clock is None and self._station.now < self._found_by:
+        if self._backend.clock is None and self._backend.now < self._found_by:
             return f"Looking for the services of {self._node_name}."
         if not self.is_there:
             return f"{self._node_name} is gone."
@@ -178,10 +178,10 @@ class ParameterDesk:
 
     def _hear(self, event: Any) -> None:
         if event.node == self._node_name:
-            self._station.loop.now_or_soon(self._follow, event)
+            self._backend.loop.now_or_soon(self._follow, event)
 
     def _follow(self, event: Any) -> None:
-        if self._events is None or self._station.ended:
+        if self._events is None or self._backend.ended:
             return
         for parameter in event.changed_parameters:
             found = self.found.get(parameter.name)

@@ -7,7 +7,7 @@ from typing import Any
 import traitlets
 
 from ..words import count, did_you_mean, enumerated, is_hidden
-from .backend import Station
+from .backend import Backend
 from .live_data import Pace
 from .live_widget import LiveWidget, script, styles
 from .parameter_client import Found, ParameterDesk, node_names
@@ -25,17 +25,17 @@ class ParametersPanel(LiveWidget):
     standing = traitlets.Bool(False).tag(sync=True)
     """Whether the answer waits for robot time, which stands still."""
 
-    def __init__(self, station: Station, node: str) -> None:
+    def __init__(self, backend: Backend, node: str) -> None:
         self._esm = script("dom", "small", "parameter_controls", "parameters")
         self._css = styles("base", "small", "parameters")
-        name = _look_up(station.node, node)
-        self._desk = ParameterDesk(station, name, self._show)
+        name = _look_up(backend.node, node)
+        self._desk = ParameterDesk(backend, name, self._show)
         self._errors: dict[str, str] = {}
         self._answers: dict[str, int] = {}
         self._pending: set[str] = set()
         self._there = True
         self._looks = Pace(3)
-        super().__init__(station, node_name=name)
+        super().__init__(backend, node_name=name)
         self._desk.listen()
         self._show()
 
@@ -92,7 +92,7 @@ class ParametersPanel(LiveWidget):
 
     def closed(self) -> None:
         """The last view is gone: listen no more."""
-        if not self.station.ended:
+        if not self.backend.ended:
             self.left()
 
     def left(self) -> None:
@@ -102,7 +102,7 @@ class ParametersPanel(LiveWidget):
     # -- the state -----------------------------------------------------------------------------------------------------
 
     def _show(self) -> None:
-        clock = self.station.clock
+        clock = self.backend.clock
         with self.hold_sync():
             self.items = [self._item(found) for found in self._desk.found.values()]
             self.problem = self._why_nothing()
@@ -110,7 +110,7 @@ class ParametersPanel(LiveWidget):
 
     def _why_nothing(self) -> str:
         if not self._there:
-            others = [each for each in node_names(self.station.node) if not is_hidden(each)]
+            others = [each for each in node_names(self.backend.node) if not is_hidden(each)]
             return f"{self.node_name} is gone. The nodes now: {enumerated(others)}."
         if self._desk.problem:
             return self._desk.problem

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class PredictionWidget(LiveWidget):
-    """Needs no system: its station is only the notebook's loop, and never ends."""
+    """Needs no system: its backend is only the notebook's loop, and never ends."""
 
     question = traitlets.Unicode().tag(sync=True)
     kind = traitlets.Unicode().tag(sync=True)
@@ -38,10 +38,10 @@ class PredictionWidget(LiveWidget):
         self._esm = script("dom", "small", "map", "prediction")
         self._css = styles("base", "small", "prediction")
         self._asked = question
-        station: Any = Link(SimpleNamespace(loop=Loop(), ended=False))
+        backend: Any = Link(SimpleNamespace(loop=Loop(), ended=False))
         kind = question.kind
         super().__init__(
-            station,
+            backend,
             question=question.question,
             kind=kind.name,
             choices=list(getattr(kind, "choices", ())),

@@ -17,7 +17,7 @@ from .scene_picture import Trail, brief, describe, draw_scene, newest_pose
 
 if TYPE_CHECKING:
     from ..picture import Picture
-    from .backend import Station
+    from .backend import Backend
     from .scene_page import ScenePage
 
 SCRIPTS = ("dom", "scene_theme", "scene_quality", "scene_stage", "scene_camera", "scene_view")
@@ -54,13 +54,13 @@ class Scene(LiveWidget):
     description = traitlets.Unicode().tag(sync=True)
     """The scene in words, for a screen reader."""
 
-    def __init__(self, station: Station) -> None:
+    def __init__(self, backend: Backend) -> None:
         self._esm = script(*SCRIPTS, "scene")
         self._css = styles("base", "scene")
-        self._trail = Trail(station.recorder.poses)
+        self._trail = Trail(backend.recorder.poses)
         self._drawn: dict[str, Any] = {}
         self._due: dict[str, float] = {}
-        super().__init__(station, bundle=viewer_bundle(), stage=parts.stage())
+        super().__init__(backend, bundle=viewer_bundle(), stage=parts.stage())
         self.tick()
 
     # -- what a page asks for ------------------------------------------------------------------------------------------
@@ -85,11 +85,11 @@ class Scene(LiveWidget):
 
     def text(self) -> str:
         """Where the turtle is, and what is around it."""
-        return f"3-D scene: {describe(self.station.recorder, self._current_goal())}"
+        return f"3-D scene: {describe(self.backend.recorder, self._current_goal())}"
 
     def picture(self) -> Picture | None:
         """The same scene drawn by matplotlib, from one side."""
-        return draw_scene(self.station.recorder, self._current_goal())
+        return draw_scene(self.backend.recorder, self._current_goal())
 
     # -- bringing it up to date ----------------------------------------------------------------------------------------
 
@@ -113,10 +113,10 @@ class Scene(LiveWidget):
         self._draw_obstacles()
         self._draw_goal()
         if self._is_due("description", DESCRIPTION_PERIOD):
-            self.description = brief(self.station.recorder, self._current_goal())
+            self.description = brief(self.backend.recorder, self._current_goal())
 
     def _draw_turtle(self) -> None:
-        pose = newest_pose(self.station.recorder)
+        pose = newest_pose(self.backend.recorder)
         if pose is not None and self._is_new("turtle", pose):
             self.turtle = parts.turtle_at(*pose)
 
@@ -128,7 +128,7 @@ class Scene(LiveWidget):
         self.tip = parts.trail("lab/tip", [self._trail.tip])
 
     def _draw_scan(self) -> None:
-        recorder = self.station.recorder
+        recorder = self.backend.recorder
         scan = recorder.last_scan
         if scan is None or self._drawn.get("scan") is scan:
             return
@@ -138,7 +138,7 @@ class Scene(LiveWidget):
             self.scan = parts.scan(scan, *pose)
 
     def _draw_obstacles(self) -> None:
-        standing = list(self.station.recorder.obstacles.values())
+        standing = list(self.backend.recorder.obstacles.values())
         if self._is_new("obstacles", standing):
             self.obstacles = parts.obstacles(standing)
 
@@ -151,7 +151,7 @@ class Scene(LiveWidget):
 
     def _current_goal(self) -> Goal | None:
         """The newest goal from this page, unless the navigator did not take it."""
-        goals = [goal for goal in goals_from(self.station) if goal.state in ("on its way", "reached")]
+        goals = [goal for goal in goals_from(self.backend) if goal.state in ("on its way", "reached")]
         return goals[-1] if goals else None
 
     def _is_new(self, name: str, value: object) -> bool:

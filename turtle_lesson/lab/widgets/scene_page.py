@@ -130,7 +130,7 @@ Tracks = dict[str, tuple[str, list[float], list[Any]]]
 
 def replay_page(scene: Scene, since: float | None, until: float | None) -> ScenePage:
     """The run from `since` to `until` (seconds of robot time) as a page with a play bar."""
-    recorder = scene.station.recorder
+    recorder = scene.backend.recorder
     poses = recorder.window(recorder.poses, since, until)
     poses = poses[np.isfinite(poses["x"]) & np.isfinite(poses["y"]) & np.isfinite(poses["theta"])]
     if len(poses) < 2:
@@ -144,7 +144,7 @@ def replay_page(scene: Scene, since: float | None, until: float | None) -> Scene
         f"Replay of {recorder.turtle} from {number(begin)} s to {number(end)} s of robot time: {number(driven)} m driven, "
         f"from {point(poses[0]['x'], poses[0]['y'])} m to {point(poses[-1]['x'], poses[-1]['y'])} m."
     )
-    goals = [goal for goal in goals_from(scene.station) if goal.was_taken]
+    goals = [goal for goal in goals_from(scene.backend) if goal.was_taken]
     trail, growth = _trail(poses, times, jumps, driven)
     flags, appear = _flags(goals, begin, end)
     tracks = {parts.TURTLE: _drive(poses, times, jumps), **appear}

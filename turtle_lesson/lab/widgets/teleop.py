@@ -10,7 +10,7 @@ import traitlets
 
 from ...ros.stdlib.clocks import real_monotonic
 from ..words import number
-from .backend import Station
+from .backend import Backend
 from .lazy_endpoints import Outlet, let_time_go_on
 from .live_data import Pace
 from .live_widget import LiveWidget, script, styles
@@ -47,22 +47,22 @@ class Teleop(LiveWidget):
     unheard = traitlets.Unicode().tag(sync=True)
     """Why no node hears it; "" if one does."""
 
-    def __init__(self, station: Station, topic: str) -> None:
+    def __init__(self, backend: Backend, topic: str) -> None:
         from geometry_msgs.msg import Twist
 
         self._esm = script("dom", "small", "teleop")
         self._css = styles("base", "small", "teleop")
         if not isinstance(topic, str) or not topic:
             raise ValueError(f'the topic to drive on must be a name such as "/turtle1/cmd_vel", got {topic!r}')
-        name = station.node.resolve_topic_name(topic)
+        name = backend.node.resolve_topic_name(topic)
         self._message = Twist
-        self._outlet = Outlet(station, name, Twist, TYPE)
+        self._outlet = Outlet(backend, name, Twist, TYPE)
         self._timer: Any = None
         self._last_sign = -math.inf
         self._looks = Pace(2)
-        super().__init__(station, topic=name, unheard=self._outlet.why_unheard())
-        if station.keyboard is not None:
-            station.keyboard.has_keys = True
+        super().__init__(backend, topic=name, unheard=self._outlet.why_unheard())
+        if backend.keyboard is not None:
+            backend.keyboard.has_keys = True
         self._look_for_program()
 
     # -- orders ------------------------------------------------------------------------------------------------------
@@ -76,11 +76,11 @@ class Teleop(LiveWidget):
         self.stick = {**place, "held": True}
         if begun:
             self.words = f"Driving on {self.topic}."
-            self._timer = self.station.node.create_timer(PERIOD, self._hop)
+            self._timer = self.backend.node.create_timer(PERIOD, self._hop)
         if begun or (changed and not any(place.values())):
             self._publish()
         if begun:
-            let_time_go_on(self.station)
+            let_time_go_on(self.backend)
 
     def do_release(self) -> None:
         """The stick was let go: stop."""
@@ -89,13 +89,13 @@ class Teleop(LiveWidget):
 
     def do_key(self, key: str, down: bool) -> None:
         """A key, by the browser's name for it, was pressed or let go of: pass it on to the program that reads keys."""
-        keyboard = self.station.keyboard
+        keyboard = self.backend.keyboard
         if keyboard is None or not keyboard.reader:
             return
         with suppress(ValueError):  # browsers know many keys that no program asks for
             (keyboard.press if down else keyboard.release)(key)
         self.words = f"Keys go to {keyboard.reader}."
-        let_time_go_on(self.station)
+        let_time_go_on(self.backend)
 
     def do_stop(self) -> None:
         """Send zeros, whatever drives."""
@@ -121,12 +121,12 @@ class Teleop(LiveWidget):
             self.unheard = self._outlet.why_unheard()
 
     def _look_for_program(self) -> None:
-        if self.station.keyboard is not None:
-            self.program = self.station.keyboard.reader
+        if self.backend.keyboard is not None:
+            self.program = self.backend.keyboard.reader
 
     def closed(self) -> None:
         """The last view is gone: stop, and leave the topic."""
-        if not self.station.ended:
+        if not self.backend.ended:
             self.left()
 
     def left(self) -> None:
@@ -135,11 +135,11 @@ class Teleop(LiveWidget):
         self._outlet.close()
 
     def _hop(self) -> None:
-        self.station.loop.now_or_soon(self._beat)
+        self.backend.loop.now_or_soon(self._beat)
 
     def _beat(self) -> None:
         self._watch()
-        if self._timer is not None and not self.station.ended:
+        if self._timer is not None and not self.backend.ended:
             self._publish()
 
     def _watch(self) -> None:
@@ -148,7 +148,7 @@ class Teleop(LiveWidget):
 
     def _stop(self, words: str) -> None:
         if self._timer is not None:
-            self.station.node.destroy_timer(self._timer)
+            self.backend.node.destroy_timer(self._timer)
             self._timer = None
         self.stick = {"forward": 0.0, "turn": 0.0, "held": False}
         self.words = words
