@@ -10,9 +10,9 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .uninterrupted import uninterrupted
+from .ros.sim.defer_sigint import defer_sigint
 
-with uninterrupted():
+with defer_sigint():
     from .ros.idl import finder
     from .ros.stdlib import clocks, random_numbers
 
@@ -37,7 +37,7 @@ def _make_importable() -> None:
 
 def load_ipython_extension(shell: Any) -> None:
     """What `%load_ext turtle_lesson` does: errors are shown from the learner's point of view, commands are understood."""
-    with uninterrupted():
+    with defer_sigint():
         from .notebook.ipython_shell import prepare
 
         prepare(shell)
@@ -45,17 +45,17 @@ def load_ipython_extension(shell: Any) -> None:
 
 def __getattr__(name: str) -> Any:
     if name in {"Lesson", "start"}:
-        with uninterrupted():
+        with defer_sigint():
             from .session import lesson
 
         return getattr(lesson, name)
     if name in {"Robot", "connect"}:
-        with uninterrupted():
+        with defer_sigint():
             from .session import robot
 
         return getattr(robot, name)
     raise AttributeError(f"module 'turtle_lesson' has no attribute {name!r}")
 
 
-with uninterrupted():
+with defer_sigint():
     _make_importable()

@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from ..uninterrupted import uninterrupted
+from ..ros.sim.defer_sigint import defer_sigint
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -83,7 +83,7 @@ def _matplotlib() -> Any:
     # When matplotlib starts for the first time ever, it lists the machine's fonts, and says so if that takes
     # long: a remark that has no place below a learner's cell.
     logging.getLogger("matplotlib.font_manager").setLevel(logging.ERROR)
-    with uninterrupted():
+    with defer_sigint():
         import matplotlib
         import matplotlib.backends.backend_agg
         import matplotlib.collections

@@ -4,7 +4,7 @@ Every widget knows the system through its `Backend` alone: a hidden node, topics
 clock where there is one to turn. All that a widget does happens in the notebook's own event loop (see `loop`).
 """
 
-from ...uninterrupted import uninterrupted
+from ...ros.sim.defer_sigint import defer_sigint
 
-with uninterrupted():
+with defer_sigint():
     import anywidget  # noqa: F401

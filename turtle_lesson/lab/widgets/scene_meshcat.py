@@ -9,9 +9,9 @@ from __future__ import annotations
 import warnings
 from pathlib import Path
 
-from ...uninterrupted import uninterrupted
+from ...ros.sim.defer_sigint import defer_sigint
 
-with uninterrupted(), warnings.catch_warnings():
+with defer_sigint(), warnings.catch_warnings():
     warnings.simplefilter("ignore", DeprecationWarning)
     import meshcat
     from meshcat import geometry

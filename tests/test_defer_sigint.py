@@ -1,4 +1,4 @@
-"""Ctrl-C at a bad moment: what must not be left half done is ended first."""
+"""Ctrl-C during an import waits until the import is done."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ import threading
 
 import pytest
 
-from turtle_lesson.uninterrupted import uninterrupted
+from turtle_lesson.ros.sim.defer_sigint import defer_sigint
 
 
 def test_an_interrupt_comes_when_the_block_is_over() -> None:
     done = []
-    with pytest.raises(KeyboardInterrupt), uninterrupted():
+    with pytest.raises(KeyboardInterrupt), defer_sigint():
         signal.raise_signal(signal.SIGINT)
         done.append("the rest")
     assert done == ["the rest"]
@@ -22,7 +22,7 @@ def test_an_interrupt_comes_when_the_block_is_over() -> None:
 
 def test_what_was_there_before_is_there_again() -> None:
     before = signal.getsignal(signal.SIGINT)
-    with pytest.raises(ZeroDivisionError), uninterrupted():
+    with pytest.raises(ZeroDivisionError), defer_sigint():
         raise ZeroDivisionError
     assert signal.getsignal(signal.SIGINT) is before
 
@@ -31,7 +31,7 @@ def test_a_thread_that_is_not_the_main_one_just_goes_on() -> None:
     done: list[str] = []
 
     def work() -> None:
-        with uninterrupted():
+        with defer_sigint():
             done.append("work")
 
     thread = threading.Thread(target=work)

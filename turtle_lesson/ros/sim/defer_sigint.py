@@ -1,7 +1,8 @@
-"""What must not be left half done: Ctrl-C waits until it is over.
+"""Defers Ctrl-C to the end of a block that must not be left half done, such as a large import.
 
-An import that is interrupted leaves a package behind that can never be imported again in this kernel: some of its
-modules are there and know a package that is gone. (matplotlib's first import takes a second: long enough to be hit.)
+An interrupted import leaves a package that can never be imported again in this kernel: some of its modules are loaded and
+refer to a package that is gone. matplotlib's first import takes a second, which is long enough for a Ctrl-C.
+This module imports nothing of the simulation, because the package's first import already needs it.
 """
 
 from __future__ import annotations
@@ -14,8 +15,8 @@ from types import FrameType
 
 
 @contextmanager
-def uninterrupted() -> Iterator[None]:
-    """Put off SIGINT to the end of the block, where it raises KeyboardInterrupt. In another thread: does nothing."""
+def defer_sigint() -> Iterator[None]:
+    """Defer SIGINT to the end of the block, where it raises KeyboardInterrupt. In another thread: does nothing."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
