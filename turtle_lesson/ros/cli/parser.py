@@ -311,7 +311,7 @@ def _instance(verb: Any) -> Verb:
     return verb() if isinstance(verb, type) else verb
 
 
-_MODULES = {"run": "run_launch", "launch": "run_launch"}
+_MODULES = {"daemon": "doctor", "launch": "run_launch", "run": "run_launch"}
 
 GROUPS = {
     group.name: group
