@@ -1,7 +1,8 @@
-"""What of rclpy's public modules is here: the list in data/rclpy_api.txt, checked, and as a table for README.
+"""What of rclpy's public modules is here: the list in data/rclpy_api.txt, checked, and as a table for DIFFERENCES.md.
 
-``python tests/api_table.py`` prints the table; with ``--write`` it puts it between the two markers in README.md. The list
-holds the names and signatures of a real rclpy (Jazzy's, and what Kilted added), and what we say of each:
+``python tests/api_table.py`` prints the table; with ``--write`` it puts it between the two markers in
+turtle_lesson/ros/DIFFERENCES.md. The list holds the names and signatures of a real rclpy (Jazzy's, and what Kilted
+added), and what we say of each:
 
     [rclpy.client]
     = Client.call(request, timeout_sec=None)     here, and with this signature
@@ -24,11 +25,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import turtle_lesson  # noqa: F401, puts our rclpy on the path
+import turtle_lesson  # puts our rclpy on the path
 
 HERE = Path(__file__).parent
 LIST = HERE / "data" / "rclpy_api.txt"
-README = HERE.parent / "README.md"
+DIFFERENCES = Path(turtle_lesson.__file__).parent / "ros" / "DIFFERENCES.md"
+"""The page that shows the table."""
 MARKERS = ("<!-- rclpy: begin -->\n", "<!-- rclpy: end -->\n")
 LEFT_OUT = "left out"
 LINE = re.compile(r"(?P<mark>[=~-]) (?P<name>[\w.]+)(?P<signature>\([^()]*\))?(?: : (?P<why>.+))?")
@@ -195,11 +197,10 @@ def _reasons(found: list[Entry]) -> Iterator[str]:
             yield f"{', '.join(f'`{name}`' for name in names)}: {why}"
 
 
-def write(text: str, path: Path = README) -> None:
-    """Put the table between the markers of README."""
+def write(text: str, path: Path = DIFFERENCES) -> None:
+    """Put the table between the markers of a page."""
     before, after = MARKERS
-    readme = path.read_text(encoding="utf-8")
-    head, rest = readme.split(before)
+    head, rest = path.read_text(encoding="utf-8").split(before)
     tail = rest.split(after)[1]
     path.write_text(head + before + text + after + tail, encoding="utf-8")
 
@@ -207,7 +208,7 @@ def write(text: str, path: Path = README) -> None:
 def main() -> None:
     """Print the table or write it; complain about what is not as listed."""
     parser = argparse.ArgumentParser(description="What of rclpy is here.")
-    parser.add_argument("--write", action="store_true", help="put the table into README.md")
+    parser.add_argument("--write", action="store_true", help="put the table into DIFFERENCES.md")
     arguments = parser.parse_args()
     found = list(entries())
     if wrong := faults(found):

@@ -1,4 +1,4 @@
-"""The list of what rclpy holds: true of our modules, and shown in README as it is."""
+"""The list of what rclpy holds: true of our modules, and shown in DIFFERENCES.md as it is."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import warnings
 from pathlib import Path
 
 import pytest
-from api_table import LIST, MARKERS, README, Entry, entries, fault_of, faults, signature_of, table, write
+from api_table import DIFFERENCES, LIST, MARKERS, Entry, entries, fault_of, faults, signature_of, table, write
 
 
 def test_everything_listed_is_as_listed() -> None:
@@ -14,12 +14,10 @@ def test_everything_listed_is_as_listed() -> None:
         assert faults(list(entries())) == []
 
 
-def test_the_table_in_the_readme_is_that_of_the_list() -> None:
-    readme = README.read_text(encoding="utf-8")
+def test_the_table_in_differences_is_that_of_the_list() -> None:
+    page = DIFFERENCES.read_text(encoding="utf-8")
     before, after = MARKERS
-    assert readme.partition(before)[2].partition(after)[0] == table(list(entries())), (
-        "python tests/api_table.py --write"
-    )
+    assert page.partition(before)[2].partition(after)[0] == table(list(entries())), "python tests/api_table.py --write"
 
 
 def test_no_name_is_listed_twice() -> None:
@@ -66,8 +64,8 @@ def test_members_may_share_a_line_and_a_reason(tmp_path: Path) -> None:
 
 
 def test_the_table_is_put_between_the_markers(tmp_path: Path) -> None:
-    readme = tmp_path / "README.md"
-    readme.write_text("before\n" + MARKERS[0] + "old\n" + MARKERS[1] + "after\n")
-    write("new\n", readme)
-    assert readme.read_text() == "before\n" + MARKERS[0] + "new\n" + MARKERS[1] + "after\n"
+    page = tmp_path / "DIFFERENCES.md"
+    page.write_text("before\n" + MARKERS[0] + "old\n" + MARKERS[1] + "after\n")
+    write("new\n", page)
+    assert page.read_text() == "before\n" + MARKERS[0] + "new\n" + MARKERS[1] + "after\n"
     assert LIST.exists()

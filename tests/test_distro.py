@@ -30,6 +30,7 @@ from sensor_msgs.msg import JointState, LaserScan
 from std_msgs.msg import Float32, String
 
 from turtle_lesson import start
+from turtle_lesson.ros import distro
 from turtle_lesson.ros.distro import (
     DURATION_ARITHMETIC,
     EXECUTOR_AS_CONTEXT,
@@ -40,7 +41,7 @@ from turtle_lesson.ros.distro import (
 )
 from turtle_lesson.ros.runtime.world import World, open_world
 
-HERE = Path(__file__).parent
+DIFFERENCES = Path(distro.__file__).with_name("DIFFERENCES.md")
 
 
 @pytest.fixture
@@ -91,10 +92,10 @@ def test_a_newer_release_has_what_an_older_one_has() -> None:
     assert Release("humble") < Release("jazzy")
 
 
-def test_the_readme_lists_the_whole_table() -> None:
-    readme = (HERE.parent / "README.md").read_text(encoding="utf-8")
+def test_differences_lists_the_whole_table() -> None:
+    page = DIFFERENCES.read_text(encoding="utf-8")
     rows = [f"| {each.since.capitalize()} | {each.what} | {each.before} | {each.source} |" for each in changes()]
-    assert [row for row in rows if row not in readme] == []
+    assert [row for row in rows if row not in page] == []
 
 
 # ---------------------------------------------------------------- fields of messages
