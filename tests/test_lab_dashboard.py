@@ -15,7 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from turtle_lesson import Lesson, start
-from turtle_lesson.lab.laser_plot import read_beams
+from turtle_lesson.lab.scan import read_beams
 from turtle_lesson.lab.widgets import panels_system
 from turtle_lesson.lab.widgets.dashboard import Dashboard
 from turtle_lesson.lab.widgets.live_data import Pace, frequency, verdict

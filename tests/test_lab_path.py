@@ -8,7 +8,7 @@ from lab_fakes import SECOND, START, TICK, drive, recording, stand
 
 from turtle_lesson.lab import Obstacle, plot_path
 from turtle_lesson.lab.drawing import turtle_points
-from turtle_lesson.lab.path_geometry import LABEL, WORLD, Goal, distance_driven, find_jumps, goal_points
+from turtle_lesson.lab.path import LABEL, WORLD, Goal, distance_driven, find_jumps, goal_points
 
 
 def test_a_straight_drive():

@@ -6,7 +6,7 @@ import pytest
 from lab_fakes import recording, scan, see
 
 from turtle_lesson.lab import plot_scan
-from turtle_lesson.lab.laser_plot import nice_step, reach_of, read_beams
+from turtle_lesson.lab.scan import nice_step, reach_of, read_beams
 
 
 def ranges(**seen):

@@ -1,15 +1,15 @@
-"""The path that the turtle drove, on the map of its world."""
+"""The path that the turtle drove, on the map of its world: how far, where it jumped, its trail and its goals."""
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from numbers import Real
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from . import style
 from .drawing import draw_obstacles, draw_turtle, turtle_points
-from .path_geometry import WORLD, Goal, distance_driven, draw_goal, draw_trail, find_jumps, goal_points, read_goals
 from .picture import Picture
 from .recording import Obstacle, Recording
 from .words import angle, count, number, point, turned
@@ -17,6 +17,60 @@ from .words import angle, count, number, point, turned
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+
+WORLD = 11.088889
+"""Side of turtlesim's square world in metres: 499 pixels at its 45 pixels a metre."""
+
+TICK = 16_000_000
+"""How often, in ns, turtlesim publishes a pose."""
+
+LATEST = 1_000_000_000
+"""How late, in ns, a pose is expected to come at most: what a busy kernel may take for something else."""
+
+SLACK = 0.05
+"""A step longer than the speed explains by this much (m) is a jump: the turtle was put somewhere else."""
+
+TOLERANCE = 0.2
+"""Metres within which a goal counts as reached: the radius of the ring around it."""
+
+BANDS = 12
+"""The trail is drawn in so many parts, the older the paler."""
+
+LABEL = (0.45, 0.2)
+"""Half the width and half the height of the word "start", m."""
+
+
+def find_jumps(poses: np.ndarray) -> np.ndarray:
+    """Return the indices of the poses that the turtle cannot have driven to: teleport or reset.
+
+    `poses` has the fields `stamp` (ns), `x`, `y` (m) and `speed` (m/s). A stamp may be the time at which a pose was heard:
+    on a robot a busy kernel takes poses in bursts, each at least one tick of the simulator younger than the one before.
+    """
+    steps, stamps = _steps(poses), poses["stamp"]
+    fastest = np.maximum(np.abs(poses["speed"][1:]), np.abs(poses["speed"][:-1]))
+    behind = stamps - TICK * np.arange(len(poses))
+    late = np.minimum(behind - np.minimum.accumulate(behind), LATEST)  # how long ago a pose may have been sent
+    possible = fastest * (np.maximum(np.diff(stamps), TICK) + late[:-1]) / 1e9
+    return np.flatnonzero(steps > 1.5 * possible + SLACK) + 1
+
+
+def distance_driven(poses: np.ndarray, jumps: np.ndarray) -> float:
+    """Return the length of the track in metres, jumps left out."""
+    steps = _steps(poses)
+    steps[jumps - 1] = 0.0
+    return math.fsum(steps)
+
+
+def thinned(poses: np.ndarray, jumps: np.ndarray, spacing: float = 0.03) -> np.ndarray:
+    """Return indices of poses about `spacing` metres apart, with both sides of each jump and both ends."""
+    way = np.concatenate([[0.0], np.cumsum(_steps(poses))])
+    fresh = np.flatnonzero(np.diff(np.floor(way / spacing))) + 1
+    return np.unique(np.concatenate([[0, len(poses) - 1], fresh, jumps, jumps - 1]).astype(int))
+
+
+def _steps(poses: np.ndarray) -> np.ndarray:
+    return np.hypot(np.diff(poses["x"]), np.diff(poses["y"]))
 
 
 def plot_path(
@@ -50,9 +104,6 @@ def plot_path(
     return Picture(" ".join(filter(None, sentences)), figure)
 
 
-# -- in words --------------------------------------------------------------------------------------------
-
-
 def _nothing(recording: Recording, broken: int) -> str:
     if broken:
         return f"No path to draw: {count(broken, 'pose')} heard in that time, all with nan, which is not a number."
@@ -66,8 +117,8 @@ def _journey(recording: Recording, poses: np.ndarray, driven: float) -> str:
     begin, end = (number(recording.seconds(pose["stamp"])) for pose in (first, last))
     title = f"Path of {recording.turtle} from {begin} s to {end} s of robot time"
     here = f"{point(last['x'], last['y'])} m facing {angle(last['theta'])}"
-    away = math.hypot(last["x"] - first["x"], last["y"] - first["y"])
     there = f"{point(first['x'], first['y'])} m facing {angle(first['theta'])}"
+    away = math.hypot(last["x"] - first["x"], last["y"] - first["y"])
     if max(driven, away) >= 0.005:
         return f"{title}: from {there} it drove {number(driven)} m to {here}, {number(away)} m from its start."
     if angle(first["theta"]) != angle(last["theta"]):
@@ -76,13 +127,8 @@ def _journey(recording: Recording, poses: np.ndarray, driven: float) -> str:
 
 
 def _at_wall(pose: Any) -> str:
-    touching = {
-        "left": pose["x"] <= 0.001,
-        "right": pose["x"] >= WORLD - 0.001,
-        "lower": pose["y"] <= 0.001,
-        "upper": pose["y"] >= WORLD - 0.001,
-    }
-    walls = [side for side, touched in touching.items() if touched]
+    gaps = {"left": pose["x"], "right": WORLD - pose["x"], "lower": pose["y"], "upper": WORLD - pose["y"]}
+    walls = [side for side, gap in gaps.items() if gap <= 0.001]
     return f"It touches the {' and the '.join(walls)} wall." if walls else ""
 
 
@@ -102,27 +148,12 @@ def _standing(obstacles: list[Obstacle]) -> str:
     return f"{count(len(obstacles), 'obstacle').capitalize()} in the world: {places}."
 
 
-# -- as a picture --------------------------------------------------------------------------------------------
-
-
 def _draw(recording: Recording, poses: np.ndarray, jumps: np.ndarray, driven: float, goals: list[Goal]) -> Figure:
     figure = style.card(5.3, 5.6)
     begin, end = (number(recording.seconds(pose["stamp"]), 1) for pose in (poses[0], poses[-1]))
     subtitle = f"{begin} s to {end} s of robot time  ·  {number(driven)} m driven"
     style.heading(figure, f"Path of {recording.turtle}", subtitle)
     axes = style.axes_at(figure, 0.55, 0.5, 4.5, 4.5)
-    _draw_world(axes)
-    draw_obstacles(axes, recording.obstacles.values())
-    last = poses[-1]
-    signs = [turtle_points(last["x"], last["y"]), *map(goal_points, goals)]
-    draw_trail(axes, poses, jumps, np.concatenate(signs))
-    for goal in goals:
-        draw_goal(axes, goal)
-    draw_turtle(axes, last["x"], last["y"], last["theta"])
-    return figure
-
-
-def _draw_world(axes: Axes) -> None:
     axes.set(xlim=(0, WORLD), ylim=(0, WORLD), aspect="equal", xlabel="x in metres", ylabel="y in metres")
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_ticks(range(0, 12, 2))
@@ -131,3 +162,125 @@ def _draw_world(axes: Axes) -> None:
     axes.grid(True, which="both")
     for spine in axes.spines.values():
         spine.set(visible=True, color=style.INK, linewidth=1.4, zorder=4)
+    draw_obstacles(axes, recording.obstacles.values())
+    last = poses[-1]
+    signs = [turtle_points(last["x"], last["y"]), *map(goal_points, goals)]
+    _draw_trail(axes, poses, jumps, np.concatenate(signs))
+    for goal in goals:
+        _draw_goal(axes, goal)
+    draw_turtle(axes, last["x"], last["y"], last["theta"])
+    return figure
+
+
+def _draw_trail(axes: Axes, poses: np.ndarray, jumps: np.ndarray, taken: np.ndarray) -> None:
+    """Draw the trail of `poses` (fields `x`, `y` in metres), dotted where a jump leads to a pose.
+
+    `taken` holds points (n by 2, m) that its label must not cover, such as those of the turtle.
+    """
+    places = np.column_stack([poses["x"], poses["y"]])
+    for jump in jumps:
+        axes.plot(*places[jump - 1 : jump + 1].T, color=style.INK, linestyle=":", linewidth=1.0, zorder=3)
+    chosen = thinned(poses, jumps)
+    look: dict[str, Any] = {"color": style.BLUE, "linewidth": 2.2, "solid_capstyle": "butt", "zorder": 3}
+    for band, part in enumerate(np.array_split(np.arange(len(chosen) - 1), BANDS)):
+        if len(part):
+            rows = chosen[part[0] : part[-1] + 2]
+            path = np.insert(places[rows], np.flatnonzero(np.isin(rows[1:], jumps)) + 1, np.nan, axis=0)
+            axes.plot(*path.T, alpha=0.3 + 0.7 * band / (BANDS - 1), **look)
+    pieces = np.stack([places[chosen[:-1]], places[chosen[1:]]], axis=1)
+    _draw_heads(axes, pieces[~np.isin(chosen[1:], jumps)])
+    _draw_start(axes, places, np.concatenate([places[chosen], taken]))
+
+
+def _draw_heads(axes: Axes, pieces: np.ndarray, size: float = 0.15) -> None:
+    """Open arrow heads along the trail, evenly spaced: 1.3 m apart, or more on a long trail."""
+    from matplotlib.collections import LineCollection
+
+    ways = pieces[:, 1] - pieces[:, 0]
+    lengths = np.hypot(*ways.T)
+    total = float(lengths.sum())
+    every = max(1.3, total / 14)
+    marks = np.searchsorted(np.cumsum(lengths), np.arange(0.6 * every, total - 0.5, every))
+    heads = []
+    for mark in marks[lengths[marks] > 0]:
+        along = ways[mark] / lengths[mark] * size
+        across = 0.8 * np.array([-along[1], along[0]])
+        tip = pieces[mark, 1] + along / 2
+        heads.append([tip - along + across, tip, tip - along - across])
+    look: dict[str, Any] = {"colors": style.BLUE, "linewidths": 1.6, "capstyle": "round", "zorder": 3.2}
+    axes.add_collection(LineCollection(heads, **look), autolim=False)
+
+
+def _draw_start(axes: Axes, places: np.ndarray, taken: np.ndarray) -> None:
+    """A ring where the trail starts, and its name beside it, where it covers as little as possible."""
+    x, y = places[0]
+    away = places[np.hypot(*(places - places[0]).T) > 0.5]
+    behind = math.atan2(*(places[0] - away[0])[::-1]) if len(away) else -math.pi / 2
+    ring: dict[str, Any] = {"markerfacecolor": "#d3e6f3", "markeredgecolor": style.BLUE, "markeredgewidth": 1.6}
+    axes.plot([x], [y], marker="o", markersize=6.5, zorder=3.5, **ring)
+    label: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 8.5, "color": style.INK}
+    axes.text(*_free_place(x, y, behind, taken), "start", zorder=3.5, **label)
+
+
+def _free_place(x: float, y: float, wanted: float, taken: np.ndarray) -> tuple[float, float]:
+    """A place for the label around (x, y): where it covers least, near, and in the wanted direction (rad)."""
+    turns = [wanted + sign * math.pi / 4 * step for step in range(5) for sign in (1, -1)]
+    ways = [(far * math.cos(turn), far * math.sin(turn)) for far in (1.0, 1.6, 2.2, 3.0) for turn in turns]
+    places = np.array([(x + 0.68 * across, y + 0.45 * up) for across, up in ways])
+    within = np.clip(places, np.array(LABEL) + 0.05, WORLD - 0.05 - np.array(LABEL))
+    covered = [(np.abs(taken - place) < LABEL).all(axis=1).sum() for place in within]
+    across, up = within[np.argmin(covered)]
+    return float(across), float(up)
+
+
+class Goal(NamedTuple):
+    """A place in metres, and the heading in radians to end with, if any."""
+
+    x: float
+    y: float
+    theta: float | None = None
+
+
+def read_goals(given: Any) -> list[Goal]:
+    """Return the goals that were given as None, (x, y), (x, y, theta), or a list of these."""
+    if given is None:
+        return []
+    try:
+        items = list(given)
+    except TypeError:
+        items = [given]
+    one = items and all(isinstance(item, Real) for item in items)
+    goals = []
+    for item in [items] if one else items:
+        try:
+            numbers = [float(value) for value in item]
+        except (TypeError, ValueError):
+            numbers = []
+        if len(numbers) not in (2, 3) or not all(map(math.isfinite, numbers)):
+            raise ValueError(
+                "a goal is (x, y) in metres, or (x, y, theta) with the heading in radians, or a list of these; "
+                f"got {item!r}; try goal=(8.0, 8.0, 1.57)"
+            )
+        goals.append(Goal(*numbers))
+    return goals
+
+
+def goal_points(goal: Goal) -> np.ndarray:
+    """Return points (n by 2, m) that a goal's flag and ring cover."""
+    flag = [(right, up) for right in (0.0, 0.15, 0.3) for up in np.arange(-0.4, 0.95, 0.1)]
+    return np.array([goal.x, goal.y]) + np.array([*flag, (-0.2, 0.0), (0.4, 0.0)])
+
+
+def _draw_goal(axes: Axes, goal: Goal) -> None:
+    """Draw a flag, the ring within which the goal counts as reached, and on it a pointer for the heading."""
+    from matplotlib.patches import Circle, Polygon
+
+    x, y, colour = goal.x, goal.y, style.VERMILLION
+    axes.add_artist(Circle((x, y), TOLERANCE, facecolor=colour + "22", edgecolor=colour, linewidth=1.2, zorder=4))
+    axes.plot([x, x], [y, y + 0.85], color=style.INK, linewidth=1.3, zorder=7, solid_capstyle="round")
+    flag = [(x, y + 0.87), (x + 0.44, y + 0.71), (x, y + 0.55)]
+    axes.add_artist(Polygon(flag, closed=True, facecolor=colour, edgecolor="none", zorder=7))
+    if goal.theta is not None:
+        corners = ((TOLERANCE + 0.24, 0.0), (TOLERANCE + 0.04, 0.75), (TOLERANCE + 0.04, -0.75))
+        pointer = [(x + r * math.cos(goal.theta + turn), y + r * math.sin(goal.theta + turn)) for r, turn in corners]
+        axes.add_artist(Polygon(pointer, closed=True, facecolor=colour, edgecolor="none", zorder=4.1))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from . import drawing as svg
 from . import style
-from .path_geometry import TOLERANCE, WORLD, Goal
+from .path import TOLERANCE, WORLD, Goal
 from .words import number, point
 
 SCALE = 24.0

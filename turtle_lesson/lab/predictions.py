@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from numbers import Real
 from typing import TYPE_CHECKING, Any, Protocol
 
-from .path_geometry import Goal
+from .path import Goal
 from .prediction_map import draw_map
 from .words import listed, number
 

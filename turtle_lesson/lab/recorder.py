@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from .path_geometry import WORLD
+from .path import WORLD
 from .recording import LIMIT, OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, STATUS_TYPE, Listener, Obstacle, Recording
 from .words import listed
 

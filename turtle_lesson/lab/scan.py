@@ -1,19 +1,88 @@
-"""What the obstacle detector sees: the newest laser scan."""
+"""The newest laser scan as a picture: its beams, what they say, and the fan seen from above, forward up."""
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from . import style
 from .drawing import draw_turtle
-from .laser_plot import Beams, draw_beams, draw_rings, reach_of, read_beams
 from .picture import Picture
 from .recording import SCAN_TOPIC, Recording
 from .words import angle, count, number, rate
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+
+AHEAD = math.radians(30)
+"""Up to this angle to either side, a reading counts as ahead."""
+
+BESIDE = math.radians(90.5)
+"""From there to this angle it counts as beside, and beyond it as behind."""
+
+
+@dataclass(frozen=True)
+class Beams:
+    """Angles in rad (0 is ahead, positive to the left), ranges in m, and which beams see something.
+
+    `least` and `most` bound the ranges that the sensor can tell; `asked` is the number of readings that its
+    angles ask for.
+    """
+
+    angles: np.ndarray
+    ranges: np.ndarray
+    sees: np.ndarray
+    least: float
+    most: float
+    asked: int
+
+    def __len__(self) -> int:
+        return len(self.ranges)
+
+    @property
+    def whole(self) -> bool:
+        """Whether the sensor also looks back."""
+        return bool((np.abs(self.angles) > math.radians(100)).any())
+
+    def nearest(self, among: np.ndarray | None = None) -> int | None:
+        """The index of the beam with the nearest thing, of several the one closest to ahead; or None."""
+        seeing = np.flatnonzero(self.sees if among is None else self.sees & among)
+        if not len(seeing):
+            return None
+        order = np.lexsort((np.abs(self.angles[seeing]), self.ranges[seeing].round(6)))
+        return int(seeing[order[0]])
+
+    def nearest_by_side(self) -> dict[str, int]:
+        """The nearest beam to the right, ahead, to the left and behind, where any sees something there."""
+        turn = np.remainder(self.angles + math.pi, math.tau) - math.pi
+        sides = {
+            "right": (turn < -AHEAD) & (turn >= -BESIDE),
+            "ahead": np.abs(turn) <= AHEAD,
+            "left": (turn > AHEAD) & (turn <= BESIDE),
+            "behind": np.abs(turn) > BESIDE,
+        }
+        best = {side: self.nearest(among) for side, among in sides.items()}
+        return {side: beam for side, beam in best.items() if beam is not None}
+
+
+def read_beams(scan: Any) -> Beams:
+    """Return the beams of a sensor_msgs/msg/LaserScan.
+
+    As that message's definition says, a range below range_min or above range_max, or no number at all, is to
+    be discarded. A range of range_max itself is what a detector reports that sees nothing.
+    """
+    ranges = np.asarray(scan.ranges, float)
+    angles = scan.angle_min + scan.angle_increment * np.arange(len(ranges))
+    sees = np.isfinite(ranges) & (ranges >= scan.range_min) & (ranges < scan.range_max - 1e-6)
+    steps = (scan.angle_max - scan.angle_min) / scan.angle_increment if scan.angle_increment else math.nan
+    # float32 steps may fall a little short
+    asked = max(math.floor(steps + 1e-3) + 1, 0) if math.isfinite(steps) else 1
+    return Beams(angles, ranges, sees, scan.range_min, scan.range_max, asked)
 
 
 def plot_scan(recording: Recording) -> Picture:
@@ -23,52 +92,33 @@ def plot_scan(recording: Recording) -> Picture:
     beams = read_beams(recording.last_scan)
     stamps = recording.scans.array()["stamp"]
     second = float(recording.seconds(stamps[-1]))
-    sentences = [
-        f"Scan on {SCAN_TOPIC} at {number(second)} s of robot time: {_layout(beams)}.",
-        _counted(beams),
-        _agreement(beams),
-        _nearest(beams),
-        f"So far: {rate(stamps)}.",
-    ]
     with style.applied():
         figure = _draw(beams, second)
-    return Picture(" ".join(filter(None, sentences)), figure)
+    moment = f"Scan on {SCAN_TOPIC} at {number(second)} s of robot time"
+    return Picture(f"{moment}: {' '.join(_sentences(beams))} So far: {rate(stamps)}.", figure)
 
 
-def _layout(beams: Beams) -> str:
-    amount = count(len(beams), "beam")
-    if not len(beams):
-        return amount
-    ends = f"from {angle(beams.angles[0])} to {angle(beams.angles[-1])}, positive to the left"
-    return f"{amount} {ends}, for ranges from {number(beams.least)} m to {number(beams.most)} m"
-
-
-def _counted(beams: Beams) -> str:
+def _sentences(beams: Beams) -> list[str]:
+    """The layout of the beams, how many see something, whether the message agrees with itself, and the nearest."""
     seen = int(beams.sees.sum())
-    if not len(beams):
-        return ""
-    if seen == len(beams):
-        return "All of them see something."
-    return f"{count(seen, 'beam').capitalize()} of {len(beams)} {'sees' if seen < 2 else 'see'} something."
-
-
-def _agreement(beams: Beams) -> str:
-    if len(beams) == beams.asked:
-        return ""
-    wanted = f"angle_min, angle_max and angle_increment ask for {beams.asked} readings"
-    return f"But its {wanted}: the message contradicts itself."
-
-
-def _nearest(beams: Beams) -> str:
+    said = [f"{count(len(beams), 'beam')}."]
+    if len(beams):
+        ends = f"from {angle(beams.angles[0])} to {angle(beams.angles[-1])}, positive to the left"
+        ranges = f"for ranges from {number(beams.least)} m to {number(beams.most)} m"
+        said = [f"{count(len(beams), 'beam')} {ends}, {ranges}."]
+        some = f"{count(seen, 'beam').capitalize()} of {len(beams)} {'sees' if seen < 2 else 'see'} something."
+        said.append("All of them see something." if seen == len(beams) else some)
+    if len(beams) != beams.asked:
+        wanted = f"angle_min, angle_max and angle_increment ask for {beams.asked} readings"
+        said.append(f"But its {wanted}: the message contradicts itself.")
     best = beams.nearest()
-    if best is None:
-        return ""
-    sides = [f"{side} {_reading(beams, beam)}" for side, beam in beams.nearest_by_side().items()]
-    return f"The nearest is {_reading(beams, best)}. Nearest by side: {'; '.join(sides)}."
-
-
-def _reading(beams: Beams, beam: int) -> str:
-    return f"{number(beams.ranges[beam])} m at {angle(beams.angles[beam])}"
+    if best is not None:
+        by_side = {"": best, **beams.nearest_by_side()}
+        nearest, *sides = (
+            f"{side} {number(beams.ranges[beam])} m at {angle(beams.angles[beam])}" for side, beam in by_side.items()
+        )
+        said.append(f"The nearest is{nearest}. Nearest by side: {'; '.join(sides)}.")
+    return said
 
 
 def _draw(beams: Beams, second: float) -> Figure:
@@ -76,28 +126,77 @@ def _draw(beams: Beams, second: float) -> Figure:
     width = 5.9
     height = width * (high - low) / (2 * side)
     figure = style.card(6.4, height + 0.82)
-    style.heading(figure, "What the obstacle detector sees", _subtitle(beams, second))
+    figures = f"{int(beams.sees.sum())} of {len(beams)} beams see something"
+    best, room = beams.nearest(), math.inf
+    if best is not None:
+        room = 1.3 * float(beams.ranges[best])  # the turtle is drawn as large as looks good, but it hides no hit
+        degrees = number(math.degrees(beams.angles[best]), 0)
+        figures += f", the nearest at {number(beams.ranges[best])} m, {degrees}°"
+    subtitle = f"{SCAN_TOPIC} at {number(second, 1)} s of robot time  ·  {figures}"
+    style.heading(figure, "What the obstacle detector sees", subtitle)
     axes = style.axes_at(figure, 0.25, 0.12, width, height)
     reach = reach_of(beams)
     axes.set(xlim=(-side * reach, side * reach), ylim=(low * reach, high * reach), aspect="equal")
     axes.axis("off")
-    draw_rings(axes, reach, beams.whole)
-    draw_beams(axes, beams, reach)
-    draw_turtle(axes, 0.0, 0.0, math.pi / 2, length=_turtle_length(beams, reach))
+    _draw_rings(axes, reach, beams.whole)
+    _draw_beams(axes, beams, reach)
+    draw_turtle(axes, 0.0, 0.0, math.pi / 2, length=max(0.02 * reach, min(0.075 * reach, room)))
     return figure
 
 
-def _turtle_length(beams: Beams, reach: float) -> float:
-    """The turtle's length, m: as large as looks good, but it hides no hit."""
+def reach_of(beams: Beams) -> float:
+    """Return the range (m) at the picture's rim: the sensor's own, unless that is no useful number."""
+    if math.isfinite(beams.most) and 0 < beams.most < 1000:
+        return beams.most
+    seen = beams.ranges[beams.sees]
+    return max(1.2 * float(seen.max()), 0.1) if len(seen) else 1.0
+
+
+def _draw_rings(axes: Axes, reach: float, whole: bool) -> None:
+    """Draw range rings with their metres, and rays with their angles, over half a circle or a whole one."""
+    label: dict[str, Any] = {"fontsize": 7.5, "color": style.INK, "va": "center"}
+    side = math.pi if whole else math.pi / 2
+    arc = np.linspace(-side, side, 181)
+    step = nice_step(reach)
+    for ring in [*np.arange(step, reach - 0.3 * step, step), reach]:
+        colour = style.INK if ring == reach else style.EDGE
+        beside = np.where(np.abs(arc) * ring < 0.045 * reach, np.nan, arc)  # room for the metres
+        axes.plot(*_polar(beside, np.full(len(arc), ring)), color=colour, linewidth=0.8, zorder=2)
+        axes.text(*_polar(0.0, ring), f"{ring:g} m", zorder=4, ha="center", **label)
+    for degrees in range(-180, 180, 30) if whole else range(-90, 91, 30):
+        turn = math.radians(degrees)
+        if degrees:
+            axes.plot(*_polar(turn, np.array([0.0, reach])), color=style.LINE, linewidth=0.8, zorder=1)
+            x, y = _polar(turn, reach * 1.03)
+            text = f"{math.degrees(turn):+.0f}°\n{turn:+.2f} rad".replace("-", "−")
+            align = "right" if x < -0.1 * reach else "left" if x > 0.1 * reach else "center"
+            axes.text(x, y, text, linespacing=1.25, ha=align, **label)
+
+
+def _draw_beams(axes: Axes, beams: Beams, reach: float) -> None:
+    """Draw the space that the beams found free, a dot where one hit, and a ring around the nearest."""
+    from matplotlib.collections import LineCollection
+
     nearest = beams.nearest()
-    room = 1.3 * float(beams.ranges[nearest]) if nearest is not None else math.inf
-    return max(0.02 * reach, min(0.075 * reach, room))
+    ends = np.where(beams.sees, np.minimum(beams.ranges, reach), reach)
+    xs, ys = _polar(beams.angles, ends)
+    axes.fill(np.append(xs, 0.0), np.append(ys, 0.0), color=style.SKY + "38", linewidth=0, zorder=1.5)
+    rays = [((0.04 * x, 0.04 * y), (x, y)) for x, y in zip(xs, ys, strict=True)]
+    axes.add_collection(LineCollection(rays, colors=style.SKY + "60", linewidths=0.5, zorder=1.6), autolim=False)
+    if nearest is None:
+        return
+    dots: dict[str, Any] = {"marker": "o", "markersize": 3.4, "markeredgewidth": 0, "linestyle": "none"}
+    axes.plot(xs[beams.sees], ys[beams.sees], color=style.VERMILLION, zorder=6, **dots)
+    ring: dict[str, Any] = {"marker": "o", "markersize": 10, "markerfacecolor": "none", "markeredgewidth": 1.2}
+    axes.plot(xs[nearest], ys[nearest], markeredgecolor=style.INK, zorder=7, **ring)
 
 
-def _subtitle(beams: Beams, second: float) -> str:
-    figures = f"{int(beams.sees.sum())} of {len(beams)} beams see something"
-    best = beams.nearest()
-    if best is not None:
-        degrees = number(math.degrees(beams.angles[best]), 0)
-        figures += f", the nearest at {number(beams.ranges[best])} m, {degrees}°"
-    return f"{SCAN_TOPIC} at {number(second, 1)} s of robot time  ·  {figures}"
+def nice_step(reach: float) -> float:
+    """Return a distance between rings: 1, 2 or 5 times a power of ten, for three to five of them."""
+    power = 10.0 ** math.floor(math.log10(reach / 5.5))
+    return next(power * factor for factor in (1, 2, 5, 10) if power * factor >= reach / 5.5)
+
+
+def _polar(angles: Any, ranges: Any) -> tuple[Any, Any]:
+    """Places in the picture: forward is up, so left (a positive angle) is left."""
+    return -np.sin(angles) * ranges, np.cos(angles) * ranges

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from ..path_geometry import WORLD
+from ..path import WORLD
 from ..words import angle, number, point, turned
 from .assertions import no_answer
 from .probe import Answer, Heard, Probe

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from ...turtlesim.obstacles import Circle
-from ..path_geometry import WORLD
+from ..path import WORLD
 from ..words import angle, count, number
 from .assertions import no_errors, node, publishes
 from .functions import agrees, learner_function, returns

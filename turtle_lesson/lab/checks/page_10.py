@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ..path_geometry import WORLD
+from ..path import WORLD
 from ..words import count, listed, number, point
 from . import page_04, page_05, page_06
 from .assertions import no_errors, publishes, subscribes

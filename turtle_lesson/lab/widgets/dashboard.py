@@ -8,10 +8,10 @@ import numpy as np
 import traitlets
 
 from .. import style
-from ..laser_plot import read_beams
 from ..path import plot_path
 from ..picture import SHARPNESS, Picture
 from ..recording import Recording
+from ..scan import read_beams
 from ..status import plot_status
 from ..words import angle, count, listed, number, point
 from .live_widget import script, styles

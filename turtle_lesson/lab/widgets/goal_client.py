@@ -14,9 +14,6 @@ from .lazy_endpoints import Server
 from .live_data import Pace
 
 SERVICE = "/navigate_to"
-WORLD = 11.088889
-"""Side of turtlesim's square world, m."""
-
 DISCOVERY = 2.0
 """Seconds of real time that a real network may take until a new client has found the navigator."""
 

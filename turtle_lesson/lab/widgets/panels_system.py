@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import traitlets
 
-from ..laser_plot import Beams, read_beams
 from ..recording import NANOSECONDS, OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, Table
+from ..scan import Beams, read_beams
 from ..system import EVERYWHERE, is_hidden
 from ..words import listed, number
 from .lazy_endpoints import Ear

@@ -12,7 +12,7 @@ import traitlets
 
 from ...turtlesim.obstacles import WORLDS, Box, Circle
 from ..obstacle_board import Obstacle
-from ..path_geometry import find_jumps
+from ..path import find_jumps
 from ..recording import UNDER_WAY, Table
 from ..words import angle, count, listed, point
 from .goal_client import Goal, GoalDesk

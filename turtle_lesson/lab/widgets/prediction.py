@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import traitlets
 
-from ..path_geometry import WORLD
+from ..path import WORLD
 from .backend import Link, Loop
 from .live_widget import LiveWidget, script, styles
 

@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 import umsgpack
 
-from ..laser_plot import read_beams
-from ..path_geometry import WORLD
+from ..path import WORLD
 from ..recording import Obstacle
+from ..scan import read_beams
 from . import scene_mesh as turtle
 from . import scene_mesh as world
 from .goal_client import Goal

@@ -12,9 +12,9 @@ from numpy.typing import ArrayLike
 
 from .. import style
 from ..drawing import BACK, BODY, HEAD, LEGS, OUTLINE, RIM, SHELL, SKIN, TAIL
-from ..laser_plot import Beams, reach_of
-from ..path_geometry import TOLERANCE, WORLD
+from ..path import TOLERANCE, WORLD
 from ..recording import Obstacle
+from ..scan import Beams, reach_of
 
 
 @dataclass(frozen=True, eq=False)

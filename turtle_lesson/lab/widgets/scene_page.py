@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..path_geometry import distance_driven, find_jumps, thinned
+from ..path import distance_driven, find_jumps, thinned
 from ..words import number, point
 from . import scene_commands as parts
 from .goal_client import goals_from

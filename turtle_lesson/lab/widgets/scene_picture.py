@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import style
-from ..laser_plot import read_beams
-from ..path_geometry import WORLD, find_jumps
+from ..path import WORLD, find_jumps
 from ..picture import Picture
 from ..recording import UNDER_WAY, Table
+from ..scan import read_beams
 from ..words import angle, count, listed, number, point
 from . import scene_mesh as turtle
 from . import scene_mesh as world
