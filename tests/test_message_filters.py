@@ -10,7 +10,7 @@ import rclpy
 from builtin_interfaces.msg import Time as Stamp
 from hypothesis import given
 from hypothesis import strategies as st
-from message_filters import ApproximateTimeSynchronizer, Cache, Chain, SimpleFilter, Subscriber, TimeSynchronizer
+from message_filters import ApproximateTimeSynchronizer, Cache, SimpleFilter, Subscriber, TimeSynchronizer
 from rclpy.time import Time
 from sensor_msgs.msg import Image
 from std_msgs.msg import Header, String
@@ -108,21 +108,6 @@ def test_a_history(world: World) -> None:
     assert millis(cache.getElemBeforeTime(at(2.5))) == 2000
     assert (cache.getOldestTime(), cache.getLastestTime()) == (at(2), at(4))
     assert millis(cache.getLast()) == 4000
-
-
-def test_a_chain(world: World) -> None:
-    """What a cache hands on comes out of the chain, and the last filter is asked what it saw."""
-    source, chain, found = SimpleFilter(), Chain(), list[int]()
-    first, second = Cache(SimpleFilter(), 1), Cache(SimpleFilter(), 2)
-    chain.connectInput(source)
-    chain.registerCallback(lambda message: found.append(millis(message)))
-    source.signalMessage(image(1))
-    chain.addFilter(first)
-    chain.addFilter(second)
-    source.signalMessage(image(2))
-    assert found == [1, 2] and chain.getFilter(1) is second and len(second.cache_msgs) == 1
-    with pytest.raises(RuntimeError, match="Already connected"):
-        chain.connectInput(source)
 
 
 def test_subscriptions(run: Run) -> None:

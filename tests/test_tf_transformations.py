@@ -74,25 +74,9 @@ def test_turns_as_quaternions_and_matrices_agree(angle: float, axis: tuple, poin
     assert np.allclose(tft.quaternion_matrix(tft.quaternion_multiply(turn, again)), both)
     matrix = tft.rotation_matrix(angle, axis, point)
     assert np.allclose(matrix @ [*point, 1], [*point, 1])
-    assert tft.is_same_transform(tft.inverse_matrix(matrix) @ matrix, tft.identity_matrix())
+    assert np.allclose(tft.inverse_matrix(matrix) @ matrix, tft.identity_matrix())
     shifted = tft.translation_matrix(other) @ matrix
     assert np.allclose(tft.translation_from_matrix(shifted), np.array(other) + matrix[:3, 3])
-
-
-@given(angles, vectors, vectors)
-def test_a_turn_is_found_again_in_its_matrix(angle: float, axis: tuple, point: tuple) -> None:
-    assume(np.linalg.norm(axis) > 1e-3 and abs(math.remainder(angle, 2 * math.pi)) > 1e-2)
-    matrix = tft.rotation_matrix(angle, axis, point)
-    assert np.allclose(tft.rotation_matrix(*tft.rotation_from_matrix(matrix)), matrix, atol=1e-6)
-
-
-@given(st.tuples(*[st.floats(0.1, 3.0)] * 3), vectors, st.tuples(*[st.floats(-1.5, 1.5)] * 3), vectors)
-def test_matrices_are_taken_apart_as_they_were_put_together(
-    scale: tuple, shear: tuple, turn: tuple, shift: tuple
-) -> None:
-    matrix = tft.compose_matrix(scale, shear, turn, shift)
-    assert np.allclose(tft.compose_matrix(*tft.decompose_matrix(matrix)), matrix)
-    assert np.allclose(tft.decompose_matrix(matrix)[2], turn, atol=1e-6)
 
 
 def test_half_way_between_two_turns() -> None:
@@ -102,14 +86,10 @@ def test_half_way_between_two_turns() -> None:
     assert np.allclose(tft.quaternion_slerp(one, two, 1.0), two)
 
 
-def test_vectors_and_random_turns() -> None:
+def test_vectors() -> None:
     assert tft.vector_norm([3, 4]) == 5.0 and np.allclose(tft.unit_vector([3, 4]), [0.6, 0.8])
     assert np.allclose(tft.vector_norm([[3, 4], [6, 8]], axis=1), [5, 10])
     assert np.allclose(tft.unit_vector([[3, 4], [6, 8]], axis=1), [[0.6, 0.8]] * 2)
-    assert np.isclose(tft.vector_norm(tft.random_quaternion([0.1, 0.2, 0.3])), 1.0)
-    matrix = tft.random_rotation_matrix()
-    assert np.allclose(matrix @ matrix.T, np.identity(4))
-    assert np.allclose(tft.scale_matrix(2.0, (1, 0, 0), (1, 0, 0)) @ [2, 3, 4, 1], [3, 3, 4, 1])
 
 
 def test_mistakes_are_explained() -> None:
@@ -117,7 +97,7 @@ def test_mistakes_are_explained() -> None:
         tft.euler_from_quaternion(Quaternion())
     with pytest.raises(ValueError, match="axes must be such as 'sxyz' or 'rzyx', got 'xyz'"):
         tft.quaternion_from_euler(0, 0, 0, "xyz")
-    with pytest.raises(AttributeError, match="shear_matrix is not available here; a real ROS 2 has it"):
-        tft.shear_matrix  # noqa: B018
+    with pytest.raises(AttributeError, match="compose_matrix is not available here; a real ROS 2 has it"):
+        tft.compose_matrix  # noqa: B018
     with pytest.raises(AttributeError, match="has no attribute 'quaternion_from_yaw'"):
         tft.quaternion_from_yaw  # noqa: B018

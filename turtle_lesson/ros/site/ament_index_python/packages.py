@@ -5,16 +5,8 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from turtle_lesson.ros.ament.errors import PackageNotFoundError
+from turtle_lesson.ros.ament.errors import PackageNotFoundError as PackageNotFoundError
 from turtle_lesson.ros.ament.index import current_packages
-
-__all__ = [
-    "PackageNotFoundError",
-    "get_package_prefix",
-    "get_package_share_directory",
-    "get_package_share_path",
-    "get_packages_with_prefixes",
-]
 
 
 def get_packages_with_prefixes() -> dict[str, str]:

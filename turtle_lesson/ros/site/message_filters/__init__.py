@@ -1,7 +1,7 @@
 """Filters that messages run through: by subscription, by time, in a history, or in step with other topics.
 
 Facts: ros2/message_filters, src/message_filters/__init__.py. What is of C++ alone (`TimeSequencer`, other policies of
-synchronising) is not here either.
+synchronising) is not here either, nor is `Chain`.
 """
 
 from __future__ import annotations
@@ -16,16 +16,6 @@ from rclpy.duration import Duration
 from rclpy.logging import LoggingSeverity, get_logger
 from rclpy.node import Node
 from rclpy.time import Time
-
-__all__ = [
-    "ApproximateTimeSynchronizer",
-    "Cache",
-    "Chain",
-    "SimpleFilter",
-    "Subscriber",
-    "TimeSynchronizer",
-]
-
 
 if not TYPE_CHECKING:
     from rclpy._hints import explain_missing
@@ -158,48 +148,6 @@ class Cache(SimpleFilter):
 
     def _entries(self) -> list[tuple[Any, Time]]:
         return list(zip(self.cache_msgs, self.cache_times, strict=True))
-
-
-# -- chain --------------------------------------------------------------------------------------------------------
-# Filters in a row, seen as one.
-
-
-class Chain(SimpleFilter):
-    """What comes in runs through all filters that were added; what leaves the last one comes out."""
-
-    def __init__(self, message_filter: SimpleFilter | None = None) -> None:
-        super().__init__()
-        self.incoming_connection: int | None = None
-        self._filters: list[Any] = []
-        self._outlets: list[int] = []
-        if message_filter is not None:
-            self.connectInput(message_filter)
-
-    def connectInput(self, message_filter: SimpleFilter) -> None:
-        """Take messages from another filter. Raises RuntimeError the second time."""
-        if self.incoming_connection is not None:
-            raise RuntimeError("Already connected")
-        self.incoming_connection = message_filter.registerCallback(self.add)
-
-    def add(self, message: Any) -> None:
-        """Have a message run through."""
-        if self._filters:
-            self._filters[0].add(message)
-        else:
-            self.signalMessage(message)
-
-    def addFilter(self, message_filter: Any) -> None:
-        """Put a filter behind those that are there."""
-        if self._filters:
-            last = self._filters[-1]
-            last.callbacks.pop(self._outlets[-1])
-            self._outlets[-1] = last.registerCallback(message_filter.add)
-        self._filters.append(message_filter)
-        self._outlets.append(message_filter.registerCallback(self.signalMessage))
-
-    def getFilter(self, index: int) -> Any:
-        """The filter with this number, from 0 on."""
-        return self._filters[index]
 
 
 # -- stamps -------------------------------------------------------------------------------------------------------

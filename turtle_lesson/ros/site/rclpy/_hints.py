@@ -112,9 +112,11 @@ def explain_missing(module: str) -> Callable[[str], Any]:
     def missing(name: str) -> Any:
         if name.startswith("__"):
             raise AttributeError(name)
-        if not name.startswith("_") and importlib.util.find_spec(f"{module}.{name}") is not None:
+        here = vars(sys.modules[module])
+        is_package = "__path__" in here and not name.startswith("_")
+        if is_package and importlib.util.find_spec(f"{module}.{name}") is not None:
             return importlib.import_module(f"{module}.{name}")
-        known = [public for public in vars(sys.modules[module]) if not public.startswith("_")]
+        known = [public for public in here if not public.startswith("_")]
         hint = did_you_mean(name, known) or "; a real ROS 2 may have it, but it is not available here yet"
         # With an object that has nothing, Python adds no "Did you mean" of its own.
         raise AttributeError(f"the simulated module {module!r} has no {name!r}{hint}", name=name, obj=None)

@@ -31,7 +31,7 @@ BORROWED: dict[str, dict[str, str]] = {
         "rclpy.event_handler": "PublisherEventCallbacks SubscriptionEventCallbacks",
         "rclpy.exceptions": "InvalidHandle InvalidParameterException InvalidParameterTypeException"
         " InvalidParameterValueException"
-        " InvalidTopicNameException ParameterAlreadyDeclaredException ParameterImmutableException"
+        " InvalidTopicNameException NodeNameNonExistentError ParameterAlreadyDeclaredException ParameterImmutableException"
         " ParameterNotDeclaredException ParameterUninitializedException",
         "rclpy.executors": "Executor",
         "rclpy.expand_topic_name": "expand_topic_name",

@@ -6,8 +6,6 @@ from collections.abc import Callable
 from typing import Any
 from weakref import WeakSet
 
-__all__ = ["CallbackGroup", "MutuallyExclusiveCallbackGroup", "ReentrantCallbackGroup"]
-
 
 class CallbackGroup:
     """Base class. An executor asks `can_execute`, then `beginning_execution`, then calls `ending_execution`."""

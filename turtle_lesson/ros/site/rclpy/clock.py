@@ -28,16 +28,6 @@ if TYPE_CHECKING:
     from .time_source import TimeSource
     from .timer import Timer
 
-__all__ = [
-    "Clock",
-    "ClockChange",
-    "ClockType",
-    "JumpHandle",
-    "JumpThreshold",
-    "ROSClock",
-    "TimeJump",
-]
-
 
 class Clock:
     """A clock of one kind; looking at it costs a microsecond of virtual time.

@@ -18,27 +18,6 @@ from .clock_type import CEnum
 from .logging import get_logger
 from .qos import QoSPolicyKind, qos_policy_name_from_kind
 
-__all__ = [
-    "EventHandler",
-    "IncompatibleTypeInfo",
-    "PublisherEventCallbacks",
-    "QoSEventHandler",
-    "QoSLivelinessChangedInfo",
-    "QoSLivelinessLostInfo",
-    "QoSMessageLostInfo",
-    "QoSOfferedDeadlineMissedInfo",
-    "QoSOfferedIncompatibleQoSInfo",
-    "QoSPublisherEventType",
-    "QoSPublisherMatchedInfo",
-    "QoSRequestedDeadlineMissedInfo",
-    "QoSRequestedIncompatibleQoSInfo",
-    "QoSSubscriptionEventType",
-    "QoSSubscriptionMatchedInfo",
-    "SubscriptionEventCallbacks",
-    "UnsupportedEventTypeError",
-]
-
-
 # -- event infos --------------------------------------------------------------------------------------------------
 # What may happen to a publisher or subscription, and what its callback is told (rcl's event.h, rmw's
 # events_statuses).

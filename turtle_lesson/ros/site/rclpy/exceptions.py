@@ -9,42 +9,15 @@ from turtle_lesson.ros.sim.errors import WorldClosed
 
 from ._rclpy_pybind11 import (
     InvalidHandle,
-    NodeNameNonExistentError,
     RCLError,
-    RCLInvalidROSArgsError,
-    TimerCancelledError,
-    UnknownROSArgsError,
 )
+from ._rclpy_pybind11 import NodeNameNonExistentError as NodeNameNonExistentError
+from ._rclpy_pybind11 import RCLInvalidROSArgsError as RCLInvalidROSArgsError
+from ._rclpy_pybind11 import TimerCancelledError as TimerCancelledError
+from ._rclpy_pybind11 import UnknownROSArgsError as UnknownROSArgsError
 
 if TYPE_CHECKING:
     from turtle_lesson.ros.sim.simulation import Simulation
-
-
-__all__ = [
-    "InvalidHandle",
-    "InvalidNamespaceException",
-    "InvalidNodeNameException",
-    "InvalidParameterException",
-    "InvalidParameterTypeException",
-    "InvalidParameterValueException",
-    "InvalidServiceNameException",
-    "InvalidTopicNameException",
-    "NameValidationException",
-    "NoTypeSupportImportedException",
-    "NodeNameNonExistentError",
-    "NotInitializedException",
-    "ParameterAlreadyDeclaredException",
-    "ParameterException",
-    "ParameterImmutableException",
-    "ParameterNotDeclaredException",
-    "ParameterUninitializedException",
-    "RCLError",
-    "RCLInvalidROSArgsError",
-    "ROSInterruptException",
-    "TimerCancelledError",
-    "UnknownROSArgsError",
-    "refuse_destroyed",
-]
 
 
 class NotInitializedException(Exception):

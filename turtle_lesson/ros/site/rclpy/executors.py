@@ -36,21 +36,6 @@ from .task import Future, Task, at_once
 if TYPE_CHECKING:
     from .node import Node
 
-__all__ = [
-    "Condition",
-    "ConditionReachedException",
-    "Executor",
-    "ExternalShutdownException",
-    "Job",
-    "MultiThreadedExecutor",
-    "ShutdownException",
-    "SingleThreadedExecutor",
-    "TimeoutException",
-    "TimeoutObject",
-    "await_or_execute",
-]
-
-
 # -- executor -----------------------------------------------------------------------------------------------------
 # Executors: they wait until callbacks are ready, and run them. How they choose is in `_executor_base.py`.
 

@@ -8,20 +8,6 @@ from pathlib import Path
 from .impl.logging_severity import LoggingSeverity
 from .impl.rcutils_logger import RcutilsLogger, forget_levels, level_of, set_level_of
 
-__all__ = [
-    "LoggingSeverity",
-    "RcutilsLogger",
-    "clear_config",
-    "get_logger",
-    "get_logger_effective_level",
-    "get_logger_level",
-    "get_logging_directory",
-    "get_logging_severity_from_string",
-    "initialize",
-    "set_logger_level",
-    "shutdown",
-]
-
 
 def get_logger(name: str) -> RcutilsLogger:
     """A logger of this name."""

@@ -21,7 +21,7 @@ from .callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup
 from .client import Client
 from .clock import Clock, ROSClock
 from .context import Context
-from .exceptions import NodeNameNonExistentError, NotInitializedException, RCLError, RCLInvalidROSArgsError
+from .exceptions import NotInitializedException, RCLError, RCLInvalidROSArgsError
 from .guard_condition import GuardCondition
 from .impl.rcutils_logger import RcutilsLogger, publish_rosout_no_more
 from .logging_service import LoggingService
@@ -40,8 +40,6 @@ from .validate_node_name import validate_node_name
 
 if TYPE_CHECKING:
     from .executors import Executor
-
-__all__ = ["HIDDEN_NODE_PREFIX", "Node", "NodeNameNonExistentError"]
 
 HIDDEN_NODE_PREFIX = "_"
 """What the name of a node begins with that tools leave out of their lists."""

@@ -17,13 +17,6 @@ if TYPE_CHECKING:
 
     from .context import Context
 
-__all__ = [
-    "SignalHandlerOptions",
-    "get_current_signal_handlers_options",
-    "install_signal_handlers",
-    "uninstall_signal_handlers",
-]
-
 
 class SignalHandlerOptions(Enum):
     """Choice of `rclpy.init(signal_handler_options=…)`."""

@@ -31,12 +31,6 @@ if TYPE_CHECKING:
     from .clock import Clock
     from .context import Context
 
-__all__ = [
-    "Rate",
-    "Timer",
-]
-
-
 SHORTEST = 47_000
 NOT_BY_THE_SIMULATION = -1
 

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from .node import Node
     from .qos import QoSProfile
 
-__all__ = ["wait_for_message"]
-
 
 @drives_the_simulation
 def wait_for_message(

@@ -4,7 +4,7 @@ Names as in tf2_py (geometry2); programs mostly use `tf2_ros.Buffer`, which is a
 """
 
 from ._buffer_core import BufferCore
-from ._exceptions import (
+from ._frames import (
     ConnectivityException,
     ExtrapolationException,
     InvalidArgumentException,

@@ -1,24 +1,46 @@
-"""The store of all transforms that were heard of, and the answers that it gives.
+"""The store of all transforms that were received, and the answers that it gives.
 
-Facts: geometry2, tf2/src/buffer_core.cpp and tf2_py/src/tf2_py.cpp.
+Facts: geometry2, tf2/src/buffer_core.cpp (validateFrameId, setTransformImpl, allFramesAsYAML) and tf2_py/src/tf2_py.cpp.
 """
 
 from __future__ import annotations
 
+import math
+import re
+import sys
 from typing import Any
 
 from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
+from rclpy._deadlock import is_notebook
 from rclpy.time import Time
 
-from ._arguments import check_frame, frames_as_yaml, nanoseconds, read_transform, say, wrong_name
-from ._cache import Cache, StaticCache, TimeCache, shown_time
-from ._exceptions import TransformException
+from turtle_lesson.ros.runtime.world import current_process
+
+from ._frames import (
+    Cache,
+    Frames,
+    InvalidArgumentException,
+    Kept,
+    LookupException,
+    StaticCache,
+    TimeCache,
+    TransformException,
+    Way,
+    combined,
+    frames_as_string,
+    latest_common_time,
+    shown_time,
+)
+from ._frames import Transform as Pair
 from ._rotation import canonical
-from ._walk import Transform as Pair
-from ._walk import Way, combined, frames_as_string, latest_common_time
 
 CACHE_TIME = 10_000_000_000
 """How long (ns) transforms are kept unless told otherwise."""
+SECOND = 1_000_000_000
+TOLERANCE = 10e-3
+"""How far the squared length of a quaternion may be off 1."""
+SHORTEST = 100_000
+"""ns; transforms that came within less time count as if they had taken this long."""
 
 
 class BufferCore:
@@ -144,8 +166,24 @@ class BufferCore:
         return frames_as_string(self._frames)
 
     def all_frames_as_yaml(self) -> str:
-        """Each frame with its parent, rate and times, as YAML."""
-        return frames_as_yaml(self._frames, self._authorities)
+        """Each frame that has transforms, as YAML: parent, broadcaster, rate (Hz), and the newest and oldest times."""
+        if not self._frames:
+            return "[]"
+        lines = []
+        for name, cache in self._frames.items():
+            if cache is None or cache.latest_parent() is None:
+                continue
+            newest, oldest = cache.latest_stamp(), cache.oldest_stamp()
+            lines += [
+                f"{name}: ",
+                f"  parent: '{cache.latest_parent()}'",
+                f"  broadcaster: '{self._authorities.get(name, 'no recorded authority')}'",
+                f"  rate: {len(cache) * 1e9 / max(newest - oldest, SHORTEST):.3f}",
+                f"  most_recent_transform: {shown_time(newest)}",
+                f"  oldest_transform: {shown_time(oldest)}",
+                f"  buffer_length: {(newest - oldest) / 1e9:.3f}",
+            ]
+        return "".join(f"{line}\n" for line in lines)
 
     def _frameExists(self, frame_id: str) -> bool:
         """Whether a frame was heard of."""
@@ -180,3 +218,97 @@ def _as_message(pair: Pair, stamp: int, target: str, source: str) -> TransformSt
     translation = Vector3(x=place[0], y=place[1], z=place[2])
     message.transform = Transform(translation=translation, rotation=Quaternion(x=x, y=y, z=z, w=w))
     return message
+
+
+# -- what may be given: times, frames and transforms -------------------------------------------------------------------
+
+
+def nanoseconds(value: Any, what: str = "time") -> int:
+    """A time or duration in ns, given as rclpy's or as a message. Raises TypeError."""
+    if hasattr(value, "sec") and hasattr(value, "nanosec"):
+        return value.sec * 1_000_000_000 + value.nanosec
+    if hasattr(value, "nanoseconds"):
+        return value.nanoseconds
+    kind = "Time" if what == "time" else "Duration"
+    hint = f"got {value!r}; write rclpy.{kind.lower()}.{kind}(seconds=…)"
+    raise TypeError(f"{what} must have sec and nanosec, or nanoseconds: {hint}")
+
+
+def check_frame(frames: Frames, frame: Any, argument: str) -> str:
+    """The name of a frame that there is. Raises InvalidArgumentException, LookupException, TypeError."""
+    wrong = wrong_name(frame)
+    if wrong:
+        raise InvalidArgumentException(f'Invalid argument "{frame}" passed to {argument} - {wrong}')
+    if frame not in frames:
+        error = LookupException(f'"{frame}" passed to {argument} does not exist. ')
+        error.add_note(
+            f"Frames received so far: {', '.join(frames)}."
+            if frames
+            else "No transform has been received yet: is a broadcaster running, and is the node with the TransformListener "
+            "spinning?"
+        )
+        raise error
+    return frame
+
+
+def wrong_name(frame: Any) -> str:
+    """Why this can be no frame's name; "" if it can."""
+    if not isinstance(frame, str):
+        raise TypeError(f"a frame's name must be a str, got {frame!r}")
+    if not frame:
+        return "in tf2 frame_ids cannot be empty"
+    return "in tf2 frame_ids cannot start with a '/'" if frame.startswith("/") else ""
+
+
+def read_transform(transform: Any, authority: str) -> tuple[str, Kept] | None:
+    """A TransformStamped as (child, what is kept of it); None if tf2 ignores it, which is said on the console."""
+    parent = transform.header.frame_id.removeprefix("/")
+    child = transform.child_frame_id.removeprefix("/")
+    place, turn = transform.transform.translation, transform.transform.rotation
+    where = (place.x, place.y, place.z)
+    how = canonical((turn.x, turn.y, turn.z, turn.w))
+    if not (parent and child and parent != child and _is_sound(where, how)):
+        for refusal in _refusals(parent, child, where, how, authority):
+            say("Error:  ", refusal)
+        return None
+    return child, Kept(nanoseconds(transform.header.stamp), parent, how, where)
+
+
+def _is_sound(place: tuple[float, ...], turn: tuple[float, ...]) -> bool:
+    """Whether these are numbers, and the quaternion has a length of about 1."""
+    x, y, z, w = turn
+    length_is_one = abs(x * x + y * y + z * z + w * w - 1.0) < TOLERANCE
+    return length_is_one and not any(map(math.isnan, place))
+
+
+def _refusals(parent: str, child: str, place: tuple[float, ...], turn: tuple[float, ...], authority: str) -> list[str]:
+    by = f'from authority "{authority}"'
+    found = []
+    if child == parent:
+        same = f'with frame_id and  child_frame_id "{child}" because they are the same'
+        found.append(f"TF_SELF_TRANSFORM: Ignoring transform {by} {same}")
+    if not child:
+        found.append(f"TF_NO_CHILD_FRAME_ID: Ignoring transform {by} because child_frame_id not set ")
+    if not parent:
+        found.append(f'TF_NO_FRAME_ID: Ignoring transform with child_frame_id "{child}"  {by} because frame_id not set')
+    quaternion = f"({' '.join(f'{each:f}' for each in turn)})"
+    if any(map(math.isnan, (*place, *turn))):
+        values = f"because of a nan value in the transform ({' '.join(f'{each:f}' for each in place)}) {quaternion}"
+        found.append(f'TF_NAN_INPUT: Ignoring transform for child_frame_id "{child}" {by} {values}')
+    if not abs(sum(each * each for each in turn) - 1.0) < TOLERANCE:
+        values = f"because of an invalid quaternion in the transform {quaternion}"
+        found.append(f'TF_DENORMALIZED_QUATERNION: Ignoring transform for child_frame_id "{child}" {by} {values}')
+    return found
+
+
+def say(level: str, text: str) -> None:
+    """Print what tf2 prints without a logger: to the running program's stderr, in a cell to its output.
+
+    A complaint of the same kind about the same frame is printed once a second at most, not for each message.
+    """
+    process = current_process()
+    now, said = process.simulation.now, process.locals.setdefault("tf2.said", {})
+    kind = re.sub(r"\d", "", text)  # the figures change from message to message
+    if now - said.get(kind, -SECOND) >= SECOND:
+        said[kind] = now
+        print(level, text, file=sys.stdout if is_notebook(process) else sys.stderr)

@@ -19,10 +19,6 @@ from tf2_py import BufferCore
 
 from .buffer_interface import AT_ONCE, BufferInterface
 
-__all__ = [
-    "Buffer",
-]
-
 
 class Buffer(BufferCore, BufferInterface):
     """Keeps the transforms that a TransformListener hears, and answers for any two frames.

@@ -14,16 +14,6 @@ from rclpy.duration import Duration
 from rclpy.time import Time
 from std_msgs.msg import Header
 
-__all__ = [
-    "BufferInterface",
-    "ConvertRegistration",
-    "NotImplementedException",
-    "Stamped",
-    "TransformRegistration",
-    "TypeException",
-    "convert",
-]
-
 AT_ONCE = Duration()
 """A timeout of no time: nothing is waited for."""
 Transforming = Callable[[Any, TransformStamped], Any]
@@ -57,10 +47,6 @@ class TransformRegistration:
     def get(self, key: Any) -> Transforming:
         """The function for a type. Raises TypeException."""
         return _found(self._functions, key)
-
-    def print_me(self) -> None:
-        """Print all of them."""
-        print(self._functions)
 
 
 class ConvertRegistration:
@@ -99,13 +85,10 @@ def _found(functions: dict[Any, Callable[..., Any]], key: Any) -> Callable[..., 
     if key in functions:
         return functions[key]
     error = TypeException(f"Type {key} is not loaded or supported")
-    clouds = "sensor_msgs" in str(key) and "geometry_msgs" not in str(key)
-    note = (
-        "The types of sensor_msgs are transformed by tf2_sensor_msgs, which is not available here"
-        if clouds
-        else "For the types of geometry_msgs write: import tf2_geometry_msgs"
-    )
-    error.add_note(note)
+    if "sensor_msgs" in str(key) and "geometry_msgs" not in str(key):
+        error.add_note("The types of sensor_msgs are transformed by tf2_sensor_msgs, which is not available here")
+    else:
+        error.add_note("For the types of geometry_msgs write: import tf2_geometry_msgs")
     raise error
 
 
@@ -163,36 +146,8 @@ class BufferInterface:
         found = do_transform(object_stamped, transform)
         return found if new_type is None else convert(found, new_type)
 
-    def lookup_transform(
-        self, target_frame: str, source_frame: str, time: Time, timeout: Duration = AT_ONCE
-    ) -> TransformStamped:
-        """Where the source frame is, seen from the target frame; for subclasses to say."""
-        raise NotImplementedException()
+    def lookup_transform(self, *asked: Any, **keywords: Any) -> Any:
+        """Where a frame is, seen from another one, as `Buffer` has it; for subclasses to say."""
+        raise NotImplementedException
 
-    def lookup_transform_full(
-        self,
-        target_frame: str,
-        target_time: Time,
-        source_frame: str,
-        source_time: Time,
-        fixed_frame: str,
-        timeout: Duration = AT_ONCE,
-    ) -> TransformStamped:
-        """The same between two times; for subclasses to say."""
-        raise NotImplementedException()
-
-    def can_transform(self, target_frame: str, source_frame: str, time: Time, timeout: Duration = AT_ONCE) -> Any:
-        """Whether there is such a transform; for subclasses to say."""
-        raise NotImplementedException()
-
-    def can_transform_full(
-        self,
-        target_frame: str,
-        target_time: Time,
-        source_frame: str,
-        source_time: Time,
-        fixed_frame: str,
-        timeout: Duration = AT_ONCE,
-    ) -> Any:
-        """Whether there is such a transform between two times; for subclasses to say."""
-        raise NotImplementedException()
+    lookup_transform_full = can_transform = can_transform_full = lookup_transform

@@ -15,8 +15,6 @@ from tf2_msgs.msg import TFMessage
 
 from .transform_broadcaster import as_list
 
-__all__ = ["StaticTransformBroadcaster"]
-
 
 class StaticTransformBroadcaster:
     """Publishes transforms once, for all who listen now or later.

@@ -10,8 +10,6 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from tf2_msgs.msg import TFMessage
 
-__all__ = ["TransformBroadcaster"]
-
 
 class TransformBroadcaster:
     """Publishes the transforms of frames that move. `qos`: quality of service, or how many messages to keep."""

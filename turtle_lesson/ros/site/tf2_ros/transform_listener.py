@@ -15,8 +15,6 @@ from tf2_msgs.msg import TFMessage
 
 from .buffer import Buffer
 
-__all__ = ["DEFAULT_STATIC_TF_TOPIC", "DEFAULT_TF_TOPIC", "TransformListener"]
-
 DEFAULT_TF_TOPIC = "/tf"
 DEFAULT_STATIC_TF_TOPIC = "/tf_static"
 

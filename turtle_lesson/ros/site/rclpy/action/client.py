@@ -28,12 +28,6 @@ from ._goals import ACTIVE, key_of
 if TYPE_CHECKING:
     from ..node import Node
 
-__all__ = [
-    "ActionClient",
-    "ClientGoalHandle",
-]
-
-
 FEEDBACK = QoSProfile(depth=10)
 POLL = 0.25  # how often, in s, the real one looks whether a server has appeared (client.py)
 

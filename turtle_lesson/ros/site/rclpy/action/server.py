@@ -33,19 +33,6 @@ if TYPE_CHECKING:
 
     from ..node import Node
 
-__all__ = [
-    "ActionServer",
-    "CancelResponse",
-    "GoalEvent",
-    "GoalResponse",
-    "RCLError",
-    "ServerGoalHandle",
-    "default_cancel_callback",
-    "default_goal_callback",
-    "default_handle_accepted_callback",
-]
-
-
 # -- requests -----------------------------------------------------------------------------------------------------
 # What an action server does with the requests that come in: for goals, for cancelling, and for results.
 

@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from .. import _rclpy_pybind11 as rclpy_implementation
+from .. import _rclpy_pybind11
 
-__all__ = ["rclpy_implementation"]
+rclpy_implementation = _rclpy_pybind11

@@ -26,11 +26,6 @@ from .logging_severity import LoggingSeverity
 if TYPE_CHECKING:
     from turtle_lesson.ros.sim.process import Process
 
-__all__ = [
-    "RcutilsLogger",
-]
-
-
 EVERYWHERE: dict[str, Any] = {}
 TWO_OF_A_NAME = (
     "Publisher already registered for provided node name. If this is due to multiple nodes with the same name then all "

@@ -11,8 +11,6 @@ from ._states import TransitionCallbackReturnType as TransitionCallbackReturn
 if TYPE_CHECKING:
     from .node import LifecycleState
 
-__all__ = ["ManagedEntity", "SimpleManagedEntity", "TransitionCallbackReturn"]
-
 
 class ManagedEntity:
     """Base class. Each method is told of a transition, with the state it begins in, and returns how that went."""

@@ -17,14 +17,6 @@ from ._states import TransitionCallbackReturnType as TransitionCallbackReturn
 from .managed_entity import ManagedEntity
 from .publisher import LifecyclePublisher
 
-__all__ = [
-    "LifecycleNode",
-    "LifecycleNodeMixin",
-    "LifecycleState",
-    "TransitionCallbackReturn",
-]
-
-
 CONFIGURE, CLEANUP, ACTIVATE, DEACTIVATE = 1, 2, 3, 4
 SHUTDOWN = {"unconfigured": 5, "inactive": 6, "active": 7}
 HANDLERS = {
