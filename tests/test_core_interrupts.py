@@ -66,7 +66,7 @@ class Watchdog(interrupts.Watchdog):
 def watchdog(monkeypatch: pytest.MonkeyPatch) -> Watchdog:
     """The watchdog of all runs of this test."""
     watchdog = Watchdog()
-    monkeypatch.setattr(interrupts, "_watchdog", watchdog)
+    monkeypatch.setattr(interrupts, "watchdog", watchdog)
     monkeypatch.setattr(interrupts, "_monotonic", lambda: watchdog.real)
     monkeypatch.setattr(interrupts, "work_done", lambda: watchdog.work)
     return watchdog

@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING, Any
 from .ros.sim.defer_sigint import defer_sigint
 
 with defer_sigint():
-    from .ros.idl import finder
-    from .ros.stdlib import clocks, random_numbers
+    from .ros.stdlib import patches
 
 if TYPE_CHECKING:
     from .session.lesson import Lesson, start
@@ -30,9 +29,7 @@ def _make_importable() -> None:
     """Put what a learner imports last on the path, the way sourcing a setup file adds to it."""
     if SITE not in sys.path:
         sys.path.append(SITE)
-    finder.install()
-    clocks.install()
-    random_numbers.install()
+    patches.install(patches.Stage.IMPORT)
 
 
 def load_ipython_extension(shell: Any) -> None:

@@ -181,7 +181,7 @@ def forked(job: Callable[[], str]) -> tuple[str, int]:
     if child == 0:
         try:
             os.close(reading)
-            interrupts._watchdog = interrupts.Watchdog()  # the thread of the old one is not in this process
+            interrupts.watchdog = interrupts.Watchdog()  # the thread of the old one is not in this process
             said = job()
             with os.fdopen(writing, "w", encoding="utf-8") as stream:
                 stream.write(said)

@@ -11,7 +11,6 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from .. import subprocesses
 from ..ament.index import PackageIndex
 from ..distro import UNCHECKED_FIELDS, VARIABLE, chosen_release
 from ..hints import advice
@@ -22,7 +21,7 @@ from ..sim.errors import is_library
 from ..sim.process import Output, Process
 from ..sim.simulation import EPOCH, Simulation
 from ..sim.strand import running_strand
-from ..stdlib import clocks, ownership, random_numbers, replacements
+from ..stdlib import ownership, patches
 from ..stdlib.environment import encoded
 from ..stdlib.program import run_program
 
@@ -47,11 +46,7 @@ class World:
     def __init__(self, seed: int = 0, distro: str | None = None) -> None:
         self.release = chosen_release(distro)
         checks.when_assigned = not self.release.has(UNCHECKED_FIELDS)
-        clocks.install()
-        random_numbers.install()
-        random_numbers.install_for_numpy()
-        replacements.install()
-        subprocesses.install()
+        patches.install()
         advice.install()
         self.seed = seed
         self.sim = Simulation()

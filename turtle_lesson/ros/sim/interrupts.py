@@ -75,14 +75,14 @@ class Guard:
     def __enter__(self) -> Guard:
         if self._active:
             self._previous = signal.signal(signal.SIGINT, self._on_signal)
-            self._outer = _watchdog.watch(self)
+            self._outer = watchdog.watch(self)
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         if self._active:
-            _watchdog.watch(self._outer)
+            watchdog.watch(self._outer)
             if self._previous is not None:
                 signal.signal(signal.SIGINT, self._previous)
 
@@ -197,8 +197,16 @@ class Watchdog:
             self._thread = threading.Thread(target=self._loop, name="turtle_lesson watchdog", daemon=True)
             self._thread.start()
 
+    def stop(self) -> None:
+        """Have it end, until the next run; it watches nothing now."""
+        thread, self._thread = self._thread, None
+        if thread is not None:
+            self._wanted.set()
+            thread.join()
+            self._wanted.clear()
+
     def _loop(self) -> None:
-        while True:
+        while self._thread is threading.current_thread():
             self._wanted.wait()
             self.look()
             _sleep(min(0.25, patience / 4, interrupt_patience / 4))
@@ -243,7 +251,7 @@ def _interrupt_main_thread() -> None:
         _thread.interrupt_main()
 
 
-_watchdog = Watchdog()
+watchdog = Watchdog()
 
 
 # -- what the main thread is doing ---------------------------------------------------------------------------------------

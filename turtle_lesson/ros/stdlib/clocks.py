@@ -11,16 +11,14 @@ from typing import Any
 
 from greenlet import getcurrent
 
-from ..sim.simulation import CLOCK_READ, EPOCH, NANOSECONDS
+from ..sim.simulation import EPOCH, NANOSECONDS
 from ..sim.strand import Strand
-from .patches import is_replaced, replace_function
 
 # -- virtual time -------------------------------------------------------------------------------------------------
-# `time.time()`, `time.sleep()` and their kin mean virtual time inside a simulated process, and only there.
+# `time.time()` and its kin mean virtual time inside a simulated process, and only there.
 # The functions of the standard `time` module are replaced by ones that look at what is running: a strand of a
 # simulated process gets virtual time, everybody else (Jupyter, the event loop, other threads) gets the real one.
 
-real_time = time.time
 real_sleep = time.sleep
 real_monotonic = time.monotonic
 
@@ -45,42 +43,15 @@ def _nanoseconds(origin: int) -> Callable[..., int]:
     return read
 
 
-def never(seconds: float) -> bool:
-    """Plain code sleeps in real time."""
-    return False
-
-
-sleeps_in_robot_time: Callable[[float], bool] = never
-"""Asked when plain code wants to sleep: whether that was done in robot time, as a cell does that has started threads."""
-
-
-def _sleep(real: Callable[[float], None], seconds: float, /) -> None:
-    """Like time.sleep: in a simulated process it holds up this strand alone, in virtual time."""
-    strand = getcurrent()
-    if type(strand) is not Strand:
-        if not sleeps_in_robot_time(seconds):
-            real(seconds)
-        return
-    if seconds < 0:
-        raise ValueError("sleep length must be non-negative")
-    strand.simulation.sleep_until(strand.simulation.now + max(CLOCK_READ, round(seconds * NANOSECONDS)))
-
-
-def install() -> None:
-    """Replace the functions of the standard `time` module; a second call does nothing."""
-    if is_replaced(time, "sleep"):
-        return
-    replacements: dict[str, Any] = {
-        "time": _seconds(EPOCH),
-        "monotonic": _seconds(0),
-        "perf_counter": _seconds(0),
-        "time_ns": _nanoseconds(EPOCH),
-        "monotonic_ns": _nanoseconds(0),
-        "perf_counter_ns": _nanoseconds(0),
-        "sleep": _sleep,
-    }
-    for name, function in replacements.items():
-        replace_function(time, name, function)
+CLOCKS: dict[str, Callable[..., Any]] = {
+    "time": _seconds(EPOCH),
+    "monotonic": _seconds(0),
+    "perf_counter": _seconds(0),
+    "time_ns": _nanoseconds(EPOCH),
+    "monotonic_ns": _nanoseconds(0),
+    "perf_counter_ns": _nanoseconds(0),
+}
+"""By name in `time`, the clocks; `time.sleep` is in `threads.py`."""
 
 
 # -- time of day --------------------------------------------------------------------------------------------------
@@ -88,7 +59,7 @@ def install() -> None:
 # A robot's clock is in UTC here, whatever the computer's is, so that a program prints the same text everywhere.
 
 _gmtime, _asctime = time.gmtime, time.asctime
-_CLOCKS = {getattr(time, name, None): name for name in ("CLOCK_REALTIME", "CLOCK_MONOTONIC")}
+_CLOCK_IDS = {getattr(time, name, None): name for name in ("CLOCK_REALTIME", "CLOCK_MONOTONIC")}
 
 
 def gmtime(real: Callable[..., Any], seconds: float | None = None, /) -> time.struct_time:
@@ -133,15 +104,15 @@ def mktime(real: Callable[..., float], moment: Any, /) -> float:
 
 def clock_gettime(real: Callable[[int], float], clk_id: int, /) -> float:
     """What a clock of the system shows, in s."""
-    if clk_id in _CLOCKS and type(getcurrent()) is Strand:
-        return time.time() if _CLOCKS[clk_id] == "CLOCK_REALTIME" else time.monotonic()
+    if clk_id in _CLOCK_IDS and type(getcurrent()) is Strand:
+        return time.time() if _CLOCK_IDS[clk_id] == "CLOCK_REALTIME" else time.monotonic()
     return real(clk_id)
 
 
 def clock_gettime_ns(real: Callable[[int], int], clk_id: int, /) -> int:
     """What a clock of the system shows, in ns."""
-    if clk_id in _CLOCKS and type(getcurrent()) is Strand:
-        return time.time_ns() if _CLOCKS[clk_id] == "CLOCK_REALTIME" else time.monotonic_ns()
+    if clk_id in _CLOCK_IDS and type(getcurrent()) is Strand:
+        return time.time_ns() if _CLOCK_IDS[clk_id] == "CLOCK_REALTIME" else time.monotonic_ns()
     return real(clk_id)
 
 

@@ -167,7 +167,13 @@ _WHAT_ENDS_IT = {
     "Thread.join": "end that thread",
 }
 
-_PUBLIC = {"_PySimpleQueue.get": "SimpleQueue.get", "_RLock.acquire": LOCK}
+_PUBLIC = {
+    "VirtualSimpleQueue.get": "SimpleQueue.get",
+    "_RLock.acquire": LOCK,
+    "_wait_for_notice": "Condition.wait",
+    "join.<locals>.join": "Thread.join",
+}
+"""By what a frame's code is called: the documented function that it stands for."""
 
 hints: list[Callable[[Strand], str]] = []
 """Functions that know what to advise a strand that waits for something impossible; the first text that one returns is used."""
@@ -228,12 +234,12 @@ def _called_in(frame: FrameType | None) -> str:
     """The function of the rooms of threads that the program has called."""
     found = ""
     while frame is not None:
-        name = frame.f_globals.get("__name__", "")
+        name, function = frame.f_globals.get("__name__", ""), frame.f_code.co_qualname
         if name in _ROOMS:
-            found = _PUBLIC.get(frame.f_code.co_qualname, frame.f_code.co_qualname)
-        elif name == f"{__package__}.locks" and frame.f_code.co_name == "_wait_for_notice":
-            found = "Condition.wait"
-        elif not name.startswith(_OURS):
+            found = _PUBLIC.get(function, function)
+        elif name.startswith(_OURS):
+            found = _PUBLIC.get(function, found)
+        else:
             break
         frame = frame.f_back
     return found

@@ -2,13 +2,8 @@
 
 from __future__ import annotations
 
-import dataclasses
-import importlib
-import inspect
 import os
-import pickle
-import typing
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from greenlet import getcurrent
@@ -21,10 +16,28 @@ from .program import running_modules
 # They are a copy of the notebook's, or what the launch file says that starts it.
 
 
-class ProcessEnviron(os._Environ):
+_RealEnviron: Any = type(os.environ)
+
+
+class ProcessEnviron(_RealEnviron):
     """The type of `os.environ`: which variables it holds depends on the process that reads it."""
 
-    _data: Any = property(lambda self: vars(self)["_data"] if (own := _own()) is None else own)
+    def __getitem__(self, key: Any) -> Any:
+        own = _own()
+        if own is None:
+            return super().__getitem__(key)
+        try:
+            return self.decodevalue(own[self.encodekey(key)])
+        except KeyError:
+            raise KeyError(key) from None
+
+    def __iter__(self) -> Iterator[Any]:
+        own = _own()
+        return super().__iter__() if own is None else map(self.decodekey, list(own))
+
+    def __len__(self) -> int:
+        own = _own()
+        return super().__len__() if own is None else len(own)
 
     def __setitem__(self, key: Any, value: Any) -> None:
         own = _own()
@@ -44,9 +57,8 @@ class ProcessEnviron(os._Environ):
 def encoded(variables: Mapping[str, str] | None) -> dict[Any, Any]:
     """These variables as a process keeps them; without any, a copy of the caller's."""
     environ: Any = os.environ
-    if variables is None:
-        return dict(environ._data)
-    return {environ.encodekey(name): environ.encodevalue(text) for name, text in variables.items()}
+    given = environ if variables is None else variables
+    return {environ.encodekey(name): environ.encodevalue(text) for name, text in given.items()}
 
 
 def _own() -> dict[Any, Any] | None:
@@ -58,14 +70,14 @@ def _own() -> dict[Any, Any] | None:
 # -- own modules --------------------------------------------------------------------------------------------------
 # Functions of the standard library that look into `sys.modules` for a module of the program that runs.
 
-LOOKS_INTO_SYS_MODULES: tuple[tuple[Any, str], ...] = (
-    (importlib, "import_module"),
-    (importlib, "reload"),
-    (pickle, "dump"),
-    (pickle, "dumps"),
-    (typing, "get_type_hints"),
-    (dataclasses, "dataclass"),
-    (inspect, "getfile"),
+LOOKS_INTO_SYS_MODULES = (
+    ("importlib", "import_module"),
+    ("importlib", "reload"),
+    ("pickle", "dump"),
+    ("pickle", "dumps"),
+    ("typing", "get_type_hints"),
+    ("dataclasses", "dataclass"),
+    ("inspect", "getfile"),
 )
 
 

@@ -20,7 +20,7 @@ from ..sim.run_blocking import drive
 from ..sim.simulation import NANOSECONDS
 from ..sim.strand import Strand, running_strand
 from .deadlock import look_for_hope
-from .ownership import is_for_everybody, notebook_here
+from .ownership import is_for_everybody, notebook_here, process_here
 from .polling import count_look
 
 RealLock = type(allocate_lock())
@@ -143,7 +143,10 @@ class VirtualLock:
         self.owner = None
 
 
-class VirtualRLock(threading._RLock):  # type: ignore[misc]
+_PythonRLock: Any = getattr(threading, "_RLock", object)
+
+
+class VirtualRLock(_PythonRLock):
     """What `threading.RLock()` is in a simulated process: Python's own that is written in Python, on a virtual lock."""
 
     def __init__(self) -> None:
@@ -190,6 +193,22 @@ def _wait_for_notice(condition: Any, timeout: float | None) -> bool:
         condition._acquire_restore(state)
         if not notified and waiter in condition._waiters:
             condition._waiters.remove(waiter)
+
+
+def rlock(real: Any, *arguments: Any, **keywords: Any) -> Any:
+    """`threading.RLock`, which is a function."""
+    return (real if process_here() is None else VirtualRLock)(*arguments, **keywords)
+
+
+def peek(real: Any) -> float:
+    """A clock for waiting with a time limit: unlike `time.monotonic`, looking at it takes no virtual time."""
+    strand = getcurrent()
+    if type(strand) is Strand:
+        return strand.simulation.now / NANOSECONDS
+    notebook = notebook_here()
+    if notebook is not None and is_virtual(sys._getframe(1).f_locals.get("self")):
+        return notebook.simulation.now / NANOSECONDS
+    return real()
 
 
 def is_virtual(waited_for: Any) -> bool:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import importlib
 import sys
-import threading
 from _thread import get_ident
 from collections.abc import Callable
 from contextvars import copy_context
@@ -183,6 +182,5 @@ def facade(real: Any, virtual: Callable[..., Any], kinds: tuple[type, ...]) -> A
 # `threading.local` in a simulated process: each of its threads sees attributes of its own.
 # It is the class that Python keeps for systems whose threads have none in C: it goes by `threading.current_thread`.
 
-RealLocal: Any = threading.local
 module: Any = importlib.import_module("_threading_local")
 VirtualLocal: Any = module.local

@@ -1,44 +1,86 @@
-"""What this package puts in the place of other modules' functions and classes, and the originals, to be put back.
+"""The one table of everything that this package puts in the place of the interpreter's own: `install`, `uninstall`.
 
-Every replacement in another module goes through `replace` or one of its relatives, so that `replaced` knows all of them.
+A row names an attribute of a module, class or object, what makes ours from the original, and why. `uninstall` puts the
+very originals back, and a later `install` puts ours in again. Outside simulated processes and a learner's cells all
+replacements behave as the real ones do, so modules that took a name out of the standard library (`from threading import
+Lock`) before, meanwhile or afterwards go on working.
+
+Some rows come with `import turtle_lesson`, so that a program that begins with `from time import sleep` has ours; most
+come with the first world; a few only when a program imports the module that they change.
 """
 
 from __future__ import annotations
 
 import atexit
+import importlib
+import os
+import queue
+import random
 import sys
+import threading
+import warnings
 from collections.abc import Callable
-from types import MethodType
-from typing import Any
+from enum import IntEnum
+from functools import cache, partial
+from pkgutil import resolve_name
+from types import MethodType, ModuleType
+from typing import Any, NamedTuple
 
-replaced: list[tuple[Any, str, Any]] = []
-"""Owner, name and original of each attribute that was replaced, the oldest first."""
+from ..idl import finder
+from ..sim import interrupts
+from . import (
+    asyncio_loops,
+    clocks,
+    environment,
+    locks,
+    ownership,
+    polling,
+    pools,
+    random_numbers,
+    signals,
+    subprocesses,
+    terminals,
+    threads,
+    unsupported,
+)
+from .ownership import facade, in_no_strand
+from .program import ProgramFinder, on_import
 
-finders: list[Any] = []
-"""What was added to `sys.meta_path`."""
-
-
-def replace(owner: Any, name: str, new: Any) -> None:
-    """Put something in the place of an attribute of a module or class."""
-    if not replaced:
-        atexit.register(restore)  # nothing may ask which greenlet runs while Python takes itself apart
-    replaced.append((owner, name, vars(owner)[name] if name in vars(owner) else getattr(owner, name)))
-    setattr(owner, name, new)
-
-
-def replace_function(owner: Any, name: str, function: Callable[..., Any]) -> None:
-    """Put a function in the place of a module's, if it has one of this name; the real one is its first argument.
-
-    As a method of the real one it is as good an attribute of a class as that: it is not bound once more.
-    """
-    real = getattr(owner, name, None)
-    if real is not None:
-        replace(owner, name, MethodType(named(function, name, real), real))
+__all__ = ["FINDERS", "PRIVATE_NAMES", "TABLE", "Finder", "Patch", "Stage", "install", "original", "uninstall"]
 
 
-def replace_method(owner: type, name: str, method: Callable[..., Any]) -> None:
-    """Put a method in the place of a class's."""
-    replace(owner, name, named(method, name, getattr(owner, name)))
+class Stage(IntEnum):
+    """When a row is put in."""
+
+    IMPORT = 1
+    """By `import turtle_lesson`."""
+    WORLD = 2
+    """By the first world."""
+    USE = 3
+    """When a simulated program imports the module."""
+
+
+class Patch(NamedTuple):
+    """One replaced attribute; `owner` is named as `pkgutil.resolve_name` reads it, and `ours` gets the original."""
+
+    owner: str
+    name: str
+    ours: Callable[[Any], Any]
+    why: str
+    stage: Stage = Stage.WORLD
+
+
+class Finder(NamedTuple):
+    """One entry of `sys.meta_path`."""
+
+    name: str
+    add: Callable[[], object]
+    remove: Callable[[], object]
+    why: str
+    stage: Stage
+
+
+# -- what stands in for an original ----------------------------------------------------------------------------------
 
 
 def named(function: Any, name: str, real: Any) -> Any:
@@ -48,35 +90,314 @@ def named(function: Any, name: str, real: Any) -> Any:
     return function
 
 
-def add_finder(finder: Any) -> None:
-    """Have import statements ask a finder before all others."""
-    finders.append(finder)
-    sys.meta_path.insert(0, finder)
+def _function(owner: str, function: Callable[..., Any], why: str, name: str = "", stage: Stage = Stage.WORLD) -> Patch:
+    """A row for a function that gets the real one as its first argument.
+
+    As a method of the real one it is as good an attribute of a class as that: it is not bound once more.
+    """
+    name = name or function.__name__
+    return Patch(owner, name, lambda real: MethodType(named(function, name, real), real), why, stage)
 
 
-def is_replaced(owner: Any, name: str) -> bool:
-    """Whether an attribute was replaced."""
-    return any(each is owner and called == name for each, called, _ in replaced)
+def _method(owner: str, name: str, make: Callable[[Any], Any], why: str, stage: Stage = Stage.WORLD) -> Patch:
+    """A row for a method of a class, made from the real one."""
+    return Patch(owner, name, lambda real: named(make(real), name, real), why, stage)
+
+
+def _now(owner: str, name: str) -> Callable[[Any], Any]:
+    """What an attribute in a row above is by now: for a second name of the same thing."""
+    return lambda real: getattr(resolve_name(owner), name)
+
+
+# -- the table -------------------------------------------------------------------------------------------------------
+
+TIME = "virtual time in a simulated process"
+DATE = "the robot's date, in UTC, in a simulated process"
+DRAW = "random numbers that are a process's own, by the world's seed"
+PEEK = "waiting with a time limit reads a clock, which takes no virtual time"
+THREAD = "a thread of a simulated process is a strand of it, in virtual time"
+NAMES = "numbers in names count by process"
+LOOPS = "an asyncio loop that waits in virtual time"
+SIGNAL = "handlers are those of the simulated process"
+REFUSED = "what only a real operating system can do is refused to a simulated process"
+MODULES = "looks into sys.modules, where the running program's modules must be"
+AT_EXIT = "is called when the simulated process ends"
+
+TABLE: tuple[Patch, ...] = (
+    *(_function("time", each, TIME, name, Stage.IMPORT) for name, each in clocks.CLOCKS.items()),
+    _function("time", threads.sleep, TIME, stage=Stage.IMPORT),
+    *(_function("time", each, DATE) for each in clocks.REPLACEMENTS),
+    Patch("logging:Formatter", "converter", _now("time", "localtime"), DATE),
+    *(
+        Patch("random", name, partial(random_numbers.drawing, name), DRAW, Stage.IMPORT)
+        for name in random.__all__
+        if type(getattr(getattr(random, name), "__self__", None)) is random.Random
+    ),
+    *(Patch("numpy.random", name, partial(random_numbers.numpy_drawing, name), DRAW) for name in random_numbers.NUMPY),
+    Patch("numpy.random", "default_rng", random_numbers.default_rng, DRAW),
+    Patch(
+        "threading",
+        "Lock",
+        lambda real: facade(real, locks.VirtualLock, (locks.RealLock, locks.VirtualLock)),
+        "waits in virtual time",
+    ),
+    _function("threading", locks.rlock, "waits in virtual time", "RLock"),
+    _method("threading:Event", "is_set", lambda real: polling.is_set, "polling takes time, or would never end"),
+    _method("threading:Condition", "wait", locks.condition_wait, "waits in virtual time"),
+    _function("threading", locks.peek, PEEK, "_time"),
+    _function("queue", locks.peek, PEEK, "time"),
+    Patch(
+        "queue",
+        "SimpleQueue",
+        lambda real: facade(real, pools.VirtualSimpleQueue, (real, pools.VirtualSimpleQueue)),
+        "Python's is made in C, on a lock of its own",
+    ),
+    _method("threading:Thread", "start", threads.start, THREAD),
+    _method("threading:Thread", "join", threads.join, THREAD),
+    _method("threading:Thread", "is_alive", threads.is_alive, THREAD),
+    _method("threading:Thread", "__repr__", threads.representation, THREAD),
+    *(_function("threading", each, THREAD) for each in threads.REPLACEMENTS),
+    _function("threading", threads.newname, NAMES, "_newname"),
+    _function("_thread", threads.start_new_thread, THREAD),
+    Patch("_threading_local", "current_thread", _now("threading", "current_thread"), "local values go by strand"),
+    Patch("_threading_local", "RLock", _now("threading", "RLock"), "waits in virtual time"),
+    Patch(
+        "threading",
+        "local",
+        lambda real: facade(real, ownership.VirtualLocal, (real, ownership.VirtualLocal)),
+        "Python's is made in C, and goes by real threads",
+    ),
+    _method("concurrent.futures.thread:ThreadPoolExecutor", "__init__", pools.init, "eight threads on every computer"),
+    _function("concurrent.futures.thread:ThreadPoolExecutor", pools.next_number, NAMES, "_counter"),
+    Patch(
+        "concurrent.futures.thread",
+        "_global_shutdown_lock",
+        pools.NotInStrands,
+        "a strand must not wait for another one with it",
+    ),
+    Patch("concurrent.futures.thread", "_threads_queues", pools.Queues, "Python would join simulated threads at exit"),
+    *(_function("asyncio.events", each, LOOPS) for each in asyncio_loops.REPLACEMENTS),
+    *(Patch("asyncio", e.__name__, _now("asyncio.events", e.__name__), LOOPS) for e in asyncio_loops.REPLACEMENTS),
+    *(_function("signal", each, SIGNAL) for each in signals.REPLACEMENTS),
+    _function("os", signals.kill, SIGNAL),
+    _function("_thread", signals.interrupt_main, SIGNAL),
+    _function("os", signals.exit_now, "ends the simulated process alone", "_exit"),
+    _function("os", terminals.read, "reads the program's own terminal"),
+    *(_function("os", unsupported.processes(f"os.{name}()"), REFUSED, name) for name in ("fork", "forkpty")),
+    *(
+        _function("signal", unsupported.signals(f"signal.{name}()"), REFUSED, name)
+        for name in ("setitimer", "sigwait", "sigwaitinfo", "sigtimedwait", "set_wakeup_fd", "pthread_kill")
+    ),
+    *(_function(owner, environment.showing(), MODULES, name) for owner, name in environment.LOOKS_INTO_SYS_MODULES),
+    _method("ipykernel.iostream:OutStream", "flush", in_no_strand, "waits for a real thread, in which no time passes"),
+    Patch("os:environ", "__class__", lambda real: environment.ProcessEnviron, "variables are a process's own"),
+    _function("atexit", signals.register, AT_EXIT),
+    _function("atexit", signals.unregister, AT_EXIT),
+    Patch(
+        "subprocess", "Popen", lambda real: subprocesses.WorldPopen, "ros2 commands and Python files run in the world"
+    ),
+    _function("os", subprocesses.system, "ros2 commands and Python files run in the world"),
+    _method("multiprocessing.process:BaseProcess", "start", unsupported.start_process, REFUSED, Stage.USE),
+    _method("tkinter:Tk", "__init__", unsupported.first_window, "a program here has no screen", Stage.USE),
+)
+
+FINDERS: tuple[Finder, ...] = (
+    Finder(
+        "InterfaceFinder",
+        finder.install,
+        finder.uninstall,
+        "makes the modules of message packages when they are imported",
+        Stage.IMPORT,
+    ),
+    Finder(
+        "ProgramFinder",
+        lambda: sys.meta_path.insert(0, ProgramFinder),
+        lambda: sys.meta_path.remove(ProgramFinder),
+        "gives each program modules of its own",
+        Stage.WORLD,
+    ),
+)
+
+PROVED_ON = ((3, 11), (3, 14))
+"""The oldest and the newest Python with which the names below were seen to do what is expected of them."""
+
+PRIVATE_NAMES: tuple[tuple[Any, str, str], ...] = (
+    (threading, "_time", "time limits of conditions and semaphores"),
+    (queue, "time", "time limits of queues"),
+    (threading, "_newname", "names of threads"),
+    (threading, "_RLock", "the RLock that is written in Python, to run on a virtual lock"),
+    (threading.Condition(), "_waiters", "waiting for a condition"),
+    (threading.Condition(), "_is_owned", "waiting for a condition"),
+    (threading.Condition(), "_release_save", "waiting for a condition"),
+    (threading.Condition(), "_acquire_restore", "waiting for a condition"),
+    (threading.Event(), "_flag", "looking at an event without its lock"),
+    (threading.Thread(name="unused"), "_initialized", "starting a thread"),
+    (threading.Thread(name="unused"), "_started", "starting a thread"),
+    (threading.Thread(name="unused"), "_ident", "the number of a thread"),
+    (threading.Thread(name="unused"), "_native_id", "the number of a thread"),
+    (threading.Thread(name="unused"), "_target", "telling a pool's threads from others"),
+    (ownership.module, "local", "the `threading.local` that is written in Python"),
+    (pools.pool, "_worker", "telling a pool's threads from others"),
+    (pools.pool, "_threads_queues", "ending a program's pools"),
+    (pools.pool, "_global_shutdown_lock", "starting work in a pool"),
+    (pools.pool.ThreadPoolExecutor, "_counter", "names of a pool's threads"),
+    (asyncio_loops.asyncio.BaseEventLoop, "_run_once", "a loop that waits in virtual time"),
+)
+"""What is used of the standard library without being documented: owner, name and purpose.
+
+`asyncio._enter_task` and its kin are not among them: their underscore notwithstanding, they are documented.
+(https://docs.python.org/3/library/asyncio-extending.html)
+"""
+
+
+def _check_python(version: tuple[int, int] = sys.version_info[:2]) -> None:
+    """On a Python that is newer than those that were tried: go on and say so, unless a private name is gone.
+
+    Raises:
+        NotImplementedError: if one is.
+    """
+    if version <= PROVED_ON[1]:
+        return
+    known = "Python " + " to ".join(f"{major}.{minor}" for major, minor in PROVED_ON)
+    here = f"Python {version[0]}.{version[1]}"
+    gone = [f"{name} ({purpose})" for owner, name, purpose in PRIVATE_NAMES if not hasattr(owner, name)]
+    if gone:
+        raise NotImplementedError(
+            f"turtle_lesson runs on {known}; {here} has changed what simulated programs need: {', '.join(gone)}"
+        )
+    warnings.warn(f"turtle_lesson was tried on {known}, and not yet on {here}", RuntimeWarning, stacklevel=3)
+
+
+# -- putting in and taking out ---------------------------------------------------------------------------------------
+
+_NOT_THERE = object()
+_replaced: list[tuple[Any, str, Any]] = []
+"""Owner, name and original of what is replaced now, the oldest first; an attribute that a class inherits is `_NOT_THERE`."""
+_finders: list[Finder] = []
+_stages: set[Stage] = set()
+
+
+def install(stage: Stage = Stage.WORLD) -> None:
+    """Put in all rows up to a stage; what is in stays as it is.
+
+    Raises:
+        NotImplementedError: on a Python that lacks what simulated threads need.
+    """
+    if stage in _stages:
+        return
+    if stage is Stage.WORLD:
+        install(Stage.IMPORT)
+        _check_python()
+        _put_in_place_of_modules()
+    elif not _replaced:
+        atexit.register(_at_exit)
+    _stages.add(stage)
+    for patch in TABLE:
+        if patch.stage is stage:
+            _put_in(patch)
+    for each in FINDERS:
+        if each.stage is stage:
+            _finders.append(each)
+            each.add()
+
+
+def uninstall() -> None:
+    """Put back all originals; the next world installs ours again. `import turtle_lesson` adds to `sys.path`, which stays.
+
+    Raises:
+        RuntimeError: while a world is open.
+    """
+    notebook = ownership.Notebook.process()
+    if notebook is not None and not notebook.simulation.closed:
+        raise RuntimeError("a world is open, whose programs need what is to be taken out: close it first")
+    _take_out()
+    interrupts.watchdog.stop()
+    atexit.unregister(_at_exit)
+
+
+def _take_out() -> None:
+    for owner, name, real in reversed(_replaced):
+        if real is _NOT_THERE:
+            delattr(owner, name)
+        else:
+            setattr(owner, name, real)
+    for each in _finders:
+        each.remove()
+    _replaced.clear()
+    _finders.clear()
+    _stages.clear()
+    on_import.clear()
+
+
+def _put_in(patch: Patch) -> None:
+    """Put in one row, if this Python, on this system, has what it replaces, and Jupyter's part if Jupyter runs."""
+    owner_module = patch.owner.partition(":")[0]
+    if owner_module.startswith("ipykernel.") and owner_module not in sys.modules:
+        return
+    owner, name = resolve_name(patch.owner), patch.name
+    if not hasattr(owner, name):
+        return
+    real = getattr(owner, name)
+    own = vars(owner).get(name, _NOT_THERE) if isinstance(owner, type) else real
+    ours = patch.ours(real)
+    _replaced.append((owner, name, own))
+    setattr(owner, name, ours)
 
 
 def original(owner: Any, name: str) -> Any:
     """The real attribute of a module or class, whether it was replaced or not."""
-    found = (real for each, called, real in replaced if each is owner and called == name)
+    found = (real for each, called, real in _replaced if each is owner and called == name)
     return next(found, None) or getattr(owner, name)
 
 
-def restore() -> None:
-    """Put all originals back; who still holds one of ours gets from it what the real one gives."""
+def _at_exit() -> None:
+    """Nothing may ask which greenlet runs while Python takes itself apart; then put all originals back."""
     ours = __name__.partition(".")[0]
     for name, module in list(sys.modules.items()):
         if name.startswith(ours) and name != "turtle_lesson.ros.sim.strand" and hasattr(module, "getcurrent"):
             module.getcurrent = _nothing  # type: ignore[attr-defined]
-    for owner, name, real in reversed(replaced):
-        setattr(owner, name, real)
-    replaced.clear()
-    sys.meta_path[:] = [finder for finder in sys.meta_path if finder not in finders]
-    finders.clear()
+    _take_out()
 
 
 def _nothing() -> None:
     """No strand runs any more."""
+
+
+# -- modules that programs get instead of the real ones --------------------------------------------------------------
+
+
+def _put_in_place_of_modules() -> None:
+    """What import statements of simulated programs, and of nobody else, get or cause."""
+    termios = terminals.make_termios()
+    own = [clocks.make_module(), termios, terminals.make_tty(termios), terminals.make_select(), terminals.make_fcntl()]
+    if os.name == "nt":  # elsewhere programs find out by its absence that they are not on Windows
+        own.append(terminals.make_msvcrt())
+    on_import.update({module.__name__: partial(_itself, module) for module in own})
+    on_import.update({toolkit: partial(unsupported.windows, toolkit) for toolkit in unsupported.WINDOWS})
+    on_import["curses"] = partial(_made, "curses_screen")
+    on_import["pynput"] = partial(_made, "pynput_keyboard")
+    on_import["tkinter"] = partial(_put_in_late, "tkinter")
+    on_import["multiprocessing"] = on_import["concurrent"] = partial(_put_in_late, "multiprocessing.process")
+
+
+def _itself(module: ModuleType) -> ModuleType:
+    return module
+
+
+@cache
+def _made(name: str) -> ModuleType:
+    """What a module beside this one makes for programs, once one of them asks for it: few do."""
+    return importlib.import_module(f".{name}", __package__).make_module()
+
+
+def _put_in_late(module: str) -> None:
+    """Put in the rows of a module that a program imports now, which is imported for that."""
+    try:
+        importlib.import_module(module)
+    except ImportError:  # Python may be without tkinter
+        return
+    for patch in TABLE:
+        if patch.stage is Stage.USE and patch.owner.partition(":")[0] == module:
+            owner = resolve_name(patch.owner)
+            if not any(each is owner and name == patch.name for each, name, _ in _replaced):
+                _put_in(patch)

@@ -7,9 +7,10 @@ its names by process. When the main program ends, pools finish what they have be
 from __future__ import annotations
 
 import queue
-import weakref
-from _thread import allocate_lock
+from collections import deque
+from collections.abc import Iterator, MutableMapping
 from concurrent.futures import thread as pool
+from threading import Semaphore
 from typing import TYPE_CHECKING, Any
 
 from greenlet import getcurrent
@@ -26,9 +27,44 @@ if TYPE_CHECKING:
 MOST_WORKERS = 8
 """How many threads a pool has on a computer with four cores, which a simulated one is."""
 
-RealSimpleQueue = queue.SimpleQueue
-VirtualSimpleQueue: Any = queue._PySimpleQueue  # type: ignore[attr-defined]
-_real_init = pool.ThreadPoolExecutor.__init__
+
+class VirtualSimpleQueue:
+    """What `queue.SimpleQueue()` is in a simulated process."""
+
+    __module__ = "queue"
+
+    def __init__(self) -> None:
+        self._items: deque[Any] = deque()
+        self._count = Semaphore(0)
+
+    def put(self, item: Any, block: bool = True, timeout: float | None = None) -> None:
+        """Add an item; there is always room."""
+        self._items.append(item)
+        self._count.release()
+
+    def get(self, block: bool = True, timeout: float | None = None) -> Any:
+        """Take the oldest item, waiting for one if `block`, at most `timeout` s. queue.Empty if there is none."""
+        if timeout is not None and timeout < 0:
+            raise ValueError("'timeout' must be a non-negative number")
+        if not self._count.acquire(block, timeout):
+            raise queue.Empty
+        return self._items.popleft()
+
+    def put_nowait(self, item: Any) -> None:
+        """As `put`."""
+        self.put(item)
+
+    def get_nowait(self) -> Any:
+        """As `get(False)`."""
+        return self.get(False)
+
+    def empty(self) -> bool:
+        """Whether there is no item."""
+        return not self._items
+
+    def qsize(self) -> int:
+        """How many items there are."""
+        return len(self._items)
 
 
 def next_number(real: Any) -> int:
@@ -46,8 +82,8 @@ def number_of_pool(process: Process) -> int:
 class NotInStrands:
     """A lock against the end of Python itself, which can't come while a simulated process runs."""
 
-    def __init__(self) -> None:
-        self._lock = allocate_lock()
+    def __init__(self, real: Any) -> None:
+        self._lock = real
 
     def __enter__(self) -> None:
         if type(getcurrent()) is not Strand:
@@ -58,11 +94,15 @@ class NotInStrands:
             self._lock.release()
 
 
-def init(self: Any, max_workers: int | None = None, *arguments: Any, **keywords: Any) -> None:
-    """Make a pool of threads."""
-    if max_workers is None and process_here() is not None:
-        max_workers = MOST_WORKERS
-    _real_init(self, max_workers, *arguments, **keywords)
+def init(real: Any) -> Any:
+    """`ThreadPoolExecutor.__init__`."""
+
+    def init(self: Any, max_workers: int | None = None, *arguments: Any, **keywords: Any) -> None:
+        if max_workers is None and process_here() is not None:
+            max_workers = MOST_WORKERS
+        real(self, max_workers, *arguments, **keywords)
+
+    return init
 
 
 def is_worker(thread: threading.Thread) -> bool:
@@ -95,15 +135,28 @@ def _workers(process: Process) -> list[tuple[threading.Thread, Any]]:
     return [(thread, work) for thread, work in queues.items() if thread.is_alive()]
 
 
-class Queues(weakref.WeakKeyDictionary[Any, Any]):
+class Queues(MutableMapping[Any, Any]):
     """By thread, the queue from which it gets its work. Python waits for these threads when it ends.
 
-    It need not wait for those of simulated processes: they are kept by the process.
+    It need not wait for those of simulated processes: they are kept by the process. The others are in the `real` one.
     """
+
+    def __init__(self, real: MutableMapping[Any, Any]) -> None:
+        self._real = real
 
     def __setitem__(self, thread: Any, work: Any) -> None:
         strand = vars(thread).get("_strand")
-        if strand is None:
-            super().__setitem__(thread, work)
-        else:
-            strand.process.locals.setdefault("pools.queues", {})[thread] = work
+        own = self._real if strand is None else strand.process.locals.setdefault("pools.queues", {})
+        own[thread] = work
+
+    def __getitem__(self, thread: Any) -> Any:
+        return self._real[thread]
+
+    def __delitem__(self, thread: Any) -> None:
+        del self._real[thread]
+
+    def __iter__(self) -> Iterator[Any]:
+        return iter(self._real)
+
+    def __len__(self) -> int:
+        return len(self._real)

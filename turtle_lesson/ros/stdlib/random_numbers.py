@@ -7,8 +7,6 @@ numpy's unseeded `numpy.random.default_rng()` and for its old global functions.
 
 from __future__ import annotations
 
-import importlib
-import random
 import zlib
 from collections.abc import Callable
 from typing import Any
@@ -16,9 +14,8 @@ from typing import Any
 from greenlet import getcurrent
 
 from ..sim.strand import Strand
-from .patches import is_replaced, replace
 
-_NUMPY_FUNCTIONS = [
+NUMPY = (
     "choice",
     "normal",
     "permutation",
@@ -31,7 +28,8 @@ _NUMPY_FUNCTIONS = [
     "shuffle",
     "standard_normal",
     "uniform",
-]
+)
+"""The functions of `numpy.random` that draw from one state of the whole program."""
 
 
 def _dispatch(name: str, real: Callable[..., Any], source: Callable[[Strand], Any]) -> Callable[..., Any]:
@@ -51,6 +49,11 @@ def _dispatch(name: str, real: Callable[..., Any], source: Callable[[Strand], An
 def _random(strand: Strand) -> Any:
     """The random.Random of the process that runs."""
     return strand.process.random
+
+
+def drawing(name: str, real: Callable[..., Any]) -> Callable[..., Any]:
+    """What stands for a function of the standard `random` module."""
+    return _draw_one(real) if name == "random" else _dispatch(name, real, _random)
 
 
 def _draw_one(real: Callable[[], float]) -> Callable[[], float]:
@@ -76,7 +79,14 @@ def _numpy_state(strand: Strand) -> Any:
     return state
 
 
-def _default_rng(real: Callable[..., Any]) -> Callable[..., Any]:
+def numpy_drawing(name: str, real: Callable[..., Any]) -> Callable[..., Any]:
+    """What stands for one of numpy's old global functions."""
+    return _dispatch(name, real, _numpy_state)
+
+
+def default_rng(real: Callable[..., Any]) -> Callable[..., Any]:
+    """What stands for `numpy.random.default_rng`."""
+
     def default_rng(seed: Any = None) -> Any:
         strand = getcurrent()
         if seed is None and type(strand) is Strand:
@@ -85,22 +95,3 @@ def _default_rng(real: Callable[..., Any]) -> Callable[..., Any]:
 
     default_rng.__doc__ = real.__doc__
     return default_rng
-
-
-def install() -> None:
-    """Replace the functions of the standard `random` module; a second call does nothing."""
-    if is_replaced(random, "random"):
-        return
-    for name, real in list(vars(random).items()):
-        if getattr(real, "__self__", None) is random._inst:
-            replace(random, name, _draw_one(real) if name == "random" else _dispatch(name, real, _random))
-
-
-def install_for_numpy() -> None:
-    """Do the same for `numpy.random`, which is imported for it."""
-    module: Any = importlib.import_module("numpy.random")
-    if is_replaced(module, "default_rng"):
-        return
-    for name in _NUMPY_FUNCTIONS:
-        replace(module, name, _dispatch(name, getattr(module, name), _numpy_state))
-    replace(module, "default_rng", _default_rng(module.default_rng))

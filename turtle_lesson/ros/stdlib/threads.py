@@ -13,6 +13,7 @@ from greenlet import GreenletExit, getcurrent
 
 from ..sim.errors import format_error, learners_frames
 from ..sim.run_blocking import drive
+from ..sim.simulation import CLOCK_READ, NANOSECONDS
 from ..sim.strand import Strand, running_strand
 from .deadlock import look_after
 from .locks import VirtualLock
@@ -26,24 +27,69 @@ if TYPE_CHECKING:
 
 # -- threads ------------------------------------------------------------------------------------------------------
 # `threading.Thread` in a simulated process: a strand of it, in virtual time.
-# The class stays Python's own; `start` decides whose thread it is. A thread begins at once: its starter continues
+# The class stays Python's own; its `start` decides whose thread it is. A thread begins at once: its starter continues
 # when it waits for the first time, as in Python, where `start` waits until the thread runs. In the notebook it begins
 # at this instant of robot time, and lives on whenever the simulation runs.
 
-real_start = threading.Thread.start
+
+def start(real: Any) -> Any:
+    """`Thread.start`."""
+
+    def start(self: Any) -> None:
+        process = process_here()
+        if process is None:
+            real(self)
+            return
+        if not self._initialized:
+            raise RuntimeError("thread.__init__() not called")
+        if self._started.is_set():
+            raise RuntimeError("threads can only be started once")
+        _begin(self, process)
+
+    return start
 
 
-def start(self: threading.Thread) -> None:
-    """Start the thread's activity. RuntimeError if that was done before."""
-    process = process_here()
-    if process is None:
-        real_start(self)
-        return
-    if not self._initialized:  # type: ignore[attr-defined]
-        raise RuntimeError("thread.__init__() not called")
-    if self._started.is_set():  # type: ignore[attr-defined]
-        raise RuntimeError("threads can only be started once")
-    _begin(self, process)
+def join(real: Any) -> Any:
+    """`Thread.join`."""
+
+    def join(self: Any, timeout: float | None = None) -> None:
+        handle = _handle_of(self)
+        if handle is None:
+            real(self, timeout)
+        elif self is threading.current_thread():
+            raise RuntimeError("cannot join current thread")
+        else:
+            handle.join(timeout)
+
+    return join
+
+
+def is_alive(real: Any) -> Any:
+    """`Thread.is_alive`."""
+
+    def is_alive(self: Any) -> bool:
+        handle = _handle_of(self)
+        return real(self) if handle is None else not handle.is_done()
+
+    return is_alive
+
+
+def representation(real: Any) -> Any:
+    """`Thread.__repr__`."""
+
+    def __repr__(self: Any) -> str:
+        handle = _handle_of(self)
+        if handle is None:
+            return real(self)
+        state = "started" if handle.lock.locked() else "stopped"
+        return f"<{type(self).__name__}({self.name}, {state}{' daemon' if self.daemon else ''} {handle.ident})>"
+
+    return __repr__
+
+
+def _handle_of(thread: threading.Thread) -> Handle | None:
+    """What knows whether a simulated thread has ended; None for a real one, and for one that was not started."""
+    return vars(thread).get("_virtual")
 
 
 def _begin(thread: threading.Thread, process: Process) -> None:
@@ -85,21 +131,19 @@ def _tell(thread: threading.Thread, strand: Strand, error: BaseException) -> Non
     print(f"Exception in thread {thread.name}:\n{''.join(lines)}", end="", file=sys.stderr)
 
 
-def wait_for_end(real: Any) -> Any:
-    """`Thread._wait_for_tstate_lock` of Python up to 3.12, which takes an interrupted wait for the thread's end."""
-
-    def wait_for_tstate_lock(self: Any, block: bool = True, timeout: float = -1) -> None:
-        handle = vars(self).get("_virtual")
-        if handle is None:
-            real(self, block, timeout)
-        elif self._tstate_lock is not None and handle.lock.acquire(block, timeout):
-            handle.lock.release()
-            self._stop()
-
-    return wait_for_tstate_lock
+def sleep(real: Callable[[float], None], seconds: float, /) -> None:
+    """`time.sleep`: in a simulated process it holds up this strand alone, in virtual time."""
+    strand = getcurrent()
+    if type(strand) is not Strand:
+        if not _sleep_of_a_cell(seconds):
+            real(seconds)
+        return
+    if seconds < 0:
+        raise ValueError("sleep length must be non-negative")
+    strand.simulation.sleep_until(strand.simulation.now + max(CLOCK_READ, round(seconds * NANOSECONDS)))
 
 
-def sleep_of_a_cell(seconds: float) -> bool:
+def _sleep_of_a_cell(seconds: float) -> bool:
     """Sleep in robot time, if a cell of the learner's does, and a thread lives that cells have started; whether it did."""
     notebook = notebook_here()
     if notebook is None or notebook.simulation.running or not is_called_by_learner():
@@ -123,9 +167,6 @@ def start_new_thread(real: Any, function: Any, args: tuple[Any, ...], kwargs: di
 # -- identity -----------------------------------------------------------------------------------------------------
 # Which thread is this? Strands of a simulated process have `threading.Thread` objects and numbers of their own.
 
-HAS_HANDLES = hasattr(threading, "_ThreadHandle")
-"""Python 3.13 and newer keep in an object of its own whether a thread has ended."""
-
 
 class Handle:
     """Knows whether a simulated thread has ended, and waits for that."""
@@ -140,7 +181,7 @@ class Handle:
 
     def join(self, timeout: float | None = None) -> None:
         """Wait until it has, at most `timeout` s."""
-        if self.lock.acquire(True, -1 if timeout is None else timeout):
+        if self.lock.acquire(True, -1 if timeout is None else max(timeout, 0)):
             self.lock.release()
 
 
@@ -174,10 +215,6 @@ def become(thread: threading.Thread, strand: Strand) -> None:
     handle.lock.owner, handle.lock.surely = strand, True
     strand.thread, state["_strand"] = thread, strand
     state["_ident"] = state["_native_id"] = handle.ident
-    if HAS_HANDLES:
-        state["_handle"] = handle
-    else:
-        state["_tstate_lock"] = handle.lock
     state["_virtual"] = handle
     state["_started"].set()
 
@@ -237,7 +274,7 @@ def _threads(process: Process) -> list[threading.Thread]:
     return [thread for thread in threads if "_virtual" in vars(thread) and thread.is_alive()]
 
 
-def _newname(real: Any, name_template: str) -> str:
+def newname(real: Any, name_template: str) -> str:
     """A name for a thread; those of each simulated process are numbered by themselves."""
     process = process_here()
     if process is None:
@@ -254,7 +291,6 @@ REPLACEMENTS: tuple[Callable[..., Any], ...] = (
     main_thread,
     enumerate,
     active_count,
-    _newname,
 )
 
 
@@ -279,8 +315,6 @@ def wind_down(process: Process) -> None:
 def _wait_for_threads(process: Process) -> None:
     if all(strand.thread is None for strand in process.strands):
         return  # by far the most programs have none
-    pass  # HOUSE: was an import of this file
-
     main = process.main_strand
     if main is not None:
         end(thread_of(main))

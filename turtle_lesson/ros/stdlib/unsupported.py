@@ -4,7 +4,6 @@ windows, whose loops would hold that up.
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Callable
 from importlib.util import find_spec
 from types import ModuleType
@@ -34,21 +33,15 @@ def windows(toolkit: str) -> ModuleType | None:
     return None
 
 
-def tk_windows(replace_method: Callable[[type, str, Any], None]) -> None:
-    """Have tkinter refuse its first window to simulated processes, now that one of them imports it."""
-    try:
-        kind: Any = importlib.import_module("tkinter").Tk
-    except ImportError:
-        return
-    if not hasattr(kind, "_real_init"):
-        kind._real_init = kind.__init__
-        replace_method(kind, "__init__", _tk)
+def first_window(real: Any) -> Any:
+    """`tkinter.Tk.__init__`, which refuses a simulated process its first window."""
 
+    def init(self: Any, *arguments: Any, **keywords: Any) -> None:
+        if type(getcurrent()) is Strand:
+            raise RuntimeError(NO_WINDOW.format("tkinter"))
+        real(self, *arguments, **keywords)
 
-def _tk(self: Any, *arguments: Any, **keywords: Any) -> None:
-    if type(getcurrent()) is Strand:
-        raise RuntimeError(NO_WINDOW.format("tkinter"))
-    self._real_init(*arguments, **keywords)
+    return init
 
 
 def processes(what: str) -> Callable[..., Any]:

@@ -19,21 +19,13 @@ from typing import Any, NoReturn
 
 from greenlet import getcurrent
 
-from .sim.process import Process
-from .sim.simulation import NANOSECONDS
-from .sim.strand import Strand, running_strand
-from .stdlib.ownership import notebook_here
-from .stdlib.patches import replace, replace_function
+from ..sim.process import Process
+from ..sim.simulation import NANOSECONDS
+from ..sim.strand import Strand, running_strand
+from .ownership import notebook_here
 
 _Real = subprocess.Popen
 _STEP = 10_000_000  # how far (ns) the world is run between two looks, for a cell that waits
-
-
-def install() -> None:
-    """Put them in the place of the real ones; a second call changes nothing."""
-    if subprocess.Popen is _Real:
-        replace(subprocess, "Popen", WorldPopen)
-        replace_function(os, "system", _system)
 
 
 class WorldPopen(_Real):
@@ -53,7 +45,7 @@ class WorldPopen(_Real):
             self._begin(args, *plan, everything)
 
     def _begin(self, args: Any, target: Any, argv: list[str], given: dict[str, Any]) -> None:
-        from .runtime.world import current_process, current_world
+        from ..runtime.world import current_process, current_world
 
         if given.get("stdin") not in (None, subprocess.DEVNULL):
             raise NotImplementedError("stdin= is not available here: a program's child has no input")
@@ -148,7 +140,7 @@ class _Condition:
 
     def wait_for(self, predicate: Callable[[], bool], seconds: float | None = None) -> bool:
         """Wait until the predicate holds, at most some seconds of robot time; whether it does."""
-        from .runtime.world import current_world
+        from ..runtime.world import current_world
 
         strand, simulation = running_strand(), current_world().sim
         deadline = None if seconds is None else simulation.now + round(seconds * NANOSECONDS)
@@ -223,8 +215,8 @@ def _plan(args: Any, shell: bool) -> tuple[Any, list[str]] | None:
     Raises:
         NotImplementedError: for a command that the computer could not run, and the world cannot.
     """
-    from .ament.errors import PackageNotFoundError
-    from .launching import commands
+    from ..ament.errors import PackageNotFoundError
+    from ..launching import commands
 
     one = isinstance(args, (str, bytes, os.PathLike))
     words = [os.fsdecode(args)] if one else [os.fsdecode(word) for word in args][: 1 if shell else None]
@@ -265,9 +257,9 @@ def _launch(words: list[str]) -> None:
     from launch.actions import IncludeLaunchDescription
     from launch.launch_description_sources import AnyLaunchDescriptionSource
 
-    from .launching import find_launch_file
-    from .launching.errors import LaunchError
-    from .runtime.world import current_world
+    from ..launching import find_launch_file
+    from ..launching.errors import LaunchError
+    from ..runtime.world import current_world
 
     given = [(name, value) for name, sign, value in (word.partition(":=") for word in words) if sign]
     names = [word for word in words if ":=" not in word and not word.startswith("-")]
@@ -287,7 +279,7 @@ def _fail(sentence: str) -> NoReturn:
     sys.exit(1)
 
 
-def _system(real: Any, command: Any) -> int:
+def system(real: Any, command: Any) -> int:
     """`os.system`: run a shell's line, and wait for its end."""
     if _plan(command, shell=True) is None:
         return real(command)
@@ -295,4 +287,4 @@ def _system(real: Any, command: Any) -> int:
     return code << 8 if code >= 0 else -code
 
 
-__all__ = ["WorldPopen", "install"]
+__all__ = ["WorldPopen", "system"]
