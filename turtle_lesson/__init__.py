@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from .session.lesson import Lesson, start
     from .session.robot import Robot, connect
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 __all__ = ["Lesson", "Robot", "connect", "load_ipython_extension", "start"]
 
 SITE = str(Path(__file__).resolve().parent / "ros" / "site")
