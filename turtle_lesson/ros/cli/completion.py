@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 def complete(world: World, line: str) -> list[str]:
     """The words that the last, unfinished word of a line may become, sorted; `line` ends at the cursor."""
     try:
-        found = list(tokens(line))
+        found = tokens(line)
     except UnfinishedError:
         return []
     starts = [place + 1 for place, token in enumerate(found) if isinstance(token, Operator)]

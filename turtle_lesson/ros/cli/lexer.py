@@ -7,7 +7,6 @@ double quotes stay as they are typed, so that `"{x: 5.0}"` needs no care.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 _CONTINUED = re.compile(r"\\[ \t]*\n")
@@ -18,8 +17,12 @@ _LAST = re.compile(r"\\[ \t]*\Z")
 
 _HERE = re.compile(r"<<-?[ \t]*(['\"]?)(\w+)\1")
 
-OPERATORS = ("&&", "||", ">>", "2>&1", "&>", "2>", ";", "&", "|", ">", "<", "\n")
-SPACE = " \t\r"
+_BETWEEN = re.compile(r"(?:[ \t\r]|\\[ \t]*\n|#[^\n]*)*")
+_OPERATOR = re.compile(r"&&|\|\||>>|2>&1|&>|2>|[;&|><\n]")
+_UNQUOTED = re.compile(r"[^ \t\r\n;&|<>'\"\\]+(?=[ \t\r\n;&|<>]|\Z)")
+"""A word without quotes."""
+
+_WORD_END = " \t\r\n;&|<>"
 
 
 class UnfinishedError(ValueError):
@@ -32,11 +35,6 @@ class Word:
 
     text: str
     pattern: str
-
-    @property
-    def plain(self) -> bool:
-        """Whether no sign of it is quoted."""
-        return self.text == self.pattern
 
 
 @dataclass(frozen=True)
@@ -60,15 +58,13 @@ class BackslashAtEndError(UnfinishedError):
 Token = Word | Operator | HereText
 
 
-def tokens(text: str) -> Iterator[Token]:
+def tokens(text: str) -> list[Token]:
     """Take a script apart.
 
     Raises:
         UnfinishedError: if a quote is never closed.
     """
-    scanner = _Scanner(text)
-    while (token := scanner.next()) is not None:
-        yield token
+    return _scan(text)[0]
 
 
 def command_end(text: str, at: int = 0) -> int:
@@ -80,100 +76,88 @@ def command_end(text: str, at: int = 0) -> int:
     Raises:
         UnfinishedError: if a quote or a `<<END` is never closed.
     """
-    scanner, before = _Scanner(text, at), None
     try:
-        while (token := scanner.next()) is not None:
-            if token != Operator("\n"):
-                before = token
-            elif before not in (Operator("&&"), Operator("||"), Operator("|")):
-                break
+        return len(text) - _scan(text, at, one_command=True)[1]
     except BackslashAtEndError:
         return len(text)
-    return len(text) - len(scanner.text) + scanner.at
 
 
-class _Scanner:
-    def __init__(self, text: str, at: int = 0) -> None:
-        self.text = text
-        self.at = at
+def _scan(text: str, at: int = 0, *, one_command: bool = False) -> tuple[list[Token], int]:
+    """The tokens from a place on, all or those of one command, and how many characters come after them."""
+    found: list[Token] = []
+    token: Token
+    before: Token | None = None  # the last token of this command that is no line's end
+    while True:
+        between = _BETWEEN.match(text, at)
+        at = between.end() if between else at
+        if at == len(text):
+            break
+        if here := _HERE.match(text, at):
+            at = here.end()
+            token, text = _here_text(here)
+        elif sign := _OPERATOR.match(text, at):
+            at = sign.end()
+            token = Operator(sign[0])
+        elif word := _UNQUOTED.match(text, at):
+            at = word.end()
+            token = Word(word[0], word[0])
+        else:
+            token, at = _word_with_quotes(text, at)
+        found.append(token)
+        if token != Operator("\n"):
+            before = token
+        elif one_command and before not in (Operator("&&"), Operator("||"), Operator("|")):
+            break
+    return found, len(text) - at
 
-    def next(self) -> Token | None:
-        self._skip_space()
-        if self.at >= len(self.text):
-            return None
-        here = _HERE.match(self.text, self.at)
-        if here is not None:
-            return self._here_text(here)
-        for sign in OPERATORS:
-            if self.text.startswith(sign, self.at):
-                self.at += len(sign)
-                return Operator(sign)
-        return self._word()
 
-    def _skip_space(self) -> None:
-        text = self.text
-        while self.at < len(text):
-            if text[self.at] in SPACE:
-                self.at += 1
-            elif (continued := _CONTINUED.match(text, self.at)) is not None:
-                self.at = continued.end()
-            elif text[self.at] == "#":
-                end = text.find("\n", self.at)
-                self.at = len(text) if end < 0 else end
-            else:
-                return
+def _word_with_quotes(text: str, at: int) -> tuple[Word, int]:
+    """A word, and the place behind it."""
+    plain: list[str] = []
+    pattern: list[str] = []
+    while at < len(text) and text[at] not in _WORD_END:
+        if text[at] in "'\"\\":
+            piece, at = _after_backslash(text, at + 1) if text[at] == "\\" else _quoted(text, at)
+            pattern.append("".join(f"\\{each}" for each in piece) or "\\")
+        else:
+            piece, at = text[at], at + 1
+            pattern.append(piece)
+        plain.append(piece)
+    return Word("".join(plain), "".join(pattern)), at
 
-    def _word(self) -> Word:
-        plain: list[str] = []
-        pattern: list[str] = []
-        while self.at < len(self.text):
-            char = self.text[self.at]
-            if char in SPACE or char in ";&|<>\n":
-                break
-            quoted = char in "'\"\\"
-            piece = self._quoted(char) if quoted else char
-            self.at += 0 if quoted else 1
-            plain.append(piece)
-            pattern.append("".join(f"\\{each}" for each in piece) or "\\" if quoted else piece)
-        return Word("".join(plain), "".join(pattern))
 
-    def _quoted(self, quote: str) -> str:
-        """The text of a quoted piece, which `self.at` is moved behind."""
-        if quote == "\\":
-            return self._after_backslash()
-        begin, self.at = self.at, self.at + 1
-        piece: list[str] = []
-        while self.at < len(self.text):
-            char = self.text[self.at]
-            self.at += 1
-            if char == quote:
-                return "".join(piece)
-            if char == "\\" and quote == '"' and self.text[self.at : self.at + 1] in {'"', "\\", "$", "`", "\n"}:
-                char = self.text[self.at].replace("\n", "")
-                self.at += 1
-            piece.append(char)
-        rest = self.text[begin : begin + 20]
-        raise UnfinishedError(f"the quote {quote} before {rest!r} is never closed: write another {quote} where it ends")
+def _quoted(text: str, begin: int) -> tuple[str, int]:
+    """The text between two quotes, and the place behind them."""
+    quote, at = text[begin], begin + 1
+    piece: list[str] = []
+    while at < len(text):
+        char = text[at]
+        at += 1
+        if char == quote:
+            return "".join(piece), at
+        if char == "\\" and quote == '"' and text[at : at + 1] in {'"', "\\", "$", "`", "\n"}:
+            char = text[at].replace("\n", "")
+            at += 1
+        piece.append(char)
+    rest = text[begin : begin + 20]
+    raise UnfinishedError(f"the quote {quote} before {rest!r} is never closed: write another {quote} where it ends")
 
-    def _here_text(self, sign: re.Match[str]) -> HereText:
-        """Cut the lines up to the closing word out of the text, so that what follows the sign is read next."""
-        self.at = sign.end()
-        begin = self.text.find("\n", self.at) + 1
-        tabs = "\t*" if sign[0].startswith("<<-") else ""
-        closing = re.compile(rf"^{tabs}{sign[2]}[ \t\r]*$", re.MULTILINE).search(self.text, begin) if begin else None
-        if closing is None:
-            raise UnfinishedError(f"{sign[0]!r} is never closed: write {sign[2]} alone on a line where the text ends")
-        inside = self.text[begin : closing.start()]
-        self.text = self.text[: begin - 1] + self.text[closing.end() :]
-        return HereText(re.sub(r"(?m)^\t+", "", inside) if tabs else inside)
 
-    def _after_backslash(self) -> str:
-        continued = _CONTINUED.match(self.text, self.at)
-        if continued is not None:
-            self.at = continued.end()
-            return ""
-        if _LAST.match(self.text, self.at):
-            raise BackslashAtEndError("a backslash at the end of a line continues on the next line, and there is none")
-        char = self.text[self.at + 1]
-        self.at += 2
-        return char
+def _after_backslash(text: str, at: int) -> tuple[str, int]:
+    if continued := _CONTINUED.match(text, at - 1):
+        return "", continued.end()
+    if _LAST.match(text, at - 1):
+        raise BackslashAtEndError("a backslash at the end of a line continues on the next line, and there is none")
+    return text[at], at + 1
+
+
+def _here_text(sign: re.Match[str]) -> tuple[HereText, str]:
+    """The lines up to the closing word, and the whole text without them, so that what follows the sign is read next."""
+    text = sign.string
+    begin = text.find("\n", sign.end()) + 1
+    tabs = "\t*" if sign[0].startswith("<<-") else ""
+    closing = re.compile(rf"^{tabs}{sign[2]}[ \t\r]*$", re.MULTILINE).search(text, begin) if begin else None
+    if closing is None:
+        raise UnfinishedError(f"{sign[0]!r} is never closed: write {sign[2]} alone on a line where the text ends")
+    inside = text[begin : closing.start()]
+    return HereText(re.sub(r"(?m)^\t+", "", inside) if tabs else inside), text[: begin - 1] + text[closing.end() :]

@@ -7,6 +7,7 @@ import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import cache, partial
 from importlib import import_module
 from typing import Any, NoReturn, Protocol
 
@@ -20,6 +21,8 @@ from ..idl.names import did_you_mean
 
 OURS = ("--for",)
 """Options that the real tool does not have."""
+
+WIDTH = 78
 
 
 class Stop(Exception):
@@ -37,13 +40,10 @@ class Stop(Exception):
 
 
 class Formatter(argparse.HelpFormatter):
-    """Help as argparse of Python 3.11 lays it out, 80 columns wide, whatever the Python and the terminal."""
-
-    def __init__(self, prog: str, **keywords: Any) -> None:
-        super().__init__(prog, width=WIDTH, max_help_position=24, **keywords)
+    """Help without the options that only we have in its usage line, and with an option's value once for each spelling."""
 
     def add_usage(self, usage: Any, actions: Iterable[argparse.Action], groups: Any, prefix: Any = None) -> None:
-        """The usage line, without the options that only we have."""
+        """The usage line."""
         real = [action for action in actions if not set(OURS) & set(action.option_strings)]
         super().add_usage(usage, real, groups, prefix)
 
@@ -54,12 +54,16 @@ class Formatter(argparse.HelpFormatter):
         return ", ".join(f"{option} {value}" for option in action.option_strings)
 
 
+_LAYOUT: Any = partial(Formatter, width=WIDTH, max_help_position=24)
+"""Help as argparse of Python 3.11 lays it out, 80 columns wide, whatever the Python and the terminal."""
+
+
 class Parser(argparse.ArgumentParser):
     """An ArgumentParser that raises `Stop` instead of printing and exiting."""
 
     def __init__(self, prog: str, description: str) -> None:
         more: dict[str, Any] = {"color": False} if sys.version_info >= (3, 14) else {}
-        super().__init__(prog=prog, description=description, formatter_class=Formatter, add_help=False, **more)
+        super().__init__(prog=prog, description=description, formatter_class=_LAYOUT, add_help=False, **more)
         self.add_argument("-h", "--help", action="help", help="show this help and do nothing")
 
     def print_help(self, file: Any = None) -> NoReturn:
@@ -145,28 +149,30 @@ def _parse_group(group: Group, rest: list[str]) -> Call:
         option = rest.pop(0)
         if option in {"-h", "--help"}:
             if rest and not rest[0].startswith("-"):
-                _check_verb(group, rest[0])
+                _verb(group, rest[0])
             raise Stop(group_help(group), 0)
         if group.flag is None or option != group.flag[0]:
             raise _unrecognized([option], ["-h", "--help", *(group.flag or ())[:1]])
         flags.add(option.lstrip("-").replace("-", "_"))
     if not rest:
         raise Stop(group_help(group), 0)
-    _check_verb(group, rest[0])
-    call = _parse_verb(group.verbs[rest[0]], f"{prog} {rest[0]}", rest[1:])
+    call = _parse_verb(_verb(group, rest[0]), f"{prog} {rest[0]}", rest[1:])
     if group.flag is not None:
         name = group.flag[0].lstrip("-").replace("-", "_")
         setattr(call.arguments, name, name in flags or getattr(call.arguments, name, False))
     return call
 
 
-def _check_verb(group: Group, name: str) -> None:
-    if name not in group.verbs:
-        raise _invalid_choice(f"ros2 {group.name}", group_usage(group), "command", name, group.verbs)
+def _verb(group: Group, name: str) -> Verb:
+    verbs = group.verbs
+    if name not in verbs:
+        raise _invalid_choice(f"ros2 {group.name}", group_usage(group), "command", name, verbs)
+    return verbs[name]
 
 
+@cache
 def verb_parser(verb: Verb, prog: str) -> Parser:
-    """The parser of a verb's arguments."""
+    """The parser of a verb's arguments; it is made once."""
     parser = Parser(prog, verb.help)
     verb.add_arguments(parser)
     return parser
@@ -207,8 +213,6 @@ def _unrecognized(words: Sequence[str], options: Sequence[str], takes_values: bo
 
 # -- usage --------------------------------------------------------------------------------------------------------
 # Usage and help texts of `ros2` and of its commands. Those of the verbs are made by argparse.
-
-WIDTH = 78
 
 
 def _usage(prog: str, options: str) -> str:
@@ -281,6 +285,8 @@ class Verb(Protocol):
     def main(self, args: Namespace) -> int:
         """Do it; returns the exit code."""
 
+    def __hash__(self) -> int: ...
+
 
 @dataclass(frozen=True)
 class Group:
@@ -298,17 +304,13 @@ class Group:
     @property
     def alone(self) -> Verb | None:
         """The verb that the command itself is, if it has no verbs."""
-        found = getattr(self.module, "COMMANDS", {}).get(self.name)
-        return None if found is None else _instance(found)
+        found: Verb | None = getattr(self.module, "COMMANDS", {}).get(self.name)
+        return found
 
     @property
     def verbs(self) -> dict[str, Verb]:
         """Its verbs by name, in alphabetical order."""
-        return {name: _instance(verb) for name, verb in sorted(self.module.VERBS.items())}
-
-
-def _instance(verb: Any) -> Verb:
-    return verb() if isinstance(verb, type) else verb
+        return dict(sorted(self.module.VERBS.items()))
 
 
 _MODULES = {"daemon": "doctor", "launch": "run_launch", "run": "run_launch"}

@@ -59,9 +59,8 @@ def run(
     Raises:
         KeyboardInterrupt: if the user stops it.
     """
-    out, error = cell_streams()
-    out_to: Any = out if stdout is None else stdout
-    error_to: Any = Errors(error if stderr is None else stderr)
+    out_to: Any = sys.stdout if stdout is None else stdout
+    error_to: Any = Errors(cell_streams()[1] if stderr is None else stderr)
     folder = contextlib.chdir(cwd) if cwd is not None else contextlib.nullcontext()
     with folder:
         try:

@@ -38,8 +38,10 @@ def pipelines(found: Sequence[Token]) -> Iterator[tuple[str, list[Command]]]:
     condition, pipeline = "", [Command()]
     for token in [*found, Operator("\n")]:
         command = pipeline[-1]
-        if isinstance(token, Word):
-            _take(command, token)
+        if isinstance(token, Word) and _WANTED not in (command.stdin, command.stderr, *(command.stdout or ())):
+            command.words.append(token)
+        elif isinstance(token, Word):
+            _take_file(command, token)
         elif isinstance(token, HereText):
             command.given = token.text
         elif token.text == "|":
@@ -74,16 +76,14 @@ def _expect_file(command: Command, sign: str) -> None:
         command.stderr = TO_STDOUT if sign == "&>" else command.stderr
 
 
-def _take(command: Command, word: Word) -> None:
-    """A word is the file that a `<` or `>` waits for, or one more word of the command."""
+def _take_file(command: Command, word: Word) -> None:
+    """A word is the file that a `<` or `>` waits for."""
     if command.stdin == _WANTED:
         command.stdin = word
     elif command.stdout is not None and command.stdout[1] == _WANTED:
         command.stdout = (command.stdout[0], word)
-    elif command.stderr == _WANTED:
-        command.stderr = word
     else:
-        command.words.append(word)
+        command.stderr = word
 
 
 def _check(command: Command, sign: str) -> None:
@@ -104,9 +104,9 @@ def expand(word: Word, *, home: Path, exit_code: int) -> list[str]:
     """The words that a word stands for: `~`, `$?`, `$NAME` and patterns are replaced, all else stays as it is typed."""
     if word.text == word.pattern == "$?":
         return [str(exit_code)]
-    if (text := with_values(word.pattern)) != word.pattern:
+    if "$" in word.pattern and (text := with_values(word.pattern)) != word.pattern:
         return [unquoted] if (unquoted := re.sub(r"\\(.)", r"\1", text)) else []
-    if word.plain and (word.text == "~" or word.text.startswith("~/")):
+    if word.text == word.pattern and (word.text == "~" or word.text.startswith("~/")):
         return [str(home) + word.text[1:]]
     if len(word.pattern) < 1000 and re.search(r"(?<!\\)[*?]", word.pattern):
         pattern = re.sub(r"\\(.)", lambda match: glob.escape(match[1]), word.pattern.replace("[", "[[]"))

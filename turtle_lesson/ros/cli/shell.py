@@ -85,7 +85,7 @@ class Shell:
 
     def _script(self, script: str, out: Any, error: Any) -> int:
         try:
-            plan = list(pipelines(list(tokens(script))))
+            plan = list(pipelines(tokens(script)))
         except (UnfinishedError, ShellSyntaxError) as mistake:
             print(f"syntax error: {cut(str(mistake), 300)}", file=error)
             self.exit_code = SYNTAX
@@ -112,23 +112,22 @@ class Shell:
         return code
 
     def _one(self, command: Command, given: str | None, out: Any, error: Any) -> int:
-        words = [text for word in command.words for text in self._expand(word)]
+        home, code = files.home(), self.exit_code
+        words = [text for word in command.words for text in expand(word, home=home, exit_code=code)]
         try:
             if command.stdin is not None:
                 given = Path(self._file_name(command.stdin)).read_text(encoding="utf-8")
             to, error_to = self._redirected(command, out, error)
-            return self._guarded(words, given, to, error_to, command.background) if words else 0
-        except (OSError, ValueError) as mistake:
+            error = error_to
+            return self._call(words, given, to, error, command.background) if words else 0
+        except (OSError, ValueError, re.error) as mistake:
             return _said(words[0] if words else "bash", mistake, error)
         except KeyboardInterrupt:
             raise CommandInterrupted(words) from None
 
-    def _expand(self, word: Word) -> list[str]:
-        return expand(word, home=files.home(), exit_code=self.exit_code)
-
     def _file_name(self, word: Word) -> str:
         """What a `<` or `>` is followed by. Raises ValueError if that is no name or several."""
-        names = self._expand(word)
+        names = expand(word, home=files.home(), exit_code=self.exit_code)
         if len(names) != 1:
             raise ValueError(f"{word.text}: ambiguous redirect: it stands for {len(names)} names, and one is needed")
         return names[0]
@@ -146,14 +145,8 @@ class Shell:
             error_to = _file(self._file_name(command.stderr), "w", error)
         return to, error_to
 
-    def _guarded(self, words: Sequence[str], given: str | None, out: Any, error: Any, background: bool) -> int:
-        try:
-            return self._call(words, given, out, error, background)
-        except (OSError, ValueError, re.error) as mistake:
-            return _said(words[0], mistake, error)
-
     def _call(self, words: Sequence[str], given: str | None, out: Any, error: Any, background: bool) -> int:
-        if variables := before_a_command(words):
+        if "=" in words[0] and (variables := before_a_command(words)):
             rest = words[len(variables) :]
             if not rest:
                 return export(Terminal(self.world, out, error), list(words))
@@ -207,15 +200,11 @@ def _not_found(words: Sequence[str]) -> str:
 
 def _said(name: str, error: Exception, stream: Any) -> int:
     """Say in a line what went wrong, without Python's numbers; returns the exit code."""
-    print(f"{cut(name, 40)}: {cut(_explain(error), 300)}", file=stream)
-    return 1
-
-
-def _explain(error: Exception) -> str:
+    text = str(error)
     if isinstance(error, OSError) and error.strerror:
-        named = f"{error.filename}: " if error.filename else ""
-        return f"{named}{error.strerror}"
-    return str(error)
+        text = f"{error.filename}: {error.strerror}" if error.filename else error.strerror
+    print(f"{cut(name, 40)}: {cut(text, 300)}", file=stream)
+    return 1
 
 
 def _file(name: str, mode: str, instead_of: Any) -> FileOutput:
