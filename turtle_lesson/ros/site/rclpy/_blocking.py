@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import functools
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -11,15 +10,16 @@ from turtle_lesson.ros.runtime.world import current_world
 from turtle_lesson.ros.sim import run_blocking
 from turtle_lesson.ros.sim.run_blocking import Call
 from turtle_lesson.ros.sim.simulation import NANOSECONDS
-from turtle_lesson.ros.sim.strand import running_strand
+from turtle_lesson.ros.sim.strand import Strand, running_strand
 from turtle_lesson.ros.stdlib.clocks import real_monotonic, real_sleep
+from turtle_lesson.ros.stdlib.deadlock import wait_in_vain
+
+from ._deadlock import executor_of_worker, is_notebook
 
 if TYPE_CHECKING:
-    from .task import Future
+    from .context import Context
+    from .executors import Executor
 
-
-# -- blocking -----------------------------------------------------------------------------------------------------
-# Blocking calls work everywhere: in a simulated process they wait, in a plain notebook cell they run the simulation.
 
 T = TypeVar("T")
 LIVE_STEP = 0.02
@@ -74,38 +74,49 @@ def spin_live(function: Callable[[], None]) -> None:
         raise call.error
 
 
-# -- asyncio ------------------------------------------------------------------------------------------------------
-# Futures of rclpy's in asyncio's coroutines: a program may await them there, and call `rclpy.spin_once` beside that.
-# The real ones are asked in every round of the loop whether they are done; those here tell the loop.
+class Alarm:
+    """Holds up the running strand in `wait`, until a time of the simulation, or until somebody calls `ring`.
 
-FOR_ALL = object()
-"""Stands for a future that is cancelled for good, not only for one of asyncio's coroutines."""
+    A shutdown of its context rings it, too.
+    """
+
+    def __init__(self, context: Context) -> None:
+        strand = running_strand()
+        assert strand is not None
+        self.strand = strand
+        self.rung = False
+        self._context = context
+        context.wake_at_the_end(self.ring)
+
+    def ring(self) -> None:
+        """End the waiting."""
+        self.rung = True
+        self.strand.simulation.wake(self.strand)
+
+    def wait(self, deadline: int | None, *, only_from_within: bool = True) -> bool:
+        """Wait until the deadline (ns of the simulation; None forever); whether it rang before.
+
+        `only_from_within`: nobody but another thread of this process can ring it.
+        """
+        simulation, strand = self.strand.simulation, self.strand
+        if deadline is not None and simulation.now < deadline:
+            simulation.at(deadline, simulation.wake, strand)
+        try:
+            while not self.rung and (deadline is None or simulation.now < deadline):
+                if deadline is None and only_from_within:
+                    wait_in_vain(strand, "the next tick")
+                simulation.park(strand)
+        finally:
+            strand.waits_for = None
+            self._context.let_sleep(self.ring)
+        return self.rung
 
 
-def refuse_in_a_cell() -> None:
-    """Raise RuntimeError in a coroutine of the notebook's own loop: while that one waits, no robot time passes."""
-    if running_strand() is None and asyncio._get_running_loop() is not None:
-        raise RuntimeError(
-            "a future of rclpy's cannot be awaited in a cell: no robot time would pass meanwhile. Write "
-            "rclpy.spin_until_future_complete(node, future), then future.result()."
-        )
-
-
-def called_by_its_loop(callback: Callable[..., Any], context: Any) -> Callable[[Future], None]:
-    """A done callback of asyncio's, to be called by the loop that runs now."""
-    loop = asyncio.get_running_loop()
-
-    def call(future: Future) -> None:
-        loop.call_soon_threadsafe(callback, future, context=context)
-
-    call._at_once = call._of_asyncio = True  # type: ignore[attr-defined]
-    return call
-
-
-def let_asyncio_go_on(future: Future) -> bool:
-    """Wake the coroutines of asyncio's that await a future: one of them is cancelled, the others wait on."""
-    callbacks = [each for each in future._callbacks if getattr(each, "_of_asyncio", False)]
-    for callback in callbacks:
-        future._callbacks.remove(callback)
-        callback(future)
-    return False
+def somebody_spins(executor: Executor | None, strand: Strand) -> bool:
+    """Whether another strand than this spins an executor, or may do so yet (in doubt: yes)."""
+    if is_notebook(strand.process):
+        return True
+    if executor is not None and executor._spun_by_another(strand):
+        return True
+    others = (each for each in strand.process.strands if each is not strand and not each.dead)
+    return any(executor_of_worker(each) is None for each in others)

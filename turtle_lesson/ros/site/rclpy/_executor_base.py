@@ -16,7 +16,6 @@ from turtle_lesson.ros.runtime.world import current_process, current_world
 from turtle_lesson.ros.sim.strand import Strand
 
 from ._entity import NO_TURN, SERVICE, WAITABLE, Entity
-from ._executor_errors import ExternalShutdownException, ShutdownException
 from ._hints import explain_call, no_node
 from ._tracing import begin_task, note_end, trace_entity
 from .context import Context
@@ -29,6 +28,40 @@ if TYPE_CHECKING:
 
 Job = Any  # an Entity, or a Task
 Condition = Callable[[], bool] | None
+
+
+class TimeoutException(Exception):
+    """Nothing became ready in time."""
+
+    __module__ = "rclpy.executors"
+
+
+class ShutdownException(Exception):
+    """The executor was shut down."""
+
+    __module__ = "rclpy.executors"
+
+
+class ExternalShutdownException(Exception):
+    """The context was shut down while the executor was waiting."""
+
+    __module__ = "rclpy.executors"
+
+
+class ConditionReachedException(Exception):
+    """What was waited for has happened."""
+
+    __module__ = "rclpy.executors"
+
+
+class TimeoutObject:
+    """A timeout (s) that can be changed while somebody has it."""
+
+    __module__ = "rclpy.executors"
+    timeout: float
+
+    def __init__(self, timeout: float) -> None:
+        self.timeout = timeout
 
 
 class ExecutorBase:

@@ -14,24 +14,15 @@ if TYPE_CHECKING:
     from .context import Context
 
 
-# -- node parameter setting ---------------------------------------------------------------------------------------
-# The part of a node that changes its parameters: checks them, asks and tells the program's own callbacks.
+class NodeParameters:
+    """Mixed into Node."""
 
+    context: Context
+    _ros_allow_undeclared: bool
 
-class ParameterSetting:
-    """Mixed into Node, beneath the part that declares and reads parameters."""
+    if TYPE_CHECKING:
 
-    def describe_parameter(self, name: str) -> Any:
-        """The descriptor of a parameter."""
-        raise NotImplementedError
-
-    def get_parameter(self, name: str) -> Parameter:
-        """A parameter."""
-        raise NotImplementedError
-
-    def get_parameter_or(self, name: str, alternative_value: Parameter | None = None) -> Parameter:
-        """A parameter, or the alternative."""
-        raise NotImplementedError
+        def _ros_tell_parameter_events(self, news: dict[str, list[Any]]) -> None: ...
 
     def _ros_setup_parameters(self, overrides: Sequence[Parameter], allow_undeclared: bool) -> None:
         self._ros_parameters: dict[str, Parameter] = {}
@@ -65,7 +56,7 @@ class ParameterSetting:
         from rcl_interfaces.msg import SetParametersResult
 
         if self._ros_before_set:
-            parameter_list = self._ros_changed_before(parameter_list)
+            parameter_list = self._ros_ask_before_set(parameter_list)
             if not parameter_list:
                 reason = "parameter list cannot be empty, this might be due to pre_set_parameters_callback "
                 return SetParametersResult(reason=reason + "modifying the original parameters list.")
@@ -73,7 +64,7 @@ class ParameterSetting:
         reason = self._ros_set(parameter_list)
         return SetParametersResult(successful=not reason, reason=reason)
 
-    def _ros_changed_before(self, parameters: list[Parameter]) -> list[Parameter]:
+    def _ros_ask_before_set(self, parameters: list[Parameter]) -> list[Parameter]:
         """What the callbacks that are asked first make of the parameters."""
         found: list[Parameter] = []
         for callback in self._ros_before_set:
@@ -128,9 +119,6 @@ class ParameterSetting:
         if parameter.name in known:
             return known[parameter.name]
         return ParameterDescriptor(name=parameter.name, type=parameter.type_.value, dynamic_typing=True)
-
-    def _ros_tell_parameter_events(self, news: dict[str, list[Any]]) -> None:
-        """Publish what was new, changed or deleted; Node does."""
 
     def _ros_why_refused(self, parameters: list[Parameter], descriptors: dict[str, Any] | None) -> str:
         """Why one of the values is not allowed, as the real one words it; '' if all are."""
@@ -205,13 +193,6 @@ class ParameterSetting:
     def remove_post_set_parameters_callback(self, callback: Callable[[list[Parameter]], Any]) -> None:
         """No longer tell a callback."""
         self._ros_after_set.remove(callback)
-
-
-class NodeParameters(ParameterSetting):
-    """Mixed into Node."""
-
-    context: Context
-    _ros_allow_undeclared: bool
 
     # -- declaring -------------------------------------------------------------------------------------------------
 

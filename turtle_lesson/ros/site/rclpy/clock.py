@@ -12,9 +12,8 @@ from typing import TYPE_CHECKING, Any
 from turtle_lesson.ros.runtime.world import current_world
 from turtle_lesson.ros.sim.simulation import EPOCH
 
-from ._blocking import drives_the_simulation
+from ._blocking import Alarm, drives_the_simulation
 from ._entity import Handle
-from ._wakeup import Alarm
 from .clock_type import ClockType
 from .context import Context
 from .duration import Duration

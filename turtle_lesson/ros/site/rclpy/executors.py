@@ -1,4 +1,4 @@
-"""Executors: they wait until callbacks are ready, and run them. How they do it is in `_executor.py`."""
+"""Executors: they wait until callbacks are ready, and run them. How they choose is in `_executor_base.py`."""
 
 from __future__ import annotations
 
@@ -21,10 +21,12 @@ from turtle_lesson.ros.stdlib.pools import number_of_pool
 from ._blocking import drive, drives_the_simulation, in_a_plain_cell, spin_live
 from ._deadlock import executor_of_worker, is_notebook, know_worker, others_may_act, why_never_done
 from ._entity import Entity
-from ._executor_base import Condition, ExecutorBase, Job
-from ._executor_errors import (
+from ._executor_base import (
+    Condition,
     ConditionReachedException,
+    ExecutorBase,
     ExternalShutdownException,
+    Job,
     ShutdownException,
     TimeoutException,
     TimeoutObject,
@@ -35,9 +37,6 @@ from .task import Future, Task, at_once
 
 if TYPE_CHECKING:
     from .node import Node
-
-# -- executor -----------------------------------------------------------------------------------------------------
-# Executors: they wait until callbacks are ready, and run them. How they choose is in `_executor_base.py`.
 
 
 class Executor(ExecutorBase):
@@ -254,13 +253,6 @@ class SingleThreadedExecutor(Executor):
     """Runs one callback after the other, in the thread that spins: a callback that sleeps holds up all others."""
 
 
-__getattr__ = borrowed(__name__)
-
-
-# -- multi threaded -----------------------------------------------------------------------------------------------
-# The executor with several threads, each of which is a strand.
-
-
 class MultiThreadedExecutor(Executor):
     """Runs callbacks side by side in up to `num_threads` threads (4 unless told), as their groups allow.
 
@@ -400,3 +392,6 @@ class _Worker:
                 executor._failures.append(error)
             executor._idle.append(self)
             executor.wake()
+
+
+__getattr__ = borrowed(__name__)

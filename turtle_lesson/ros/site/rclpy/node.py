@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from types import FrameType
 from typing import TYPE_CHECKING, Any
 
 from turtle_lesson.ros.rmw.graph import NodeEntry
 from turtle_lesson.ros.runtime.world import current_process, current_world
+from turtle_lesson.ros.sim.errors import shown_path
+from turtle_lesson.ros.sim.simulation import EPOCH, NANOSECONDS
 
 from ._entity import Entity, Handle
 from ._hints import set_by_init
 from ._node_entities import NodeEntities
-from ._node_events import NodeNews
 from ._node_graph import NodeGraph
-from ._node_parameters import NodeParameters, ParameterSetting
+from ._node_parameters import NodeParameters
 from ._parameter_rules import TOLERANCE
 from ._reexports import borrowed
 from ._ros_args import ArgumentError, Arguments, parse_arguments, tell_obsolete
@@ -23,13 +25,14 @@ from .clock import Clock, ROSClock
 from .context import Context
 from .exceptions import NotInitializedException, RCLError, RCLInvalidROSArgsError
 from .guard_condition import GuardCondition
-from .impl.rcutils_logger import RcutilsLogger, publish_rosout_no_more
+from .impl.logging_severity import LoggingSeverity
+from .impl.rcutils_logger import RcutilsLogger, is_on_rosout, publish_rosout, publish_rosout_no_more
 from .logging_service import LoggingService
 from .parameter import PARAMETER_SEPARATOR_STRING as PARAMETER_SEPARATOR_STRING
 from .parameter import Parameter
 from .parameter_service import ParameterService
 from .publisher import Publisher
-from .qos import QoSProfile, qos_profile_rosout_default
+from .qos import QoSProfile, qos_profile_parameter_events, qos_profile_rosout_default
 from .service import Service
 from .subscription import Subscription
 from .time_source import TimeSource
@@ -45,7 +48,7 @@ HIDDEN_NODE_PREFIX = "_"
 """What the name of a node begins with that tools leave out of their lists."""
 
 
-class Node(NodeEntities, NodeNews, NodeParameters):
+class Node(NodeEntities, NodeParameters):
     """A node of a name. Subclass it, or make one with `rclpy.create_node`.
 
     What it has for itself is called `_ros_…`, so that a subclass may call its own things whatever it likes.
@@ -72,6 +75,8 @@ class Node(NodeEntities, NodeNews, NodeParameters):
         automatically_declare_parameters_from_overrides: bool = False,
         enable_logger_service: bool = False,
     ) -> None:
+        from rcl_interfaces.msg import ParameterEvent
+
         self._ros_context = get_default_context() if context is None else context
         if not self._ros_context.ok():
             raise NotInitializedException("cannot create node")
@@ -103,7 +108,9 @@ class Node(NodeEntities, NodeNews, NodeParameters):
         self._ros_logs_on_rosout = enable_rosout
         if enable_rosout:
             self._ros_publish_rosout(rosout_qos_profile)
-        self._ros_event_publisher = self._ros_publish_parameter_events()
+        self._ros_event_publisher = self.create_publisher(
+            ParameterEvent, "/parameter_events", qos_profile_parameter_events
+        )
         if automatically_declare_parameters_from_overrides:
             self._ros_declare_overrides()
         self._ros_time_source = TimeSource(node=self)
@@ -242,6 +249,37 @@ class Node(NodeEntities, NodeNews, NodeParameters):
         """The node's clock, which shows ROS time."""
         return self._ros_clock
 
+    # -- what it tells everybody ------------------------------------------------------------------------------------
+
+    def _ros_publish_rosout(self, profile: QoSProfile | int) -> None:
+        """Publish on /rosout what the logger prints."""
+        from rcl_interfaces.msg import Log
+
+        if is_on_rosout(self._ros_logger.name):
+            return
+
+        publisher = self.create_publisher(Log, "/rosout", profile)
+        trace = self._ros_graph.trace
+
+        def publish(name: str, message: str, severity: LoggingSeverity, frame: FrameType) -> None:
+            log = Log(level=int(severity), name=name, msg=message)
+            log.stamp.sec, log.stamp.nanosec = divmod(EPOCH + self._ros_simulation.now, NANOSECONDS)
+            log.file = shown_path(frame.f_code.co_filename)  # the whole path would differ between machines
+            log.function, log.line = frame.f_code.co_name, frame.f_lineno
+            publisher.publish(log)
+            if trace is not None:
+                trace.log.append((self._ros_simulation.now, int(severity), log.name, message))
+
+        publish_rosout(self._ros_logger.name, publish)
+
+    def _ros_tell_parameter_events(self, news: dict[str, list[Any]]) -> None:
+        """Publish on /parameter_events what was new, changed or deleted."""
+        event = self._ros_event_publisher.msg_type(node=self._ros_entry.full_name)
+        event.stamp.sec, event.stamp.nanosec = divmod(self._ros_clock._now(), NANOSECONDS)
+        for kind, parameters in news.items():
+            setattr(event, f"{kind}_parameters", parameters)
+        self._ros_event_publisher.publish(event)
+
     # -- its end ---------------------------------------------------------------------------------------------------
 
     def destroy_node(self) -> None:
@@ -281,7 +319,7 @@ set_by_init(
     Node, "_ros_clock", "_ros_destroyed", "_ros_entry", "_ros_graph", "_ros_logger", "_ros_overrides", "_ros_parameters"
 )
 
-for _part in (NodeEntities, NodeGraph, NodeParameters, ParameterSetting):
+for _part in (NodeEntities, NodeGraph, NodeParameters):
     for _name, _method in vars(_part).items():
         if not _name.startswith("_"):
             _method.__qualname__ = f"Node.{_name}"  # Python's own errors name it: nobody knows of parts

@@ -16,7 +16,6 @@ from turtle_lesson.ros.sim.errors import NeverWakes
 from turtle_lesson.ros.sim.strand import running_strand
 from turtle_lesson.ros.stdlib.polling import looked_in_vain
 
-from ._blocking import FOR_ALL, called_by_its_loop, let_asyncio_go_on, refuse_in_a_cell
 from ._deadlock import why_never_awaited
 from ._hints import explain_event_loop
 
@@ -24,6 +23,9 @@ if TYPE_CHECKING:
     from .executors import Executor
 
 Function = TypeVar("Function", bound=Callable[..., Any])
+
+FOR_ALL = object()
+"""Stands for a future that is cancelled for good, not only for one of asyncio's coroutines."""
 
 
 def at_once(callback: Function) -> Function:
@@ -69,7 +71,11 @@ class Future:
         return FutureState.FINISHED if self._done else FutureState.PENDING
 
     def __await__(self) -> Generator[Future, None, Any]:
-        refuse_in_a_cell()
+        if running_strand() is None and asyncio._get_running_loop() is not None:
+            raise RuntimeError(
+                "a future of rclpy's cannot be awaited in a cell: no robot time would pass meanwhile. Write "
+                "rclpy.spin_until_future_complete(node, future), then future.result()."
+            )
         while not self._done:
             self._asyncio_future_blocking = True  # for asyncio's tasks, should this be awaited in one of them
             yield self
@@ -85,7 +91,10 @@ class Future:
         Only asyncio gives a `msg`: then its coroutines give up waiting, and nothing becomes of the future.
         """
         if msg is not FOR_ALL:
-            return let_asyncio_go_on(self)
+            for callback in [each for each in self._callbacks if getattr(each, "_of_asyncio", False)]:
+                self._callbacks.remove(callback)
+                callback(self)
+            return False
         if not self._done:
             self._cancelled = True
             self._call_callbacks()
@@ -142,7 +151,7 @@ class Future:
         Only asyncio gives a `context`: then its loop calls the callback.
         """
         if context is not None:
-            callback = called_by_its_loop(callback, context)
+            callback = _called_by_asyncio(callback, context)
         if self._done:
             self._call(callback)
         else:
@@ -180,6 +189,17 @@ class Future:
 
     def _set_executor(self, executor: Executor) -> None:
         self._executor = executor
+
+
+def _called_by_asyncio(callback: Callable[..., Any], context: Any) -> Callable[[Future], None]:
+    """A done callback of asyncio's, to be called by the loop that runs now."""
+    loop = asyncio.get_running_loop()
+
+    def call(future: Future) -> None:
+        loop.call_soon_threadsafe(callback, future, context=context)
+
+    call._at_once = call._of_asyncio = True  # type: ignore[attr-defined]
+    return call
 
 
 def _tell_never_retrieved(text: str) -> None:

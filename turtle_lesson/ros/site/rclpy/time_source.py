@@ -8,9 +8,9 @@ from turtle_lesson.ros.sim.errors import NeverWakes
 from turtle_lesson.ros.sim.simulation import NANOSECONDS
 from turtle_lesson.ros.sim.strand import Strand
 
+from ._blocking import somebody_spins
 from ._deadlock import keeps_taken
 from ._reexports import borrowed
-from ._wakeup import somebody_spins
 from .clock import ROSClock
 from .clock_type import ClockType
 from .parameter import Parameter

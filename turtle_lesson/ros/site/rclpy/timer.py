@@ -14,12 +14,11 @@ from turtle_lesson.ros.sim.errors import NeverWakes
 from turtle_lesson.ros.sim.simulation import EPOCH
 from turtle_lesson.ros.sim.strand import running_strand
 
-from ._blocking import drives_the_simulation
+from ._blocking import Alarm, drives_the_simulation, somebody_spins
 from ._deadlock import is_notebook
 from ._entity import TIMER, Entity
 from ._hints import shown
 from ._reexports import borrowed
-from ._wakeup import Alarm, somebody_spins
 from .callback_groups import CallbackGroup
 from .clock import ROSClock
 from .constants import S_TO_NS

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Any
 from turtle_lesson.ros.sim.simulation import NANOSECONDS
 from turtle_lesson.ros.sim.strand import running_strand
 
-from ._blocking import drives_the_simulation
+from ._blocking import Alarm, drives_the_simulation
 from ._reexports import borrowed
-from ._wakeup import Alarm
 
 if TYPE_CHECKING:
     from .node import Node
