@@ -1,7 +1,8 @@
-"""Turtle Lesson: learn to build a ROS 2 robot controller in notebooks, with nothing to install but Python packages.
+"""Turtle Lesson: learn to build a ROS 2 robot controller in notebooks, without installing ROS.
 
-Importing this package makes `rclpy`, `launch`, the message packages and their kin importable, unless a real ROS 2 is
-sourced, which is never hidden. `start()` makes a world to work in; `connect()` shows the robot of a real ROS 2.
+Importing this package makes `rclpy`, `launch` and the message packages importable. They come last on `sys.path`, so
+that a real ROS 2 which is sourced is never hidden. `start()` makes a simulated world to work in, and `connect()` shows
+a real robot.
 """
 
 from __future__ import annotations

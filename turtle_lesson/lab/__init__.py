@@ -1,8 +1,7 @@
-"""What a page shows: the lab listens to the system as a node of its own and draws what it hears.
+"""What a page shows and asks: pictures, widgets, predictions, checks of exercises and troubles.
 
-Everything here knows the system through topics and the graph, as on a robot, and every picture also speaks:
-its text says in figures what it shows. Matplotlib is imported with the first picture, rclpy with the first
-recorder.
+The lab sees the system as any node does, through topics, services, parameters and the graph, so that it also works on a
+robot. Every picture has an exact text. Matplotlib is imported with the first picture, rclpy with the first recorder.
 """
 
 from .graph import GraphPicture, plot_graph

@@ -1,1 +1,1 @@
-"""The learner's workspace, and the story of the pages that it grows with."""
+"""The learner's workspace, and the files that each page leaves in it, which are read from the published pages."""

@@ -1,1 +1,1 @@
-"""What is special in IPython: commands among Python, completion, and errors from the learner's point of view."""
+"""What is special in IPython: commands in cells, completion, and errors shown from the learner's point of view."""

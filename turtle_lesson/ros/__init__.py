@@ -1,1 +1,1 @@
-"""ROS 2 in one process: clock and processes (`core`), the graph, interfaces, packages, and what a learner imports (`site`)."""
+"""ROS 2 in one process, on simulated time. README.md names the rooms and follows a message through them."""

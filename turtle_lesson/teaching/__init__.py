@@ -1,1 +1,1 @@
-"""For teachers: the console command `turtle-lesson`, which grades copies of pages, resets them and strips solutions."""
+"""The command `turtle-lesson` for teachers and learners at a terminal: open, grade, reset and student."""

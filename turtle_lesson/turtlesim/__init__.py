@@ -1,7 +1,5 @@
-"""The simulated turtle.
+"""The simulated turtle: its world in plain Python, and the node `/turtlesim` that connects it to ROS.
 
-- ``world``: how turtles move, as plain Python that knows no ROS;
-- ``canvas``: the trails that their pens draw;
-- ``obstacles``: circles and boxes that a page places in the world;
-- ``node``: the ROS node ``/turtlesim`` that shows the world to ROS.
+`turtle.py`, `world.py`, `canvas.py` and `rotation.py` know no ROS, and `obstacles.py` only its markers.
+`draw_square.py`, `mimic.py` and `teleop_turtle_key.py` are the other programs of ROS's package turtlesim.
 """

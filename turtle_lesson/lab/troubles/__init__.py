@@ -1,7 +1,7 @@
-"""Trouble on purpose: a system that is broken by public means, a user's report of it, and whether it is mended.
+"""Systems that are broken on purpose, for page 09: a user's report, hints, and a check whether the system works again.
 
-Each trouble is a symptom with several faults behind it; a seed chooses one. Faults are what happens on robots: a node
-that was not started, a remapping, a parameter, a quality of service, a type, a bug in a node of `robot_draft`.
+Each trouble is one symptom with several possible faults, one of which is chosen by a seed. The faults are those of
+robots: a node that was not started, a remapping, a parameter, a quality of service, a type, a bug in `robot_draft`.
 """
 
 from .cases import TROUBLES, Case, current_expectations, expectations_of, open_case

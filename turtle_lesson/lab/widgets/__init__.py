@@ -1,7 +1,7 @@
-"""What lives on a page: pads, dashboards, forms and scenes that show a running system and act on it.
+"""The widgets of a page: goal pad, dashboard, forms, plots, teleoperation and the scene in three dimensions.
 
-Every widget knows the system through its `Backend` alone: a hidden node, topics, services, parameters, the graph, and a
-clock where there is one to turn. All that a widget does happens in the notebook's own event loop (see `loop`).
+A widget sees the system through its `Backend` only: a hidden node, what the recorder heard, and, in the simulation, the
+clock. Everything that a widget does happens in the notebook's own event loop (`Loop` in `backend.py`).
 """
 
 from ...ros.sim.defer_sigint import defer_sigint

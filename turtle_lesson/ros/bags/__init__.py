@@ -1,11 +1,11 @@
-"""Bags: recordings of topics in files, written, described, read and played as `ros2 bag` does it (rosbag2).
+"""Bags: recordings of topics in files, which are written, described, read and played as `ros2 bag` does it (rosbag2).
 
     with lesson.record("run1"):                     # or: ros2 bag record -a -o run1
         lesson.run(5)
     bag = bags.bag.open_bag("run1")                 # a damaged one, too: bag.damage says what is lost
     for topic, time, type_name, data in bag.messages(): ...
 
-`rosbags` does the work; it is imported when it is first needed, since that takes half a second.
+`rosbags` reads and writes the files. It is imported when it is first needed, since that takes half a second.
 """
 
 from __future__ import annotations

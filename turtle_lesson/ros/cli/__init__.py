@@ -1,1 +1,1 @@
-"""The terminal of a page: a small shell, and the `ros2` command line, whose commands run as simulated processes."""
+"""The terminal of a page: a small shell, and the `ros2` commands, each of which runs as a simulated process."""

@@ -1,1 +1,1 @@
-"""What to try about an error of a learner's program, said below the error's own words."""
+"""What to try after an error of a learner's program: a sentence that is added below the error's own words."""

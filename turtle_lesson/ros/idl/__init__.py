@@ -1,1 +1,1 @@
-"""ROS 2 interfaces: from the text of `.msg`, `.srv` and `.action` files to Python classes and CDR bytes."""
+"""ROS 2 interfaces: from the text of `.msg`, `.srv` and `.action` files to Python classes, and from messages to CDR bytes."""

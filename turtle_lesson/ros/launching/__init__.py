@@ -1,11 +1,11 @@
-"""Carrying out a launch: files to descriptions, descriptions to running nodes, what `ros2 launch` prints.
+"""Carrying out a launch: from files to descriptions, from descriptions to running nodes, and what `ros2 launch` prints.
 
     handle = launch_file(world, path, {"rate": "5.0"})      # starts the nodes and returns at once
     handle.stop()                                            # as Ctrl-C in a terminal
 
-A description is walked through in the cell that asks for it; its processes start at the current instant and
-run when the world runs. The Python programs come up one after the other, 0.3 s of robot time each, in the order of their
-start; all others (turtlesim, echo) at once. `handle.wait_until_up()` lets that time pass.
+A description is evaluated in the cell that asks for it; its processes start at the current instant and run when the
+world runs. Python programs come up one after the other, each 0.3 s of robot time after the one before, and all others
+(turtlesim, echo) at once. `handle.wait_until_up()` lets that time pass.
 """
 
 from __future__ import annotations

@@ -1,1 +1,1 @@
-"""The ROS graph of one world: nodes, topics, services, who is matched with whom, and how messages travel."""
+"""The ROS graph of one world: nodes, endpoints and their matching, transport, QoS events, network and trace."""

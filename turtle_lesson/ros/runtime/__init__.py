@@ -1,1 +1,1 @@
-"""What runs: the world with its processes and packages, the streams that they print to, and the files that they may change."""
+"""The world with its processes and packages, the streams that they print to, and the files that they may change."""

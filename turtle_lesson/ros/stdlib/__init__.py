@@ -1,1 +1,4 @@
-"""The standard library in a simulated process: time, random, threads, locks, asyncio, signals and terminals in virtual time."""
+"""The standard library in a simulated process: time, random numbers, threads, locks, asyncio, signals, subprocess.
+
+`patches.py` is the one table of everything that is replaced in the interpreter; `uninstall()` puts the originals back.
+"""

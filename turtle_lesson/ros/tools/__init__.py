@@ -1,9 +1,9 @@
-"""Programs that come with a ROS 2: `ros2 run tf2_ros …`, `tf2_tools …`, `demo_nodes_py …`. Each is plain rclpy.
+"""Programs that come with a ROS 2: `ros2 run tf2_ros …`, `tf2_tools …`, `demo_nodes_py …`. Each is a plain rclpy program.
 
 - ``tf2_echo``: prints the transform between two frames, again and again;
-- ``tf2_monitor``: says how old transforms are when they come;
-- ``static_transform_publisher``: tells of a frame that never moves;
-- ``view_frames``: draws the tree of all frames;
+- ``tf2_monitor``: prints how old transforms are when they arrive;
+- ``static_transform_publisher``: publishes a frame that never moves;
+- ``view_frames``: prints the tree of all frames;
 - ``demos``: talker, listener, and a service that adds; ``demo_nodes_cpp`` has the launch files for them.
 """
 
