@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from turtle_lesson import Lesson, start
-from turtle_lesson.lab.widgets.curve import mistyped, split, steps_of
-from turtle_lesson.lab.widgets.live_plot import figure, thinned
+from turtle_lesson.lab.widgets.live_plot import figure, mistyped, split, steps_of, thinned
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from turtle_lesson import Lesson, start
-from turtle_lesson.lab.widgets.parameter_values import (
+from turtle_lesson.lab.widgets.parameter_client import (
     BOOL,
     DOUBLE,
     DOUBLES,
@@ -220,7 +220,7 @@ def test_a_change_while_time_goes_on_needs_no_step() -> None:
     ],
 )
 def test_values_are_read_by_their_type(typed: Any, kind: int, value: Any) -> None:
-    from turtle_lesson.lab.widgets.parameter_values import to_python
+    from turtle_lesson.lab.widgets.parameter_client import to_python
 
     assert to_python(read(typed, kind)) == value
 

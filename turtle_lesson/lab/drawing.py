@@ -18,9 +18,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-# -- drawing ------------------------------------------------------------------------------------------------------
-# What pictures of the world share: the turtle, seen from above, and the obstacles.
-
 SHELL, RIM, SKIN, OUTLINE = style.GREEN, style.DARK_GREEN, "#8fd0b5", "#0b4636"
 
 # The turtle looks along +x, its length is 1, its middle (0, 0). Ellipses: x, y, width, height, degrees.
@@ -101,9 +98,8 @@ def draw_obstacles(axes: Axes, obstacles: Iterable[Obstacle]) -> None:
             axes.add_artist(Ellipse((each.x, each.y), each.width, each.height, angle=math.degrees(each.angle), **look))
 
 
-# -- svg ----------------------------------------------------------------------------------------------------------
-# Small drawings as SVG, written here letter by letter: the same on every machine, and legible on light and dark.
-# They need neither a kernel nor a network, so they are also seen in static HTML and on GitHub.
+# -- svg ------------------------------------------------------------------------------------------------------------
+# Small drawings as SVG: the same on every machine, and seen in static HTML and on GitHub, without a kernel or a network.
 
 FONT = "system-ui, 'Segoe UI', 'DejaVu Sans', sans-serif"
 NARROW, WIDE = "ijltfrI.,:;|!'()[]/ ", "mwMW@%"

@@ -1,4 +1,4 @@
-"""The ROS graph as a diagram: publishers, subscriptions, services and their clients."""
+"""The ROS graph as ROS's own tools show it, as a diagram and in words: nodes, topics, services and their clients."""
 
 from __future__ import annotations
 
@@ -6,13 +6,94 @@ import math
 import re
 import statistics
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
 from . import drawing, style
 from .drawing import image
-from .system import Ends, NodeView, read_system, services_of, topics_of
-from .words import count, listed, number
+from .words import count, is_hidden, listed, number
+
+EVERYWHERE = frozenset({"/rosout", "/parameter_events"})
+"""Topics that every node has: they say nothing about how a system is built."""
+
+PARAMETER_SERVICES = frozenset(
+    {
+        "describe_parameters",
+        "get_parameter_types",
+        "get_parameters",
+        "list_parameters",
+        "set_parameters",
+        "set_parameters_atomically",
+        "get_type_description",
+    }
+)
+"""Services that every node offers below its own name; the last one since ROS 2 Iron."""
+
+Ends = dict[str, list[str]]
+"""Names of topics or services, with the types that are in use there."""
+
+
+@dataclass
+class NodeView:
+    """One node, and the topics and services that it uses. `copies` nodes have this very name."""
+
+    name: str
+    copies: int = 1
+    publishes: Ends = field(default_factory=dict)
+    hears: Ends = field(default_factory=dict)
+    offers: Ends = field(default_factory=dict)
+    calls: Ends = field(default_factory=dict)
+
+
+def read_system(node: Any) -> list[NodeView]:
+    """Return the visible nodes that `node` (an rclpy Node) sees in the graph, sorted by name."""
+    from rclpy.node import NodeNameNonExistentError
+
+    found: dict[str, NodeView] = {}
+    for name, namespace in sorted(node.get_node_names_and_namespaces()):
+        full_name = f"{namespace.rstrip('/')}/{name}"
+        if is_hidden(full_name):
+            continue
+        if full_name in found:
+            found[full_name].copies += 1
+            continue
+        with suppress(NodeNameNonExistentError):  # gone since the list was made
+            found[full_name] = _view(node, name, namespace, full_name)
+    return [found[name] for name in sorted(found)]
+
+
+def _view(node: Any, name: str, namespace: str, full_name: str) -> NodeView:
+    return NodeView(
+        full_name,
+        publishes=_visible(node.get_publisher_names_and_types_by_node(name, namespace)),
+        hears=_visible(node.get_subscriber_names_and_types_by_node(name, namespace)),
+        offers=_visible(node.get_service_names_and_types_by_node(name, namespace)),
+        calls=_visible(node.get_client_names_and_types_by_node(name, namespace)),
+    )
+
+
+def topics_of(nodes: list[NodeView]) -> Ends:
+    """All topics of these nodes, sorted, with all types in use there."""
+    return _merged([ends for node in nodes for ends in (node.publishes, node.hears)])
+
+
+def services_of(nodes: list[NodeView]) -> Ends:
+    """All services of these nodes, sorted, with all types in use there."""
+    return _merged([ends for node in nodes for ends in (node.offers, node.calls)])
+
+
+def _visible(names_and_types: list[tuple[str, list[str]]]) -> Ends:
+    return {
+        name: sorted(types)
+        for name, types in sorted(names_and_types)
+        if name not in EVERYWHERE and not is_hidden(name) and name.split("/")[-1] not in PARAMETER_SERVICES
+    }
+
+
+def _merged(several: list[Ends]) -> Ends:
+    names = sorted({name for ends in several for name in ends})
+    return {name: sorted({kind for ends in several for kind in ends.get(name, ())}) for name in names}
 
 
 class GraphPicture:
@@ -79,9 +160,8 @@ def _types_sentence(types: Ends) -> str:
     return f"Types: {', '.join(f'{name} {listed(kinds)}' for name, kinds in types.items())}."
 
 
-# -- graph drawing ------------------------------------------------------------------------------------------------
-# The ROS graph as a drawing: nodes in the middle, services to their left, topics to their right, arrows where data
-# goes.
+# -- graph drawing --------------------------------------------------------------------------------------------------
+# Nodes stand in the middle, services to their left, topics to their right; arrows point where data goes.
 
 NAME, TYPE = 12.5, 10.5
 """Sizes of the texts in a box, in pixels."""
@@ -152,9 +232,6 @@ def draw_graph(nodes: list[NodeView], title: str, description: str) -> str:
     return drawing.document(round(left - LANE + 4), round(height), title, description, parts)
 
 
-# -- what is drawn -----------------------------------------------------------------------------------------------------
-
-
 def _boxes(nodes: list[NodeView]) -> tuple[dict[str, list[Box]], list[Arrow]]:
     """The columns that have boxes, and all arrows. Services of a node that nobody calls share one box."""
     topics = {name: Box([name], types) for name, types in topics_of(nodes).items()}
@@ -212,9 +289,6 @@ def _stack(boxes: list[Box], wanted: list[float]) -> None:
         box.middle -= off
 
 
-# -- how it is drawn -----------------------------------------------------------------------------------------------------
-
-
 def _draw_box(box: Box, left: float, width: float, column: str) -> str:
     fill, edge, ink = LOOKS[column]
     top = box.middle - box.height / 2
@@ -259,11 +333,9 @@ def _port(box: Box, arrow: Arrow) -> float:
     return box.middle + box.height * 0.8 * ((beside.index(arrow) + 0.5) / len(beside) - 0.5)
 
 
-# -- mermaid ------------------------------------------------------------------------------------------------------
-# The ROS graph as a Mermaid flowchart: boxes with round ends are nodes, boxes topics, boxes with double sides
-# services.
-# Mermaid's language: https://mermaid.js.org/syntax/flowchart.html. Names stand in quotes, and everything in them that
-# is no plain letter as a character code, so that no name can be taken for Mermaid's own words.
+# -- mermaid --------------------------------------------------------------------------------------------------------
+# The same in Mermaid's language (https://mermaid.js.org/syntax/flowchart.html). Names are quoted, and everything but plain
+# letters becomes a character code, so that no name is taken for one of Mermaid's words.
 
 THEME = '"theme": "base", "themeVariables": {"lineColor": "#767b82", "signalColor": "#767b82", "signalTextColor": "#767b82"}'
 """Lines and their texts that are seen on a light and on a dark page, also when the theme is changed later on."""
@@ -304,7 +376,7 @@ def _services(nodes: list[NodeView]) -> list[str]:
         lines += [f"{_id('s', services, service)} -.-> n{at}" for service in node.offers if service in called]
         if waiting := [service for service in node.offers if service not in called]:
             lines.append(f'w{at}[["{_waiting_label(node, waiting)}"]]:::rosservice')
-            lines.append(f"w{number} -.-> n{at}")
+            lines.append(f"w{at} -.-> n{at}")
     return lines
 
 

@@ -123,9 +123,6 @@ def progress_file(folder: Path) -> ProgressFile:
     return ProgressFile(Path(said) if said else folder / FILE)
 
 
-# -- shown -------------------------------------------------------------------------------------------------------------
-
-
 @dataclass(frozen=True)
 class PageScore:
     """One page: points earned and to be had, and the checks that are still open."""

@@ -101,9 +101,6 @@ def _fenced(text: str, language: str = "") -> str:
     return f"{fence}{language}\n{text.rstrip()}\n{fence}"
 
 
-# -- specification ------------------------------------------------------------------------------------------------
-# The specification of the lesson's controller, short enough to be pasted into a chat.
-
 SPECIFICATION = """\
 A turtle in turtlesim (world 11.09 m x 11.09 m, 62.5 poses a second on /turtle1/pose) is driven by three ROS 2 nodes in
 Python (rclpy), in the ament_cmake package robot_controller, all started by launch/start_system.launch.py.
@@ -122,9 +119,6 @@ Python (rclpy), in the ament_cmake package robot_controller, all started by laun
 Not wanted: path planning, avoiding obstacles, several turtles, robot models, hardware.
 """
 
-
-# -- code of ------------------------------------------------------------------------------------------------------
-# The source text of what a learner means: a file, a folder, a function, a class, a node, or the text itself.
 
 SUFFIXES = (".py", ".msg", ".srv", ".xml", ".txt", ".yaml")
 """What of a package's folder is code: programs, interfaces, package.xml and CMakeLists.txt."""

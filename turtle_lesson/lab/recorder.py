@@ -146,9 +146,6 @@ class Recorder(Recording):
 _NUMBERS = {"float", "double", "int", "uint"}
 
 
-# -- channel ------------------------------------------------------------------------------------------------------
-# A channel: one topic that the recorder wants to hear, subscribed to while there is somebody to hear.
-
 DEPTH = 1000
 """Messages that wait if the recorder's node is not spun for a while: 16 seconds of a turtle's pose."""
 
@@ -283,9 +280,6 @@ def with_time(node: Any, listener: Listener) -> Callable[..., None]:
 def _full_name(end: Any) -> str:
     return f"{end.node_namespace.rstrip('/')}/{end.node_name}"
 
-
-# -- markers ------------------------------------------------------------------------------------------------------
-# Obstacles out of a visualization_msgs/msg/MarkerArray, by the rules that RViz keeps.
 
 # visualization_msgs/msg/Marker: its types and actions
 CUBE, SPHERE, CYLINDER = 1, 2, 3

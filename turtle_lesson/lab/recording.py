@@ -14,9 +14,6 @@ import numpy as np
 
 from .words import number
 
-# -- table --------------------------------------------------------------------------------------------------------
-# A table of numbers that grows by a row a message: small in memory, and cheap to add to.
-
 Listener = Callable[[Any, Mapping[str, Any]], None]
 """What hears a message and rclpy's information about it (`source_timestamp` in ns, …)."""
 
@@ -96,9 +93,6 @@ def _reader(paths: tuple[str, ...]) -> Callable[[Any], tuple[float, ...]]:
 def _missing(message: Any) -> float:
     return float("nan")
 
-
-# -- recording ----------------------------------------------------------------------------------------------------
-# What has been heard of a turtle, as numbers: the plots read this, the recorder fills it.
 
 NANOSECONDS = 1_000_000_000
 

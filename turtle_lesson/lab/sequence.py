@@ -10,9 +10,8 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from . import drawing, style
-from .graph import LOOKS, THEME, GraphPicture
+from .graph import LOOKS, PARAMETER_SERVICES, THEME, GraphPicture
 from .recording import NANOSECONDS
-from .system import PARAMETER_SERVICES
 from .timeline import SHORT, Window, window_of
 from .words import count, listed, number
 
@@ -64,9 +63,6 @@ def _nothing(trace: Any, names: list[str], called: Sequence[Any], window: Window
     return f"No node has called {what} yet.{meant} Try: ros2 service call {names[0] if names else '/navigate_to'} …"
 
 
-# -- in words ----------------------------------------------------------------------------------------------------------
-
-
 def _describe(steps: Sequence[Step], calls: int) -> str:
     shown = count(calls, "call") if calls == len(steps) else f"The last {len(steps)} of {count(calls, 'call')}"
     return " ".join([f"{shown} of {listed(_services(steps))}.", *map(_sentence, steps)])
@@ -91,10 +87,6 @@ def _sentence(step: Step) -> str:
     if meanwhile:
         parts.append(f"had to wait meanwhile: {listed(meanwhile)}")
     return f"{'; '.join(filter(None, parts))}."
-
-
-# -- call steps ---------------------------------------------------------------------------------------------------
-# Service calls, each with what the trace of callbacks knows of it, and their figures in words.
 
 
 @dataclass(frozen=True)
@@ -186,8 +178,7 @@ def _value(value: Any) -> str:
     return str(value)
 
 
-# -- sequence drawing ---------------------------------------------------------------------------------------------
-# Service calls as a drawing: a line downwards for each program, an arrow for each message, a note for each callback.
+# -- sequence drawing -----------------------------------------------------------------------------------------------
 
 SIZE, LINE = 12.0, 15.0
 """Pixels of a text, and from line to line."""
@@ -265,8 +256,8 @@ def _box(x: float, top: float, width: float, height: float, lines: list[str], ki
     return f'<rect {frame} rx="4" fill="{fill}" stroke="{edge}"/>{written}'
 
 
-# -- sequence text ------------------------------------------------------------------------------------------------
-# A Mermaid sequence diagram of service calls. The language: https://mermaid.js.org/syntax/sequenceDiagram.html.
+# -- sequence text --------------------------------------------------------------------------------------------------
+# https://mermaid.js.org/syntax/sequenceDiagram.html
 
 SETTINGS = (
     f'%%{{init: {{{THEME}, "sequence": {{"actorMargin": 60, "width": 150, "height": 44, "boxMargin": 6, "noteMargin": 8, '

@@ -32,9 +32,6 @@ def plot_status(recording: Recording, *, since: float | None = None, until: floa
     return Picture(_describe(seconds, rows), figure)
 
 
-# -- in words --------------------------------------------------------------------------------------------
-
-
 def _nothing(recording: Recording) -> str:
     if not len(recording.statuses):
         return f"No status yet. {recording.why_silent(STATUS_TOPIC)}"
@@ -54,9 +51,6 @@ def _describe(seconds: np.ndarray, rows: np.ndarray) -> str:
     time = f"{number(seconds[0])} s to {number(seconds[-1])} s of robot time"
     known = "; ".join(clause for clause, value in clauses.items() if not math.isnan(value))
     return f"Status on {STATUS_TOPIC} from {time}: {rate(rows['stamp'])}. {known[:1].upper()}{known[1:]}."
-
-
-# -- as a picture --------------------------------------------------------------------------------------------
 
 
 def _draw(seconds: np.ndarray, rows: np.ndarray) -> Figure:

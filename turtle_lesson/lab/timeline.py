@@ -13,10 +13,10 @@ import numpy as np
 
 from ..ros.rmw.trace import TOPICS
 from . import style
+from .graph import EVERYWHERE, PARAMETER_SERVICES
 from .picture import Picture
 from .recording import NANOSECONDS
-from .system import EVERYWHERE, PARAMETER_SERVICES, is_hidden
-from .words import count, listed, number, rate
+from .words import count, is_hidden, listed, number, rate
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -151,8 +151,7 @@ def _legend(figure: Figure, lanes: list[Lane]) -> None:
         figure.legend(handles=signs, loc="lower left", bbox_to_anchor=(0.02, 0.0), ncols=len(signs), **look)
 
 
-# -- lanes --------------------------------------------------------------------------------------------------------
-# What a timeline shows, as numbers: a lane for each topic (its messages) and for each callback (its runs).
+# -- lanes ----------------------------------------------------------------------------------------------------------
 
 SHORT = 1_000_000
 """What lasts less (ns) is told as no time: looking at a clock costs a microsecond, a message under way a tenth of this."""
@@ -264,9 +263,6 @@ def _unknown(name: str, nodes: list[str], topics: list[str]) -> str:
     return f"{name} is neither a topic nor a node that has run here. {meant}{there}."
 
 
-# -- topics ------------------------------------------------------------------------------------------------------------
-
-
 def _topic_lane(trace: Any, topic: str, window: Window) -> Lane:
     if topic in trace.not_noted:
         raise ValueError(
@@ -300,9 +296,6 @@ def _frequency(times: np.ndarray, noun: str) -> str:
         return count(len(times), noun)
     hertz = (len(times) - 1) / (times[-1] - times[0]) * NANOSECONDS
     return f"{count(len(times), noun)}, {number(hertz, 1)} Hz"
-
-
-# -- callbacks ---------------------------------------------------------------------------------------------------------
 
 
 def _callback_lanes(trace: Any, node: str, function: str, window: Window, alive: bool) -> list[Lane]:

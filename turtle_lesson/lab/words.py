@@ -8,9 +8,6 @@ from difflib import get_close_matches
 
 import numpy as np
 
-# -- words --------------------------------------------------------------------------------------------------------
-# Numbers, angles and lists in plain words, the same on every machine: fixed decimals, never a minus zero.
-
 
 def number(value: float, decimals: int = 2) -> str:
     """A number with a fixed count of decimals: `number(-0.001)` is "0.00", not "-0.00"."""
@@ -63,9 +60,6 @@ def rate(stamps: np.ndarray) -> str:
         f"the shortest interval {shortest} ms and the longest {longest} ms"
     )
 
-
-# -- typed names --------------------------------------------------------------------------------------------------
-# Names that somebody typed: which one was meant, and a list of those that there are.
 
 LISTED = 12
 """How many names a sentence lists at most."""

@@ -6,7 +6,7 @@ import importlib
 from collections import Counter
 from typing import Any
 
-from ..system import is_hidden
+from ..words import is_hidden
 from ..words import nearest
 from .results import CannotLook
 

@@ -110,11 +110,9 @@ class Link:
         return getattr(self._backend, name)
 
 
-# -- loop ---------------------------------------------------------------------------------------------------------
-# The notebook's event loop: what widgets do happens there and nowhere else.
-# A message from the browser may arrive in another thread with a loop of its own (ipykernel 7 with JupyterLab 4.6 does
-# so now and then), and greenlets cannot change thread. So each callback of a widget hops to the loop in which cells
-# run.
+# -- loop -----------------------------------------------------------------------------------------------------------
+# A message from the browser may arrive in another thread with a loop of its own (ipykernel 7 with JupyterLab 4.6 does so
+# now and then), and a greenlet cannot change its thread. So the callbacks of widgets run in the loop in which cells run.
 
 
 class Loop:

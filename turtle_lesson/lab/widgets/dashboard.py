@@ -25,9 +25,6 @@ if TYPE_CHECKING:
     from .goal_client import Goal
 
 
-# -- dashboard picture --------------------------------------------------------------------------------------------
-# The dashboard as a picture that stays, for readers of a page without a kernel.
-
 GAP = 12
 """Pixels shown between two cards."""
 
@@ -56,9 +53,6 @@ def _sheet(cards: list[np.ndarray]) -> Figure:
         left += card.shape[1] + gap
     return figure
 
-
-# -- lab view -----------------------------------------------------------------------------------------------------
-# The goal pad, and what the dashboard has in common with it: panels on one running system.
 
 GOAL_PAD = ["clock", "map", "goals", "editor"]
 SCRIPTS = ("clock", "map", "goals", "editor", "signs", "status", "log", "scan", "rates", "lights")
@@ -102,9 +96,6 @@ class LabView(GoalsPanel, EditorPanel, MapPanel, ClockPanel):
         x, y, theta = (poses[0][name] for name in ("x", "y", "theta"))
         return f"the turtle is at {point(x, y)} m facing {angle(theta)}"
 
-
-# -- dashboard ----------------------------------------------------------------------------------------------------
-# The dashboard: everything about a running system at once.
 
 DASHBOARD = ["clock", "map", "goals", "editor", "status", "log", "scan", "rates", "lights"]
 

@@ -68,8 +68,6 @@ class Form(LiveWidget):
         self._bring_up_to_date(fields_too=True)
         self.tick()
 
-    # -- orders: the fields ------------------------------------------------------------------------------------------
-
     def do_edit(self, path: str, text: Any) -> None:
         """Put a text (true or false, for a checkbox) into a field."""
         part = find_part(self._whole, path)
@@ -116,8 +114,6 @@ class Form(LiveWidget):
         if not isinstance(part, Rows):
             raise ValueError(f"{path} is not an array.")
         return part
-
-    # -- orders: sending ---------------------------------------------------------------------------------------------
 
     def do_publish(self) -> None:
         """Publish once."""
@@ -180,8 +176,6 @@ class Form(LiveWidget):
     def _time(self) -> Any:
         return self.backend.node.get_clock().now().to_msg()
 
-    # -- as time goes by ---------------------------------------------------------------------------------------------
-
     def tick(self) -> None:
         """Look which nodes listen, and whether an answer is overdue."""
         self._caller.look()
@@ -206,8 +200,6 @@ class Form(LiveWidget):
             self.backend.node.destroy_timer(self._timer)
             self._timer = None
         self.running = False
-
-    # -- the state -----------------------------------------------------------------------------------------------------
 
     def _bring_up_to_date(self, fields_too: bool = False) -> None:
         singles = list(self._whole.singles())
@@ -264,10 +256,6 @@ def _within(what: str, value: Any, low: float, high: float) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not low <= value <= high:
         raise ValueError(f"The {what} must be a number from {low:g} to {high:g}, got {value!r}.")
     return float(value)
-
-
-# -- typed line ---------------------------------------------------------------------------------------------------
-# What a form does, as a line for the terminal.
 
 
 def publish_line(topic: str, type_name: str, values: dict[str, Any], rate: float | None) -> str:

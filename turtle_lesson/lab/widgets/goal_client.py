@@ -140,8 +140,6 @@ class GoalDesk:
             self._backend.node.destroy_client(self._client)
             self._client = None
 
-    # -- asking ------------------------------------------------------------------------------------------------------
-
     def _ask(self, goal: Goal) -> None:
         try:
             from robot_controller.srv import NavigateTo
@@ -177,8 +175,6 @@ class GoalDesk:
 
     def _how_to_build(self) -> str:
         return "Build it and source it: colcon build --packages-select robot_controller, then source install/setup.bash"
-
-    # -- the answer --------------------------------------------------------------------------------------------------
 
     def _answered(self, goal: Goal, future: Any) -> None:
         if self._asked.pop(goal.number, None) is None:

@@ -15,9 +15,6 @@ from ..words import enumerated, listed, number
 from .backend import Backend
 from .message_types import plain
 
-# -- outlet -------------------------------------------------------------------------------------------------------
-# Where a widget publishes: a publisher that is made when it is first used, and the nodes that listen there.
-
 PATIENCE = 1.0
 """Robot time, s, for which a message waits until a publisher that was just made has found its listeners."""
 
@@ -107,9 +104,6 @@ def in_a_moment(backend: Backend, future: Any) -> None:
         backend.clock.step(0.005)
 
 
-# -- ear ----------------------------------------------------------------------------------------------------------
-# An ear at a topic that the recorder does not hear: it only notes when messages were sent.
-
 KEPT = 1000
 """Times that are kept: five seconds of a topic with 200 messages a second."""
 
@@ -153,9 +147,6 @@ class Ear:
         bare = self._backend.clock is None  # on a robot, where it may be images: never made into Python objects
         return node.create_subscription(message_type, topic, with_time(node, hear), quality, raw=bare)
 
-
-# -- caller -------------------------------------------------------------------------------------------------------
-# Asking a service, one question at a time, and what became of it in words.
 
 Answered = Callable[[str, str], object]
 """Called with what became of a question: in words, and the answer in YAML ("" where none came)."""
@@ -281,9 +272,6 @@ def _shortened(value: Any) -> Any:
         return [*map(_shortened, value[:LONGEST_LIST]), *rest]
     return value
 
-
-# -- server -------------------------------------------------------------------------------------------------------
-# The node that offers a service, as seen from outside: whether it is still there, and what it warns of.
 
 WARNING = 30
 """rcl_interfaces/msg/Log: this level and those above it."""

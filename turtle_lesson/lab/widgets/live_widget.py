@@ -63,8 +63,6 @@ class LiveWidget(anywidget.AnyWidget):
         self.on_msg(backend.loop.hopping(self._order))
         self.is_made = True
 
-    # -- for the widgets ---------------------------------------------------------------------------------------------
-
     def tick(self) -> None:
         """Bring the traits up to date."""
 
@@ -84,8 +82,6 @@ class LiveWidget(anywidget.AnyWidget):
     def picture(self) -> Picture | None:
         """What to show where there is no kernel."""
         return None
-
-    # -- the machinery -------------------------------------------------------------------------------------------------
 
     def _tick(self) -> None:
         if self.backend.ended:
@@ -188,9 +184,6 @@ def put_aside(widget: LiveWidget) -> None:
         _ended.remove(each)
         each.close()
 
-
-# -- views --------------------------------------------------------------------------------------------------------
-# The places in browsers where a widget is to be seen: while there are any, it ticks.
 
 PATIENCE = 150.0
 """Seconds without a sign of life after which a view counts as gone: its window was closed, or its network broke.

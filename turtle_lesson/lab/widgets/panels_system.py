@@ -10,16 +10,15 @@ from typing import Any
 import numpy as np
 import traitlets
 
+from ..graph import EVERYWHERE
 from ..recording import NANOSECONDS, OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, Table
 from ..scan import Beams, read_beams
-from ..system import EVERYWHERE, is_hidden
-from ..words import listed, number
+from ..words import is_hidden, listed, number
 from .lazy_endpoints import Ear
 from .live_data import PAUSE, Pace, frequency, pack, verdict, why_silent
 from .live_widget import LiveWidget
 
-# -- panel status -------------------------------------------------------------------------------------------------
-# The panel with the status: position, heading, speed and battery over the last seconds.
+# -- status ---------------------------------------------------------------------------------------------------------
 
 WINDOW = 30.0
 """Seconds of robot time that the curves show."""
@@ -74,8 +73,7 @@ def _window(rows: np.ndarray, now: int) -> np.ndarray:
     return np.column_stack([ages, rows["x"], rows["y"], rows["theta"], speed, rows["battery"]])
 
 
-# -- panel lights -------------------------------------------------------------------------------------------------
-# The panel with the lights: which nodes and services of the lesson's system are there.
+# -- lights ---------------------------------------------------------------------------------------------------------
 
 NODES = ("/turtlesim", "/navigator", "/status_monitor", "/obstacle_detector")
 SERVICES = ("/navigate_to",)
@@ -145,8 +143,7 @@ def _full_name(place: tuple[str, str]) -> str:
     return f"{namespace.rstrip('/')}/{name}"
 
 
-# -- panel log ----------------------------------------------------------------------------------------------------
-# The panel with the log: what the nodes say on /rosout.
+# -- log ------------------------------------------------------------------------------------------------------------
 
 KEPT = 500
 """Lines that are kept, about."""
@@ -234,8 +231,7 @@ def level_name(level: Any) -> str:
     return LEVELS[min(max(number // 10 - 1, 0), len(LEVELS) - 1)]
 
 
-# -- panel rates --------------------------------------------------------------------------------------------------
-# The panel with the topics: how often messages come on each, beside how often they should.
+# -- rates ----------------------------------------------------------------------------------------------------------
 
 MOST_ROWS = 12
 """Topics that are shown; each of those without an expected rate costs a subscription while the panel is seen."""
@@ -334,8 +330,7 @@ def _row(topic: str, hertz: float, expected: float, state: str, note: str = "") 
     return {"topic": topic, "hertz": shown, "expected": expected, "state": state, "note": note}
 
 
-# -- panel scan ---------------------------------------------------------------------------------------------------
-# The panel with the scan: what the laser sees around the turtle, and how near the nearest thing is.
+# -- scan -----------------------------------------------------------------------------------------------------------
 
 SCAN_IS_LATE = 1.5
 """Seconds without a scan after which the panel says so."""

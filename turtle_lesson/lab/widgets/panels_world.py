@@ -20,8 +20,7 @@ from .lazy_endpoints import let_time_go_on
 from .live_data import Pace, pack
 from .live_widget import LiveWidget
 
-# -- panel map ----------------------------------------------------------------------------------------------------
-# The panel with the map: the world from above, with the turtle, its trail, the obstacles and what the laser hits.
+# -- map ------------------------------------------------------------------------------------------------------------
 
 STALE = 1.5
 """A scan of more robot time ago than this, s, is no longer drawn on the map."""
@@ -87,8 +86,7 @@ def as_state(obstacle: Obstacle) -> dict[str, Any]:
     return {"shape": "circle", **place, "width": 2 * obstacle.radius, "height": 2 * obstacle.radius, "angle": 0.0}
 
 
-# -- panel clock --------------------------------------------------------------------------------------------------
-# The panel with the clock: play, pause, step and rate; robot time beside wall time.
+# -- clock ----------------------------------------------------------------------------------------------------------
 
 LONGEST_STEP = 1.0
 """Seconds of robot time that one step may take."""
@@ -148,8 +146,7 @@ class ClockPanel(LiveWidget):
             self.backend.clock.step(float(seconds))
 
 
-# -- panel editor -------------------------------------------------------------------------------------------------
-# The panel that edits the world: add, move, change and remove obstacles, or load a ready-made world.
+# -- editor ---------------------------------------------------------------------------------------------------------
 
 CIRCLE, BOX = {"radius": 0.5}, {"width": 1.5, "height": 0.5}
 """The sizes of a fresh obstacle, m."""
@@ -233,8 +230,7 @@ def _reach(obstacle: Any) -> float:
     return obstacle.radius if isinstance(obstacle, Circle) else math.hypot(obstacle.width, obstacle.height) / 2
 
 
-# -- panel goals --------------------------------------------------------------------------------------------------
-# The panel with the goals: those that were sent from here, and what became of each.
+# -- goals ----------------------------------------------------------------------------------------------------------
 
 SHOWN = 60
 """How many of the newest goals the browser is told of."""
@@ -302,8 +298,7 @@ def _ending(goal: Goal) -> str:
     return f"{goal.state}. {goal.answer}" if goal.answer else f"{goal.state}."
 
 
-# -- trail --------------------------------------------------------------------------------------------------------
-# The turtle's trail on a live map, grown point by point and sent to the browser in two parts.
+# -- trail ----------------------------------------------------------------------------------------------------------
 
 SPACING = 0.05
 """Metres from one point of the trail to the next; the browser itself joins the last one to the turtle."""

@@ -10,8 +10,7 @@ from ..words import count, did_you_mean, enumerated, is_hidden
 from .backend import Backend
 from .live_data import Pace
 from .live_widget import LiveWidget, script, styles
-from .parameter_client import Found, ParameterDesk, node_names
-from .parameter_values import BOOL, DOUBLE, INTEGER, TYPES, read, shown
+from .parameter_client import BOOL, DOUBLE, INTEGER, TYPES, Found, ParameterDesk, node_names, read, shown
 
 
 class ParametersPanel(LiveWidget):
@@ -38,8 +37,6 @@ class ParametersPanel(LiveWidget):
         super().__init__(backend, node_name=name)
         self._desk.listen()
         self._show()
-
-    # -- orders ------------------------------------------------------------------------------------------------------
 
     def do_set(self, name: str, value: Any) -> None:
         """Have the node set a parameter to what was typed (true or false, for a checkbox)."""
@@ -74,8 +71,6 @@ class ParametersPanel(LiveWidget):
         self.words = f"{name} stays {now}. {trouble}" if trouble else f"{name} is {now} now."
         self._show()
 
-    # -- as time goes by ---------------------------------------------------------------------------------------------
-
     def tick(self) -> None:
         """See whether the node is still there, and ask again when it has come back."""
         if not self._looks.due():
@@ -98,8 +93,6 @@ class ParametersPanel(LiveWidget):
     def left(self) -> None:
         """Listen no more."""
         self._desk.close()
-
-    # -- the state -----------------------------------------------------------------------------------------------------
 
     def _show(self) -> None:
         clock = self.backend.clock

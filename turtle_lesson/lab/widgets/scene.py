@@ -63,8 +63,6 @@ class Scene(LiveWidget):
         super().__init__(backend, bundle=viewer_bundle(), stage=parts.stage())
         self.tick()
 
-    # -- what a page asks for ------------------------------------------------------------------------------------------
-
     def snapshot(self) -> ScenePage:
         """The scene as it is now, as one page of HTML that needs neither kernel nor network.
 
@@ -90,8 +88,6 @@ class Scene(LiveWidget):
     def picture(self) -> Picture | None:
         """The same scene drawn by matplotlib, from one side."""
         return draw_scene(self.backend.recorder, self._current_goal())
-
-    # -- bringing it up to date ----------------------------------------------------------------------------------------
 
     def redraw(self) -> None:
         """Bring everything up to date, also what usually waits a little; of an ended world, nothing changes."""

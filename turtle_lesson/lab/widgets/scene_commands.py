@@ -115,10 +115,9 @@ class _SetNamed(SetProperty):
         return {"type": "set_property", "path": self.path.lower(), "property": self.key, "value": self.value}
 
 
-# -- scene parts --------------------------------------------------------------------------------------------------
-# The parts of the 3-D scene as commands for meshcat's viewer; each list brings its part up to date, whatever was
-# there.
-# All lies below "lab", where the lower left corner of the world is (0, 0); the viewer's own middle is the world's.
+# -- scene parts ----------------------------------------------------------------------------------------------------
+# Each list of commands brings its part up to date, whatever was there. All paths are below "lab", whose origin is the lower
+# left corner of the world; the viewer's own is its middle.
 
 TURTLE = "lab/turtle"
 SUN = (-5.0, -7.0, 14.0)

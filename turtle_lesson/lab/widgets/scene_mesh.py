@@ -101,8 +101,8 @@ def placed(x: float = 0.0, y: float = 0.0, z: float = 0.0, turn: float = 0.0, si
     return np.array([[cos, -sin, 0, x], [sin, cos, 0, y], [0, 0, size, z], [0, 0, 0, 1.0]])
 
 
-# -- scene turtle -------------------------------------------------------------------------------------------------
-# The turtle in three dimensions, of few flat faces: the same turtle as in the plots, which shows it from above.
+# -- scene turtle ---------------------------------------------------------------------------------------------------
+# The turtle of few flat faces; from above it is the turtle of the plots.
 
 LENGTH = 0.95
 """From its nose to its tail, m. All that follows is in parts of this length: it looks along +x, its middle is (0, 0)."""
@@ -216,8 +216,7 @@ def _tail() -> Mesh:
     return loft([np.tile([tip, 0.0, 0.07], (4, 1)), around], SKIN)
 
 
-# -- scene world --------------------------------------------------------------------------------------------------
-# What stands in the 3-D scene beside the turtle, as meshes: floor, walls, obstacles, trail, laser and goals.
+# -- scene world ----------------------------------------------------------------------------------------------------
 
 FLOOR, GRID, WALL = "#fbfbf8", "#dcdcd5", "#c9ced6"
 """On a light page; on a dark one the browser takes darker ones (js/scene_theme.js)."""

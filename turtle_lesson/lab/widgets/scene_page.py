@@ -116,9 +116,6 @@ def _written(value: Any) -> Any:
     return value
 
 
-# -- scene replay -------------------------------------------------------------------------------------------------
-# A run of the turtle as meshcat's animation: the turtle drives, and goals come when they were sent.
-
 PERIOD = 0.1
 """Seconds between two poses of the animation, which are joined evenly …"""
 MOST = 4000

@@ -116,10 +116,6 @@ def _brightness(mesh: Mesh) -> np.ndarray:
     return (0.72 + 0.31 * np.maximum(facing, 0.0))[:, None]
 
 
-# -- scene words --------------------------------------------------------------------------------------------------
-# The 3-D scene in words, exactly.
-
-
 def newest_pose(recorder: Recording, until: int | None = None) -> tuple[float, float, float] | None:
     """The newest pose (m, m, rad), of those not later than `until` (ns); None where none was heard."""
     poses = recorder.poses.newest(1 if until is None else 256)
@@ -175,9 +171,6 @@ def _seen_by_laser(scan: Any) -> list[str]:
     beams = read_beams(scan)
     return [f"{int(beams.sees.sum())} of the laser's {count(len(beams), 'beam')} see something"]
 
-
-# -- scene trail --------------------------------------------------------------------------------------------------
-# The way that the turtle took, in as few points as show it well: straight stretches need only their ends.
 
 STEP = 0.04
 """Points are at least so far apart, m …"""

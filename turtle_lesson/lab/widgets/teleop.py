@@ -65,8 +65,6 @@ class Teleop(LiveWidget):
             backend.keyboard.has_keys = True
         self._look_for_program()
 
-    # -- orders ------------------------------------------------------------------------------------------------------
-
     def do_drive(self, forward: float, turn: float) -> None:
         """The stick is held, and is here: both from -1 to 1, turning to the left positive."""
         place = {"forward": _unit("forward", forward), "turn": _unit("turn", turn)}
@@ -109,8 +107,6 @@ class Teleop(LiveWidget):
             if not 0 < value <= FASTEST[name]:
                 raise ValueError(f"The highest speed ({name}) must be above 0 and at most {FASTEST[name]:g}.")
             self.limits = {**self.limits, name: float(value)}
-
-    # -- as time goes by ---------------------------------------------------------------------------------------------
 
     def tick(self) -> None:
         """Stop if the page no longer says that the stick is held, and look which nodes listen."""
@@ -160,8 +156,6 @@ class Teleop(LiveWidget):
         message.angular.z = self.stick["turn"] * self.limits["turn"]
         self._outlet.publish(message)
         self.sent = {"linear": message.linear.x, "angular": message.angular.z, "count": self.sent["count"] + 1}
-
-    # -- in words ----------------------------------------------------------------------------------------------------
 
     def text(self) -> str:
         """Where it drives, how fast at most, and what it sent last."""
