@@ -13,6 +13,7 @@ import tempfile
 from collections.abc import Generator, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -26,14 +27,27 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     # A job in the background (`nohup … &`) ignores Ctrl-C, and so would the kernels whose cells these tests interrupt.
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
-LONG = ("test_answers.py", "test_teaching_grade.py", "test_real_colcon.py", "browser", "test_pages_restart.py", "test_story.py",
-        "test_pages_interrupt.py", "test_installation.py", "notebooks")  # fmt: skip
+LONG = ("browser", "test_answers.py", "test_teaching_grade.py", "test_real_colcon.py", "test_story.py",
+        "test_pages_interrupt.py", "test_pages_restart.py", "test_installation.py", "notebooks")  # fmt: skip
 """Files and folders whose tests take longest: they come first, so that no worker is left with one of them at the end."""
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Put what takes longest first; within a file the order stays."""
     items.sort(key=lambda item: next((at for at, name in enumerate(LONG) if name in item.path.parts), len(LONG)))
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """Give a worker whole files, and one of them all that run in a browser, for which it starts JupyterLab once."""
+    from xdist.scheduler import LoadFileScheduling
+
+    class Scheduling(LoadFileScheduling):
+        def _split_scope(self, nodeid: str) -> str:
+            file = super()._split_scope(nodeid)
+            return "browser" if "/browser/" in file else file
+
+    return Scheduling(config, log) if config.getvalue("dist") == "loadfile" else None
 
 
 @contextmanager

@@ -15,13 +15,6 @@ PAGES = sorted((Path(__file__).resolve().parents[1] / "notebooks").glob("*.ipynb
 HALF_PAGES = ("03b_answer_on_arrival",)
 
 
-def run(cells: list[Any], folder: Path) -> list[Any]:
-    """Run cells in a fresh kernel, in a folder; the cells with their outputs. Raises CellExecutionError if one fails."""
-    notebook = nbformat.v4.new_notebook(cells=cells)
-    client_in(folder, notebook).execute()
-    return notebook.cells
-
-
 def client_in(folder: Path, notebook: Any) -> NotebookClient:
     """A client whose kernel begins in this folder, as that of a page which lies there."""
     os.environ.pop("TURTLE_LESSON_FOLDER", None)  # names the folder of pages that are compared by nbval

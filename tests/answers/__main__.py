@@ -4,16 +4,17 @@
 
 Each connection runs one page, which its first line names: {"page": …}. It then reads a request a line, and writes a reply a
 line (`server.py`); with {"restart": true} the one reply says what went wrong after restarts (`restart.py`). It ends when
-the connection does.
+the connection does. {"cells": [[source, whether an error is wanted], …], "folder": …} is a learner's page in a folder that
+stays; the one reply holds the texts of the cells' results.
 """
 
 from __future__ import annotations
 
+import contextlib
 import gc
 import importlib
 import json
 import os
-import signal
 import socket
 import sys
 import tempfile
@@ -26,7 +27,7 @@ from turtle_lesson.lab.checks import probe
 from turtle_lesson.ros.sim import interrupts
 
 from . import restart
-from .server import Kept, Page, serve, the_shell
+from .server import Kept, Page, results, serve, the_shell
 
 PATIENCE = 2.0
 """CPU time, s, after which a callback that lets no time pass is stopped: less than a learner is given, for the tests' sake."""
@@ -49,6 +50,11 @@ def run_page(connection: socket.socket) -> None:
     """Run the page that the first line names, in a fresh folder."""
     with connection, connection.makefile("rw", encoding="utf-8") as stream, tempfile.TemporaryDirectory() as scratch:
         wanted = json.loads(stream.readline())
+        if "cells" in wanted:
+            os.environ.pop("TURTLE_LESSON_FOLDER", None)  # the current one is the learner's
+            os.chdir(wanted["folder"])
+            stream.write(json.dumps(results(wanted["cells"])) + "\n")
+            return
         folder = Path(scratch, "folder")
         folder.mkdir()
         os.environ["TURTLE_LESSON_FOLDER"] = str(folder)
@@ -69,7 +75,6 @@ def main() -> None:
     for name in IMPORTS:
         importlib.import_module(name)
     os.dup2(2, 1)  # what is printed belongs to the log
-    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # nobody waits for a page's process
     gc.freeze()
     with socket.socket(fileno=int(sys.argv[1])) as listener:
         while True:
@@ -78,7 +83,6 @@ def main() -> None:
                 status = 1
                 try:
                     listener.close()
-                    signal.signal(signal.SIGCHLD, signal.SIG_DFL)
                     run_page(connection)
                     status = 0
                 except BaseException:
@@ -86,6 +90,9 @@ def main() -> None:
                 finally:
                     os._exit(status)
             connection.close()
+            with contextlib.suppress(ChildProcessError):
+                while os.waitpid(-1, os.WNOHANG)[0]:  # the pages that have ended
+                    pass
 
 
 if __name__ == "__main__":

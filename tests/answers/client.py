@@ -8,6 +8,7 @@ import socket
 import subprocess
 import sys
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -32,6 +33,15 @@ class PageServer:
     def page(self, name: str, **options: bool) -> RunningPage:
         """A page in a fresh folder."""
         return RunningPage(self._address, {"page": name, **options})
+
+    def results(self, cells: Sequence[tuple[str, bool]], folder: Path) -> list[str]:
+        """Run cells in a folder, each with whether an error is wanted: the texts of their results."""
+        running = RunningPage(self._address, {"cells": cells, "folder": str(folder)})
+        found = running.reply()
+        running.close()
+        assert "broken" not in found, found["broken"]
+        said: list[str] = found["said"]
+        return said
 
     def close(self) -> None:
         """End it; pages that still run end with their connections."""

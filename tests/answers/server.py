@@ -121,6 +121,19 @@ class Page:
         return first
 
 
+def results(cells: list[tuple[str, bool]]) -> dict[str, Any]:
+    """Run cells, each with whether an error is wanted: the texts of their results, or the first error, as "broken"."""
+    shell, said, printed = the_shell(), list[str](), io.StringIO()
+    with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):
+        for source, wanted in cells:
+            done = shell.run_cell(source, store_history=True)
+            error = done.error_before_exec or done.error_in_exec
+            if error is not None and not wanted:
+                return {"broken": f"{type(error).__name__}: {error}\nin:\n{source}\n{printed.getvalue()[-4000:]}"}
+            said.append(repr(done.result))
+    return {"said": said}
+
+
 # -- a child for each answer ---------------------------------------------------------------------------------------------
 
 
