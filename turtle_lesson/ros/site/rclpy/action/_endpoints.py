@@ -159,10 +159,6 @@ class ActionEntity(Entity):
             self._action._end()
 
 
-# -- ids ----------------------------------------------------------------------------------------------------------
-# Numbers for goals. They look random and are the same in every run, as everything in a simulated world.
-
-
 def new_goal_id() -> Any:
     """A number that no other goal has, from a source of its own, so that a program's random numbers do not shift."""
     process = current_process()
@@ -171,9 +167,6 @@ def new_goal_id() -> Any:
         source = process.locals["rclpy.action.ids"] = Random(f"{process.seed}/goal ids")
     return UUID(uuid=list(Number(int=source.getrandbits(128), version=4).bytes))
 
-
-# -- callbacks ----------------------------------------------------------------------------------------------------
-# How the callbacks of an action are called, and what is said when one cannot be called like that.
 
 ARGUMENTS = {
     "goal_callback": "goal_request",

@@ -103,8 +103,10 @@ class Goals:
 
 # -- goal states --------------------------------------------------------------------------------------------------
 # The states of a goal, and which event leads to which (rcl_action's goal_state_machine.c).
-# accepted ──EXECUTE──▸ executing ──SUCCEED──▸ succeeded │ │ └────ABORT────▸ aborted └──CANCEL_GOAL─────┴▸ canceling
-# ──CANCELED──▸ canceled (or SUCCEED, or ABORT)
+#
+#     accepted ──EXECUTE──▸ executing ──SUCCEED──▸ succeeded
+#         │                     │ └─────ABORT────▸ aborted
+#         └──────CANCEL_GOAL────┴▸ canceling ──CANCELED──▸ canceled (or SUCCEED, or ABORT)
 
 NAMES = {
     getattr(GoalStatus, f"STATUS_{name}"): name
@@ -237,7 +239,7 @@ class ServerGoalHandle:
         self._for_all.status = state_after(self._for_all.status, event)
         server._publish_status()
         if self._for_all.status not in ACTIVE:
-            server._note_ended(self)
+            server._goals.end(self)
 
     def execute(self, execute_callback: Callable[[ServerGoalHandle], Any] | None = None) -> None:
         """Have the server's execute callback, or another one, called for this goal, by the executor, soon.

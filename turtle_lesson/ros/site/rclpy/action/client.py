@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from functools import partial
 from types import GenericAlias
 from typing import TYPE_CHECKING, Any
 from weakref import WeakValueDictionary
@@ -12,22 +11,33 @@ from weakref import WeakValueDictionary
 from action_msgs.msg import GoalStatus
 from action_msgs.srv import CancelGoal
 
+from turtle_lesson.ros.sim.errors import NeverWakes
 from turtle_lesson.ros.sim.strand import running_strand
 
 from .._blocking import drives_the_simulation
-from .._hints import shown
+from .._deadlock import Words, why_never_answered
+from .._hints import did_you_mean, shown
 from .._reexports import borrowed
 from ..callback_groups import CallbackGroup
 from ..client import Client
 from ..qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
 from ..task import Future
-from ._deadlock import WORDS, refuse_hopeless
 from ._endpoints import ActionEntity, call_back, check_action, full_names, make_parts, new_goal_id
 from ._goals import ACTIVE, key_of
 
 if TYPE_CHECKING:
     from ..node import Node
 
+WORDS = {
+    part: Words("action client", "action server", ask, "ActionClient")
+    for part, ask in {
+        "send_goal": "action_client.send_goal_async(goal)",
+        "cancel_goal": "goal_handle.cancel_goal_async()",
+        "get_result": "goal_handle.get_result_async()",
+    }.items()
+}
+"""What the clients behind an action client are called in such explanations."""
+SUFFIX = "/_action/send_goal"
 FEEDBACK = QoSProfile(depth=10)
 POLL = 0.25  # how often, in s, the real one looks whether a server has appeared (client.py)
 
@@ -159,38 +169,19 @@ class ActionClient:
         NeverWakes, which says why, instead of hanging as a real one does.
         """
         self._check_goal(goal)
-        return self._get_result(
-            self._wait(self._goal_client, "send_goal", lambda: self.send_goal_async(goal, **kwargs))
-        )
+        return self._wait(self._goal_client, "send_goal", lambda: self.send_goal_async(goal, **kwargs)).get_result()
 
     def _check_goal(self, goal: Any) -> None:
         if not isinstance(goal, self._action_type.Goal):
             name = f"{self._action_type.__name__}.Goal"
             raise TypeError(f"a goal of {self._action_name} is of type {name}, got {shown(goal)}: try {name}(…)")
 
-    def _cancel_goal_async(self, goal_handle: ClientGoalHandle) -> Future:
-        _check_handle(goal_handle)
-        request = CancelGoal.Request()
-        request.goal_info.goal_id = goal_handle.goal_id
-        return self._cancel_client.call_async(request)
-
-    def _cancel_goal(self, goal_handle: ClientGoalHandle) -> Any:
-        _check_handle(goal_handle)
-        return self._wait(self._cancel_client, "cancel_goal", lambda: self._cancel_goal_async(goal_handle))
-
     def _get_result_async(self, goal_handle: ClientGoalHandle) -> Future:
-        _check_handle(goal_handle)
         request = self._action_type.Impl.GetResultService.Request(goal_id=goal_handle.goal_id)
         future = self._result_client.call_async(request)
-        future.add_done_callback(partial(self._forget_feedback, key_of(goal_handle.goal_id)))
+        key = key_of(goal_handle.goal_id)
+        future.add_done_callback(lambda _: self._feedback_callbacks.pop(key, None))
         return future
-
-    def _get_result(self, goal_handle: ClientGoalHandle) -> Any:
-        _check_handle(goal_handle)
-        return self._wait(self._result_client, "get_result", lambda: self._get_result_async(goal_handle))
-
-    def _forget_feedback(self, key: bytes, _: Future) -> None:
-        self._feedback_callbacks.pop(key, None)
 
     @drives_the_simulation
     def _wait(self, client: Client, what: str, ask: Callable[[], Future]) -> Any:
@@ -198,8 +189,23 @@ class ActionClient:
         strand = running_strand()
         assert strand is not None
         strand.activity = f"{what} of {self._name}"
-        refuse_hopeless(self, client, what, strand)
+        problem = why_never_answered(client, strand) if self.server_is_ready() else self._why_nobody_offers()
+        if problem:
+            raise NeverWakes(f"this {what} of {self._name} can never be answered: {problem}")
         return client._answer_to(ask(), strand)
+
+    def _why_nobody_offers(self) -> str:
+        """What is known about an action that nobody offers by this name and type."""
+        own = self._action_type._TYPE_NAME
+        services = self._node._ros_graph.services().items()
+        offered = {each.removesuffix(SUFFIX): types for each, types in services if each.endswith(SUFFIX)}
+        if self._name in offered:
+            kind = offered[self._name][0].removesuffix("_SendGoal")
+            return f"the action of this name is of type {kind}, not {own}."
+        return (
+            f"no node offers this action ({own}){did_you_mean(self._name, offered) or '.'} Is its node running? "
+            "wait_for_server(timeout_sec=…) waits for it."
+        )
 
     # -- what comes back -------------------------------------------------------------------------------------------
 
@@ -281,18 +287,6 @@ class ActionClient:
         self._feedback_callbacks.clear()
 
 
-def _check_handle(goal_handle: Any) -> None:
-    if not isinstance(goal_handle, ClientGoalHandle):
-        raise TypeError(f"Expected type ClientGoalHandle but received {type(goal_handle)}")
-
-
-__getattr__ = borrowed(__name__)
-
-
-# -- client goal handle -------------------------------------------------------------------------------------------
-# A goal, as the client sees it that has sent it.
-
-
 class ClientGoalHandle:
     """A goal, as the client sees it that has sent it. Made by ActionClient."""
 
@@ -337,16 +331,23 @@ class ClientGoalHandle:
 
     def cancel_goal(self) -> Any:
         """Ask to cancel the goal, and wait for the answer. Not for callbacks: see ActionClient.send_goal."""
-        return self._action_client._cancel_goal(self)
+        client = self._action_client
+        return client._wait(client._cancel_client, "cancel_goal", self.cancel_goal_async)
 
     def cancel_goal_async(self) -> Future:
         """Ask to cancel the goal; the future will have a CancelGoal.Response."""
-        return self._action_client._cancel_goal_async(self)
+        request = CancelGoal.Request()
+        request.goal_info.goal_id = self.goal_id
+        return self._action_client._cancel_client.call_async(request)
 
     def get_result(self) -> Any:
         """Wait for the goal's end; returns its `status` and `result`. Not for callbacks: see ActionClient.send_goal."""
-        return self._action_client._get_result(self)
+        client = self._action_client
+        return client._wait(client._result_client, "get_result", self.get_result_async)
 
     def get_result_async(self) -> Future:
         """Ask for the goal's result; the future will have its `status` and `result` when it has ended."""
         return self._action_client._get_result_async(self)
+
+
+__getattr__ = borrowed(__name__)

@@ -7,7 +7,9 @@ one it holds up everything, the cancelling of its own goal included, unless it i
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import inspect
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from enum import Enum
 from types import GenericAlias
 from typing import TYPE_CHECKING, Any
@@ -15,120 +17,22 @@ from typing import TYPE_CHECKING, Any
 from action_msgs.msg import GoalInfo, GoalStatus, GoalStatusArray
 
 from turtle_lesson.ros.distro import GOALS_EXPIRE_AFTER_THEIR_END
+from turtle_lesson.ros.rmw.trace import Callback
 from turtle_lesson.ros.runtime.world import current_world
 from turtle_lesson.ros.sim.errors import print_error
 from turtle_lesson.ros.sim.simulation import NANOSECONDS
 
 from .._reexports import borrowed
+from .._tracing import name_of
 from ..callback_groups import CallbackGroup
 from ..exceptions import RCLError
 from ..impl.logging_severity import LoggingSeverity
 from ..qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
-from ._deadlock import noted
 from ._endpoints import ActionEntity, call_back, check_action, full_names, make_parts
 from ._goals import GoalEvent, Goals, ServerGoalHandle, goals_to_cancel
 
 if TYPE_CHECKING:
-    from turtle_lesson.ros.rmw.trace import Callback
-
     from ..node import Node
-
-# -- requests -----------------------------------------------------------------------------------------------------
-# What an action server does with the requests that come in: for goals, for cancelling, and for results.
-
-
-class Requests:
-    """Mixed into ActionServer. Each request is that of a graph's service: it knows who asked."""
-
-    _action_type: Any
-    _cancel_callback: Callable[[ServerGoalHandle], Any]
-    _goal_callback: Callable[[Any], Any]
-    _goals: Goals
-    _handle_accepted_callback: Callable[[ServerGoalHandle], Any]
-    _node: Node
-
-    if TYPE_CHECKING:
-
-        def _publish_status(self) -> None: ...
-
-    def _debug(self, text: str, goal_id: Any) -> None:
-        """Log what only the developer of a server wants to see, with a goal's number."""
-        logger = self._node.get_logger()
-        if logger.is_enabled_for(LoggingSeverity.DEBUG):
-            logger.debug(text.format(goal_id.uuid))
-
-    async def _execute_goal_request(self, request: Any) -> None:
-        message = request.message
-        self._debug("New goal request with ID: {}", message.goal_id)
-        info = GoalInfo(goal_id=message.goal_id)
-        accepted = self._goals.get(message.goal_id) is None and await self._is_acceptable(message.goal)
-        handle = None
-        if accepted:
-            info.stamp = self._node.get_clock().now().to_msg()
-            accepted = not self._came_meanwhile(message.goal_id)
-        if accepted:
-            handle = ServerGoalHandle(self, info, message.goal)  # type: ignore[arg-type]
-            self._goals.add(handle)
-        response = self._action_type.Impl.SendGoalService.Response(accepted=accepted, stamp=info.stamp)
-        request.answer(response)
-        if handle is None:
-            self._debug("New goal rejected: {}", message.goal_id)
-            return
-        self._debug("New goal accepted: {}", message.goal_id)
-        self._publish_status()
-        await call_back("handle_accepted_callback", self._handle_accepted_callback, handle)
-
-    def _came_meanwhile(self, goal_id: Any) -> bool:
-        """Whether a goal of the same number was accepted while the goal callback of this one decided."""
-        if self._goals.get(goal_id) is None:
-            return False
-        text = f"Failed to accept new goal with ID {goal_id.uuid}: goal ID already exists"
-        self._node.get_logger().error(text)
-        return True
-
-    async def _is_acceptable(self, goal: Any) -> bool:
-        response = await call_back("goal_callback", self._goal_callback, goal)
-        if not isinstance(response, GoalResponse):
-            self._node.get_logger().warning("Goal request callback did not return a GoalResponse type. Rejecting goal.")
-        return response is GoalResponse.ACCEPT
-
-    async def _execute_cancel_request(self, request: Any) -> None:
-        self._debug("Cancel request received for goal with ID: {}", request.message.goal_info.goal_id)
-        response = self._action_type.Impl.CancelGoalService.Response()
-        response.return_code, handles = goals_to_cancel(request.message.goal_info, self._goals)
-        response.goals_canceling = [handle._goal_info for handle in handles if await self._cancel(handle)]
-        request.answer(response)
-
-    async def _cancel(self, handle: ServerGoalHandle) -> bool:
-        """Whether the program lets this goal be cancelled."""
-        logger = self._node.get_logger()
-        response = await call_back("cancel_callback", self._cancel_callback, handle)
-        if not isinstance(response, CancelResponse):
-            logger.warning("Cancel callback did not return a CancelResponse type. Rejecting cancel request.")
-        if response is not CancelResponse.ACCEPT:
-            return False
-        try:
-            handle._update_state(GoalEvent.CANCEL_GOAL)
-        except RCLError as error:  # it has ended meanwhile
-            logger.debug(f"Failed to cancel goal in cancel callback: {error}")
-            return False
-        return True
-
-    def _execute_result_request(self, request: Any) -> None:
-        goal_id = request.message.goal_id
-        self._debug("Result request received for goal with ID: {}", goal_id)
-        if self._goals.get(goal_id) is None:
-            self._debug("Sending result response for unknown goal ID: {}", goal_id)
-            unknown = self._action_type.Impl.GetResultService.Response(status=GoalStatus.STATUS_UNKNOWN)
-            request.answer(unknown)
-            return
-        response = self._goals.ask(goal_id, request)
-        if response is not None:
-            request.answer(response)
-
-
-# -- answers ------------------------------------------------------------------------------------------------------
-# What the callbacks of an action server answer, and the callbacks that it has unless it is given others.
 
 
 class GoalResponse(Enum):
@@ -171,7 +75,7 @@ OVERHEAD = 200_000
 goal hears that it was accepted before there is any feedback."""
 
 
-class ActionServer(Requests):
+class ActionServer:
     """Offers an action.
 
     Args:
@@ -291,6 +195,76 @@ class ActionServer(Requests):
         if "result" in taken_data:
             self._execute_result_request(taken_data["result"])
 
+    def _debug(self, text: str, goal_id: Any) -> None:
+        """Log what only the developer of a server wants to see, with a goal's number."""
+        logger = self._node.get_logger()
+        if logger.is_enabled_for(LoggingSeverity.DEBUG):
+            logger.debug(text.format(goal_id.uuid))
+
+    async def _execute_goal_request(self, request: Any) -> None:
+        message = request.message
+        self._debug("New goal request with ID: {}", message.goal_id)
+        info = GoalInfo(goal_id=message.goal_id)
+        accepted = self._goals.get(message.goal_id) is None and await self._is_acceptable(message.goal)
+        handle = None
+        if accepted:
+            info.stamp = self._node.get_clock().now().to_msg()
+            accepted = self._goals.get(message.goal_id) is None
+            if not accepted:  # another one of the same number was accepted while the goal callback decided
+                text = f"Failed to accept new goal with ID {message.goal_id.uuid}: goal ID already exists"
+                self._node.get_logger().error(text)
+        if accepted:
+            handle = ServerGoalHandle(self, info, message.goal)
+            self._goals.add(handle)
+        response = self._action_type.Impl.SendGoalService.Response(accepted=accepted, stamp=info.stamp)
+        request.answer(response)
+        if handle is None:
+            self._debug("New goal rejected: {}", message.goal_id)
+            return
+        self._debug("New goal accepted: {}", message.goal_id)
+        self._publish_status()
+        await call_back("handle_accepted_callback", self._handle_accepted_callback, handle)
+
+    async def _is_acceptable(self, goal: Any) -> bool:
+        response = await call_back("goal_callback", self._goal_callback, goal)
+        if not isinstance(response, GoalResponse):
+            self._node.get_logger().warning("Goal request callback did not return a GoalResponse type. Rejecting goal.")
+        return response is GoalResponse.ACCEPT
+
+    async def _execute_cancel_request(self, request: Any) -> None:
+        self._debug("Cancel request received for goal with ID: {}", request.message.goal_info.goal_id)
+        response = self._action_type.Impl.CancelGoalService.Response()
+        response.return_code, handles = goals_to_cancel(request.message.goal_info, self._goals)
+        response.goals_canceling = [handle._goal_info for handle in handles if await self._cancel(handle)]
+        request.answer(response)
+
+    async def _cancel(self, handle: ServerGoalHandle) -> bool:
+        """Whether the program lets this goal be cancelled."""
+        logger = self._node.get_logger()
+        response = await call_back("cancel_callback", self._cancel_callback, handle)
+        if not isinstance(response, CancelResponse):
+            logger.warning("Cancel callback did not return a CancelResponse type. Rejecting cancel request.")
+        if response is not CancelResponse.ACCEPT:
+            return False
+        try:
+            handle._update_state(GoalEvent.CANCEL_GOAL)
+        except RCLError as error:  # it has ended meanwhile
+            logger.debug(f"Failed to cancel goal in cancel callback: {error}")
+            return False
+        return True
+
+    def _execute_result_request(self, request: Any) -> None:
+        goal_id = request.message.goal_id
+        self._debug("Result request received for goal with ID: {}", goal_id)
+        if self._goals.get(goal_id) is None:
+            self._debug("Sending result response for unknown goal ID: {}", goal_id)
+            unknown = self._action_type.Impl.GetResultService.Response(status=GoalStatus.STATUS_UNKNOWN)
+            request.answer(unknown)
+            return
+        response = self._goals.ask(goal_id, request)
+        if response is not None:
+            request.answer(response)
+
     # -- executing goals -------------------------------------------------------------------------------------------
 
     def notify_execute(
@@ -316,7 +290,7 @@ class ActionServer(Requests):
         self._debug("Executing goal with ID {}", goal_handle.goal_id)
         simulation.sleep_until(simulation.now + OVERHEAD)
         try:
-            with noted(self, execute_callback, ready):
+            with self._traced_run(execute_callback, ready):
                 result = await call_back("execute_callback", execute_callback, goal_handle)
         except Exception as error:
             result = self._action_type.Result()
@@ -329,6 +303,26 @@ class ActionServer(Requests):
         response = self._result_response(goal_handle.status, result)
         for request in self._goals.finish(goal_handle, response):
             request.answer(response)
+
+    @contextmanager
+    def _traced_run(self, callback: Callable[..., Any], ready: int) -> Iterator[None]:
+        """Put an execute callback, which could have begun when it was `ready` (ns), into the world's trace, if it keeps one."""
+        entry, trace = self._node._ros_entry, self._node._ros_graph.trace
+        if trace is None or entry.hidden:
+            yield
+            return
+        name = name_of(callback)
+        if name not in self._traced:
+            awaits = inspect.iscoroutinefunction(callback)
+            self._traced[name] = Callback(entry.full_name, name, "action", self._name, 0, entry.process.pid, awaits)
+            trace.callbacks.append(self._traced[name])
+        record, begun = self._traced[name], (ready, trace.now)
+        record.open.append(begun)
+        try:
+            yield
+        finally:
+            record.open.remove(begun)
+            record.ended.append((*begun, trace.now))
 
     def notify_goal_done(self) -> None:
         """A goal has ended: look which ones have expired. The server does that for itself, too."""
@@ -353,9 +347,6 @@ class ActionServer(Requests):
 
     def _publish_feedback(self, goal_id: Any, feedback: Any) -> None:
         self._feedback.publish(self._action_type.Impl.FeedbackMessage(goal_id=goal_id, feedback=feedback))
-
-    def _note_ended(self, handle: ServerGoalHandle) -> None:
-        self._goals.end(handle)
 
     def _forget_expired(self) -> None:
         self._goals.forget_expired()
