@@ -26,7 +26,7 @@ MOST_LINES = 20
 
 
 class Assessment:
-    """A subclass says where to look: `_make_check_target()` and `_recording`."""
+    """Checks, points and predictions. A subclass says where to look: `_make_check_target()` and `_recording`."""
 
     def _make_check_target(self) -> Target:
         raise NotImplementedError

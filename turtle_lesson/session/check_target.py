@@ -1,4 +1,4 @@
-"""Where the checks look in a world of this notebook: the lab's hidden node, and a clock that also runs the cells' nodes."""
+"""What checks observe in a world of this notebook: the lab's hidden node, and a clock that also runs the cells' nodes."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 class CheckTarget:
-    """A `Target` (see lab/checks/probe.py).
+    """A `Target` of checks (see lab/checks/probe.py).
 
     A node that was made in a cell is only alive while that cell spins it. While a check looks, such nodes are spun; what
     their callbacks raise is kept in `errors`, and they go on.

@@ -1,4 +1,4 @@
-"""Insight into a running lesson: what happened when, which node called which, what is wrong, and what to ask an assistant."""
+"""Inspects a running lesson: what happened when, which node called which, what is wrong, and what to ask an assistant."""
 
 from __future__ import annotations
 

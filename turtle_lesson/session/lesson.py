@@ -1,4 +1,4 @@
-"""The front door: `start()` makes a fresh world, and a `Lesson` runs it, launches into it and shows what happened."""
+"""`start()` makes a fresh world; a `Lesson` runs it, launches programs in it and shows what happened."""
 
 from __future__ import annotations
 
@@ -67,7 +67,8 @@ def start(
     Raises RuntimeError where a real ROS 2 is sourced, ValueError for anything else as `package`, `page` or `distro`.
     """
     _check_no_real_ros()
-    _check_seed(seed)
+    if not isinstance(seed, int):
+        raise ValueError(f"seed must be a whole number, got {seed!r}: try start(seed=0)")
     chosen_release(distro)
     page = None if page is None else page_named(page)
     package = "mine" if page and package == "finished" else package
@@ -108,11 +109,6 @@ def _check_no_real_ros() -> None:
             "turtle_lesson.connect() shows its robot with the same widgets. For a simulated world, start Jupyter from a "
             "terminal in which no setup file was sourced."
         )
-
-
-def _check_seed(seed: object) -> None:
-    if not isinstance(seed, int):
-        raise ValueError(f"seed must be a whole number, got {seed!r}: try start(seed=0)")
 
 
 def _package_folder(package: str | Path | None) -> Path | None:

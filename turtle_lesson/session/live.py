@@ -77,7 +77,7 @@ class CellNodes:
 
 
 class Player:
-    """Plays a world in the notebook's event loop. Nodes that were made in cells are spun meanwhile."""
+    """Plays a world in the notebook's event loop; for widgets it is the clock. Nodes of cells are spun meanwhile."""
 
     def __init__(self, world: World) -> None:
         self._simulation = world.sim
@@ -112,8 +112,8 @@ class Player:
 
     @property
     def speed(self) -> float:
-        """How many times as fast as real time it really went in the last second; 0 if it did not play."""
-        return self._watch.speed
+        """How many times as fast as real time it really went in the last second; 0 while it stands still."""
+        return self._watch.speed if self.playing else 0.0
 
     def play(self, rate: float) -> None:
         """Go on by itself at `rate` times real time; if it does so already, only change the rate."""
@@ -134,6 +134,10 @@ class Player:
         if self._task is not None:
             self._task.cancel()
             self._task = None
+
+    def step(self, seconds: float) -> None:
+        """Let some seconds of robot time pass at once."""
+        self._simulation.run_until(self._simulation.now + round(seconds * NANOSECONDS))
 
     async def _play(self) -> None:
         simulation = self._simulation

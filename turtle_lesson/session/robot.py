@@ -1,4 +1,4 @@
-"""The front door to a robot: `connect()` shows a real, running ROS 2 with the widgets and pictures of the lab."""
+"""`connect()` joins a real, running ROS 2, and a `Robot` shows it with the widgets and pictures of the lab."""
 
 from __future__ import annotations
 

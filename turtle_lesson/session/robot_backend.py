@@ -80,7 +80,7 @@ class RobotBackend:
         """Leave the system. This waits for nothing: the thread ends, then the loop takes the node away."""
         if not self._closing.is_set():
             self._closing.set()
-            self._executor.create_task(_nothing)  # which ends its waiting
+            self._executor.create_task(lambda: None)  # which ends its waiting
 
     # -- in the thread -----------------------------------------------------------------------------------------------
 
@@ -134,12 +134,7 @@ class RobotBackend:
             self._leave()
 
 
-def _nothing() -> None:
-    """A task that only wakes the executor."""
-
-
-# -- robot node ---------------------------------------------------------------------------------------------------
-# A node of any rclpy whose callbacks all happen in one event loop, whichever thread it is spun in.
+# -- the node: all its callbacks happen in one event loop, whichever thread it is spun in --------------------------------
 
 Action = Callable[..., object]
 Hop = Callable[..., object]
@@ -221,9 +216,9 @@ class LabNode(Node):
         """As every node's. A later query of the graph, such as that of an old widget that is shown again, finds no nodes."""
         super().destroy_node()
         for name in LISTS:
-            setattr(self, name, _no_list)
+            setattr(self, name, lambda *arguments, **options: [])
         for name in COUNTS:
-            setattr(self, name, _none)
+            setattr(self, name, lambda *arguments, **options: 0)
 
     # -- the machinery -----------------------------------------------------------------------------------------------
 
@@ -260,14 +255,6 @@ class Life:
     def _call(self, action: Action, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> None:
         if not self.over:
             action(*arguments, **keywords)
-
-
-def _no_list(*arguments: Any, **options: Any) -> list[Any]:
-    return []
-
-
-def _none(*arguments: Any, **options: Any) -> int:
-    return 0
 
 
 def _takes_one(callback: Action) -> bool:

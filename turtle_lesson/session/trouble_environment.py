@@ -1,7 +1,8 @@
-"""Where troubles are put on: what can be done to a world by public means, as from its terminals."""
+"""Puts troubles into a world by public means, as from its terminals: programs, remappings, broken files."""
 
 from __future__ import annotations
 
+import io
 import os
 import re
 import shutil
@@ -10,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..ros import launching
+from ..ros.ament import colcon
 from ..ros.ament.package import Package
 from ..ros.ament.source import overlay, overlays, remove_all
 from ..ros.cli.jobs import Job, jobs
@@ -130,21 +132,13 @@ class TroubleEnvironment:
                 )
             (source / "CMakeLists.txt").write_text(MESSAGE_FILE.sub("", text), encoding="utf-8")
         if fault != "not built":
-            self._build(folder)
+            said = io.StringIO()  # a build of an earlier day: nothing of it is shown
+            colcon.run(self._world, ["build"], stdout=said, stderr=said, cwd=folder)
         remove_all(self._world)
         while PACKAGE in self._world.packages:
             self._world.packages.remove(PACKAGE)
         if PACKAGE in registry.packages():
             registry.remove(PACKAGE)
-
-    def _build(self, folder: Path) -> None:
-        """`colcon build`, which somebody has done before: nothing of it is shown."""
-        import io
-
-        from ..ros.ament import colcon
-
-        said = io.StringIO()
-        colcon.run(self._world, ["build"], stdout=said, stderr=said, cwd=folder)
 
 
 def remove_scratch() -> None:

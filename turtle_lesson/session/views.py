@@ -1,4 +1,4 @@
-"""What shows one system: pictures that stay, and widgets, each made when it is first asked for.
+"""Views of one system: pictures that stay, and widgets, each made when it is first asked for.
 
 Asked for again, a widget is the same one in another place. So a cell that is run twice leaves nothing behind, and two views
 of a widget are always in step.
@@ -26,7 +26,7 @@ Widget = TypeVar("Widget")
 
 
 class Views:
-    """What shows a running system and acts on it. A subclass says where: `_make_backend()` and `_recording`."""
+    """The pictures and widgets of a running system, which a subclass names: `_make_backend()` and `_recording`."""
 
     _widgets: dict[Hashable, Any]
 

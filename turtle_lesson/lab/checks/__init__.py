@@ -6,7 +6,7 @@ advice, or – where it cannot be looked at, with the reason. Every ✓ together
 
 **To write one**, add it to the module of its page (`page_04.py`; a new page is named in `story.PAGES`):
 
-    @check("talker", page="01_publish_and_subscribe", points=3, limit=15, learnt="A timer makes a steady stream.")
+    @check("talker", points=3, limit=15, learnt="A timer makes a steady stream.")
     def talker() -> list[Expectation]:
         """A node that says hello twice a second."""
         return [
@@ -29,8 +29,9 @@ becomes a row of its own: CannotLook a –, anything else a ✗. What the learne
 with its line. Code that computes without end is stopped after a measure of CPU time, and a ■ says where; no verdict depends
 on the wall clock. So a check never fails itself, and never hangs.
 
-**Advice** (`rows.Advice`) comes in three steps: at the first failure of a check the symptom, at the second the direction (what
-a plain text is), from the third on a pointer to the hint, too. It says where to look, not what to write.
+**Advice** (`results.Advice`) comes in three steps: at the first failure of a check the symptom, at the second the
+direction (which is what a plain text gives), from the third on also a pointer to a hint (`hinted`). It says where to look,
+not what to write.
 
 **Answers**, wrong ones that must fail and right ones that must pass, are in `tests/answers`.
 
@@ -38,11 +39,10 @@ a plain text is), from the third on a pointer to the hint, too. It says where to
 
 | module | expectations |
 |---|---|
-| `parts` | `node`, `publishes`, `subscribes`, `offers`, `parameter`, `no_errors` |
+| `assertions` | `node`, `publishes`, `subscribes`, `offers`, `parameter`, `no_errors`, `answers`, `rate_follows`, `gives_up` |
 | `streams` | `rate`, `relays`, and `messages` for whatever a function judges |
-| `questions` | `answers`, `rate_follows`, `gives_up`; `no_answer` for an expectation of one's own |
 | `functions` | `returns` |
-| `drives` | a drive of the navigator: `answered`, `arrived`, `facing`, `honest_time`, `stopped`, `steady_commands`, `refuses` |
+| `navigation` | one drive: `answered`, `arrived`, `facing`, `honest_time`, `stopped`, `steady_commands`, `refuses` |
 
 **What a function that looks may do** is in `probe.Probe`: `wait`, `wait_for`, `listen`, `hear`, `publish`, `ask`, `ask_soon`,
 `nodes`, `publishers`, `subscriptions`, `servers`, `obstacles`, `errors`, `unreturned`, `call`, and `once`, which remembers

@@ -6,13 +6,10 @@ from collections.abc import Callable
 from typing import Any
 
 from ..words import count, listed, number
-from .probe import Answer, Probe
+from .probe import Probe
 from .registry import Expectation
 from .results import Advice, CannotLook, Seen
 from .streams import brief, judge_rate
-
-# -- parts --------------------------------------------------------------------------------------------------------
-# Expectations about what is there: nodes, publishers, subscriptions, services, parameters, and a log without errors.
 
 TOO_MANY = "Stop the extra node: Ctrl-C in a terminal; in a notebook run the set-up cell again, then each cell once."
 ANSWER_TIME = 1.0
@@ -110,50 +107,43 @@ def get_parameter(probe: Probe, owner: str, name: str) -> Any:
 
     if owner not in probe.nodes():
         raise CannotLook(f"there is no node {owner}")
-    names = _answer(probe, owner, probe.ask(*_of(owner, "list"), ANSWER_TIME)).result.names
-    if name not in names:
+    if name not in _ask(probe, owner, "list").result.names:
         return None
-    values = _answer(probe, owner, probe.ask(*_of(owner, "get"), ANSWER_TIME, names=[name])).values
+    values = _ask(probe, owner, "get", names=[name]).values
     return to_python(values[0]) if values else None
 
 
 def set_parameter(probe: Probe, owner: str, name: str, value: Any) -> str:
     """Set a parameter; returns why the node refused, or "". It is put back when the probe is over."""
+    from rclpy.parameter import Parameter
+
     before = get_parameter(probe, owner, name)
     if before is None:
         raise CannotLook(f"{owner} has not declared a parameter {name}")
-    reason = _set(probe, owner, name, value)
-    if not reason:
-        probe.at_the_end(lambda: _put_back(probe, owner, name, before))
-    return reason
+    old, new = (Parameter(name, value=each).to_parameter_msg() for each in (before, value))
+    results = _ask(probe, owner, "set", parameters=[new]).results
+    if not (results and results[0].successful):
+        return (results[0].reason if results else "") or "it gave no reason"
+
+    def put_back() -> None:
+        probe.ask_soon(*_service(owner, "set"), parameters=[old])
+        for _ in range(5):
+            probe.target.step(0.01)  # also where the time of the check is over
+
+    probe.at_the_end(put_back)
+    return ""
 
 
-def _set(probe: Probe, owner: str, name: str, value: Any) -> str:
-    from rclpy.parameter import Parameter
-
-    message = Parameter(name, value=value).to_parameter_msg()
-    results = _answer(probe, owner, probe.ask(*_of(owner, "set"), ANSWER_TIME, parameters=[message])).results
-    if results and results[0].successful:
-        return ""
-    return (results[0].reason if results else "") or "it gave no reason"
-
-
-def _put_back(probe: Probe, owner: str, name: str, value: Any) -> None:
-    from rclpy.parameter import Parameter
-
-    probe.ask_soon(*_of(owner, "set"), parameters=[Parameter(name, value=value).to_parameter_msg()])
-    for _ in range(5):
-        probe.target.step(0.01)  # also where the time of the check is over
-
-
-def _of(owner: str, what: str) -> tuple[str, str]:
-    return f"{owner}/{what}_parameters", f"rcl_interfaces/srv/{what.capitalize()}Parameters"
-
-
-def _answer(probe: Probe, owner: str, answer: Answer) -> Any:
+def _ask(probe: Probe, owner: str, what: str, **fields: Any) -> Any:
+    """The answer of one of a node's parameter services."""
+    answer = probe.ask(*_service(owner, what), ANSWER_TIME, **fields)
     if answer.response is None:
         raise CannotLook(f"{owner} does not answer: is it busy, or not spun?")
     return answer.response
+
+
+def _service(owner: str, what: str) -> tuple[str, str]:
+    return f"{owner}/{what}_parameters", f"rcl_interfaces/srv/{what.capitalize()}Parameters"
 
 
 # -- the log -----------------------------------------------------------------------------------------------------------
@@ -195,8 +185,7 @@ def _short(text: str) -> str:
     return plain if len(plain) <= 160 else f"{plain[:159]}…"
 
 
-# -- questions ----------------------------------------------------------------------------------------------------
-# Expectations about asking: a service that gives the right answer in time, a parameter that changes what a node does.
+# -- services, and parameters that change what a node does ----------------------------------------------------------------
 
 
 def answers(

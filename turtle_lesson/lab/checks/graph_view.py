@@ -6,12 +6,8 @@ import importlib
 from collections import Counter
 from typing import Any
 
-from ..words import is_hidden
-from ..words import nearest
+from ..words import is_hidden, nearest
 from .results import CannotLook
-
-# -- graph view ---------------------------------------------------------------------------------------------------
-# What the graph shows of the others: their nodes, publishers, subscriptions and services.
 
 
 class GraphView:
@@ -34,28 +30,16 @@ class GraphView:
 
     def servers(self, service: str) -> list[tuple[str, str]]:
         """Full name of the node and type of each service of a name."""
-        from rclpy.node import NodeNameNonExistentError
-
         found: list[tuple[str, str]] = []
         for name, amount in self.nodes().items():
-            namespace, _, base = name.rpartition("/")
-            try:
-                offers = self.node.get_service_names_and_types_by_node(base, namespace or "/")
-            except NodeNameNonExistentError:
-                continue
+            offers = self._of_node("get_service_names_and_types_by_node", name)
             # nodes of one name look the same from outside, so each may be one that offers it
             found += [(name, kind) for offered, kinds in offers if offered == service for kind in kinds] * amount
         return found
 
     def subscribed(self, owner: str) -> list[str]:
         """The names of the topics that a node listens to."""
-        from rclpy.node import NodeNameNonExistentError
-
-        namespace, _, base = owner.rpartition("/")
-        try:
-            found = self.node.get_subscriber_names_and_types_by_node(base, namespace or "/")
-        except NodeNameNonExistentError:
-            return []
+        found = self._of_node("get_subscriber_names_and_types_by_node", owner)
         return [name for name, _ in found if not is_hidden(name)]
 
     def topics(self) -> list[str]:
@@ -66,6 +50,16 @@ class GraphView:
     def services(self) -> list[str]:
         """The names of all services."""
         return [name for name, _ in self.node.get_service_names_and_types() if not is_hidden(name)]
+
+    def _of_node(self, query: str, owner: str) -> list[tuple[str, list[str]]]:
+        """What a query of the graph says of a node; nothing where the node has just gone."""
+        from rclpy.node import NodeNameNonExistentError
+
+        namespace, _, base = owner.rpartition("/")
+        try:
+            return list(getattr(self.node, query)(base, namespace or "/"))
+        except NodeNameNonExistentError:
+            return []
 
     def _others(self, ends: Any) -> list[tuple[str, str]]:
         me = (self.node.get_name(), self.node.get_namespace())
@@ -79,10 +73,6 @@ class GraphView:
         """ ", but there is /robot/staus": a known name that is nearly the one that was looked for; "" if there is none."""
         found = nearest(name, [each for each in known if each != name], cutoff=0.75)
         return f", but there is {found}" if found else ""
-
-
-# -- fields -------------------------------------------------------------------------------------------------------
-# Messages by their type's name: the class, setting fields, reading fields; what is not there cannot be looked at.
 
 
 def interface(type_name: str) -> Any:

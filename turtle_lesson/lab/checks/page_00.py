@@ -12,9 +12,8 @@ from ..words import angle, number, point, turned
 from .navigation import NEAR, where
 from .probe import Probe
 from .registry import Expectation, check
-from .results import Advice, Seen
+from .results import Advice, Seen, hinted
 
-PAGE = "00_welcome"
 CORNER = (2.0, 2.0)
 UP = math.pi / 2
 LITTLE = 0.1
@@ -27,13 +26,7 @@ FAST = 2 * math.pi
 """rad/s: a command that turns faster than this was probably meant in degrees."""
 
 
-@check(
-    "face_up",
-    page=PAGE,
-    points=1,
-    limit=5,
-    learnt="One message on a topic moves a robot; angles are measured in radians.",
-)
+@check("face_up", points=1, limit=5, learnt="One message on a topic moves a robot; angles are measured in radians.")
 def face_up() -> list[Expectation]:
     """The turtle was turned on the spot, a quarter to the left."""
     return [
@@ -88,15 +81,11 @@ def _facing_up(probe: Probe) -> Seen:
 
 def _on_the_spot(probe: Probe) -> Seen:
     way = probe.once("motion", lambda: last_motion(probe)).way
-    advice = Advice(
-        direction="Which field of the command makes it drive? To begin again: ros2 service call /reset std_srvs/srv/Empty"
-    )
+    advice = "Which field of the command makes it drive? To begin again: ros2 service call /reset std_srvs/srv/Empty"
     return Seen(way <= LITTLE, f"it drove {number(way)} m meanwhile", advice)
 
 
-@check(
-    "corner", page=PAGE, points=1, limit=5, learnt="A service is asked by a request, and answers when its work is done."
-)
+@check("corner", points=1, limit=5, learnt="A service is asked by a request, and answers when its work is done.")
 def corner() -> list[Expectation]:
     """The turtle was sent to (2, 2)."""
     return [Expectation(f"the turtle within {NEAR:g} m of {point(*CORNER)}", _in_the_corner)]
@@ -106,8 +95,5 @@ def _in_the_corner(probe: Probe) -> Seen:
     pose = where(probe)
     away = math.hypot(pose.x - CORNER[0], pose.y - CORNER[1])
     seen = f"it is at {point(pose.x, pose.y)}, {number(away)} m from there"
-    advice = Advice(
-        direction="What does the request say, and was it sent with client.call?",
-        hint="Open the hint under the exercise.",
-    )
+    advice = hinted("What does the request say, and was it sent with client.call?", "Open the hint under the exercise.")
     return Seen(away <= NEAR, seen, advice)

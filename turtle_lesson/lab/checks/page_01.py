@@ -10,10 +10,9 @@ from .graph_view import field
 from .navigation import COMMAND_TYPE, COMMANDS, POSE, POSE_TYPE
 from .probe import Heard, Probe
 from .registry import Expectation, check
-from .results import Advice, CannotLook, Seen
+from .results import CannotLook, Seen, hinted
 from .streams import rate, relays, some
 
-PAGE = "01_publish_and_subscribe"
 NUMBER = "std_msgs/msg/Int32"
 COUNT, DOUBLED = "/count", "/doubled"
 REPORT, REPORT_TYPE = "/report", "std_msgs/msg/Float32"
@@ -28,7 +27,7 @@ ROUND = 6.3
 """Robot time, s, in which the turtle drives once round a circle, so that x rises and falls."""
 
 
-@check("counter", page=PAGE, points=3, limit=15, learnt="A publisher and a timer make a steady stream of messages.")
+@check("counter", points=3, limit=15, learnt="A publisher and a timer make a steady stream of messages.")
 def counter() -> list[Expectation]:
     """A node that counts aloud, twice a second."""
     return [
@@ -54,27 +53,25 @@ def _counts(probe: Probe) -> Seen:
     if wrong is None:
         return Seen(True, f"from {said[0]} to {said[-1]} while the check listened")
     place, each = wrong
-    advice = Advice(
-        direction="Follow the number by hand: what is it before the first message, and what happens to it for each one?",
-        hint="Hint 2 under the exercise says where the number is kept.",
+    advice = hinted(
+        "Follow the number by hand: what is it before the first message, and what happens to it for each one?",
+        "Hint 2 under the exercise says where the number is kept.",
     )
     if place == 1 or said == list(range(said[0], said[0] + len(said))):
         return Seen(False, f"it began with {each - place + 1}, not with 1", advice)
     return Seen(False, f"message number {place} was {each}", advice)
 
 
-@check(
-    "doubler", page=PAGE, points=3, limit=15, learnt="A node can listen and speak: its callback publishes the answer."
-)
+@check("doubler", points=3, limit=15, learnt="A node can listen and speak: its callback publishes the answer.")
 def doubler() -> list[Expectation]:
     """A node that hears a number and says twice as much."""
     pairs = [
         ({"data": given}, lambda message, given=given: message.data == 2 * given, f"{given} → {2 * given}")
         for given in (21, -500, 0, 123456)
     ]
-    advice = Advice(
-        direction="Who calls the callback, with which message, and what does the message hold that it publishes?",
-        hint="Hint 2 under the exercise shows what the callback does.",
+    advice = hinted(
+        "Who calls the callback, with which message, and what does the message hold that it publishes?",
+        "Hint 2 under the exercise shows what the callback does.",
     )
     return [
         node("/doubler"),
@@ -106,7 +103,6 @@ def _answers_each(probe: Probe) -> Seen:
 
 @check(
     "reporter",
-    page=PAGE,
     points=4,
     limit=25,
     learnt="One callback keeps the newest message, and a timer uses it: two rates, one node.",
@@ -145,9 +141,9 @@ def _is_news(probe: Probe) -> Seen:
     wrong = [(said, true) for said, true in pairs if not abs(said - true) <= NEWS]
     said, true = wrong[0] if wrong else pairs[-1]
     seen = f"it said {number(said)} when x was {number(true)}"
-    advice = Advice(
-        direction="Which callback hears the pose, and where does it keep x until the timer's callback needs it?",
-        hint="Hint 1 under the exercise names the two callbacks.",
+    advice = hinted(
+        "Which callback hears the pose, and where does it keep x until the timer's callback needs it?",
+        "Hint 1 under the exercise names the two callbacks.",
     )
     return Seen(not wrong, seen, advice)
 

@@ -9,9 +9,8 @@ from .assertions import answers, no_errors, node, offers
 from .graph_view import interface
 from .probe import Probe
 from .registry import Expectation, check
-from .results import Advice, CannotLook, Seen
+from .results import CannotLook, Seen, hinted
 
-PAGE = "02_services_and_interfaces"
 ADD = "example_interfaces/srv/AddTwoInts"
 
 STATUS = dict.fromkeys(("x", "y", "theta", "vel_x", "vel_y", "battery"), "float")
@@ -19,16 +18,8 @@ GOAL = dict.fromkeys(("x", "y", "theta"), "float")
 RESULT = {"success": "boolean", "time_taken": "float"}
 """Fields and types of the lesson's interfaces, as ROS names them: float32 is "float", bool "boolean"."""
 
-LAST_HINT = "Open Hint 2 under the exercise."
 
-
-@check(
-    "adder",
-    page=PAGE,
-    points=3,
-    limit=15,
-    learnt="A service answers each request by a callback that returns a response.",
-)
+@check("adder", points=3, limit=15, learnt="A service answers each request by a callback that returns a response.")
 def adder() -> list[Expectation]:
     """A service that adds."""
     sums = ((2, 3), (-40, 7), (7, -40), (3_000_000_000, 1))
@@ -41,7 +32,7 @@ def adder() -> list[Expectation]:
 
 
 def _adds(a: int, b: int) -> Expectation:
-    advice = Advice(direction="Which fields does the request have, and which one the response?", hint=LAST_HINT)
+    advice = hinted("Which fields does the request have, and which one the response?", 2)
     return answers(
         "/add_two_ints",
         ADD,
@@ -55,9 +46,7 @@ def _adds(a: int, b: int) -> Expectation:
 NAVIGATE_TYPE = "robot_controller/srv/NavigateTo"
 
 
-@check(
-    "interfaces", page=PAGE, points=4, limit=5, learnt="Named, built and sourced: then a type of your own can be used."
-)
+@check("interfaces", points=4, limit=5, learnt="Named, built and sourced: then a type of your own can be used.")
 def interfaces() -> list[Expectation]:
     """The package robot_controller is built and sourced, with its message and its service."""
     return [
@@ -77,7 +66,7 @@ def has_fields(
         try:
             found = dict(choose(interface(type_name)).get_fields_and_field_types())
         except CannotLook as reason:
-            return Seen(False, str(reason), Advice(direction=_cause(type_name), hint=LAST_HINT))
+            return Seen(False, str(reason), hinted(_cause(type_name), 2))
         good = list(found.items()) == list(fields.items())
         direction = f"The fields are {_in_words(fields)}, in this order. Does the file say so, and was it built since?"
         return Seen(good, "it has" if good else f"it has {_in_words(found)}", direction)
@@ -122,7 +111,6 @@ NEAR_ENOUGH = 0.05
 
 @check(
     "estimator",
-    page=PAGE,
     points=4,
     limit=20,
     learnt="A service refuses what makes no sense, at once and in a field of its answer.",
@@ -145,9 +133,9 @@ def estimator() -> list[Expectation]:
 
 
 def _estimates(words: str, x: float, y: float, seconds: float) -> Expectation:
-    advice = Advice(
-        direction="How long is the straight way from the middle, and which goals are in the world?",
-        hint="Open the hints under the exercise.",
+    advice = hinted(
+        "How long is the straight way from the middle, and which goals are in the world?",
+        "Open the hints under the exercise.",
     )
     return answers(
         "/estimate",
@@ -166,5 +154,5 @@ def _declines(x: float, y: float) -> Expectation:
         {"x": x, "y": y},
         lambda response: not response.success and response.time_taken == 0.0,
         f"({x:g}, {y:g}) is outside: success is False, time_taken 0".replace("-", "−"),
-        Advice(direction="A goal is inside if both x and y are from 0 to 11.09.", hint=LAST_HINT),
+        hinted("A goal is inside if both x and y are from 0 to 11.09.", 2),
     )

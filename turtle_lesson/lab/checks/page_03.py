@@ -39,9 +39,8 @@ from .navigation import (
 )
 from .probe import Probe
 from .registry import Expectation, check
-from .results import Advice, CannotLook, Seen
+from .results import CannotLook, Seen, hinted
 
-PAGE = "03_navigator"
 RUN = "ros2 run robot_controller navigator"
 
 START = 5.544
@@ -77,7 +76,6 @@ def navigator_is_there(start: str = RUN) -> list[Expectation]:
 
 @check(
     "simple_navigator",
-    page=PAGE,
     points=3,
     limit=420,
     learnt="Open loop: distance divided by speed says how long to send a command, and nothing says where it led.",
@@ -109,9 +107,8 @@ def _takes(way: Way) -> Expectation:
             return no_answer(probe, f"no answer in {LONGEST:g} s")
         said, took = float(it.response.time_taken), it.answer.seconds
         seen = f"time_taken is {number(said)} s, and the answer came after {number(took)} s"
-        step = Advice(
-            direction="Which distance did your node calculate, from where, and which time follows from it at 0.5 m/s?",
-            hint="Open Hint 1 under the exercise.",
+        step = hinted(
+            "Which distance did your node calculate, from where, and which time follows from it at 0.5 m/s?", 1
         )
         return Seen(abs(said - wanted) <= 0.15 and abs(took - wanted) <= 0.2, seen, step)
 
@@ -127,10 +124,7 @@ def _drives_ahead(way: Way) -> Expectation:
         end = it.end(at_rest=True)
         ahead, beside = end.x - it.begin.x, end.y - it.begin.y
         seen = f"it drove {number(math.hypot(ahead, beside))} m"
-        step = Advice(
-            direction="How fast does the turtle drive, for how long, and what stops it?",
-            hint="Open Hint 2 under the exercise.",
-        )
+        step = hinted("How fast does the turtle drive, for how long, and what stops it?", 2)
         return Seen(abs(ahead - metres) <= 0.1 and abs(beside) <= 0.05, f"{seen}, to {point(end.x, end.y)}", step)
 
     return Expectation(f"it drives {metres:g} m straight ahead", look)
@@ -138,15 +132,14 @@ def _drives_ahead(way: Way) -> Expectation:
 
 # -- angles ------------------------------------------------------------------------------------------------------------
 
-DIFFERENCES = Advice(
-    direction="Which whole turns can be added to that difference, or taken away from it, so that it becomes smaller?",
-    hint="Open Hint 1, then Hint 2, under the exercise.",
+DIFFERENCES = hinted(
+    "Which whole turns can be added to that difference, or taken away from it, so that it becomes smaller?",
+    "Open Hint 1, then Hint 2, under the exercise.",
 )
 
 
 @check(
     "short_way",
-    page=PAGE,
     points=3,
     limit=60,
     learnt="The difference of two angles is the short way only after it has been wrapped.",
@@ -223,7 +216,6 @@ def _pose(goal: tuple[float, float, float]) -> Any:
 
 @check(
     "navigator",
-    page=PAGE,
     points=6,
     limit=600,
     learnt="Closed loop: a node that looks ten times a second needs no plan, and a good service refuses what makes no sense.",
@@ -278,9 +270,7 @@ def _keeps_its_goal() -> Expectation:
             raise CannotLook("the goal (20, 5, 0) was not refused on the way")
         probe.wait_for(lambda: first() and at_rest(probe.listen(POSE, POSE_TYPE)), 20.0)
         end = where(probe)
-        step = Advice(
-            direction="Is self.goal changed before the goal has been judged?", hint="Open Hint 1 under the exercise."
-        )
+        step = hinted("Is self.goal changed before the goal has been judged?", 1)
         seen = f"the turtle went to {point(end.x, end.y)}"
         return Seen(math.hypot(end.x - 9.0, end.y - 3.0) <= NEAR, seen, step)
 

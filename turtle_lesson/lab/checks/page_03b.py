@@ -27,9 +27,8 @@ from .navigation import (
 from .page_03 import A_GOAL, TO_THE_LEFT, navigator_is_there
 from .probe import Probe
 from .registry import Expectation, check
-from .results import Advice, CannotLook, Seen
+from .results import CannotLook, Seen, hinted
 
-PAGE = "03b_answer_on_arrival"
 NEAR_GOAL = Way("a near goal", MIDDLE, (6.0, 5.5, 0.0))
 WAITING = 2.0
 """Robot time, s, within which a goal half a metre ahead is answered."""
@@ -39,13 +38,7 @@ HALFWAY = 0.6
 """Robot time, s, after which a second goal comes."""
 
 
-@check(
-    "on_arrival",
-    page=PAGE,
-    points=4,
-    limit=600,
-    learnt="await lets a callback wait, and leaves the node free to steer.",
-)
+@check("on_arrival", points=4, limit=600, learnt="await lets a callback wait, and leaves the node free to steer.")
 def on_arrival() -> list[Expectation]:
     """A navigator that answers when the turtle has arrived, and works meanwhile."""
     return [
@@ -97,7 +90,6 @@ def _answers_meanwhile() -> Expectation:
 
 @check(
     "one_goal",
-    page=PAGE,
     points=3,
     limit=600,
     learnt="A callback that pauses may be called again: what it shares has to be guarded.",
@@ -117,9 +109,9 @@ def one_goal() -> list[Expectation]:
 
 
 FIRST, OTHERS = (9.0, 3.0, 0.0), ((3.0, 9.0, 1.57), (2.0, 3.0, 0.0))
-GUARD = Advice(
-    direction="How does on_goal notice that another goal is under way, and when is that over?",
-    hint="Open Hint 1, then Hint 2, under the exercise.",
+GUARD = hinted(
+    "How does on_goal notice that another goal is under way, and when is that over?",
+    "Open Hint 1, then Hint 2, under the exercise.",
 )
 
 

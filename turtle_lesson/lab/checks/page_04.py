@@ -6,7 +6,6 @@ import itertools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 
 from ..words import angle, count, number, turned
 from .assertions import no_errors, node, publishes, subscribes
@@ -14,10 +13,9 @@ from .graph_view import field
 from .navigation import COMMAND_TYPE, COMMANDS, POSE, POSE_TYPE
 from .probe import Heard, Probe
 from .registry import Expectation, check
-from .results import Advice, CannotLook, Seen
+from .results import CannotLook, Seen, hinted
 from .streams import rate, some
 
-PAGE = "04_status_monitor"
 STATUS, STATUS_TYPE = "/robot/status", "robot_controller/msg/TurtleStatus"
 RUN = "ros2 run robot_controller status_monitor"
 
@@ -37,13 +35,7 @@ LOW_BELOW = 20.0
 """Percent: below this a battery is low."""
 
 
-@check(
-    "battery",
-    page=PAGE,
-    points=3,
-    limit=125,
-    learnt="A timer's callback publishes the state, then brings it up to date.",
-)
+@check("battery", points=3, limit=125, learnt="A timer's callback publishes the state, then brings it up to date.")
 def battery() -> list[Expectation]:
     """A status ten times a second, with a battery that runs down."""
     return [
@@ -59,7 +51,6 @@ def battery() -> list[Expectation]:
 
 @check(
     "status_monitor",
-    page=PAGE,
     points=5,
     limit=25,
     learnt="Your monitor reports what the sensor says, along the axes that others expect.",
@@ -79,13 +70,7 @@ def status_monitor() -> list[Expectation]:
     ]
 
 
-@check(
-    "battery_watch",
-    page=PAGE,
-    points=3,
-    limit=20,
-    learnt="A node can turn one stream into another that is easier to use.",
-)
+@check("battery_watch", points=3, limit=20, learnt="A node can turn one stream into another that is easier to use.")
 def battery_watch() -> list[Expectation]:
     """A node that hears the status, and says whether the battery is low."""
     return [
@@ -122,7 +107,7 @@ class Ride:
 
 
 def ride(probe: Probe) -> Ride:
-    """Drive the turtle in a circle. Raises CannotLook where nothing is heard, or the turtle does not move."""
+    """The ride of this probe, made once. Raises CannotLook where nothing is heard, or the turtle does not move."""
     return probe.once("ride", lambda: _ride(probe))
 
 
@@ -153,7 +138,7 @@ def pose_follows() -> Expectation:
         away = {name: max(abs(field(a, name) - field(b, name)) for a, b in pairs) for name in ("x", "y")}
         off = max(abs(turned(field(a, "theta") - b.theta)) for a, b in pairs)
         seen = f"at most {number(away['x'])} m off in x, {number(away['y'])} m in y, {angle(off)} in theta"
-        advice = Advice(direction=f"Keep what the newest message on {POSE} says, all three fields of it.")
+        advice = f"Keep what the newest message on {POSE} says, all three fields of it."
         return Seen(max(away.values()) <= LATE and off <= 2 * LATE, seen, advice)
 
     return Expectation("x, y, theta follow the turtle", look)
@@ -181,9 +166,8 @@ def velocity_follows(axis: str, part: Callable[[float], float]) -> Expectation:
         if good:
             seen = f"right in all {count(len(driving), 'message')} of a circle"
         other = "y" if axis == "x" else "x"
-        advice = Advice(
-            direction=f"How much of the speed goes along {axis}, and how much along {other}? Try 0, π/2 and π in your head.",
-            hint="Open Hint 2 under the exercise.",
+        advice = hinted(
+            f"How much of the speed goes along {axis}, and how much along {other}? Try 0, π/2 and π in your head.", 2
         )
         return Seen(good, seen, advice)
 
@@ -205,7 +189,7 @@ def no_velocity_at_rest() -> Expectation:
             raise CannotLook(f"no message came on {STATUS} when the turtle stood")
         velocity = [float(field(at_rest[-1], name)) for name in ("vel_x", "vel_y")]
         seen = f"vel_x {number(velocity[0])} m/s, vel_y {number(velocity[1])} m/s"
-        advice = Advice(direction="Use the speed that the pose tells, not a number of your own.")
+        advice = "Use the speed that the pose tells, not a number of your own."
         return Seen(all(abs(each) < 0.05 for each in velocity), seen, advice)
 
     return Expectation("both are 0 when the turtle stands", look)
@@ -223,7 +207,7 @@ def battery_starts_full() -> Expectation:
         charge = float(field(first.message, "battery"))
         by_then = max(0.0, 100.0 - 10 * DROP * (first.at + 0.2))
         seen = f"{number(charge, 1)} % after {number(first.at, 1)} s"
-        advice = Advice(direction="The first status says 100: publish first, take away afterwards.")
+        advice = "The first status says 100: publish first, take away afterwards."
         return Seen(by_then - 1e-3 <= charge <= 100.0 + 1e-3, seen, advice)
 
     return Expectation("battery starts at 100 %", look)
@@ -244,9 +228,9 @@ def battery_falls(heard: Callable[[Probe], list[Heard]], hint: str = "") -> Expe
         if not wrong:
             return Seen(True, f"from {number(charges[0], 1)} to {number(charges[-1], 1)}")
         before, after = wrong[0]
-        advice = Advice(
-            direction="Once for each message that is published, the battery becomes 0.1 less than it was, but not less than 0.",
-            hint=f"Open {hint} under the exercise." if hint else "",
+        advice = hinted(
+            "Once for each message that is published, the battery becomes 0.1 less than it was, but not less than 0.",
+            f"Open {hint} under the exercise." if hint else "",
         )
         return Seen(False, f"{number(before)} %, and in the next message {number(after)} %", advice)
 
@@ -279,13 +263,9 @@ def battery_ends_at_zero(hint: str) -> Expectation:
         charges = [float(field(each.message, "battery")) for each in until_it_is_empty(probe)]
         seen = f"from {number(max(charges), 1)} to {number(min(charges), 1)}, at the end {number(charges[-1], 1)}"
         good = min(charges) >= 0.0 and max(charges) <= 100.0 and charges[-1] < DROP / 2
-        advice = Advice(
-            direction="What should 0.0 minus 0.1 become?"
-            if min(charges) < 0
-            else "It should run down to 0.0, and stay there.",
-            hint=f"Open {hint} under the exercise.",
-        )
-        return Seen(good, seen, advice)
+        becomes = "What should 0.0 minus 0.1 become?"
+        direction = becomes if min(charges) < 0 else "It should run down to 0.0, and stay there."
+        return Seen(good, seen, hinted(direction, f"Open {hint} under the exercise."))
 
     return Expectation("battery ends at 0, never below", look)
 
@@ -301,21 +281,19 @@ def says_low(expected: str, charges: tuple[float, ...]) -> Expectation:
         for charge in charges:
             before = len(answers)
             probe.publish(STATUS, STATUS_TYPE, battery=charge)
-            probe.wait_for(partial(_more_than, before, answers), 1.0)
+            probe.wait_for(lambda before=before: len(answers) > before, 1.0)  # type: ignore[misc]
             probe.wait(0.05)
             said = [each.message.data for each in answers[before:]]
             if not said:
                 probe.raise_error()
-                step = Advice(direction="on_status must publish, whatever the charge is.", hint="Open Hint 2.")
-                return Seen(False, f"{charge:g} %: nothing came within 1 s", step)
+                hint = hinted("on_status must publish, whatever the charge is.", "Open Hint 2.")
+                return Seen(False, f"{charge:g} %: nothing came within 1 s", hint)
             if len(said) > 1:
-                step = Advice(direction="One status in, one Bool out: is there a second publish?")
+                step = "One status in, one Bool out: is there a second publish?"
                 return Seen(False, f"{charge:g} %: {count(len(said), 'message')} came instead of one", step)
             if said[0] is not (charge < LOW_BELOW):
-                step = Advice(
-                    direction=f"Try the three examples in your head: 100, {LOW_BELOW:g} and 19.5.", hint="Open Hint 2."
-                )
-                return Seen(False, f"{charge:g} %: it said {said[0]}", step)
+                hint = hinted(f"Try the three examples in your head: 100, {LOW_BELOW:g} and 19.5.", "Open Hint 2.")
+                return Seen(False, f"{charge:g} %: it said {said[0]}", hint)
         return Seen(True, ", ".join(f"{charge:g} → {charge < LOW_BELOW}" for charge in charges))
 
     return Expectation(expected, look)
@@ -329,7 +307,7 @@ def silent_without_status() -> Expectation:
         before = len(answers)
         probe.wait(1.0)
         heard = answers[before:]
-        advice = Advice(direction="Publish in on_status and nowhere else; no timer is needed.")
+        advice = "Publish in on_status and nowhere else; no timer is needed."
         return Seen(not heard, f"{count(len(heard), 'message')} in 1 s", advice)
 
     return Expectation("without a status it says nothing", look)
@@ -343,7 +321,3 @@ def _answers(probe: Probe) -> list[Heard]:
     if not probe.subscriptions(STATUS):
         raise CannotLook(f"no node listens to {STATUS}")
     return probe.listen(LOW, LOW_TYPE)
-
-
-def _more_than(amount: int, answers: list[Heard]) -> bool:
-    return len(answers) > amount

@@ -16,10 +16,9 @@ from .graph_view import field, interface
 from .navigation import where
 from .probe import Heard, Probe
 from .registry import Expectation, check
-from .results import Advice, CannotLook, Seen
+from .results import CannotLook, Seen, hinted
 from .streams import messages, rate, some
 
-PAGE = "05_obstacle_detector"
 SCAN, SCAN_TYPE = "/obstacles", "sensor_msgs/msg/LaserScan"
 RUN = "ros2 run robot_controller obstacle_detector"
 FILE = "obstacle_detector_node.py"
@@ -34,11 +33,7 @@ CLOSE = 0.05
 
 
 @check(
-    "scan",
-    page=PAGE,
-    points=4,
-    limit=20,
-    learnt="A message can be of the right type and contradict itself; yours no longer does.",
+    "scan", points=4, limit=20, learnt="A message can be of the right type and contradict itself; yours no longer does."
 )
 def scan() -> list[Expectation]:
     """A laser scan that is what it says it is."""
@@ -61,7 +56,6 @@ def scan() -> list[Expectation]:
 
 @check(
     "nearest_ahead",
-    page=PAGE,
     points=4,
     limit=20,
     learnt="The place of a number in a scan says where it was measured, and angles say what matters.",
@@ -83,13 +77,7 @@ def nearest_ahead() -> list[Expectation]:
     ]
 
 
-@check(
-    "ray_cast",
-    page=PAGE,
-    points=5,
-    limit=30,
-    learnt="That is how simulators measure: a ray, a circle, and Pythagoras.",
-)
+@check("ray_cast", points=5, limit=30, learnt="That is how simulators measure: a ray, a circle, and Pythagoras.")
 def ray_cast() -> list[Expectation]:
     """A beam that knows where it meets a circle."""
     return [
@@ -179,11 +167,9 @@ def _counts(expected: str, fans: Iterable[tuple[float, float, float]]) -> Expect
                 came = probe.call(how_many, fan)
                 words = f"from {low:.4g} to {high:.4g} in steps of {step:.4g}: {came!r}"
                 if type(came) is not int or came != wanted:
-                    advice = Advice(
-                        direction="Count on your fingers for a small fan. A number of readings is a whole number.",
-                        hint="Open Hint 3." if came == wanted - 1 else "Open Hint 1 and Hint 2.",
-                    )
-                    return Seen(False, f"{words}, not {wanted}", advice)
+                    advice = "Count on your fingers for a small fan. A number of readings is a whole number."
+                    hint = "Open Hint 3." if came == wanted - 1 else "Open Hint 1 and Hint 2."
+                    return Seen(False, f"{words}, not {wanted}", hinted(advice, hint))
             said.append(words)
         return Seen(True, "; ".join(said))
 
@@ -213,9 +199,9 @@ def _nearest(expected: str, examples: Iterable[tuple[Fan, dict[int, float], floa
             others = "" if fan == (-90, 90, 1) else f" (beams from {fan[0]}° to {fan[1]}°, each {fan[2]}°)"
             words = f"{things}{others}: {came!r}"
             if not agrees(came, wanted, 1e-6):
-                advice = Advice(
-                    direction="At which angle does each of these beams point, and is that at most 30° to a side?",
-                    hint="Open Hint 2 and Hint 3 under the exercise.",
+                advice = hinted(
+                    "At which angle does each of these beams point, and is that at most 30° to a side?",
+                    "Open Hint 2 and Hint 3 under the exercise.",
                 )
                 return Seen(False, f"{words}, not {wanted:g}", advice)
         return Seen(True, words)
@@ -282,9 +268,9 @@ def _told(probe: Probe) -> float:
 
 def _meets(expected: str, examples: Iterable[tuple[tuple[Any, ...], float]], hint: str) -> Expectation:
     """ray_circle gives these distances, m."""
-    advice = Advice(
-        direction="Draw the beam and the circle on paper: where is the middle, seen along the beam?",
-        hint=f"Open {hint} under the exercise.",
+    advice = hinted(
+        "Draw the beam and the circle on paper: where is the middle, seen along the beam?",
+        f"Open {hint} under the exercise.",
     )
     return returns("ray_circle", examples, expected, advice, within=1e-3)
 
@@ -309,7 +295,7 @@ def scan_shows_the_circles() -> Expectation:
         if off <= CLOSE:
             return Seen(True, f"{count(sum(each < FAR for each in message.ranges), 'beam')} see one")
         wanted = _distance(pose, at, circles)
-        advice = Advice(direction="Are the circles of the node those of the world, and is ray_circle right?")
+        advice = "Are the circles of the node those of the world, and is ray_circle right?"
         return Seen(False, f"{number(came)} m at {angle(at)}, not {number(wanted)} m", advice)
 
     return Expectation("the scan shows the circles of the world", look)

@@ -11,10 +11,9 @@ from .assertions import get_parameter, gives_up, no_errors, node, parameter, pub
 from .navigation import COMMANDS, NAVIGATE, ask_for, far_away, where
 from .probe import Answer, Probe
 from .registry import Expectation, check
-from .results import Advice, CannotLook, Seen
+from .results import CannotLook, Seen, hinted
 from .streams import rate
 
-PAGE = "06_parameters_and_launch"
 STATUS, STATUS_TYPE = page_04.STATUS, page_04.STATUS_TYPE
 SCAN, SCAN_TYPE = page_05.SCAN, page_05.SCAN_TYPE
 PACKAGE, FILE = "robot_controller", "start_system.launch.py"
@@ -22,11 +21,7 @@ LAUNCH = f"ros2 launch {PACKAGE} {FILE}"
 
 
 @check(
-    "parameters",
-    page=PAGE,
-    points=5,
-    limit=60,
-    learnt="A parameter that is read where it is used can be set while the node runs.",
+    "parameters", points=5, limit=60, learnt="A parameter that is read where it is used can be set while the node runs."
 )
 def parameters() -> list[Expectation]:
     """A status monitor whose rate follows its parameter."""
@@ -54,13 +49,7 @@ def system_is_there() -> list[Expectation]:
     ]
 
 
-@check(
-    "launch",
-    page=PAGE,
-    points=5,
-    limit=60,
-    learnt="One command starts a whole system, and its arguments set it up.",
-)
+@check("launch", points=5, limit=60, learnt="One command starts a whole system, and its arguments set it up.")
 def launch() -> list[Expectation]:
     """One command has started all three nodes, and its arguments become their parameters."""
     return [
@@ -100,7 +89,7 @@ def only(wanted: set[str]) -> Expectation:
         found = probe.nodes()
         more = [f"{amount} × {name}" if amount > 1 else name for name, amount in found.items()]
         extra = [text for text, name in zip(more, found, strict=True) if name not in wanted or found[name] > 1]
-        advice = Advice(direction="Nothing else was asked for: what does the launch file start, and what ran before?")
+        advice = "Nothing else was asked for: what does the launch file start, and what ran before?"
         return Seen(not extra, f"there is {listed(extra)}, too" if extra else "none", advice)
 
     return Expectation("no other node", look)
@@ -115,9 +104,9 @@ def _argument_reaches(owner: str, name: str, value: int | float) -> Callable[[Pr
             return Seen(False, found, "Read the error from its last line up.")
         if found[owner] is None:
             raise CannotLook(f"there is no node /{owner}")
-        advice = Advice(
-            direction=f"Where does the launch file declare {name}, and where does it hand the value on?",
-            hint="Open Hints 1 and 2 under the exercise.",
+        advice = hinted(
+            f"Where does the launch file declare {name}, and where does it hand the value on?",
+            "Open Hints 1 and 2 under the exercise.",
         )
         good = type(found[owner]) is type(value) and found[owner] == value
         return Seen(good, f"{name} is {found[owner]!r} then", advice)
@@ -149,13 +138,7 @@ SIDES = {"slow": 5, "fast": 20}
 """The namespaces of the two monitors, and the rate (Hz) of each."""
 
 
-@check(
-    "side_by_side",
-    page=PAGE,
-    points=4,
-    limit=20,
-    learnt="Namespaces and remapped names let one program run many times.",
-)
+@check("side_by_side", points=4, limit=20, learnt="Namespaces and remapped names let one program run many times.")
 def side_by_side() -> list[Expectation]:
     """Two status monitors, each with its own namespace, topic and rate."""
     return [
@@ -173,9 +156,8 @@ def _is_there(side: str) -> Callable[[Probe], Seen]:
     def look(probe: Probe) -> Seen:
         found = probe.nodes()
         monitors = listed([f"{found[name]} × {name}" for name in found if name.endswith("status_monitor")])
-        advice = Advice(
-            direction="What does each Node say about its namespace? A launch that failed says why in its output above.",
-            hint="Open Hint 1 under the exercise.",
+        advice = hinted(
+            "What does each Node say about its namespace? A launch that failed says why in its output above.", 1
         )
         there = found[f"/{side}/status_monitor"] == 1
         return Seen(there, "it is there" if there else f"there is {monitors or 'no monitor'}", advice)
@@ -185,9 +167,8 @@ def _is_there(side: str) -> Callable[[Probe], Seen]:
 
 def _none_does(probe: Probe) -> Seen:
     owners = [owner for owner, _ in probe.publishers(STATUS)]
-    advice = Advice(
-        direction=f"{STATUS} is an absolute name, which a namespace does not change. What replaces a name at the start?",
-        hint="Open Hint 2 under the exercise.",
+    advice = hinted(
+        f"{STATUS} is an absolute name, which a namespace does not change. What replaces a name at the start?", 2
     )
     return Seen(
         not owners, f"{listed(owners)} {'do' if len(owners) > 1 else 'does'}" if owners else "none does", advice

@@ -10,10 +10,9 @@ from .assertions import no_errors, node, parameter
 from .navigation import COMMAND_TYPE, COMMANDS, POSE, POSE_TYPE
 from .probe import Probe
 from .registry import Expectation, check
-from .results import Advice, CannotLook, Seen
+from .results import CannotLook, Seen, hinted
 from .streams import rate, some
 
-PAGE = "07_command_line"
 TWIN, TWIN_PLACE = "/turtle2", (2.0, 9.0, 1.57)
 RADIUS = 2.0
 """Metres."""
@@ -22,7 +21,7 @@ SOON = 0.5
 """Robot time, s, after which what was typed last has its effect: a program is up, a timer has its new period."""
 
 
-@check("tuned", page=PAGE, points=2, limit=10, learnt="You can change a node while it runs, without its code.")
+@check("tuned", points=2, limit=10, learnt="You can change a node while it runs, without its code.")
 def tuned() -> list[Expectation]:
     """A parameter that was changed while its node runs."""
     return [
@@ -34,9 +33,7 @@ def tuned() -> list[Expectation]:
     ]
 
 
-@check(
-    "second_turtle", page=PAGE, points=2, limit=10, learnt="Any service can be found out about, and called, by hand."
-)
+@check("second_turtle", points=2, limit=10, learnt="Any service can be found out about, and called, by hand.")
 def second_turtle() -> list[Expectation]:
     """A service of the simulator was called: there are two turtles."""
     return [
@@ -51,23 +48,23 @@ def _twin_is_there(probe: Probe) -> Seen:
     there = bool(probe.publishers(f"{TWIN}/pose"))
     others = [topic for topic in probe.topics() if topic.endswith("/pose") and topic != POSE]
     seen = "it is" if there else f"there is {others[0]}" if others else "there is one turtle"
-    return Seen(there, seen, Advice(direction="Which field of the request says what the turtle is called?"))
+    return Seen(there, seen, "Which field of the request says what the turtle is called?")
 
 
 def _twin_in_place(probe: Probe) -> Seen:
     pose = some(probe, f"{TWIN}/pose", POSE_TYPE, 0.1)[-1].message
     away = math.hypot(pose.x - TWIN_PLACE[0], pose.y - TWIN_PLACE[1])
-    advice = Advice(direction="x and y are fields of the request. (/kill takes a turtle away again.)")
+    advice = "x and y are fields of the request. (/kill takes a turtle away again.)"
     return Seen(away < 0.05, f"it is at {point(pose.x, pose.y)}", advice)
 
 
 def _twin_faces_up(probe: Probe) -> Seen:
     pose = some(probe, f"{TWIN}/pose", POSE_TYPE, 0.1)[-1].message
-    advice = Advice(direction="theta is an angle in radians: how many are 90°? (/kill takes a turtle away again.)")
+    advice = "theta is an angle in radians: how many are 90°? (/kill takes a turtle away again.)"
     return Seen(abs(turned(pose.theta - TWIN_PLACE[2])) < 0.02, f"it faces {angle(pose.theta)}", advice)
 
 
-@check("circle", page=PAGE, points=3, limit=15, learnt="A speed ahead and a turn, sent again and again, make a circle.")
+@check("circle", points=3, limit=15, learnt="A speed ahead and a turn, sent again and again, make a circle.")
 def circle() -> list[Expectation]:
     """Commands from a terminal drive the turtle round and round."""
     return [
@@ -83,7 +80,7 @@ def _ten_a_second(probe: Probe) -> Seen:
     probe.wait(SOON)
     amount = len([owner for owner, _ in probe.publishers(COMMANDS) if owner != "/navigator"])
     if not amount:
-        advice = Advice(direction="A command that is to go on while the check looks ends with &.")
+        advice = "A command that is to go on while the check looks ends with &."
         return Seen(False, "no command in a terminal publishes", advice)
     heard = len(some(probe, COMMANDS, COMMAND_TYPE, 2.0)) / 2.0 / amount
     return Seen(
@@ -108,10 +105,7 @@ def _measured(probe: Probe) -> tuple[float, float]:
 
 def _goes_round(probe: Probe) -> Seen:
     ahead, turn = _motion(probe)
-    advice = Advice(
-        direction="A circle is both at once, in one message: a speed ahead and a turn. Which sign is left?",
-        hint="Open Hint 1 under the exercise.",
-    )
+    advice = hinted("A circle is both at once, in one message: a speed ahead and a turn. Which sign is left?", 1)
     return Seen(ahead > 0.05 and turn > 0.05, f"{number(ahead)} m/s and {number(turn)} rad/s", advice)
 
 
@@ -120,7 +114,5 @@ def _radius(probe: Probe) -> Seen:
     if abs(turn) < 1e-3 or abs(ahead) < 1e-3:
         raise CannotLook("the turtle drives no circle")
     radius = abs(ahead / turn)
-    advice = Advice(
-        direction="How far does it drive while it turns by one radian?", hint="Open Hint 2 under the exercise."
-    )
+    advice = hinted("How far does it drive while it turns by one radian?", 2)
     return Seen(abs(radius - RADIUS) <= 0.1, f"it is {number(radius)} m", advice)

@@ -11,10 +11,9 @@ from .assertions import get_parameter, no_answer, no_errors, node, offers, publi
 from .navigation import NAVIGATE, NEAR, ask_for, where
 from .probe import Heard, Probe
 from .registry import Expectation, check
-from .results import Advice, CannotLook, Seen
+from .results import CannotLook, Seen, hinted
 from .streams import rate
 
-PAGE = "08_executors"
 WORK, WORK_TYPE = "/work", "std_srvs/srv/Trigger"
 BEAT, BEAT_TYPE = "/heartbeat", "std_msgs/msg/Int32"
 BELL, BELL_TYPE = "/bell", "std_msgs/msg/Int32"
@@ -34,7 +33,6 @@ BAKING = 0.4
 
 @check(
     "steady",
-    page=PAGE,
     points=3,
     limit=20,
     learnt="Two callbacks run side by side if there are two threads, and each is in a callback group of its own.",
@@ -65,13 +63,7 @@ def _bakes(probe: Probe) -> Seen:
     return Seen(abs(odd[0] - BAKING) <= 0.011 and abs(odd[1] - 1.0) <= 0.011, seen, step)
 
 
-@check(
-    "awake",
-    page=PAGE,
-    points=5,
-    limit=40,
-    learnt="A callback that awaits, in a callback group of its own, holds nothing up.",
-)
+@check("awake", points=5, limit=40, learnt="A callback that awaits, in a callback group of its own, holds nothing up.")
 def awake() -> list[Expectation]:
     """A worker whose heart beats on while it works, and that still answers."""
     return [
@@ -86,10 +78,7 @@ def awake() -> list[Expectation]:
     ]
 
 
-_STEP = Advice(
-    direction="What does on_work hold while it works: the thread, or the group of the other callbacks?",
-    hint="Open Hint 2 under the exercise.",
-)
+_STEP = hinted("What does on_work hold while it works: the thread, or the group of the other callbacks?", 2)
 
 
 def _shift(probe: Probe) -> tuple[float | None, list[Heard], bool]:
@@ -130,7 +119,7 @@ def _unanswered(probe: Probe) -> Seen:
     """No answer came: the learner's error, the callback that has not returned, or else what may hold it up."""
     seen = no_answer(probe, f"no answer in {LONGEST:g} s")
     step = "What does the callback await, and is the callback group free in which it would come? Does it return the response?"
-    return seen._replace(advice=Advice(direction=step, hint="Open Hint 2 under the exercise."))
+    return seen._replace(advice=hinted(step, 2))
 
 
 def _meanwhile(probe: Probe) -> tuple[list[Heard], bool]:
@@ -155,7 +144,6 @@ def _answers(probe: Probe) -> Seen:
 
 @check(
     "go_home",
-    page=PAGE,
     points=5,
     limit=120,
     learnt="A callback may ask another node and await the answer, if the client is not in the callback's own group.",

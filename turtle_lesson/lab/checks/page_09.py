@@ -5,11 +5,10 @@ from __future__ import annotations
 from ..troubles import current_expectations, expectations_of
 from .registry import Expectation, check
 
-PAGE = "09_debugging_lab"
 LIMIT = 600
 
 
-@check("trouble", page=PAGE, points=1, limit=LIMIT)
+@check("trouble", points=1, limit=LIMIT)
 def trouble() -> list[Expectation]:
     """A system that works again as specified."""
     return current_expectations()
@@ -17,7 +16,6 @@ def trouble() -> list[Expectation]:
 
 @check(
     "topic_case",
-    page=PAGE,
     points=3,
     limit=LIMIT,
     learnt="A topic has a publisher, a name and a rate, and a command for each of them.",
@@ -29,7 +27,6 @@ def topic_case() -> list[Expectation]:
 
 @check(
     "service_case",
-    page=PAGE,
     points=3,
     limit=LIMIT,
     learnt="A call needs a node, a service of the same name, and a callback that is called.",
@@ -41,7 +38,6 @@ def service_case() -> list[Expectation]:
 
 @check(
     "message_case",
-    page=PAGE,
     points=3,
     limit=LIMIT,
     learnt="A message type is named in CMakeLists.txt, built and sourced, in this order.",
@@ -53,7 +49,6 @@ def message_case() -> list[Expectation]:
 
 @check(
     "turtle_case",
-    page=PAGE,
     points=3,
     limit=LIMIT,
     learnt="A command can be followed from the node that sends it to the robot that obeys it.",

@@ -19,10 +19,8 @@ from .graph_view import interface
 from .navigation import NEAR, Drive, Goal, ask_for, drive, where
 from .probe import Heard, Probe
 from .registry import Expectation, check
-from .results import Advice, CannotLook, Seen
+from .results import Advice, CannotLook, Seen, hinted
 from .streams import judge_rate, relays
-
-PAGE = "10_test_and_validate"
 
 GOALS = ((8.0, 8.0, 1.57), (2.0, 8.0, 3.14), (2.0, 2.0, -1.57), (9.0, 2.0, 0.0), (5.5, 5.5, 0.5))
 """Driven to in turn: all four quarters of the world, and all directions."""
@@ -45,18 +43,15 @@ TICK = 0.2
 
 @check(
     "battery_test",
-    page=PAGE,
     points=3,
     limit=20,
     learnt="A test says yes to what is right, both ends included, and no to everything else.",
 )
 def battery_test() -> list[Expectation]:
     """A test of one message: passes every percentage, and can fail."""
-    ends = Advice(
-        direction="Both ends belong to a percentage. What does your comparison make of them?", hint="Open Hint 1."
-    )
-    beyond = Advice(direction="Which values does your function never say False to?", hint="Open Hint 1.")
-    nan = Advice(direction="Each comparison with nan is false. What is left of your test then?", hint="Open Hint 2.")
+    ends = hinted("Both ends belong to a percentage. What does your comparison make of them?", "Open Hint 1.")
+    beyond = hinted("Which values does your function never say False to?", "Open Hint 1.")
+    nan = hinted("Each comparison with nan is false. What is left of your test then?", "Open Hint 2.")
     pairs = [({"battery": 50.0}, _says(True), "50 % → True"), ({"battery": 150.0}, _says(False), "150 % → False")]
     return [
         subscribes(page_04.STATUS, page_04.STATUS_TYPE, by="/tester"),
@@ -89,11 +84,7 @@ def _says(verdict: bool) -> Callable[[Any], bool]:
 
 
 @check(
-    "watchdog",
-    page=PAGE,
-    points=4,
-    limit=30,
-    learnt="A watchdog remembers when it last heard something, so it notices silence.",
+    "watchdog", points=4, limit=30, learnt="A watchdog remembers when it last heard something, so it notices silence."
 )
 def watchdog() -> list[Expectation]:
     """A watchdog that notices when the status stops coming."""
@@ -119,13 +110,8 @@ def _before_the_first(probe: Probe) -> Seen:
         said = probe.call(fresh.is_alive)
     finally:
         probe.call(fresh.destroy_node)
-    advice = Advice(
-        direction="What is heard_at before the first status, and what should is_alive say then?", hint=_HINT
-    )
+    advice = hinted("What is heard_at before the first status, and what should is_alive say then?", 2)
     return Seen(said is False, f"a new one says {said!r}", advice)
-
-
-_HINT = "Open Hint 2 under the exercise."
 
 
 @dataclass(frozen=True)
@@ -143,7 +129,7 @@ def _while_it_comes(probe: Probe) -> Seen:
     wrong = [each.message.data for each in heard if each.message.data is not True]
     if not heard:
         return _nothing_came(probe)
-    return Seen(not wrong, f"it says {wrong[0] if wrong else True}", Advice(direction=step, hint=_HINT))
+    return Seen(not wrong, f"it says {wrong[0] if wrong else True}", hinted(step, 2))
 
 
 def _in_silence(alive: bool) -> Callable[[Probe], Seen]:
@@ -155,7 +141,7 @@ def _in_silence(alive: bool) -> Callable[[Probe], Seen]:
         shown = (wrong or verdicts)[-1 if alive else 0]
         step = "How long ago did the last status come, by the clock, each time that the timer ticks?"
         seen = f"{number(shown.age)} s after it: {shown.alive}"
-        return Seen(not wrong, seen, Advice(direction=step, hint=_HINT))
+        return Seen(not wrong, seen, hinted(step, 2))
 
     return look
 
@@ -213,13 +199,7 @@ def _hush(probe: Probe) -> list[Verdict]:
 # -- the whole system ----------------------------------------------------------------------------------------------------
 
 
-@check(
-    "system",
-    page=PAGE,
-    points=10,
-    limit=420,
-    learnt="Your own system keeps its specification, and you can show it.",
-)
+@check("system", points=10, limit=420, learnt="Your own system keeps its specification, and you can show it.")
 def system() -> list[Expectation]:
     """Your whole system meets its specification, for five minutes."""
     return [
@@ -314,10 +294,7 @@ def _scan_rate(done: Shift) -> Seen:
 
 def _reached(probe: Probe) -> Seen:
     done = shift(probe)
-    step = Advice(
-        direction="Drive to that goal alone: what does the navigator's log say, and how long may a goal take?",
-        hint="Open Hint 1 under the exercise.",
-    )
+    step = hinted("Drive to that goal alone: what does the navigator's log say, and how long may a goal take?", 1)
     if wrong := next(filter(None, map(_missed, done.drives)), ""):
         return Seen(False, wrong, step)
     if not done.whole:

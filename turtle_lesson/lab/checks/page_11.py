@@ -14,10 +14,9 @@ from .functions import Example, returns
 from .navigation import COMMAND_TYPE, COMMANDS
 from .probe import Probe
 from .registry import Expectation, check
-from .results import Advice, CannotLook, Seen
+from .results import CannotLook, Seen, hinted
 from .streams import rate
 
-PAGE = "11_to_a_real_robot"
 PLAYER = "rosbag2_player"
 WANTED = "/wanted_vel"
 SPEED = 0.5
@@ -33,13 +32,7 @@ SETTINGS: tuple[tuple[str, str, int | float], ...] = (
 """Each program with the setting that it is started with on site."""
 
 
-@check(
-    "on_site",
-    page=PAGE,
-    points=3,
-    limit=30,
-    learnt="A package is built once, and set up where it is started.",
-)
+@check("on_site", points=3, limit=30, learnt="A package is built once, and set up where it is started.")
 def on_site() -> list[Expectation]:
     """Your exported package is started with the settings of another place, and its files stay as they are."""
     return [
@@ -63,9 +56,9 @@ def _exported(probe: Probe) -> Seen:
         path = Path(page_10.running(probe, program)[0])
         for name, folder in elsewhere.items():
             if path.is_relative_to(folder):
-                step = Advice(
-                    direction="Which install/setup.bash was sourced last in this world?",
-                    hint="Run the cell that builds in robot_ws once more, then launch.",
+                step = hinted(
+                    "Which install/setup.bash was sourced last in this world?",
+                    "Run the cell that builds in robot_ws once more, then launch.",
                 )
                 return Seen(False, f"{program} runs from {name}", step)
     return Seen(True, "they are")
@@ -92,10 +85,7 @@ def _from_the_start(probe: Probe) -> Seen:
         given = [word.rpartition(":=") for word in command if ":=" in word]
         values = [text for key, _, text in given if key.rpartition(":")[2] == name]
         if "--params-file" not in command and (not values or float(values[-1]) != value):
-            step = Advice(
-                direction="ros2 param set changes a node that runs. What gives a value to the launch file?",
-                hint="Open Hint 1 under the exercise.",
-            )
+            step = hinted("ros2 param set changes a node that runs. What gives a value to the launch file?", 1)
             was = f"{name}:={values[-1]}" if values else f"no {name}"
             return Seen(False, f"{program} was started with {was}", step)
     return Seen(True, "they were given when the programs started")
@@ -122,19 +112,13 @@ ODD: tuple[Example, ...] = (
 )
 
 
-@check(
-    "safety_stop",
-    page=PAGE,
-    points=4,
-    limit=20,
-    learnt="Safe is what was seen to be free a moment ago, and nothing else.",
-)
+@check("safety_stop", points=4, limit=20, learnt="Safe is what was seen to be free a moment ago, and nothing else.")
 def safety_stop() -> list[Expectation]:
     """Commands pass while the way is free; otherwise the turtle is told to stand."""
-    two = Advice(direction="Two conditions have to hold, both of them. What does the second one ask for?", hint=_ONE)
-    free = Advice(direction="Which of your conditions is too strict? 0.5 m and 0.5 s are still safe.", hint=_ONE)
-    near = Advice(direction="From which distance on is it safe?", hint=_ONE)
-    odd = Advice(direction="Each comparison with nan is false. Does your function say what is safe?", hint=_TWO)
+    two = hinted("Two conditions have to hold, both of them. What does the second one ask for?", 1)
+    free = hinted("Which of your conditions is too strict? 0.5 m and 0.5 s are still safe.", 1)
+    near = hinted("From which distance on is it safe?", 1)
+    odd = hinted("Each comparison with nan is false. Does your function say what is safe?", 2)
     return [
         node("/safety_stop"),
         subscribes(WANTED, COMMAND_TYPE, by="/safety_stop"),
@@ -149,9 +133,6 @@ def safety_stop() -> list[Expectation]:
         _lets_through("no scan for a second: it is stopped", "silent", None, 0.0),
         no_errors(),
     ]
-
-
-_ONE, _TWO = "Open Hint 1 under the exercise.", "Open Hint 2 under the exercise."
 
 
 def _lets_through(expected: str, name: str, distance: float | None, speed: float) -> Expectation:
@@ -188,13 +169,7 @@ LONG = 6.0
 """Robot time, s, for which the bag is heard: the page's bag is shorter."""
 
 
-@check(
-    "replay",
-    page=PAGE,
-    points=3,
-    limit=30,
-    learnt="A recording can take the place of a part that is not there.",
-)
+@check("replay", points=3, limit=30, learnt="A recording can take the place of a part that is not there.")
 def replay() -> list[Expectation]:
     """A bag speaks for a status monitor that does not run."""
     return [
@@ -226,7 +201,7 @@ def _from_a_bag(probe: Probe) -> Seen:
     probe.wait_for(lambda: probe.publishers(page_04.STATUS), 1.0)  # what runs in the background has just been started
     ends = probe.publishers(page_04.STATUS)
     owners = [owner for owner, _ in ends]
-    step = Advice(direction="Does the player still run when the cell is done, and does it play this topic?", hint=_TWO)
+    step = hinted("Does the player still run when the cell is done, and does it play this topic?", 2)
     return Seen(len(ends) == 1 and _is_player(ends[0]), listed(owners) or "no node publishes it", step)
 
 
@@ -235,7 +210,7 @@ def _nothing_else(probe: Probe) -> Seen:
     if not topics:
         raise CannotLook("no bag is played")
     others = [topic for topic in topics if topic != page_04.STATUS]
-    step = Advice(direction="A bag is played with all its topics, unless some are chosen.", hint=_ONE)
+    step = hinted("A bag is played with all its topics, unless some are chosen.", 1)
     return Seen(not others, f"{listed(others)}, too" if others else "nothing else is", step)
 
 
@@ -266,6 +241,6 @@ def _again_and_again(probe: Probe) -> Seen:
     times = _times(probe)
     seconds = {math.floor(each) for each in times}
     missing = [second for second in range(int(LONG)) if second not in seconds]
-    step = Advice(direction="What does the player do when the bag is at its end?", hint=_ONE)
+    step = hinted("What does the player do when the bag is at its end?", 1)
     seen = f"none after {number(times[-1] if times else 0.0, 1)} s" if missing else "they come"
     return Seen(not missing, seen, step)

@@ -1,7 +1,7 @@
-"""A probe: looks at a running system through a node, lets robot time pass, and cleans up after itself.
+"""A probe observes a running system through a node, lets robot time pass, and cleans up after itself.
 
-It listens, asks, publishes and reads the graph as any node may, and reaches into nothing. What it has seen once it
-remembers (`once`), so that several expectations can be about the same drive.
+It listens, calls services, publishes and reads the graph as any node may. It remembers what it has seen (`once`), so that
+several expectations can be about the same drive.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ MOST_HEARD = 500_000
 
 
 class Target(Protocol):
-    """Where the system is that is looked at."""
+    """The system that is observed."""
 
     node: Any
     """A node with a hidden name, spun while time passes."""
@@ -48,67 +48,53 @@ class Target(Protocol):
     @property
     def recording(self) -> Recording:
         """What was heard of the turtle so far."""
-        ...
 
     @property
     def now(self) -> float:
         """Robot time, s."""
-        ...
 
     @property
     def ended(self) -> bool:
         """Whether this system is gone."""
-        ...
 
     @property
     def errors(self) -> list[tuple[str, Exception]]:
         """The errors that callbacks of the notebook's cells have raised, or that ended a program; with its name, or ""."""
-        ...
 
     @property
     def strands(self) -> list[Any]:
         """The lines of execution that wait somewhere."""
-        ...
 
     def limit_work(self, seconds: float | None) -> None:
         """Have learner's code stopped after so much more CPU time (s); None: no more."""
-        ...
 
     def runs(self, program: str) -> bool:
         """Whether a program of this name is running."""
-        ...
 
     @property
     def commands(self) -> list[list[str]]:
         """The command lines of the programs that run, each as its words: what `ps` shows."""
-        ...
 
     def published(self, topic: str, by: str) -> int:
         """How many messages a node's newest publisher of a topic has sent so far."""
-        ...
 
     def call(self, function: Callable[..., Any], *arguments: Any) -> Any:
         """Call a function of the learner's as a cell would; raises what it raises."""
-        ...
 
     def launched(
         self, package: str, file_name: str, namespace: str, renamed: Mapping[str, str], arguments: Mapping[str, object]
     ) -> AbstractContextManager[None]:
         """Within this block a launch file runs once more, its nodes in a namespace, with some names replaced."""
-        ...
 
     def step(self, seconds: float) -> None:
         """Let robot time pass."""
-        ...
 
     @property
     def obstacles(self) -> tuple[Any, ...]:
         """The obstacles in the world."""
-        ...
 
     def put(self, obstacles: Iterable[Any]) -> None:
         """Replace them, by a message on /world/obstacles."""
-        ...
 
 
 @dataclass(frozen=True, slots=True)

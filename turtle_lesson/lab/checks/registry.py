@@ -46,28 +46,26 @@ class Check:
 
 
 _checks: dict[str, Check] = {}
-
-
 Maker = Callable[[], Iterable[Expectation]]
 
 
-def check(name: str, *, page: str, points: int, limit: float, learnt: str = "") -> Callable[[Maker], Check]:
+def check(name: str, *, points: int, limit: float, learnt: str = "", page: str = "") -> Callable[[Maker], Check]:
     """Decorator that makes a check of a function which returns its expectations; its docstring is the title.
 
     Args:
         name: what `lesson.check` is given.
-        page: one of `PAGES`.
         points: what it is worth, if every expectation is met.
         limit: robot time, in s, that it may take at most; what is not looked at by then is marked with –.
         learnt: one sentence that is shown when the check is passed: what the learner can do now.
+        page: one of `PAGES`; the page of the function's module unless told.
     """
-    if page not in PAGES:
+    if page and page not in PAGES:
         raise ValueError(f"there is no page {page!r}. {did_you_mean(page, PAGES)}".strip())
 
     def register(function: Maker) -> Check:
         title = (function.__doc__ or "").strip().splitlines()[0]
-        made = Check(name, title, page, points, limit, function, learnt)
-        _checks[name] = made
+        its_page = page or PAGES[MODULES.index(function.__module__.rpartition(".")[2])]
+        made = _checks[name] = Check(name, title, its_page, points, limit, function, learnt)
         return made
 
     return register

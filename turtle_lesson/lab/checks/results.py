@@ -10,10 +10,6 @@ from typing import Any, NamedTuple
 
 from ..words import count, number
 
-# -- rows ---------------------------------------------------------------------------------------------------------
-# What looking at one expectation gives: ✓, ✗ with what was seen, – with the reason why not, or ■ where code was
-# stopped.
-
 GOOD, BAD, OPEN, STOPPED = "✓", "✗", "–", "■"
 IN_WORDS = {GOOD: "yes", BAD: "no", OPEN: "not looked at", STOPPED: "stopped"}
 
@@ -51,6 +47,11 @@ class Advice:
         return self.direction if failures == 2 else " ".join(filter(None, (self.direction, self.hint)))
 
 
+def hinted(direction: str, hint: int | str) -> Advice:
+    """Advice that from the third failure on also names a hint of the exercise: its number, or a sentence."""
+    return Advice(direction=direction, hint=f"Open Hint {hint} under the exercise." if isinstance(hint, int) else hint)
+
+
 class Seen(NamedTuple):
     """What was seen: whether it is as expected, in words, and advice if it is not; a plain text is the direction."""
 
@@ -76,9 +77,6 @@ class Row:
         """Whether it is as expected."""
         return self.mark == GOOD
 
-
-# -- result -------------------------------------------------------------------------------------------------------
-# What `lesson.check` answers: a table, in HTML and in plain text, and its figures for a program that collects points.
 
 METADATA = "turtle_lesson_check"
 """Where an output's metadata holds the figures of a result, for a program that reads notebooks; they prove nothing."""
@@ -159,11 +157,6 @@ class CheckResult:
         return GOOD if self.passed else STOPPED if self.stopped else BAD
 
     @property
-    def headline(self) -> str:
-        """The result in one line."""
-        return f"{self.mark} {self._words}"
-
-    @property
     def _words(self) -> str:
         done = f"{self.good} of {count(len(self.rows), 'expectation')} met"
         points = f"{self.earned} of {count(self.points, 'point')}"
@@ -192,7 +185,9 @@ class CheckResult:
 
     def __repr__(self) -> str:
         closing = [line for each in self.closing for line in _wrapped(each, "  ", "  ")]
-        return "\n".join([*_wrapped(self.headline, "", "  "), *self._plain_rows(), *closing, self.footnote])
+        return "\n".join(
+            [*_wrapped(f"{self.mark} {self._words}", "", "  "), *self._plain_rows(), *closing, self.footnote]
+        )
 
     def _plain_rows(self) -> Iterable[str]:
         groups = list(self._groups())
