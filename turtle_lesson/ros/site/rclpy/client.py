@@ -100,7 +100,8 @@ class Client(Entity):
         """Send a request; the future will have the response. Raises TypeError for anything but a request."""
         self._check_request(request)
         if self._destroyed:
-            return self._ask_nobody()
+            self._check_alive()
+            return Future(executor=self._executor)  # after rclpy.shutdown() a request goes nowhere, as on a robot
         future = Future(executor=self._executor)
         future._answered_by = self
         if not checks.when_assigned:
@@ -108,11 +109,6 @@ class Client(Entity):
         future._request_number = number = self._end.ask(self._servers(), request)
         self._waiting[number] = future
         return future
-
-    def _ask_nobody(self) -> Future:
-        """After rclpy.shutdown() a request goes nowhere, as on a robot."""
-        self._check_alive()
-        return Future(executor=self._executor)
 
     def _check_request(self, request: Any) -> None:
         if not isinstance(request, self.srv_type.Request):
@@ -191,7 +187,7 @@ class Client(Entity):
 
     def _set_result(self, future: Future, response: Any) -> None:
         if not future.cancelled():
-            future._set_executor(self._executor)  # type: ignore[arg-type]
+            future._executor = self._executor
             future.set_result(response)
 
     def get_pending_request(self, sequence_number: int) -> Future:

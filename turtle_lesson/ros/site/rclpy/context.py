@@ -104,7 +104,7 @@ class Context:
     def shutdown(self) -> None:
         """End it. Raises RuntimeError if it is not initialized, RCLError if it has ended, perhaps by a signal."""
         if self.ended:
-            self._end_is_told()
+            self._forget_as_default()
             error = RCLError("failed to shutdown: rcl_shutdown already called on the given context")
             who = "Ctrl-C has already shut it down, as on a robot. " if self.ended_by_signal else ""
             error.add_note(f"{who}rclpy.try_shutdown() does it only if it is still necessary.")
@@ -118,14 +118,12 @@ class Context:
         if self.ok():
             self.ended = True
             self._leave()
-        self._end_is_told()
+        self._forget_as_default()
 
-    def _end_is_told(self) -> bool:
-        """Let a later init have a new default context; whether this one has just been the default."""
-        was_default = self.shared_default
-        if was_default and self.ended:
+    def _forget_as_default(self) -> None:
+        """Let a later init have a new default context."""
+        if self.shared_default and self.ended:
             del self._process.locals["rclpy.context"]
-        return was_default
 
     def shut_down_by_signal(self) -> None:
         """A signal ends it, at once. What was given to `on_shutdown` is not called, as on a robot."""

@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 
 from .impl.logging_severity import LoggingSeverity
-from .impl.rcutils_logger import RcutilsLogger, forget_levels, level_of, set_level_of
+from .impl.rcutils_logger import RcutilsLogger, levels
 
 
 def get_logger(name: str) -> RcutilsLogger:
@@ -22,12 +22,10 @@ def initialize() -> None:
 
 def shutdown() -> None:
     """Forget all levels."""
-    forget_levels()
+    levels().clear()
 
 
-def clear_config() -> None:
-    """Forget all levels."""
-    forget_levels()
+clear_config = shutdown
 
 
 def set_logger_level(name: str, level: int, detailed_error: bool = False) -> None:
@@ -35,12 +33,12 @@ def set_logger_level(name: str, level: int, detailed_error: bool = False) -> Non
 
     Raises ValueError for what is no level. `detailed_error` makes no difference here.
     """
-    set_level_of(name, level)
+    RcutilsLogger(name).set_level(level)
 
 
 def get_logger_level(name: str) -> LoggingSeverity:
     """The level that was set for a name."""
-    return level_of(name)
+    return levels().get(name, LoggingSeverity.UNSET if name else LoggingSeverity.INFO)
 
 
 def get_logger_effective_level(name: str) -> LoggingSeverity:

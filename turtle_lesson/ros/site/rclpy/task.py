@@ -187,9 +187,6 @@ class Future:
         else:
             self._executor.create_task(callback, self)
 
-    def _set_executor(self, executor: Executor) -> None:
-        self._executor = executor
-
 
 def _called_by_asyncio(callback: Callable[..., Any], context: Any) -> Callable[[Future], None]:
     """A done callback of asyncio's, to be called by the loop that runs now."""

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from enum import IntEnum
-from typing import Any
 
 from .qos import HistoryPolicy, QoSProfile, qos_profile_unknown
 
@@ -16,64 +16,19 @@ class TopicEndpointTypeEnum(IntEnum):
     SUBSCRIPTION = 2
 
 
-_KINDS: dict[str, type] = {
-    "node_name": str,
-    "node_namespace": str,
-    "topic_type": str,
-    "endpoint_type": TopicEndpointTypeEnum,
-    "endpoint_gid": list,
-    "qos_profile": QoSProfile,
-}
-
-
+@dataclass(kw_only=True)
 class TopicEndpointInfo:
     """A publisher or subscription of a topic, with its node. As text it is what `ros2 topic info -v` shows of it.
 
     That is what Humble shows: without the hash of the type, which is of newer releases.
     """
 
-    node_name: str
-    node_namespace: str
-    topic_type: str
-    endpoint_type: TopicEndpointTypeEnum
-    endpoint_gid: list[int]
-    qos_profile: QoSProfile
-
-    def __init__(self, **fields: Any) -> None:
-        unknown = ", ".join(sorted(set(fields) - set(_KINDS)))
-        assert not unknown, f"Invalid arguments passed to constructor: {unknown}; there are {', '.join(_KINDS)}"
-        for name, default in (
-            ("node_name", ""),
-            ("node_namespace", ""),
-            ("topic_type", ""),
-            ("endpoint_type", TopicEndpointTypeEnum.INVALID),
-            ("endpoint_gid", []),
-            ("qos_profile", qos_profile_unknown),
-        ):
-            setattr(self, name, fields.get(name, default))
-
-    def __getattr__(self, name: str) -> Any:
-        raise AttributeError(f"a TopicEndpointInfo has no {name!r}; it has {', '.join(_KINDS)}")
-
-    def __setattr__(self, name: str, value: Any) -> None:
-        kind = _KINDS.get(name)
-        if kind is None:
-            raise AttributeError(f"a TopicEndpointInfo has no {name!r}; it has {', '.join(_KINDS)}")
-        if kind is QoSProfile and isinstance(value, dict):
-            value = QoSProfile(**value)
-        if kind is TopicEndpointTypeEnum and isinstance(value, int):
-            value = TopicEndpointTypeEnum(value)
-        if kind is list:
-            value = list(value)
-        assert isinstance(value, kind), f"{name} must be a {kind.__name__}, got {value!r}"
-        object.__setattr__(self, name, value)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, TopicEndpointInfo) and all(
-            getattr(self, name) == getattr(other, name) for name in _KINDS
-        )
-
-    __hash__ = None  # type: ignore[assignment]
+    node_name: str = ""
+    node_namespace: str = ""
+    topic_type: str = ""
+    endpoint_type: TopicEndpointTypeEnum = TopicEndpointTypeEnum.INVALID
+    endpoint_gid: list[int] = field(default_factory=list)
+    qos_profile: QoSProfile = field(default_factory=lambda: qos_profile_unknown)
 
     def __str__(self) -> str:
         profile = self.qos_profile

@@ -55,7 +55,7 @@ class RcutilsLogger:
 
     def set_level(self, level: int) -> None:
         """Print only what is at least this severe."""
-        set_level_of(self.name, level)
+        levels()[self.name] = as_severity(level)
 
     def get_effective_level(self) -> LoggingSeverity:
         """The level in force: this logger's, or that of the nearest one above it that has one."""
@@ -134,33 +134,18 @@ def as_severity(level: int) -> LoggingSeverity:
 
 def _effective_level(name: str) -> LoggingSeverity:
     """The level of the logger of this name, or that of the nearest one above it that has one."""
-    levels = _levels()
-    while name and levels:
-        level = levels.get(name, LoggingSeverity.UNSET)
+    known = levels()
+    while name and known:
+        level = known.get(name, LoggingSeverity.UNSET)
         if level != LoggingSeverity.UNSET:
             return level
         name = name.rpartition(".")[0]
-    return levels.get("", LoggingSeverity.INFO) or LoggingSeverity.INFO
+    return known.get("", LoggingSeverity.INFO) or LoggingSeverity.INFO
 
 
-def _levels() -> dict[str, LoggingSeverity]:
+def levels() -> dict[str, LoggingSeverity]:
     """The levels that were set in this process, by logger name; '' is the default."""
     return current_process().locals.setdefault("rclpy.log_levels", {})
-
-
-def set_level_of(name: str, level: int) -> None:
-    """Have the logger of this name, or by default all ('') print only what is at least this severe."""
-    _levels()[name] = as_severity(level)
-
-
-def level_of(name: str) -> LoggingSeverity:
-    """The level that was set for a name; UNSET if none was."""
-    return _levels().get(name, LoggingSeverity.UNSET if name else LoggingSeverity.INFO)
-
-
-def forget_levels() -> None:
-    """All levels are again what they are at the start of a process."""
-    _levels().clear()
 
 
 def publish_rosout(name: str, publish: Callable[[str, str, LoggingSeverity, FrameType], None]) -> None:
