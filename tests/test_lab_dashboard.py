@@ -18,8 +18,8 @@ from turtle_lesson import Lesson, start
 from turtle_lesson.lab.scan import read_beams
 from turtle_lesson.lab.widgets import panels_system
 from turtle_lesson.lab.widgets.dashboard import Dashboard
-from turtle_lesson.lab.widgets.live_data import Pace, frequency, verdict
-from turtle_lesson.lab.widgets.panels_system import direction, in_words
+from turtle_lesson.lab.widgets.live_widget import Pace
+from turtle_lesson.lab.widgets.panels_system import direction, frequency, in_words, verdict
 from turtle_lesson.ros.cli.shell import run_line
 
 # isort: split

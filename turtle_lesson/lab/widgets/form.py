@@ -11,8 +11,7 @@ from ..words import count, did_you_mean, enumerated, is_hidden, listed
 from .backend import Backend
 from .form_fields import FieldError, Group, Rows, Single, find_part
 from .lazy_endpoints import Caller, Outlet, let_time_go_on
-from .live_data import Pace
-from .live_widget import LiveWidget, script, styles
+from .live_widget import LiveWidget, Pace, script, styles
 from .message_types import find_class
 
 FASTEST = 100.0

@@ -11,7 +11,7 @@ from weakref import WeakSet
 from ...ros.stdlib.clocks import real_monotonic
 from .backend import Backend
 from .lazy_endpoints import Server
-from .live_data import Pace
+from .live_widget import Pace
 
 SERVICE = "/navigate_to"
 DISCOVERY = 2.0

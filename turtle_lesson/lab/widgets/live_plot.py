@@ -17,8 +17,7 @@ from ..recording import NANOSECONDS, OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, T
 from ..status import spread
 from ..words import count, did_you_mean, enumerated, is_hidden, nearest, number
 from .backend import Backend
-from .live_data import Pace, pack
-from .live_widget import LiveWidget, script, styles
+from .live_widget import LiveWidget, Pace, pack, script, styles
 from .message_types import find_class, kinds_of
 
 KEPT = 20_000

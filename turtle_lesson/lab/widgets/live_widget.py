@@ -10,7 +10,9 @@ from pathlib import Path
 from typing import Any, ClassVar, cast
 
 import anywidget
+import numpy as np
 import traitlets
+from numpy.typing import ArrayLike
 
 from ...ros.stdlib.clocks import real_monotonic
 from ..picture import Picture
@@ -23,6 +25,27 @@ shows all of its widgets only after its last cell. Older ones are closed."""
 _ended: list[LiveWidget] = []
 
 FOLDER = Path(__file__).with_name("js")
+
+
+class Pace:
+    """Says when something is due again, so many times a second of real time at most."""
+
+    def __init__(self, hertz: float) -> None:
+        self._period = 1 / hertz
+        self._next = -1.0
+
+    def due(self) -> bool:
+        """Whether it is time again; if so, the next time is a period from now."""
+        now = real_monotonic()
+        if now < self._next:
+            return False
+        self._next = now + self._period
+        return True
+
+
+def pack(numbers: ArrayLike) -> bytes:
+    """Numbers in their order as little-endian 32-bit floats; JavaScript reads them as a Float32Array."""
+    return np.ascontiguousarray(numbers, dtype="<f4").tobytes()
 
 
 @cache

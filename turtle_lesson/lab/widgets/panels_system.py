@@ -14,9 +14,17 @@ from ..graph import EVERYWHERE
 from ..recording import NANOSECONDS, OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, Table
 from ..scan import Beams, read_beams
 from ..words import is_hidden, listed, number
+from .backend import Backend
 from .lazy_endpoints import Ear
-from .live_data import PAUSE, Pace, frequency, pack, verdict, why_silent
-from .live_widget import LiveWidget
+from .live_widget import LiveWidget, Pace, pack
+
+
+def why_silent(backend: Backend, topic: str) -> str:
+    """A sentence on why nothing came on a topic that the recorder hears, and what to try."""
+    if backend.node.count_publishers(topic):
+        return f"No message has come on {topic} yet: messages come while robot time passes."
+    return backend.recorder.why_silent(topic)
+
 
 # -- status ---------------------------------------------------------------------------------------------------------
 
@@ -233,9 +241,46 @@ def level_name(level: Any) -> str:
 
 # -- rates ----------------------------------------------------------------------------------------------------------
 
+RATE_WINDOW = 5.0
+"""Seconds of robot time over which a rate is measured."""
+PAUSE = 1.0
+"""Seconds without a message after which a topic that should go on counts as silent."""
+TOLERANCE = 0.15
+"""By this share a rate may be off and still be as expected."""
 MOST_ROWS = 12
 """Topics that are shown; each of those without an expected rate costs a subscription while the panel is seen."""
 MOST_MESSAGES = 1000
+
+
+def frequency(stamps: np.ndarray, now: int, pause: float = RATE_WINDOW) -> float:
+    """Messages a second since the last `pause` (s); 0 in silence, not-a-number for a first message that is alone.
+
+    `stamps` and `now` are in ns, `stamps` ascending.
+    """
+    recent = stamps[stamps > now - round(RATE_WINDOW * NANOSECONDS)]
+    if not len(recent):
+        return 0.0
+    gaps = np.diff(recent, append=max(now, int(recent[-1]))) / NANOSECONDS
+    if gaps[-1] > pause:
+        return 0.0
+    breaks = np.flatnonzero(gaps[:-1] > pause)
+    steps = gaps[breaks[-1] + 1 if len(breaks) else 0 : -1]
+    if not len(steps):
+        return float("nan")
+    span = float(steps.sum())
+    overdue = max(0.0, float(gaps[-1]) - 2 * span / len(steps))
+    return len(steps) / (span + overdue) if span + overdue > 0 else float("nan")
+
+
+def verdict(hertz: float, expected: float) -> str:
+    """ "as expected", "too slow", "too fast", "silent", or "just begun" """
+    if np.isnan(hertz):
+        return "just begun"
+    if hertz == 0:
+        return "silent"
+    if hertz < (1 - TOLERANCE) * expected:
+        return "too slow"
+    return "too fast" if hertz > (1 + TOLERANCE) * expected else "as expected"
 
 
 class RatesPanel(LiveWidget):

@@ -17,8 +17,7 @@ from ..recording import UNDER_WAY, Table
 from ..words import angle, count, listed, point
 from .goal_client import Goal, GoalDesk
 from .lazy_endpoints import let_time_go_on
-from .live_data import Pace, pack
-from .live_widget import LiveWidget
+from .live_widget import LiveWidget, Pace, pack
 
 # -- map ------------------------------------------------------------------------------------------------------------
 

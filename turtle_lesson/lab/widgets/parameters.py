@@ -8,8 +8,7 @@ import traitlets
 
 from ..words import count, did_you_mean, enumerated, is_hidden
 from .backend import Backend
-from .live_data import Pace
-from .live_widget import LiveWidget, script, styles
+from .live_widget import LiveWidget, Pace, script, styles
 from .parameter_client import BOOL, DOUBLE, INTEGER, TYPES, Found, ParameterDesk, node_names, read, shown
 
 

@@ -7,13 +7,16 @@ listens on a port for everyone, and no proxy lets it through.
 from __future__ import annotations
 
 import gzip
+import warnings
 from collections.abc import Iterable, Sequence
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import umsgpack
 
+from ...ros.sim.defer_sigint import defer_sigint
 from ..path import WORLD
 from ..recording import Obstacle
 from ..scan import read_beams
@@ -21,7 +24,16 @@ from . import scene_mesh as turtle
 from . import scene_mesh as world
 from .goal_client import Goal
 from .scene_mesh import Mesh, placed, rgb
-from .scene_meshcat import VIEWER, Delete, ScenePath, SetObject, SetProperty, SetTransform, geometry
+
+# meshcat imports its server, which is never started here, and that a module of pyzmq that warns of its own age
+with defer_sigint(), warnings.catch_warnings():
+    warnings.simplefilter("ignore", DeprecationWarning)
+    import meshcat
+    from meshcat import geometry
+    from meshcat.commands import Delete, SetObject, SetProperty, SetTransform
+    from meshcat.path import Path as ScenePath
+
+VIEWER = Path(meshcat.__file__).with_name("viewer") / "dist"
 
 
 @cache

@@ -16,11 +16,9 @@ from ..path import distance_driven, find_jumps, thinned
 from ..words import number, point
 from . import scene_commands as parts
 from .goal_client import goals_from
-from .live_data import pack
-from .live_widget import script, styles
-from .scene_commands import cast_no_shadow, packed, show
+from .live_widget import pack, script, styles
+from .scene_commands import ScenePath, cast_no_shadow, packed, show
 from .scene_mesh import TRAIL, goal_flag, goal_mark, ribbon
-from .scene_meshcat import Animation, AnimationClip, AnimationTrack, ScenePath, SetAnimation
 
 if TYPE_CHECKING:
     from .goal_client import Goal
@@ -218,6 +216,9 @@ def _flags(goals: list[Goal], begin: float, end: float) -> tuple[list[bytes], di
 
 def _animation(tracks: dict[str, Tracks]) -> bytes:
     """The command for all tracks; one frame a second, so that a frame's number is its time."""
+    from meshcat.animation import Animation, AnimationClip, AnimationTrack
+    from meshcat.commands import SetAnimation
+
     animation = Animation(default_framerate=1)
     for path, named in tracks.items():
         made = {name: AnimationTrack(name, kind, times, values) for name, (kind, times, values) in named.items()}

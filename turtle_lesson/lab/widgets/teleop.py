@@ -12,8 +12,7 @@ from ...ros.stdlib.clocks import real_monotonic
 from ..words import number
 from .backend import Backend
 from .lazy_endpoints import Outlet, let_time_go_on
-from .live_data import Pace
-from .live_widget import LiveWidget, script, styles
+from .live_widget import LiveWidget, Pace, script, styles
 
 TYPE = "geometry_msgs/msg/Twist"
 PERIOD = 0.1
