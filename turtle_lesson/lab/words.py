@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from difflib import get_close_matches
 
 import numpy as np
+
+from ..ros.idl.names import is_hidden as is_hidden
+from ..ros.idl.names import nearest as nearest
 
 
 def number(value: float, decimals: int = 2) -> str:
@@ -65,13 +67,6 @@ LISTED = 12
 """How many names a sentence lists at most."""
 
 
-def nearest(name: str, known: Iterable[str], cutoff: float = 0.6) -> str:
-    """The known name that is most like this one, or "" if none is; capitals and outer slashes do not count."""
-    by_plain = {each.lower().strip("/"): each for each in known}
-    close = get_close_matches(name.lower().strip("/"), by_plain, n=1, cutoff=cutoff)
-    return by_plain[close[0]] if close else ""
-
-
 def did_you_mean(name: str, known: Iterable[str]) -> str:
     """'Did you mean "/navigator"?', or "" where nothing is near."""
     found = nearest(name, known)
@@ -83,8 +78,3 @@ def enumerated(names: Iterable[str]) -> str:
     known = list(names)
     more = f" and {len(known) - LISTED} more" if len(known) > LISTED else ""
     return (", ".join(known[:LISTED]) or "none") + more
-
-
-def is_hidden(name: str) -> bool:
-    """Whether ROS's tools leave a name out of their lists: a part of it starts with an underscore."""
-    return any(part.startswith("_") for part in name.split("/"))

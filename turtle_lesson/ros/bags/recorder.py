@@ -16,9 +16,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..idl.cdr import serialize
-from ..idl.names import did_you_mean
+from ..idl.names import did_you_mean, is_hidden
 from ..idl.registry import registry
-from ..rmw.graph import is_hidden
 from ..sim.simulation import EPOCH, NANOSECONDS
 from . import BagError, UnrecordableType
 from .writer import BagWriter, is_there

@@ -14,8 +14,8 @@ import yaml
 from IPython.core.completer import CompletionContext, SimpleCompletion, SimpleMatcherResult, context_matcher
 
 from .. import launching
+from ..idl.names import is_hidden
 from ..idl.registry import registry
-from ..rmw.graph import is_hidden
 from ..runtime.world import current_world
 from .cells import COMMANDS, inner_places
 from .group_pkg import package_names

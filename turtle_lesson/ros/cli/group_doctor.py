@@ -8,9 +8,10 @@ from collections import Counter
 from collections.abc import Sized
 from typing import TYPE_CHECKING
 
+from ..idl.names import is_hidden
 from ..runtime.world import current_world
 from .jobs import jobs
-from .verb import CellCommand, Command, direct_node, is_hidden, node_names, services, topics
+from .verb import CellCommand, Command, direct_node, node_names, services, topics
 
 if TYPE_CHECKING:
     from rclpy.node import Node

@@ -6,8 +6,9 @@ import sys
 from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING
 
+from ..idl.names import is_hidden
 from .parser import Verb
-from .verb import Command, CommandError, add_node_arguments, direct_node, is_hidden, node_names, suggest
+from .verb import Command, CommandError, add_node_arguments, direct_node, node_names, suggest
 
 if TYPE_CHECKING:
     from rclpy.node import Node

@@ -14,7 +14,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ..idl.names import did_you_mean
+from ..idl.names import did_you_mean, is_hidden
 from ..runtime.world import current_process
 from .arg_types import frequency, positive_float, seconds, stretch
 from .parser import Verb
@@ -42,7 +42,6 @@ __all__ = [
     "end_of_stretch",
     "expanded",
     "frequency",
-    "is_hidden",
     "node_names",
     "now",
     "of_the_classroom",
@@ -206,11 +205,6 @@ def direct_node(args: Namespace | None = None, name: str | None = None) -> Itera
 
 
 # -- what there is in the graph ----------------------------------------------------------------------------------
-
-
-def is_hidden(name: str) -> bool:
-    """Whether tools leave a topic, service or node of this name out: a part of it starts with an underscore."""
-    return any(part.startswith("_") for part in name.split("/"))
 
 
 def node_names(node: Node, include_hidden: bool = False) -> list[str]:

@@ -71,6 +71,21 @@ def check_constant(name: str) -> None:
         raise InvalidMemberName(_broken(name, "constant", CONSTANT), hint=hint)
 
 
+def is_hidden(name: str) -> bool:
+    """Whether ROS's tools leave a node, topic or service out of their lists: a part of its name starts with an underscore."""
+    return any(part.startswith("_") for part in name.split("/"))
+
+
+def nearest(name: str, known: Iterable[str], cutoff: float = 0.6, *, exact: bool = False) -> str:
+    """The known name that is most like this one, or "" if none is.
+
+    Capitals and outer slashes do not count, unless names are compared `exact`, as they are.
+    """
+    compared = {each if exact else each.lower().strip("/"): each for each in known}
+    close = get_close_matches(name if exact else name.lower().strip("/"), compared, n=1, cutoff=cutoff)
+    return compared[close[0]] if close else ""
+
+
 def did_you_mean(name: str, known: Iterable[str]) -> str:
     """`Did you mean 'Twist'?`, or an empty string where no known name is close.
 

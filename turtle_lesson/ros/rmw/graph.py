@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from ..idl.names import is_hidden
 from .endpoint import Quality
 from .network import Conditions, Network
 from .reader import Reader
@@ -47,11 +48,6 @@ class NodeEntry:
 
     def __repr__(self) -> str:
         return f"<NodeEntry {self.full_name}>"
-
-
-def is_hidden(name: str) -> bool:
-    """Whether a full name counts as hidden: one of its parts starts with an underscore."""
-    return any(part.startswith("_") for part in name.split("/"))
 
 
 class Graph:

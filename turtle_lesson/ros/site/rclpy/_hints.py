@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 import importlib
 import importlib.util
 import sys
 from collections.abc import Callable, Iterable
 from typing import Any
+
+from turtle_lesson.ros.idl.names import nearest
 
 # -- mistakes -----------------------------------------------------------------------------------------------------
 # Mistakes that learners make, and the sentences that help them. Nothing here runs unless something went wrong.
@@ -22,8 +23,8 @@ def shown(value: object) -> str:
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
     """`; did you mean 'speed'?`, or nothing if no known name is like this one."""
-    close = difflib.get_close_matches(name, list(known), n=1)
-    return f"; did you mean {close[0]!r}?" if close else ""
+    close = nearest(name, known, exact=True)
+    return f"; did you mean {close!r}?" if close else ""
 
 
 class _SetByInit:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from turtle_lesson.ros.rmw.graph import is_hidden
+from turtle_lesson.ros.idl.names import is_hidden
 
 HIDDEN_TOPIC_PREFIX = "_"
 TOPIC_SEPARATOR_STRING = "/"
