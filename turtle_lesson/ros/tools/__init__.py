@@ -35,12 +35,13 @@ def tf2_packages() -> list[Package]:
 
 def demo_packages() -> list[Package]:
     """The demos, as Python packages and as what they are called where they are C++."""
-    names = ("talker", "listener", "add_two_ints_server", "add_two_ints_client", "add_two_ints_client_async")
-    programs: dict[str, Target] = {name: program(f"{__name__}.demos.{name}") for name in names}
+    of_both = ("talker", "listener", "add_two_ints_server", "add_two_ints_client", "add_two_ints_client_async")
+    demos = f"{__name__}.demos"
+    programs: dict[str, Target] = {name: program(demos, name) for name in of_both}
     of_cpp = {
         **programs,
-        "talker": program(f"{__name__}.demos.talker", "main_of_cpp"),
-        "listener_best_effort": program(f"{__name__}.demos.listener", "main_of_best_effort"),
+        "talker": program(demos, "talker_of_cpp"),
+        "listener_best_effort": program(demos, "listener_best_effort"),
     }
     return [
         Package("demo_nodes_py", HERE / "demos", executables=programs),

@@ -1,5 +1,119 @@
-"""The demo programs that everybody starts first: `ros2 run demo_nodes_py talker` and others, and those of demo_nodes_cpp.
+"""`ros2 run demo_nodes_py talker`, `listener`, `add_two_ints_server` and its clients: the programs of ROS 2's first tutorials.
 
-What is C++ on a robot is Python here; topics, texts and pauses are those of Humble.
-Each is a plain rclpy program.
+What is C++ on a robot (demo_nodes_cpp) is Python here; topics, texts and pauses are the same (demos, demo_nodes_py and
+demo_nodes_cpp of Humble). Each program is plain rclpy.
 """
+
+from __future__ import annotations
+
+from contextlib import suppress
+
+import rclpy
+from example_interfaces.srv import AddTwoInts
+from rclpy.client import Client
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, qos_profile_sensor_data
+from rclpy.task import Future
+from std_msgs.msg import String
+
+
+class Talker(Node):
+    """Publishes on `chatter`, counting; `line` is what it logs of each message."""
+
+    def __init__(self, first: int, line: str) -> None:
+        super().__init__("talker")
+        self._number, self._line = first, line
+        self._publisher = self.create_publisher(String, "chatter", 10)
+        self.create_timer(1.0, self._talk)
+
+    def _talk(self) -> None:
+        message = String(data=f"Hello World: {self._number}")
+        self._number += 1
+        self.get_logger().info(self._line.format(message.data))
+        self._publisher.publish(message)
+
+
+def talker() -> None:
+    """`ros2 run demo_nodes_py talker`: publishes "Hello World" once a second."""
+    _talk_until_ctrl_c(0, 'Publishing: "{}"')
+
+
+def talker_of_cpp() -> None:
+    """`ros2 run demo_nodes_cpp talker`: counts from 1."""
+    _talk_until_ctrl_c(1, "Publishing: '{}'")
+
+
+def _talk_until_ctrl_c(first: int, line: str) -> None:
+    rclpy.init()
+    with suppress(KeyboardInterrupt, ExternalShutdownException):
+        rclpy.spin(Talker(first, line))
+
+
+def listener() -> None:
+    """`listener` of both packages: logs what is published on `chatter`."""
+    _listen_until_ctrl_c(QoSProfile(depth=10))
+
+
+def listener_best_effort() -> None:
+    """`ros2 run demo_nodes_cpp listener_best_effort`: a message that is lost is not sent to it again."""
+    _listen_until_ctrl_c(qos_profile_sensor_data)
+
+
+def _listen_until_ctrl_c(qos: QoSProfile) -> None:
+    rclpy.init()
+    node = rclpy.create_node("listener")
+    node.create_subscription(String, "chatter", lambda said: node.get_logger().info(f"I heard: [{said.data}]"), qos)
+    with suppress(KeyboardInterrupt, ExternalShutdownException):
+        rclpy.spin(node)
+
+
+class Adder(Node):
+    """Offers `add_two_ints`."""
+
+    def __init__(self) -> None:
+        super().__init__("add_two_ints_server")
+        self.create_service(AddTwoInts, "add_two_ints", self._add)
+
+    def _add(self, request: AddTwoInts.Request, response: AddTwoInts.Response) -> AddTwoInts.Response:
+        self.get_logger().info(f"Incoming request\na: {request.a} b: {request.b}")
+        response.sum = request.a + request.b
+        return response
+
+
+def add_two_ints_server() -> None:
+    """`add_two_ints_server`: answers until Ctrl-C."""
+    rclpy.init()
+    with suppress(KeyboardInterrupt, ExternalShutdownException):
+        rclpy.spin(Adder())
+
+
+def add_two_ints_client() -> None:
+    """`add_two_ints_client`: asks for 2 + 3 once a server is there, logs the answer, and ends."""
+    node, client = _client()
+    future = client.call_async(AddTwoInts.Request(a=2, b=3))
+    rclpy.spin_until_future_complete(node, future)
+    node.get_logger().info(f"Result of add_two_ints: {future.result().sum}")
+
+
+def add_two_ints_client_async() -> None:
+    """`add_two_ints_client_async`: the same, but the answer comes to a callback."""
+    node, client = _client()
+    answered = Future()
+
+    def hear(future: Future) -> None:
+        node.get_logger().info(f"Result of add_two_ints: {future.result().sum}")
+        answered.set_result(True)
+
+    client.call_async(AddTwoInts.Request(a=2, b=3)).add_done_callback(hear)
+    rclpy.spin_until_future_complete(node, answered)
+
+
+def _client() -> tuple[Node, Client]:
+    """A node, and its client of `add_two_ints`, whose server is there."""
+    rclpy.init()
+    node = rclpy.create_node("add_two_ints_client")
+    client = node.create_client(AddTwoInts, "add_two_ints")
+    while not client.wait_for_service(timeout_sec=1.0):
+        print("service not available, waiting again...")
+    return node, client
