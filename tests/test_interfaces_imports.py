@@ -181,7 +181,7 @@ def test_importing_does_not_load_what_is_slow_to_load():
     code = """
 import turtle_lesson
 before = set(sys.modules)
-from turtle_lesson.ros.interfaces import finder
+from turtle_lesson.ros.idl import finder
 finder.install()
 from geometry_msgs.msg import Twist
 Twist()

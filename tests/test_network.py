@@ -1,4 +1,4 @@
-"""A network that is slow or loses messages, and what each quality of service makes of it (graph/line.py has the rules)."""
+"""A network that is slow or loses messages, and what each quality of service makes of it (rmw/transport.py has the rules)."""
 
 from __future__ import annotations
 
