@@ -46,7 +46,8 @@ not what to write.
 
 **What a function that looks may do** is in `probe.Probe`: `wait`, `wait_for`, `listen`, `hear`, `publish`, `ask`, `ask_soon`,
 `nodes`, `publishers`, `subscriptions`, `servers`, `obstacles`, `errors`, `unreturned`, `call`, and `once`, which remembers
-what several rows are about. A function of the learner's is called by `probe.call` and in no other way.
+what several rows are about; the decorator `remembered` does so for a function. A function of the learner's is called by
+`probe.call` and in no other way.
 All that it subscribes to and offers is taken away when the check is over, and parameters and obstacles are put back.
 
 Texts are for learners and are compared by nbval: figures with fixed decimals (`lab.words`), nothing of the machine. A row's
@@ -55,7 +56,7 @@ Nodes that live in a notebook cell, and that no executor spins, are spun while a
 '''
 
 from .graph_view import field, interface
-from .probe import Answer, Heard, Probe
+from .probe import Answer, Heard, Probe, remembered
 from .registry import Check, Expectation, all_checks, check, checks_of, find
 from .results import METADATA, Advice, CannotLook, CheckResult, OutOfTime, Row, Seen, Stopped
 from .runner import run
@@ -80,5 +81,6 @@ __all__ = [
     "field",
     "find",
     "interface",
+    "remembered",
     "run",
 ]

@@ -10,7 +10,7 @@ import numpy as np
 from ..recording import NANOSECONDS
 from ..words import angle, number, point, turned
 from .navigation import NEAR, where
-from .probe import Probe
+from .probe import Probe, remembered
 from .registry import Expectation, check
 from .results import Advice, Seen, hinted
 
@@ -47,6 +47,7 @@ class Motion:
     command: float = 0.0
 
 
+@remembered
 def last_motion(probe: Probe) -> Motion:
     """What the turtle did last, from what was recorded of it; so a cell that was run twice is judged by its second run."""
     record = probe.target.recording
@@ -66,7 +67,7 @@ def last_motion(probe: Probe) -> Motion:
 
 
 def _facing_up(probe: Probe) -> Seen:
-    heading, motion = where(probe).theta, probe.once("motion", lambda: last_motion(probe))
+    heading, motion = where(probe).theta, last_motion(probe)
     good = abs(turned(heading - UP)) <= LITTLE or abs(motion.turn - UP) <= LITTLE
     seen = f"its heading is {angle(heading)}; the last command said angular.z = {number(motion.command)} rad/s"
     advice = Advice(
@@ -80,7 +81,7 @@ def _facing_up(probe: Probe) -> Seen:
 
 
 def _on_the_spot(probe: Probe) -> Seen:
-    way = probe.once("motion", lambda: last_motion(probe)).way
+    way = last_motion(probe).way
     advice = "Which field of the command makes it drive? To begin again: ros2 service call /reset std_srvs/srv/Empty"
     return Seen(way <= LITTLE, f"it drove {number(way)} m meanwhile", advice)
 

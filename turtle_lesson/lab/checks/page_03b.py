@@ -25,7 +25,7 @@ from .navigation import (
     where,
 )
 from .page_03 import A_GOAL, TO_THE_LEFT, navigator_is_there
-from .probe import Probe
+from .probe import Probe, remembered
 from .registry import Expectation, check
 from .results import CannotLook, Seen, hinted
 
@@ -131,8 +131,9 @@ class _Crowd:
         self.end = where(probe)
 
 
+@remembered
 def _crowd(probe: Probe) -> _Crowd:
-    return probe.once("crowd", lambda: _Crowd(probe))
+    return _Crowd(probe)
 
 
 def _refused(probe: Probe, number_of_it: int = 0) -> Seen:

@@ -11,7 +11,7 @@ from ..words import angle, count, number, turned
 from .assertions import no_errors, node, publishes, subscribes
 from .graph_view import field
 from .navigation import COMMAND_TYPE, COMMANDS, POSE, POSE_TYPE
-from .probe import Heard, Probe
+from .probe import Heard, Probe, remembered
 from .registry import Expectation, check
 from .results import CannotLook, Seen, hinted
 from .streams import rate, some
@@ -106,12 +106,9 @@ class Ride:
         ]
 
 
+@remembered
 def ride(probe: Probe) -> Ride:
-    """The ride of this probe, made once. Raises CannotLook where nothing is heard, or the turtle does not move."""
-    return probe.once("ride", lambda: _ride(probe))
-
-
-def _ride(probe: Probe) -> Ride:
+    """Drive the turtle in a circle. Raises CannotLook where nothing is heard, or the turtle does not move."""
     poses, statuses = probe.listen(POSE, POSE_TYPE), probe.listen(STATUS, STATUS_TYPE)
     probe.wait(0.3)
     began, first_pose, first_status = probe.now, len(poses), len(statuses)
@@ -243,12 +240,9 @@ def a_while(probe: Probe) -> list[Heard]:
     return probe.listen(STATUS, STATUS_TYPE)
 
 
+@remembered
 def until_it_is_empty(probe: Probe) -> list[Heard]:
     """What is heard of the status until the battery has been empty for a second."""
-    return probe.once("discharge", lambda: _discharge(probe))
-
-
-def _discharge(probe: Probe) -> list[Heard]:
     some(probe, STATUS, STATUS_TYPE, 0.5)
     heard = probe.listen(STATUS, STATUS_TYPE)
     probe.wait_for(lambda: float(field(heard[-1].message, "battery")) < DROP / 2, 102.0)

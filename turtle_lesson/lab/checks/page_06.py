@@ -9,7 +9,7 @@ from ..words import listed
 from . import page_03, page_04, page_05
 from .assertions import get_parameter, gives_up, no_errors, node, parameter, publishes, rate_follows
 from .navigation import COMMANDS, NAVIGATE, ask_for, far_away, where
-from .probe import Answer, Probe
+from .probe import Answer, Probe, remembered
 from .registry import Expectation, check
 from .results import CannotLook, Seen, hinted
 from .streams import rate
@@ -99,7 +99,7 @@ def _argument_reaches(owner: str, name: str, value: int | float) -> Callable[[Pr
     """Whether the parameter has the value of the argument, when the launch file is started with it."""
 
     def look(probe: Probe) -> Seen:
-        found = probe.once("second launch", lambda: _launch_again(probe))
+        found = _launch_again(probe)
         if isinstance(found, str):
             return Seen(False, found, "Read the error from its last line up.")
         if found[owner] is None:
@@ -114,6 +114,7 @@ def _argument_reaches(owner: str, name: str, value: int | float) -> Callable[[Pr
     return look
 
 
+@remembered
 def _launch_again(probe: Probe) -> dict[str, Any] | str:
     """The nodes' parameters in a second launch with other arguments, beside the first; or why it was refused."""
     from ...ros.launching import LaunchError

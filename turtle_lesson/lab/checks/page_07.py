@@ -8,7 +8,7 @@ from ..words import angle, number, point, turned
 from . import page_04
 from .assertions import no_errors, node, parameter
 from .navigation import COMMAND_TYPE, COMMANDS, POSE, POSE_TYPE
-from .probe import Probe
+from .probe import Probe, remembered
 from .registry import Expectation, check
 from .results import CannotLook, Seen, hinted
 from .streams import rate, some
@@ -88,12 +88,9 @@ def _ten_a_second(probe: Probe) -> Seen:
     )
 
 
+@remembered
 def _motion(probe: Probe) -> tuple[float, float]:
     """The turtle's speed ahead (m/s) and its turn (rad/s); each the smallest in two seconds."""
-    return probe.once("motion", lambda: _measured(probe))
-
-
-def _measured(probe: Probe) -> tuple[float, float]:
     commands = [each.message for each in some(probe, COMMANDS, COMMAND_TYPE, 0.5)]
     poses = [each.message for each in some(probe, POSE, POSE_TYPE, 2.0)]
     ahead = math.copysign(min(each.linear_velocity for each in poses), commands[-1].linear.x)

@@ -9,7 +9,7 @@ from typing import Any
 from ..words import number, point
 from .assertions import get_parameter, no_answer, no_errors, node, offers, publishes, set_parameter
 from .navigation import NAVIGATE, NEAR, ask_for, where
-from .probe import Heard, Probe
+from .probe import Answer, Heard, Probe, remembered
 from .registry import Expectation, check
 from .results import CannotLook, Seen, hinted
 from .streams import rate
@@ -81,12 +81,9 @@ def awake() -> list[Expectation]:
 _STEP = hinted("What does on_work hold while it works: the thread, or the group of the other callbacks?", 2)
 
 
+@remembered
 def _shift(probe: Probe) -> tuple[float | None, list[Heard], bool]:
     """One request to work: how long until the answer (s), the beats by then, and whether the node answered meanwhile."""
-    return probe.once("shift", lambda: _work(probe))
-
-
-def _work(probe: Probe) -> tuple[float | None, list[Heard], bool]:
     beats = probe.listen(BEAT, BEAT_TYPE)
     probe.wait(0.3)
     first, began = len(beats), probe.now
@@ -100,11 +97,8 @@ def _work(probe: Probe) -> tuple[float | None, list[Heard], bool]:
     probe.wait_for(answer, LONGEST)
     done = answer()
     ended = done.answered if done else probe.now
-    return (
-        done.seconds if done else None,
-        [beat for beat in beats[first - 1 :] if began - 0.2 <= beat.at <= ended],
-        responsive,
-    )
+    meanwhile = [beat for beat in beats[first - 1 :] if began - 0.2 <= beat.at <= ended]
+    return done.seconds if done else None, meanwhile, responsive
 
 
 def _works(probe: Probe) -> Seen:
@@ -160,12 +154,9 @@ def go_home() -> list[Expectation]:
     ]
 
 
-def _trip(probe: Probe) -> tuple[Any, Any]:
+@remembered
+def _trip(probe: Probe) -> tuple[Answer, Any]:
     """The turtle is driven away, then sent home: the answer, and its pose when that came."""
-    return probe.once("trip", lambda: _go_home(probe))
-
-
-def _go_home(probe: Probe) -> tuple[Any, Any]:
     if not probe.servers(HOME):
         raise CannotLook(f"no node offers {HOME}{probe.like(HOME, probe.services())}")
     _drive_away(probe)

@@ -17,7 +17,7 @@ from .assertions import no_errors, publishes, subscribes
 from .functions import learner_function
 from .graph_view import interface
 from .navigation import NEAR, Drive, Goal, ask_for, drive, where
-from .probe import Heard, Probe
+from .probe import Heard, Probe, remembered
 from .registry import Expectation, check
 from .results import Advice, CannotLook, Seen, hinted
 from .streams import judge_rate, relays
@@ -52,7 +52,10 @@ def battery_test() -> list[Expectation]:
     ends = hinted("Both ends belong to a percentage. What does your comparison make of them?", "Open Hint 1.")
     beyond = hinted("Which values does your function never say False to?", "Open Hint 1.")
     nan = hinted("Each comparison with nan is false. What is left of your test then?", "Open Hint 2.")
-    pairs = [({"battery": 50.0}, _says(True), "50 % → True"), ({"battery": 150.0}, _says(False), "150 % → False")]
+    pairs: list[Any] = [
+        ({"battery": 50.0}, lambda message: message.data is True, "50 % → True"),
+        ({"battery": 150.0}, lambda message: message.data is False, "150 % → False"),
+    ]
     return [
         subscribes(page_04.STATUS, page_04.STATUS_TYPE, by="/tester"),
         publishes(BATTERY_VERDICT, VERDICT_TYPE, by="/tester"),
@@ -74,10 +77,6 @@ def _judged(verdict: bool, charges: Sequence[float], advice: Advice) -> Callable
         return Seen(True, f"battery_ok returned {verdict} for each")
 
     return look
-
-
-def _says(verdict: bool) -> Callable[[Any], bool]:
-    return lambda message: message.data is verdict
 
 
 # -- a test that goes on -------------------------------------------------------------------------------------------------
@@ -134,7 +133,7 @@ def _while_it_comes(probe: Probe) -> Seen:
 
 def _in_silence(alive: bool) -> Callable[[Probe], Seen]:
     def look(probe: Probe) -> Seen:
-        verdicts = [each for each in probe.once("silence", lambda: _hush(probe)) if (each.age < LIMIT) is alive]
+        verdicts = [each for each in _hush(probe) if (each.age < LIMIT) is alive]
         if not verdicts:
             return _nothing_came(probe)
         wrong = [each for each in verdicts if each.alive is not alive]
@@ -147,7 +146,7 @@ def _in_silence(alive: bool) -> Callable[[Probe], Seen]:
 
 
 def _when_it_comes_again(probe: Probe) -> Seen:
-    probe.once("silence", lambda: _hush(probe))
+    _hush(probe)
     heard = _verdicts(probe)
     _speak(probe, heard)
     if not heard:
@@ -179,6 +178,7 @@ def _speak(probe: Probe, heard: list[Heard]) -> None:
         probe.wait(0.01)
 
 
+@remembered
 def _hush(probe: Probe) -> list[Verdict]:
     """What it says in two silences, with the last status so long before a tick that verdicts come shortly before and after
     the limit."""
@@ -246,26 +246,22 @@ class Shift:
     """Whether it went on to its end; it does not where something was wrong after the first goals."""
 
 
+@remembered
 def shift(probe: Probe) -> Shift:
-    """Do it once. Raises CannotLook where there is no navigator to ask."""
-    return probe.once("shift", lambda: _work(probe))
-
-
-def _work(probe: Probe) -> Shift:
+    """Carry the work out. Raises CannotLook where there is no navigator."""
     probe.wait(SETTLING)
     done = Shift()
-    for topic, kind, heard in (
-        (page_04.STATUS, page_04.STATUS_TYPE, "statuses"),
-        (page_05.SCAN, page_05.SCAN_TYPE, "scans"),
-    ):
-        with suppress(CannotLook):
-            setattr(done, heard, probe.listen(topic, kind))
+    with suppress(CannotLook):
+        done.statuses = probe.listen(page_04.STATUS, page_04.STATUS_TYPE)
+    with suppress(CannotLook):
+        done.scans = probe.listen(page_05.SCAN, page_05.SCAN_TYPE)
     end = probe.now + 60 * MINUTES
     while done.whole and probe.now < end:
         goal = GOALS[len(done.drives) % len(GOALS)]
         done.drives.append(drive(probe, f"drive {len(done.drives)}", lambda pose, goal=goal: goal))
         a_round = len(done.drives) % len(GOALS) == 0
-        done.whole = not _missed(done.drives[-1]) and not (a_round and _uneven(done))
+        uneven = a_round and not (_status_rate(done).good and _scan_rate(done).good)
+        done.whole = not _missed(done.drives[-1]) and not uneven
     return done
 
 
@@ -278,10 +274,6 @@ def _missed(it: Drive) -> str:
         return ""
     after = number(it.answer.seconds, 1)
     return f"goal {goal}: success is {it.response.success} after {after} s, {number(it.distance())} m away"
-
-
-def _uneven(done: Shift) -> bool:
-    return not (_status_rate(done).good and _scan_rate(done).good)
 
 
 def _status_rate(done: Shift) -> Seen:
@@ -338,13 +330,13 @@ def _just_ahead(pose: Any) -> Goal:
 
 def _statuses(probe: Probe) -> Seen:
     done = shift(probe)
-    return _status_rate(done) if done.statuses else _silent(page_04.STATUS)
+    if not done.statuses:
+        raise CannotLook(f"nothing was heard on {page_04.STATUS}")
+    return _status_rate(done)
 
 
 def _scans(probe: Probe) -> Seen:
     done = shift(probe)
-    return _scan_rate(done) if done.scans else _silent(page_05.SCAN)
-
-
-def _silent(topic: str) -> Seen:
-    raise CannotLook(f"nothing was heard on {topic}")
+    if not done.scans:
+        raise CannotLook(f"nothing was heard on {page_05.SCAN}")
+    return _scan_rate(done)

@@ -12,7 +12,7 @@ from . import page_04, page_05, page_06, page_10
 from .assertions import no_errors, node, parameter, publishes, subscribes
 from .functions import Example, returns
 from .navigation import COMMAND_TYPE, COMMANDS
-from .probe import Probe
+from .probe import Probe, remembered
 from .registry import Expectation, check
 from .results import CannotLook, Seen, hinted
 from .streams import rate
@@ -214,12 +214,9 @@ def _nothing_else(probe: Probe) -> Seen:
     return Seen(not others, f"{listed(others)}, too" if others else "nothing else is", step)
 
 
+@remembered
 def _times(probe: Probe) -> list[float]:
     """When messages came, in s since it began to listen."""
-    return probe.once("times", lambda: _listen(probe))
-
-
-def _listen(probe: Probe) -> list[float]:
     began = probe.now
     return [each.at - began for each in probe.hear(page_04.STATUS, page_04.STATUS_TYPE, LONG)]
 

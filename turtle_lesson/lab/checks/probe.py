@@ -10,6 +10,7 @@ from collections import Counter
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager, suppress
 from dataclasses import dataclass
+from functools import wraps
 from types import TracebackType
 from typing import Any, Protocol, TypeVar
 
@@ -117,6 +118,16 @@ class Answer:
     def seconds(self) -> float:
         """Robot time from the request to the response."""
         return self.answered - self.asked
+
+
+def remembered(look: Callable[[Probe], T]) -> Callable[[Probe], T]:
+    """Decorator: a probe carries `look` out once, and remembers what it gave, or the CannotLook that it raised."""
+
+    @wraps(look)
+    def look_once(probe: Probe) -> T:
+        return probe.once(look, lambda: look(probe))
+
+    return look_once
 
 
 class Probe(GraphView):

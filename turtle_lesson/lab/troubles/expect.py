@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
-from ..checks import CannotLook, Expectation, Probe, Seen, interface
+from ..checks import CannotLook, Expectation, Probe, Seen, interface, remembered
 from ..checks.assertions import node, publishes
 from ..checks.navigation import COMMANDS, NAVIGATE, NAVIGATE_TYPE, NEAR, POSE, POSE_TYPE, Drive, drive, where
 from ..checks.streams import rate
@@ -134,16 +134,17 @@ def commands_steady(x: float, y: float) -> Expectation:
 
 def _drive_to(probe: Probe, x: float, y: float) -> Drive:
     """The drive to a place. Raises CannotLook where the navigator does not answer at all."""
-    if not probe.once(("answers",), lambda: _answers(probe)).good:
+    if not _answers(probe).good:
         raise CannotLook(f"{NAVIGATE} does not answer")
     return drive(probe, f"to {x} {y}", lambda pose: (x, y, 0.0))
 
 
 def answers_at_all() -> Expectation:
     """Asked to go where the turtle is, the navigator answers, whether the turtle can move or not."""
-    return Expectation(f"{NAVIGATE} answers", lambda probe: probe.once(("answers",), lambda: _answers(probe)))
+    return Expectation(f"{NAVIGATE} answers", _answers)
 
 
+@remembered
 def _answers(probe: Probe) -> Seen:
     if not probe.servers(NAVIGATE):
         step = "ros2 node list, ros2 service list: is the node there, and does it offer the service under another name?"
