@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from .ros.sim.defer_sigint import defer_sigint
 
 with defer_sigint():
+    from .ros import hooks
     from .ros.stdlib import patches
 
 if TYPE_CHECKING:
@@ -31,6 +32,13 @@ def _make_importable() -> None:
     if SITE not in sys.path:
         sys.path.append(SITE)
     patches.install(patches.Stage.IMPORT)
+    hooks.is_page = _is_page
+
+
+def _is_page(place: Path) -> bool:
+    from .learner.story import PAGES
+
+    return place.suffix.lower() == ".ipynb" and place.stem.lower() in {*PAGES, "lab"}
 
 
 def load_ipython_extension(shell: Any) -> None:

@@ -11,11 +11,11 @@ from ..learner.story import page_named
 from ..learner.workspace import Workspace, workspace
 from ..ros.ament.package import read_source_package
 from ..ros.ament.source import make_importable
-from ..ros.cli.run_world import set_player
 from ..ros.cli.shell import open_terminal
 from ..ros.distro import chosen_release
 from ..ros.idl.registry import registry
 from ..ros.runtime.console import CellOutput
+from ..ros.runtime.run_world import set_player
 from ..ros.runtime.world import World, open_world, wall_time
 from ..ros.sim.keyboard import key_named
 from ..ros.sim.simulation import EPOCH, NANOSECONDS

@@ -17,6 +17,7 @@ from ..ament.errors import ExecutableNotFoundError
 from ..ament.index import changed_since_built
 from ..launching import LaunchError
 from ..runtime.console import FileOutput
+from ..runtime.run_world import run_for
 from ..runtime.world import current_world
 from ..sim.errors import shown_path
 from ..sim.process import Process
@@ -24,7 +25,6 @@ from .arg_types import positive_float
 from .group_pkg import not_found, path_of
 from .jobs import Job, jobs, lasting
 from .parser import cut
-from .run_world import run_for
 from .verb import CellCommand, CommandError
 
 if TYPE_CHECKING:

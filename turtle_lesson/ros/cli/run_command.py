@@ -11,9 +11,9 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..runtime.run_world import Waiter, live_rate
 from .jobs import Errors, cell_streams, lasting
 from .parser import Call, Stop, cut, parse
-from .run_world import Waiter, live_rate
 
 if TYPE_CHECKING:
     from ..runtime.world import World

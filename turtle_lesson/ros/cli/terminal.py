@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from ..runtime.run_world import run_for
 from .jobs import SIGNALS, Job, jobs, send
-from .run_world import run_for
 from .terminal_files import cd, chmod, cp, ls, mkdir, mv, pwd, rm, touch
 from .terminal_io import Builtin, Terminal, export, printenv, unset
 from .terminal_text import cat, echo, grep, head, printf, sort, tail, wc

@@ -19,7 +19,9 @@ from pathlib import Path, PurePath
 from typing import Any
 
 from launch.actions._processes import Program
+from launch.substitutions._paths import CommandFailure
 
+from .. import hooks
 from ..ament.catalog import why_not_here
 from ..ament.errors import ExecutableNotFoundError, NotHereError, PackageNotFoundError
 from ..ament.index import current_packages
@@ -67,7 +69,7 @@ def program(words: Sequence[str], *, shell: bool = False) -> Program:
 
 def _script(text: str, argv: list[str], shown: str) -> Program:
     """A shell's text: one command, or several one after the other."""
-    commands = _taken_apart(text)
+    commands = hooks.commands_of_text(text)
     if len(commands) == 1:
         only = _simple(commands[0][1], shown)
         return Program(only.target, only.argv, shown)
@@ -97,30 +99,6 @@ def _ending(main: Main) -> Callable[[], None]:
     return end
 
 
-def _taken_apart(text: str) -> list[tuple[str, list[str]]]:
-    """The commands of a shell's text, each with the sign before it."""
-    from ..cli.lexer import UnfinishedError, tokens
-    from ..cli.script import ShellSyntaxError, expand, pipelines
-
-    try:
-        plan = list(pipelines(list(tokens(text))))
-    except (UnfinishedError, ShellSyntaxError) as mistake:
-        raise UnknownCommand(f"syntax error in the command {text!r}: {mistake}") from None
-    found = []
-    for sign, pipeline in plan:
-        command = pipeline[0]
-        if len(pipeline) > 1 or command.stdout or command.stderr or command.given or command.background:
-            raise ForeignCommand(
-                f"the command {text!r}",
-                "it uses '|', '>' or '&', which launched commands cannot use here",
-                "Only one command, or several with '&&' or ';' between them, can be run.",
-            )
-        found.append((sign, [part for word in command.words for part in expand(word, home=Path.home(), exit_code=0)]))
-    if not found:
-        raise UnknownCommand("there is no command in cmd=[…]")
-    return found
-
-
 def _simple(words: list[str], shown: str) -> Program:
     """One command: a program of a package, a Python file, or a function of this module."""
     if words[:2] == ["ros2", "run"] and len(words) > 2:
@@ -146,12 +124,7 @@ def _python_file(name: str, shown: str) -> Path:
 
 def _ros2_run(words: list[str], shown: str) -> Program:
     """The program that `ros2 run` names, run without `ros2` around it."""
-    from ..cli.parser import Stop, parse
-
-    try:
-        given = parse(words[1:]).arguments
-    except Stop as stop:
-        raise UnknownCommand(stop.text) from None
+    given = hooks.run_arguments(words[1:])
     packages = current_packages()
     try:
         target = packages.executable(given.package_name, given.executable_name)
@@ -179,7 +152,7 @@ def _main(words: list[str]) -> Main:
                 " ".join(words),
                 "a launch file is included with IncludeLaunchDescription(path_of_the_launch_file)",
             )
-        return lambda: _ros2(words)
+        return lambda: hooks.run_ros2(words)
     if name in _SMALL:
         return lambda: _SMALL[name](words[1:])
     if " " in words[0]:
@@ -187,16 +160,12 @@ def _main(words: list[str]) -> Main:
             f"ExecuteProcess(cmd='{' '.join(words)}'): there is no program called '{words[0]}'",
             "cmd is a list of single words, ['ros2', 'topic', 'list']; a single string needs shell=True.",
         )
-    from ..cli.command_hints import advice
-
-    why = why_not_here(name) or advice([name, *words[1:]]) or "it is a program of the operating system"
+    why = (
+        why_not_here(name)
+        or hooks.advice_about_command([name, *words[1:]])
+        or "it is a program of the operating system"
+    )
     raise ForeignCommand(name or "a command without a name", why)
-
-
-def _ros2(words: list[str]) -> int:
-    from ..cli.run_command import run_here
-
-    return run_here(words)
 
 
 def _echo(words: Sequence[str]) -> int:
@@ -229,14 +198,6 @@ _SMALL: dict[str, Callable[[Sequence[str]], Any]] = {
     "sleep": _sleep,
     "true": lambda words: 0,
 }
-
-
-class CommandFailure(RuntimeError):
-    """A command has failed, or the simulation does not have it. `hint` says what to do instead."""
-
-    def __init__(self, message: str, hint: str = "") -> None:
-        super().__init__(message)
-        self.hint = hint
 
 
 def output_of(text: str) -> str:

@@ -14,8 +14,8 @@ from launch.actions import IncludeLaunchDescription
 from launch.launch_description_sources import AnyLaunchDescriptionSource
 
 from ..ament.index import LaunchedPackages, is_launch_file, seeing
-from ..cli.run_world import run_for
 from ..idl.names import did_you_mean
+from ..runtime.run_world import run_for
 from ..runtime.world import World
 from ..sim.errors import shown_path
 from ..sim.simulation import NANOSECONDS

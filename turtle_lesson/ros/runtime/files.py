@@ -11,6 +11,8 @@ from typing import Any
 
 import yaml
 
+from .. import hooks
+
 # -- files --------------------------------------------------------------------------------------------------------
 # The learner's files: which of them a command may change, and writing whole or not at all.
 # A command of the terminal (also a redirection, `ros2 bag record`, `ros2 pkg create`, `colcon build`) changes files
@@ -88,17 +90,11 @@ def check(path: str | os.PathLike[str], *, follow: bool = True, removes: bool = 
         why = "a bag is being recorded in it; stop that first (jobs lists it)"
     elif not place.is_relative_to(mine):
         why = f"it is outside your folder ({mine}). To change it on purpose, use Python or !command in a cell"
-    elif place.parent in {mine, home()} and _is_page(place):
+    elif place.parent in {mine, home()} and hooks.is_page(place) and os.path.lexists(place):
         why = "it is a page of the lesson. Change a copy of another name, or use JupyterLab's list of files on purpose"
     else:
         return place
     raise PermissionError(errno.EPERM, why, str(path))
-
-
-def _is_page(place: Path) -> bool:
-    from ...learner.story import PAGES
-
-    return place.suffix.lower() == ".ipynb" and place.stem.lower() in {*PAGES, "lab"} and os.path.lexists(place)
 
 
 def save(path: Path, text: str) -> None:

@@ -9,11 +9,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from ..ament.index import PackageIndex
+from .. import hooks
 from ..distro import UNCHECKED_FIELDS, VARIABLE, chosen_release
-from ..hints import advice
 from ..idl import checks
 from ..rmw.graph import Graph
 from ..rmw.trace import Trace
@@ -24,6 +23,9 @@ from ..sim.strand import running_strand
 from ..stdlib import ownership, patches
 from ..stdlib.environment import encoded
 from ..stdlib.program import run_program
+
+if TYPE_CHECKING:
+    from ..ament.index import PackageIndex
 
 __all__ = [
     "World",
@@ -47,12 +49,12 @@ class World:
         self.release = chosen_release(distro)
         checks.when_assigned = not self.release.has(UNCHECKED_FIELDS)
         patches.install()
-        advice.install()
+        hooks.advise_about_errors()
         self.seed = seed
         self.sim = Simulation()
         self.graph = Graph(self.sim, seed)
         self.trace: Trace | None = None
-        self.packages = PackageIndex()
+        self.packages: PackageIndex = hooks.package_index()
         self.processes: list[Process] = []
         self.at_close: list[Callable[[], object]] = []
         """Called first when the world is closed: what outlives it lets go of it."""

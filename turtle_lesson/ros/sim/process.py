@@ -14,6 +14,7 @@ from io import StringIO
 from random import Random
 from typing import Any, Protocol
 
+from .. import hooks
 from .errors import print_error
 from .simulation import Simulation
 from .strand import Strand, running_strand
@@ -214,9 +215,7 @@ class Process:
         try:
             code = self._code_of(program)
             if code is not None and self.alive:
-                from ..stdlib.threads import wind_down
-
-                wind_down(self)
+                hooks.wind_down(self)
         except Killed:  # while it was waiting for its threads
             code = None
         finally:

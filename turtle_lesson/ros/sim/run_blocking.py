@@ -6,6 +6,7 @@ import threading
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from .. import hooks
 from .errors import DriveTimeout, NeverWakes, SimulationError
 from .interrupts import Guard
 
@@ -17,6 +18,9 @@ if TYPE_CHECKING:
 
 DRIVE_LIMIT = 900 * 1_000_000_000
 """How much robot time, in ns, a blocking call from a notebook cell may take before it is given up."""
+
+LOCK = "the lock"
+"""What a strand waits for of which no more is known."""
 
 T = TypeVar("T")
 
@@ -80,9 +84,7 @@ def drive_within(limit: int, simulation: Simulation, process: Process, function:
 
 def waiting_for(strand: Strand) -> str:
     """What a strand waits for that nobody has named."""
-    from ..stdlib.deadlock import LOCK, wait_of
-
-    what = wait_of(strand)
+    what = hooks.name_of_wait(strand)
     return "this call" if what == LOCK and strand.waits_for is None else what
 
 

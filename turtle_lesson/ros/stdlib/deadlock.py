@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from greenlet import getcurrent
 
 from ..sim.errors import NeverWakes
+from ..sim.run_blocking import LOCK
 from ..sim.strand import Strand
 
 if TYPE_CHECKING:
@@ -147,7 +148,6 @@ def _tell_later(victim: Strand) -> None:
 _OURS = (f"{__package__}.", "turtle_lesson.ros.sim.")
 _ROOMS = {"threading", "queue", "concurrent.futures.thread", "concurrent.futures._base"}
 
-LOCK = "the lock"
 LOOP = "its asyncio loop"
 IDLE = "something to do"
 """For what a worker waits that does nothing by itself: nobody need wake it, and it wakes nobody."""

@@ -9,20 +9,15 @@ from __future__ import annotations
 
 import io
 import os
-import re
 import signal
 import subprocess
-import sys
 from collections.abc import Callable
-from functools import partial
-from typing import Any, NoReturn
+from typing import Any
 
-from greenlet import getcurrent
-
+from .. import hooks
 from ..sim.process import Process
 from ..sim.simulation import NANOSECONDS
 from ..sim.strand import Strand, running_strand
-from .ownership import notebook_here
 
 _Real = subprocess.Popen
 _STEP = 10_000_000  # how far (ns) the world is run between two looks, for a cell that waits
@@ -37,7 +32,7 @@ class WorldPopen(_Real):
 
     def __init__(self, args: Any, *positional: Any, **given: Any) -> None:
         everything = {**dict(zip(_POSITIONAL, positional, strict=False)), **given}
-        plan = _plan(args, bool(everything.get("shell")))
+        plan = hooks.plan_child(args, bool(everything.get("shell")))
         if plan is None:
             super().__init__(args, *positional, **given)
         else:
@@ -45,8 +40,6 @@ class WorldPopen(_Real):
             self._begin(args, *plan, everything)
 
     def _begin(self, args: Any, target: Any, argv: list[str], given: dict[str, Any]) -> None:
-        from ..runtime.world import current_process, current_world
-
         if given.get("stdin") not in (None, subprocess.DEVNULL):
             raise NotImplementedError("stdin= is not available here: a program's child has no input")
         if (folder := given.get("cwd")) is not None and os.path.realpath(folder) != os.getcwd():
@@ -57,11 +50,11 @@ class WorldPopen(_Real):
         self.args, self.returncode, self.stdin = args, None, None
         self._child_created, self._sigint_wait_secs = False, 0.0  # what the real one's __del__ and __exit__ ask for
         self._news = _Condition()
-        parent = current_process()
+        parent = hooks.current_process()
         out, self.stdout = self._stream(given.get("stdout"), parent.stdout, text)
         both = given.get("stderr") == subprocess.STDOUT
         err, self.stderr = (out, None) if both else self._stream(given.get("stderr"), parent.stderr, text)
-        self._process: Process = current_world().spawn(
+        self._process: Process = hooks.current_world().spawn(
             target, name=os.path.basename(argv[0]) or "program", argv=argv, stdout=out, stderr=err,
             on_exit=lambda process: self._news.notify_all(), environ=given.get("env"),
         )  # fmt: skip
@@ -140,9 +133,7 @@ class _Condition:
 
     def wait_for(self, predicate: Callable[[], bool], seconds: float | None = None) -> bool:
         """Wait until the predicate holds, at most some seconds of robot time; whether it does."""
-        from ..runtime.world import current_world
-
-        strand, simulation = running_strand(), current_world().sim
+        strand, simulation = running_strand(), hooks.current_world().sim
         deadline = None if seconds is None else simulation.now + round(seconds * NANOSECONDS)
         if strand is not None:
             self._waiting.append(strand)
@@ -205,83 +196,9 @@ class _Pipe(io.TextIOBase):
         raise StopIteration
 
 
-_SETUP = re.compile(r"^\s*(?:(?:source|\.)\s+\S*setup\.\w+\s*(?:&&|;)\s*)+")
-_OF_THE_WORLD = re.compile(r"(?:^|[\s;&|('\"])(?:ros2|colcon|killall|pkill)\b")
-
-
-def _plan(args: Any, shell: bool) -> tuple[Any, list[str]] | None:
-    """The program's file or function, by which the world runs a command, and its arguments; None if the computer is to.
-
-    Raises:
-        NotImplementedError: for a command that the computer could not run, and the world cannot.
-    """
-    from ..ament.errors import PackageNotFoundError
-    from ..launching import commands
-
-    one = isinstance(args, (str, bytes, os.PathLike))
-    words = [os.fsdecode(args)] if one else [os.fsdecode(word) for word in args][: 1 if shell else None]
-    if shell and words:
-        words[0] = _SETUP.sub("", words[0])  # what a setup file sets up is there already
-    line = " ".join(words)
-    if not line.strip() or (type(getcurrent()) is not Strand and not _of_a_cell(line)):
-        return None
-    if line.startswith("ros2 launch ") and not (shell and set(line) & set(";&|<>")):
-        words = line.split() if shell else words
-        return partial(_launch, words[2:]), words
-    try:
-        program = commands.program(words, shell=shell)
-    except (commands.UnknownCommand, PackageNotFoundError) as error:
-        if line.startswith("ros2 run "):  # which only complains
-            return partial(_fail, f"{error}"), words
-        if _OF_THE_WORLD.search(line):
-            raise NotImplementedError(_refusal(line, error)) from None
-        return None
-    return program.target, program.argv
-
-
-def _of_a_cell(line: str) -> bool:
-    """Whether a cell, or a launch file that it loads, runs a `ros2` command, which only the world has."""
-    notebook = notebook_here()
-    return notebook is not None and not notebook.simulation.running and line.split()[:1] == ["ros2"]
-
-
-def _refusal(line: str, error: Exception) -> str:
-    said = f"{error}" if not str(error).startswith("ExecuteProcess(") else "it is a program of the operating system"
-    why = f"{line!r} cannot be started by a program here ({getattr(error, 'why', said)})"
-    return f"{why}: ros2 commands, Python files, echo and sleep can. {getattr(error, 'hint', '')}".strip()
-
-
-def _launch(words: list[str]) -> None:
-    """`ros2 launch` as a program of its own, which goes on until its programs have ended."""
-    from launch import LaunchDescription, LaunchService
-    from launch.actions import IncludeLaunchDescription
-    from launch.launch_description_sources import AnyLaunchDescriptionSource
-
-    from ..launching import find_launch_file
-    from ..launching.errors import LaunchError
-    from ..runtime.world import current_world
-
-    given = [(name, value) for name, sign, value in (word.partition(":=") for word in words) if sign]
-    names = [word for word in words if ":=" not in word and not word.startswith("-")]
-    try:
-        path = find_launch_file(current_world(), *names) if len(names) == 2 else "".join(names)
-    except LaunchError as error:
-        _fail(error.console)
-    source = AnyLaunchDescriptionSource(str(path))
-    service = LaunchService(argv=words)
-    service.include_launch_description(LaunchDescription([IncludeLaunchDescription(source, launch_arguments=given)]))
-    sys.exit(service.run())
-
-
-def _fail(sentence: str) -> NoReturn:
-    """End the program with a complaint."""
-    print(sentence, file=sys.stderr)
-    sys.exit(1)
-
-
 def system(real: Any, command: Any) -> int:
     """`os.system`: run a shell's line, and wait for its end."""
-    if _plan(command, shell=True) is None:
+    if hooks.plan_child(command, True) is None:
         return real(command)
     code = WorldPopen(command, shell=True).wait()
     return code << 8 if code >= 0 else -code

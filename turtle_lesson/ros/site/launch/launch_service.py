@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
+from turtle_lesson.ros import hooks
+
 from ._context import Event, LaunchContext
 from ._entities import LaunchDescription
 from .events import IncludeLaunchDescription
@@ -25,7 +27,7 @@ class LaunchService:
     """
 
     def __init__(self, *, argv: Iterable[str] | None = None, noninteractive: bool = False, debug: bool = False) -> None:
-        self.__work: LaunchByHand = _by_hand(list(argv or []), noninteractive)
+        self.__work: LaunchByHand = hooks.launch_service(list(argv or []), noninteractive)
 
     @property
     def context(self) -> LaunchContext:
@@ -55,9 +57,3 @@ class LaunchService:
     def shutdown(self, force_sync: bool = False) -> None:
         """End the launch; nothing if it does not run."""
         self.__work.shut_down()
-
-
-def _by_hand(argv: list[str], noninteractive: bool) -> LaunchByHand:
-    from turtle_lesson.ros.launching.service import LaunchByHand
-
-    return LaunchByHand(argv, noninteractive)

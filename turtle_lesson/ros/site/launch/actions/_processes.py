@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from pathlib import PurePath
 from typing import Any
 
+from turtle_lesson.ros import hooks
+
 from .._context import LaunchContext
 from .._entities import Action, LaunchDescriptionEntity, SomeEntitiesType, SomeSubstitutionsType, Substitution
 from ..conditions import evaluate_condition_expression
@@ -130,9 +132,7 @@ class ExecuteLocal(Action):
         Raises:
             UnknownCommand: if there is none of this name here.
         """
-        from turtle_lesson.ros.launching.commands import program
-
-        return program(self.process_description.final_cmd, shell=self.shell)
+        return hooks.program_of_command(self.process_description.final_cmd, shell=self.shell)
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Have the process started."""

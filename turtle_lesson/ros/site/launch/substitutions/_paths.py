@@ -7,11 +7,21 @@ import shutil
 from collections.abc import Iterable
 from typing import Any
 
+from turtle_lesson.ros import hooks
+
 from .._context import LaunchContext
 from .._entities import SomeSubstitutionsType, Substitution
 from ..frontend import expose_substitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
 from ._values import SubstitutionFailure, arguments
+
+
+class CommandFailure(RuntimeError):
+    """A command has failed, or the simulation does not have it. `hint` says what to do instead."""
+
+    def __init__(self, message: str, hint: str = "") -> None:
+        super().__init__(message)
+        self.hint = hint
 
 
 class PathSubstitution(Substitution):
@@ -140,13 +150,11 @@ class Command(Substitution):
             SubstitutionFailure: if it fails, or the simulation does not have it.
             NotHereError: if it needs a Python package that is not installed; then the launch goes on without the action.
         """
-        from turtle_lesson.ros.launching.commands import CommandFailure, output_of
-
         text = perform_substitutions(context, self.command)
         if perform_substitutions(context, self.on_stderr) not in ("fail", "ignore", "warn", "capture"):
             raise SubstitutionFailure("expected 'on_stderr' to be one of: 'fail', 'ignore', 'warn' or 'capture'")
         try:
-            return output_of(text)
+            return hooks.output_of_command(text)
         except CommandFailure as error:
             raise SubstitutionFailure(
                 f"executed command failed. Command: {text}\nCaptured stderr output: {error}", error.hint

@@ -11,12 +11,14 @@ from ..sim.run_blocking import DRIVE_LIMIT, drive
 from ..sim.simulation import NANOSECONDS
 from ..sim.strand import running_strand
 from ..stdlib.clocks import real_monotonic, real_sleep
-from .arg_types import LONGEST
 
 if TYPE_CHECKING:
-    from ..runtime.world import World
     from ..sim.strand import Strand
+    from .world import World
 
+
+LONGEST = 86_400
+"""How long, in s, a command may wait at most: a day."""
 
 LIVE_STEP = 0.02
 """How long, in s, a live world waits between two looks at the clock."""
