@@ -47,12 +47,6 @@ def in_a_callback(words: Words) -> str:
     )
 
 
-CUT_OFF = (
-    "lesson.network loses all transmissions of this service, and nothing can change that while this cell waits. Give "
-    "a timeout, or let the network work again first."
-)
-
-
 def callbacks_around(frame: FrameType | None = None) -> list[Any]:
     """The entities whose callbacks the running code, or that of a frame, is inside, innermost first.
 
@@ -112,13 +106,8 @@ def others_may_act(strand: Strand) -> bool:
     executor = executor_of_worker(strand)
     if executor is not None and not executor._spins_to_the_end:
         return True
-    return any(each is not strand and _is_free(each) for each in strand.process.strands)
-
-
-def _is_free(strand: Strand) -> bool:
-    if strand.dead or strand.waits_for is not None or executor_of_worker(strand) is not None:
-        return False
-    return not is_in_spin(strand)
+    others = (each for each in strand.process.strands if each is not strand and not each.dead)
+    return any(each.waits_for is None and executor_of_worker(each) is None and not is_in_spin(each) for each in others)
 
 
 def is_in_spin(strand: Strand) -> bool:
@@ -133,7 +122,10 @@ def why_never_answered(client: Client, strand: Strand) -> str:
         return _why_nobody_serves(client)
     drives = is_notebook(strand.process) and not callbacks_around()
     if drives and client._end.cut_off:
-        return CUT_OFF
+        return (
+            "lesson.network loses all transmissions of this service, and nothing can change that while this cell waits. "
+            "Give a timeout, or let the network work again first."
+        )
     return _why_not_taken(client, strand, drives) or _why_not_served(client, servers, strand, drives)
 
 
@@ -242,10 +234,6 @@ def _may_act(entity: Any, taken: Callable[[Any], bool]) -> bool:
     return not (getattr(entity.callback, "__module__", None) or "").startswith("rclpy.")
 
 
-# -- notebook -----------------------------------------------------------------------------------------------------
-# The notebook is a process of its world, too, but one that no program runs in: its cells drive the simulation.
-
-
 def is_notebook(process: Process) -> bool:
-    """Whether this process is its world's notebook, whatever a program may be called."""
+    """Whether this process is its world's notebook, in which no program runs: its cells drive the simulation."""
     return process is process.locals["world"].notebook

@@ -98,6 +98,9 @@ class NodeParameters:
 
     def _ros_store(self, parameters: list[Parameter], descriptors: dict[str, Any] | None) -> None:
         """Keep the values, forget those that are set to nothing, and tell /parameter_events about it."""
+        from rcl_interfaces.msg import ParameterDescriptor
+
+        known = descriptors or self._ros_descriptors
         news: dict[str, list[Any]] = {"new": [], "changed": [], "deleted": []}
         for parameter in parameters:
             name = parameter.name
@@ -108,17 +111,11 @@ class NodeParameters:
                 continue
             is_new = self.get_parameter_or(name).type_ == Parameter.Type.NOT_SET
             news["new" if is_new else "changed"].append(parameter.to_parameter_msg())
-            self._ros_descriptors[name] = self._ros_descriptor_for(parameter, descriptors)
+            if name not in known:
+                known[name] = ParameterDescriptor(name=name, type=parameter.type_.value, dynamic_typing=True)
+            self._ros_descriptors[name] = known[name]
             self._ros_parameters[name] = parameter
         self._ros_tell_parameter_events(news)
-
-    def _ros_descriptor_for(self, parameter: Parameter, descriptors: dict[str, Any] | None) -> Any:
-        from rcl_interfaces.msg import ParameterDescriptor
-
-        known = descriptors or self._ros_descriptors
-        if parameter.name in known:
-            return known[parameter.name]
-        return ParameterDescriptor(name=parameter.name, type=parameter.type_.value, dynamic_typing=True)
 
     def _ros_why_refused(self, parameters: list[Parameter], descriptors: dict[str, Any] | None) -> str:
         """Why one of the values is not allowed, as the real one words it; '' if all are."""
@@ -215,28 +212,19 @@ class NodeParameters:
         """Declare several: tuples of name, and optionally value and descriptor."""
         declared: list[tuple[Parameter, Any]] = []
         for index, details in enumerate(parameters):
-            declared.append(self._ros_declaration(index, namespace, details, ignore_override))
+            name, value, descriptor = read_declaration(index, namespace, details)
+            overridden = not ignore_override and name in self._ros_overrides
+            declared.append((self._ros_overrides[name] if overridden else Parameter(name, value=value), descriptor))
         taken = [parameter.name for parameter, _ in declared if parameter.name in self._ros_parameters]
         if taken:
             raise exceptions.ParameterAlreadyDeclaredException(taken)
         for parameter, descriptor in declared:
-            self._ros_declare(parameter, descriptor)
+            reason = self._ros_set([parameter], {parameter.name: descriptor})
+            if reason.startswith("Wrong parameter type"):
+                raise exceptions.InvalidParameterTypeException(parameter, Parameter.Type(descriptor.type).name)
+            if reason:
+                raise exceptions.InvalidParameterValueException(parameter.name, parameter.value, reason)
         return [self._ros_parameters[parameter.name] for parameter, _ in declared]
-
-    def _ros_declaration(
-        self, index: int, namespace: str, details: tuple[Any, ...], ignore_override: bool
-    ) -> tuple[Parameter, Any]:
-        name, value, descriptor = read_declaration(index, namespace, details)
-        if not ignore_override and name in self._ros_overrides:
-            return self._ros_overrides[name], descriptor
-        return Parameter(name, value=value), descriptor
-
-    def _ros_declare(self, parameter: Parameter, descriptor: Any) -> None:
-        reason = self._ros_set([parameter], {parameter.name: descriptor})
-        if reason.startswith("Wrong parameter type"):
-            raise exceptions.InvalidParameterTypeException(parameter, Parameter.Type(descriptor.type).name)
-        if reason:
-            raise exceptions.InvalidParameterValueException(parameter.name, parameter.value, reason)
 
     def _ros_declare_overrides(self) -> None:
         """Declare what the parameter overrides name, as the real one does before it declares anything else.

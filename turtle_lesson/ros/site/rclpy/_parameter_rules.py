@@ -38,7 +38,7 @@ def read_declaration(index: int, namespace: str, details: tuple[Any, ...]) -> tu
         raise TypeError(f"Third element {descriptor} at index {index} in parameters list is not a ParameterDescriptor.")
     descriptor.name = name
     if len(details) == 1:
-        warnings.warn(ONLY_A_NAME.format(name), UserWarning, stacklevel=5)
+        warnings.warn(ONLY_A_NAME.format(name), UserWarning, stacklevel=4)
         descriptor.dynamic_typing = True
     if isinstance(value, Parameter.Type):
         _declare_type(name, value, descriptor)

@@ -6,7 +6,8 @@ Facts: https://docs.ros.org/en/humble/How-To-Guides/Node-arguments.html, rcl's a
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -85,7 +86,7 @@ def parse_arguments(words: list[str]) -> Arguments:
         elif inside:
             _take(word, iterator, found)
         elif ":=" in word and is_remap(word):
-            found.remaps.append(_remap(word))
+            found.remaps.append(read_remap(word))
             found.obsolete.append(word)
     if found.unknown:
         error = UnknownROSArgsError(str(found.unknown))
@@ -125,15 +126,27 @@ def without_ros_arguments(words: list[str]) -> tuple[list[str], list[str]]:
 
 
 def _take(word: str, following: Iterator[str], found: Arguments) -> None:
+    """Read one flag, with the value that follows it, into what was found so far."""
     if word in {"-r", "--remap"}:
-        found.remaps.append(_remap(_next(word, following)))
+        rule = _next(word, following)
+        example = "old_name:=new_name" + (", a namespace like __ns:=/group" if "__ns" in rule else "")
+        with _explained(f"remap rule: '-r {rule}'", f"; a rule looks like {example}"):
+            found.remaps.append(read_remap(rule))
     elif word in {"-p", "--param"}:
-        found.parameters.append(_parameter(_next(word, following)))
+        rule = _next(word, following)
+        with _explained(f"parameter override rule: '-p {rule}'", "; a rule looks like name:=value"):
+            node, name, text = read_parameter(rule)
+            value = tree(text)
+            found.parameters.append((node or "/**", name, None if value is None else value_of(value)))
     elif word == "--params-file":
-        found.parameters.extend(_parameter_file(_next(word, following)))
+        path = _next(word, following)
+        with _explained(f"params file: '--params-file {path}'"):
+            found.parameters.extend(read_parameter_file(path))
     elif word == "--log-level":
-        name, level = _log_level(_next(word, following))
-        found.log_levels[name] = level
+        rule = _next(word, following)
+        with _explained(f"log level: '--log-level {rule}'"):
+            name, level = read_log_level(rule)
+            found.log_levels[name] = level
     elif word in {"-e", "--enclave"}:
         found.enclave = _next(word, following)
     elif word == "--log-config-file":
@@ -153,40 +166,15 @@ def _next(word: str, following: Iterator[str]) -> str:
     raise ArgumentError(f"Couldn't parse trailing {flag}. No {FLAGS[word]}.")
 
 
-def _remap(rule: str) -> Remap:
+@contextmanager
+def _explained(what: str, example: str = "") -> Iterator[None]:
+    """Raise ArgumentError for a value that cannot be read: which it is, why, and for a rule what one looks like."""
     try:
-        return read_remap(rule)
+        yield
     except RuleError as error:
-        hint = f"Couldn't parse remap rule: '-r {rule}'. Error: {error}; a rule looks like old_name:=new_name"
-        raise ArgumentError(hint + (", a namespace like __ns:=/group" if "__ns" in rule else "")) from None
-
-
-def _parameter(rule: str) -> Entry:
-    try:
-        node, name, text = read_parameter(rule)
-        found = tree(text)
-        value = None if found is None else value_of(found)
-    except RuleError as error:
-        said = f"Error: {error}; a rule looks like name:=value"
+        raise ArgumentError(f"Couldn't parse {what}. Error: {error}{example}") from None
     except YamlValueError as error:
-        said = f"Error: {error}"
-    else:
-        return ("/**" if node is None else node, name, value)
-    raise ArgumentError(f"Couldn't parse parameter override rule: '-p {rule}'. {said}")
-
-
-def _parameter_file(path: str) -> list[Entry]:
-    try:
-        return read_parameter_file(path)
-    except YamlValueError as error:
-        raise ArgumentError(f"Couldn't parse params file: '--params-file {path}'. Error: {error}") from None
-
-
-def _log_level(rule: str) -> tuple[str, str]:
-    try:
-        return read_log_level(rule)
-    except RuleError as error:
-        raise ArgumentError(f"Couldn't parse log level: '--log-level {rule}'. Error: {error}") from None
+        raise ArgumentError(f"Couldn't parse {what}. Error: {error}") from None
 
 
 def pattern_matches(pattern: str, full_name: str) -> bool:
@@ -197,8 +185,7 @@ def pattern_matches(pattern: str, full_name: str) -> bool:
     return re.fullmatch(expression, full_name) is not None
 
 
-# -- rules --------------------------------------------------------------------------------------------------------
-# How the rules among ROS arguments are written: `-r from:=to`, `-p name:=value`, `--log-level logger:=level`.
+# -- how the rules are written ----------------------------------------------------------------------------------
 # Facts: rcl's lexer.c and arguments.c (which names may stand where, and the words of the errors), and recordings of
 # them.
 
@@ -282,11 +269,22 @@ def read_remap(rule: str) -> Remap:
         is_service = {SERVICE_URL: True, TOPIC_URL: False}.get(kind)
         reader.skip(SERVICE_URL, TOPIC_URL)
         start = reader.at
-        _match_side(reader)
+        _name(reader, _token, SEPARATOR)
         name = rule[start : reader.at]
     reader.expect(SEPARATOR)
     start = reader.at
-    {NODE: _new_name, NS: _new_namespace}.get(kind, _replacement)(reader)
+    if kind == NODE:
+        reader.expect(TOKEN)
+        reader.expect(EOF)
+    elif kind == NS:
+        reader.expect(SLASH)
+        reader.skip(TOKEN)
+        while reader.next() == SLASH:
+            reader.take()
+            reader.skip(TOKEN)
+        reader.expect(EOF)
+    else:
+        _name(reader, _new_token, EOF)
     return Remap(name, rule[start:], node, is_service)
 
 
@@ -341,12 +339,13 @@ def _node_prefix(reader: Reader) -> str | None:
     return name
 
 
-def _match_side(reader: Reader) -> None:
+def _name(reader: Reader, token: Callable[[Reader], None], end: int) -> None:
+    """Read a name, whose tokens a function reads, up to what ends it."""
     reader.skip(TILDE_SLASH, SLASH)
-    _token(reader)
-    while reader.next() != SEPARATOR:
+    token(reader)
+    while reader.next() != end:
         reader.expect(SLASH)
-        _token(reader)
+        token(reader)
 
 
 def _token(reader: Reader) -> None:
@@ -358,34 +357,12 @@ def _token(reader: Reader) -> None:
     reader.take()
 
 
-def _replacement(reader: Reader) -> None:
-    reader.skip(TILDE_SLASH, SLASH)
-    _new_token(reader)
-    while reader.next() != EOF:
-        reader.expect(SLASH)
-        _new_token(reader)
-
-
 def _new_token(reader: Reader) -> None:
     if reader.next() == REFERENCE:
         raise RuleError("Backreferences are not implemented")
     if reader.next() != TOKEN:
         raise RuleError(f"a name is expected at index {reader.at}")
     reader.take()
-
-
-def _new_name(reader: Reader) -> None:
-    reader.expect(TOKEN)
-    reader.expect(EOF)
-
-
-def _new_namespace(reader: Reader) -> None:
-    reader.expect(SLASH)
-    reader.skip(TOKEN)
-    while reader.next() == SLASH:
-        reader.take()
-        reader.skip(TOKEN)
-    reader.expect(EOF)
 
 
 def _parameter_part(reader: Reader) -> None:

@@ -18,10 +18,6 @@ from .clock_type import CEnum
 from .logging import get_logger
 from .qos import QoSPolicyKind, qos_policy_name_from_kind
 
-# -- event infos --------------------------------------------------------------------------------------------------
-# What may happen to a publisher or subscription, and what its callback is told (rcl's event.h, rmw's
-# events_statuses).
-
 
 class rmw_qos_policy_kind_t(CEnum):
     """Which policy did not fit. Its members equal those of QoSPolicyKind."""
@@ -120,31 +116,51 @@ class QoSSubscriptionMatchedInfo(NamedTuple):
 QoSOfferedIncompatibleQoSInfo = QoSRequestedIncompatibleQoSInfo
 QoSPublisherMatchedInfo = QoSSubscriptionMatchedInfo
 
-PUBLISHER_EVENTS: dict[int, tuple[str, Any]] = {
-    QoSPublisherEventType.RCL_PUBLISHER_OFFERED_DEADLINE_MISSED: (endpoint.DEADLINE, QoSOfferedDeadlineMissedInfo),
-    QoSPublisherEventType.RCL_PUBLISHER_LIVELINESS_LOST: (endpoint.LIVELINESS, QoSLivelinessLostInfo),
+_Events = dict[IntEnum, tuple[str, str, Any]]
+"""Per type of event, in rclpy's order: the callback's name, what the graph counts for it, and what it is told as."""
+
+PUBLISHER_EVENTS: _Events = {
+    QoSPublisherEventType.RCL_PUBLISHER_OFFERED_DEADLINE_MISSED: (
+        "deadline",
+        endpoint.DEADLINE,
+        QoSOfferedDeadlineMissedInfo,
+    ),
+    QoSPublisherEventType.RCL_PUBLISHER_LIVELINESS_LOST: ("liveliness", endpoint.LIVELINESS, QoSLivelinessLostInfo),
     QoSPublisherEventType.RCL_PUBLISHER_OFFERED_INCOMPATIBLE_QOS: (
+        "incompatible_qos",
         endpoint.INCOMPATIBLE_QOS,
         QoSOfferedIncompatibleQoSInfo,
     ),
-    QoSPublisherEventType.RCL_PUBLISHER_INCOMPATIBLE_TYPE: (endpoint.INCOMPATIBLE_TYPE, IncompatibleTypeInfo),
-    QoSPublisherEventType.RCL_PUBLISHER_MATCHED: (endpoint.MATCHED, QoSPublisherMatchedInfo),
+    QoSPublisherEventType.RCL_PUBLISHER_INCOMPATIBLE_TYPE: (
+        "incompatible_type",
+        endpoint.INCOMPATIBLE_TYPE,
+        IncompatibleTypeInfo,
+    ),
+    QoSPublisherEventType.RCL_PUBLISHER_MATCHED: ("matched", endpoint.MATCHED, QoSPublisherMatchedInfo),
 }
-"""What the graph counts for each type of event, and what it is told as."""
-
-SUBSCRIPTION_EVENTS: dict[int, tuple[str, Any]] = {
+SUBSCRIPTION_EVENTS: _Events = {
     QoSSubscriptionEventType.RCL_SUBSCRIPTION_REQUESTED_DEADLINE_MISSED: (
+        "deadline",
         endpoint.DEADLINE,
         QoSRequestedDeadlineMissedInfo,
     ),
-    QoSSubscriptionEventType.RCL_SUBSCRIPTION_LIVELINESS_CHANGED: (endpoint.LIVELINESS, QoSLivelinessChangedInfo),
     QoSSubscriptionEventType.RCL_SUBSCRIPTION_REQUESTED_INCOMPATIBLE_QOS: (
+        "incompatible_qos",
         endpoint.INCOMPATIBLE_QOS,
         QoSRequestedIncompatibleQoSInfo,
     ),
-    QoSSubscriptionEventType.RCL_SUBSCRIPTION_MESSAGE_LOST: (endpoint.MESSAGE_LOST, QoSMessageLostInfo),
-    QoSSubscriptionEventType.RCL_SUBSCRIPTION_INCOMPATIBLE_TYPE: (endpoint.INCOMPATIBLE_TYPE, IncompatibleTypeInfo),
-    QoSSubscriptionEventType.RCL_SUBSCRIPTION_MATCHED: (endpoint.MATCHED, QoSSubscriptionMatchedInfo),
+    QoSSubscriptionEventType.RCL_SUBSCRIPTION_LIVELINESS_CHANGED: (
+        "liveliness",
+        endpoint.LIVELINESS,
+        QoSLivelinessChangedInfo,
+    ),
+    QoSSubscriptionEventType.RCL_SUBSCRIPTION_MESSAGE_LOST: ("message_lost", endpoint.MESSAGE_LOST, QoSMessageLostInfo),
+    QoSSubscriptionEventType.RCL_SUBSCRIPTION_INCOMPATIBLE_TYPE: (
+        "incompatible_type",
+        endpoint.INCOMPATIBLE_TYPE,
+        IncompatibleTypeInfo,
+    ),
+    QoSSubscriptionEventType.RCL_SUBSCRIPTION_MATCHED: ("matched", endpoint.MATCHED, QoSSubscriptionMatchedInfo),
 }
 
 
@@ -167,7 +183,13 @@ class EventHandler(Entity):
         self.event_type = event_type
         parent = parent_impl or parent_handle
         parent = getattr(parent, "_entity", parent)  # of a handle
-        kind, self._info = _meaning(event_type, parent)
+        publishes = hasattr(parent, "publish")
+        events = PUBLISHER_EVENTS if publishes else SUBSCRIPTION_EVENTS
+        if not isinstance(event_type, QoSPublisherEventType if publishes else QoSSubscriptionEventType):
+            what = "publisher" if publishes else "subscription"
+            known = ", ".join(each.name for each in sorted(events))
+            raise UnsupportedEventTypeError(f"a {what} has no events of type {event_type!r}; it has {known}")
+        _, kind, self._info = events[event_type]
         self._tally = parent._end().listen(kind)
         self._tally.wake = self._signal
 
@@ -183,34 +205,19 @@ class EventHandler(Entity):
         return self._tally.news
 
     def _take(self) -> tuple[Any, ...]:
-        return (self._read(),)
-
-    def _read(self) -> Any:
         info = self._info(*self._tally.take())
         if isinstance(info, QoSRequestedIncompatibleQoSInfo):
             info = info._replace(last_policy_kind=rmw_qos_policy_kind_t(QoSPolicyKind[info.last_policy_kind]))  # type: ignore[misc]
-        return info
+        return (info,)
 
 
 QoSEventHandler = EventHandler
 
 
-def _meaning(event_type: IntEnum, parent: Any) -> tuple[str, Any]:
-    """What the graph counts for a type of event, and what it is told as."""
-    publishes = hasattr(parent, "publish")
-    known = QoSPublisherEventType if publishes else QoSSubscriptionEventType
-    if not isinstance(event_type, known):
-        what = "publisher" if publishes else "subscription"
-        raise UnsupportedEventTypeError(
-            f"a {what} has no events of type {event_type!r}; it has {', '.join(each.name for each in known)}"
-        )
-    return (PUBLISHER_EVENTS if publishes else SUBSCRIPTION_EVENTS)[event_type]
-
-
 class _EventCallbacks:
-    """Base class: `_events` says which attribute is called for which type of event, in rclpy's order."""
+    """Base class: `_events` says which attribute is called for which type of event."""
 
-    _events: dict[str, IntEnum]
+    _events: _Events
     _mismatch: str
     use_default_callbacks: bool
     incompatible_qos: Callable[[Any], Any] | None
@@ -219,7 +226,7 @@ class _EventCallbacks:
         """Handlers for all callbacks that were given, and for those that stand in for one that was not."""
         entity = getattr(entity, "_entity", entity)
         handlers = []
-        for name, event_type in self._events.items():
+        for event_type, (name, _, _) in self._events.items():
             callback = getattr(self, name)
             stands_in = not callback and self.use_default_callbacks and name == "incompatible_qos"
             if stands_in:
@@ -245,14 +252,7 @@ class _EventCallbacks:
 class SubscriptionEventCallbacks(_EventCallbacks):
     """What to call when something happens to a subscription. Without `incompatible_qos` a warning is logged for it."""
 
-    _events = {  # noqa: RUF012
-        "deadline": QoSSubscriptionEventType.RCL_SUBSCRIPTION_REQUESTED_DEADLINE_MISSED,
-        "incompatible_qos": QoSSubscriptionEventType.RCL_SUBSCRIPTION_REQUESTED_INCOMPATIBLE_QOS,
-        "liveliness": QoSSubscriptionEventType.RCL_SUBSCRIPTION_LIVELINESS_CHANGED,
-        "message_lost": QoSSubscriptionEventType.RCL_SUBSCRIPTION_MESSAGE_LOST,
-        "incompatible_type": QoSSubscriptionEventType.RCL_SUBSCRIPTION_INCOMPATIBLE_TYPE,
-        "matched": QoSSubscriptionEventType.RCL_SUBSCRIPTION_MATCHED,
-    }
+    _events = SUBSCRIPTION_EVENTS
     _mismatch = (
         "New publisher discovered on topic '{topic}', offering incompatible QoS. No messages will be received from it. "
         "Last incompatible policy: {policy}"
@@ -281,13 +281,7 @@ class SubscriptionEventCallbacks(_EventCallbacks):
 class PublisherEventCallbacks(_EventCallbacks):
     """What to call when something happens to a publisher. Without `incompatible_qos` a warning is logged for it."""
 
-    _events = {  # noqa: RUF012
-        "deadline": QoSPublisherEventType.RCL_PUBLISHER_OFFERED_DEADLINE_MISSED,
-        "liveliness": QoSPublisherEventType.RCL_PUBLISHER_LIVELINESS_LOST,
-        "incompatible_qos": QoSPublisherEventType.RCL_PUBLISHER_OFFERED_INCOMPATIBLE_QOS,
-        "incompatible_type": QoSPublisherEventType.RCL_PUBLISHER_INCOMPATIBLE_TYPE,
-        "matched": QoSPublisherEventType.RCL_PUBLISHER_MATCHED,
-    }
+    _events = PUBLISHER_EVENTS
     _mismatch = (
         "New subscription discovered on topic '{topic}', requesting incompatible QoS. No messages will be sent to it. "
         "Last incompatible policy: {policy}"

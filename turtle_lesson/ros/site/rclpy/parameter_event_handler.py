@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from itertools import chain
 from typing import TYPE_CHECKING, Any
 
@@ -15,20 +16,20 @@ if TYPE_CHECKING:
 GONE = "Callback doesn't exist"
 
 
+@dataclass(eq=False)
 class ParameterCallbackHandle:
     """What `add_parameter_callback` returns, and `remove_parameter_callback` takes."""
 
-    def __init__(self, parameter_name: str, node_name: str, callback: Callable[[Any], Any]) -> None:
-        self.parameter_name = parameter_name
-        self.node_name = node_name
-        self.callback = callback
+    parameter_name: str
+    node_name: str
+    callback: Callable[[Any], Any]
 
 
+@dataclass(eq=False)
 class ParameterEventCallbackHandle:
     """What `add_parameter_event_callback` returns, and `remove_parameter_event_callback` takes."""
 
-    def __init__(self, callback: Callable[[Any], Any]) -> None:
-        self.callback = callback
+    callback: Callable[[Any], Any]
 
 
 class ParameterEventHandler:
@@ -138,7 +139,11 @@ class ParameterEventHandler:
 
         A relative `node_name` is in this node's namespace; '' is this node.
         """
-        return self._callbacks.add_parameter_callback(parameter_name, self._resolve_path(node_name), callback)
+        if not node_name:
+            node_name = self.node.get_fully_qualified_name()
+        elif not node_name.startswith("/"):
+            node_name = f"{self.node.get_namespace().rstrip('/')}/{node_name}"
+        return self._callbacks.add_parameter_callback(parameter_name, node_name, callback)
 
     def remove_parameter_callback(self, handle: ParameterCallbackHandle) -> None:
         """No longer call a callback. Raises RuntimeError if it is not (or no longer) called."""
@@ -151,10 +156,3 @@ class ParameterEventHandler:
     def remove_parameter_event_callback(self, handle: ParameterEventCallbackHandle) -> None:
         """No longer call a callback. Raises RuntimeError if it is not (or no longer) called."""
         self._callbacks.remove_parameter_event_callback(handle)
-
-    def _resolve_path(self, node_path: str | None) -> str:
-        if not node_path:
-            return self.node.get_fully_qualified_name()
-        if node_path.startswith("/"):
-            return node_path
-        return f"{self.node.get_namespace().rstrip('/')}/{node_path}"

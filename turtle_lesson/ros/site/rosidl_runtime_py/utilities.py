@@ -6,6 +6,7 @@ AttributeError where there is no such interface, ValueError where it is one of a
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from rosidl_parser.definition import NamespacedType
@@ -20,25 +21,23 @@ def get_interface(identifier: str) -> Any:
 
 def get_message(identifier: str) -> Any:
     """The class of a message: `geometry_msgs/msg/Twist`, or `geometry_msgs/Twist`."""
-    interface = import_message_from_namespaced_type(get_message_namespaced_type(identifier))
-    if not is_message(interface):
-        raise ValueError(f"Expected the full name of a message, got '{identifier}'")
-    return interface
+    return _checked(identifier, get_message_namespaced_type(identifier), is_message, "a message")
 
 
 def get_service(identifier: str) -> Any:
     """The class of a service: `std_srvs/srv/Empty`, or `std_srvs/Empty`."""
-    interface = import_message_from_namespaced_type(get_service_namespaced_type(identifier))
-    if not is_service(interface):
-        raise ValueError(f"Expected the full name of a service, got '{identifier}'")
-    return interface
+    return _checked(identifier, get_service_namespaced_type(identifier), is_service, "a service")
 
 
 def get_action(identifier: str) -> Any:
     """The class of an action: `turtlesim/action/RotateAbsolute`, or `turtlesim/RotateAbsolute`."""
-    interface = import_message_from_namespaced_type(get_action_namespaced_type(identifier))
-    if not is_action(interface):
-        raise ValueError(f"Expected the full name of an action, got '{identifier}'")
+    return _checked(identifier, get_action_namespaced_type(identifier), is_action, "an action")
+
+
+def _checked(identifier: str, type_: NamespacedType, fits: Callable[[Any], bool], what: str) -> Any:
+    interface = import_message_from_namespaced_type(type_)
+    if not fits(interface):
+        raise ValueError(f"Expected the full name of {what}, got '{identifier}'")
     return interface
 
 
