@@ -23,10 +23,6 @@ if not TYPE_CHECKING:
     __getattr__ = explain_missing(__name__)
 
 
-# -- filters ------------------------------------------------------------------------------------------------------
-# What all filters have in common, and the first one of a row: a subscription.
-
-
 class SimpleFilter:
     """Hands what comes out of it to callbacks."""
 
@@ -89,10 +85,6 @@ def _not_three(args: tuple[Any, ...]) -> TypeError:
     return error
 
 
-# -- cache --------------------------------------------------------------------------------------------------------
-# The last messages of a topic, to be looked up by their time.
-
-
 class Cache(SimpleFilter):
     """Keeps the last `cache_size` messages that come out of the filter `f`, in the order in which they come."""
 
@@ -150,10 +142,6 @@ class Cache(SimpleFilter):
         return list(zip(self.cache_msgs, self.cache_times, strict=True))
 
 
-# -- stamps -------------------------------------------------------------------------------------------------------
-# When a message was made: by its header, or by the clock for those that have none.
-
-
 def stamp_of(msg: Any, allow_headerless: bool, logger: str) -> Time | None:
     """A message's time; None, with a warning, for a message without header where that is not allowed."""
     if hasattr(msg, "header") and hasattr(msg.header, "stamp"):
@@ -173,9 +161,6 @@ def _warn(name: str, kind: str) -> None:
         "at which it comes"
     )
 
-
-# -- synchronizers ------------------------------------------------------------------------------------------------
-# Messages of several topics that belong together, because they were made at the same time, or nearly so.
 
 Queue = dict[int, Any]
 """Messages by their stamp in nanoseconds."""

@@ -10,9 +10,6 @@ from typing import Any
 
 from turtle_lesson.ros.idl.names import nearest
 
-# -- mistakes -----------------------------------------------------------------------------------------------------
-# Mistakes that learners make, and the sentences that help them. Nothing here runs unless something went wrong.
-
 
 def shown(value: object) -> str:
     """A value as an error text shows it: without the addresses that Python prints for functions."""
@@ -99,10 +96,6 @@ def explain_event_loop(error: Exception) -> None:
 
 
 _PARTS = {"Subscription": ("message", "info"), "Service": ("request", "response")}
-
-
-# -- missing ------------------------------------------------------------------------------------------------------
-# What this rclpy does not have says so, instead of failing as if it had never existed.
 
 
 def explain_missing(module: str) -> Callable[[str], Any]:

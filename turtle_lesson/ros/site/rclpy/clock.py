@@ -210,16 +210,11 @@ class ROSClock(Clock):
             handle.after(jump)
 
 
-# -- time jumps ---------------------------------------------------------------------------------------------------
-# Jumps of a clock: when ROS time begins or ends to follow /clock, or is set to another time, its callbacks are
-# called.
-# What is told to whom are the rules of rcl's time.c. Everybody knows these classes as `rclpy.clock.…`.
+# -- jumps of a clock: what is told to whom are the rules of rcl's time.c ---------------------------------------------
 
 
 class ClockChange(IntEnum):
     """Whether a jump changes the source of ROS time: /clock (activated), or the system's clock (deactivated)."""
-
-    __module__ = "rclpy.clock"
 
     ROS_TIME_NO_CHANGE = 1
     ROS_TIME_ACTIVATED = 2
@@ -245,8 +240,6 @@ class JumpThreshold:
         ValueError: if a duration has the wrong sign, or no jump at all is wanted.
     """
 
-    __module__ = "rclpy.clock"
-
     def __init__(
         self, *, min_forward: Duration | None, min_backward: Duration | None, on_clock_change: bool = True
     ) -> None:
@@ -263,8 +256,6 @@ class JumpThreshold:
 
 class TimeJump:
     """A jump: whether the source of time changed, and how far it went (a Duration, negative for back)."""
-
-    __module__ = "rclpy.clock"
 
     def __init__(self, clock_change: ClockChange, delta: Duration) -> None:
         if not isinstance(clock_change, ClockChange):
@@ -288,8 +279,6 @@ class TimeJump:
 
 class JumpHandle:
     """Made by `Clock.create_jump_callback`. As a context manager it ends with its block."""
-
-    __module__ = "rclpy.clock"
 
     def __init__(
         self,

@@ -42,8 +42,6 @@ if TYPE_CHECKING:
 class Executor(ExecutorBase):
     """Base class: waits, chooses and runs. Subclasses may override `spin_once`, which `spin` calls."""
 
-    __module__ = "rclpy.executors"
-
     def __init_subclass__(cls, **keywords: Any) -> None:
         """Let an executor of a program's own be spun from a plain notebook cell, too."""
         super().__init_subclass__(**keywords)
@@ -258,8 +256,6 @@ class MultiThreadedExecutor(Executor):
 
     The threads are strands: while one waits or sleeps, another runs; none runs at the same instant of real time.
     """
-
-    __module__ = "rclpy.executors"
 
     def __init__(self, num_threads: int | None = None, *, context: Context | None = None) -> None:
         super().__init__(context=context)

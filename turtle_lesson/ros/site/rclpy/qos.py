@@ -12,9 +12,6 @@ from ._hints import did_you_mean, explain_missing
 from .duration import Duration, Infinite
 from .exceptions import RCLError
 
-# -- qos policies -------------------------------------------------------------------------------------------------
-# The policies of a quality of service, as enumerations. Their numbers are those of rmw's types.h.
-
 
 class QoSPolicyEnum(IntEnum):
     """Base class: what all policies can do."""

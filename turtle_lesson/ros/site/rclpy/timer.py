@@ -209,21 +209,12 @@ class Timer(Entity):
         super().destroy()
 
 
-__getattr__ = borrowed(__name__)
-
-
-# -- rate ---------------------------------------------------------------------------------------------------------
-# Rates to sleep by. Everybody knows them as `rclpy.timer.Rate`.
-
-
 class Rate:
     """Made by `Node.create_rate`: `sleep()` returns when its timer ticks. Another thread must be spinning the node.
 
     A tick that came while nobody slept is not lost: the next `sleep` returns at once, once (rclpy's timer.py). That is why
     a loop of `rclpy.spin_once(node)` and `rate.sleep()` works if the timer is all that the node has.
     """
-
-    __module__ = "rclpy.timer"
 
     def __init__(self, timer: Timer, *, context: Context) -> None:
         self._timer = timer
@@ -303,3 +294,6 @@ class Rate:
         self._is_destroyed = True
         for alarm in self._sleepers:
             alarm.ring()
+
+
+__getattr__ = borrowed(__name__)

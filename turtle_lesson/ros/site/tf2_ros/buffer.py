@@ -27,7 +27,8 @@ class Buffer(BufferCore, BufferInterface):
         cache_time: how long transforms are kept; 10 s if left out.
         node: one that shall offer the service `tf2_frames`, which lists all frames as YAML.
 
-    Where a `timeout` is given, lookups wait that long at most, in robot time, and hold up their thread meanwhile.
+    Where a `timeout` is given, lookups wait that long at most, in robot time, and hold up their thread meanwhile. So in a
+    callback of a single-threaded executor no transform can come while one is waited for, here as on a robot.
     """
 
     def __init__(self, cache_time: Duration | None = None, node: Node | None = None) -> None:
@@ -162,11 +163,6 @@ class Buffer(BufferCore, BufferInterface):
             self._waiting.append(waiting)
         return waiting.future
 
-
-# -- waiting ------------------------------------------------------------------------------------------------------
-# Waiting for a transform: by looking again and again, as tf2_ros does, or by a future.
-# Facts: geometry2, tf2_ros_py/tf2_ros/buffer.py. What waits holds up its thread. So in a callback of a single-
-# threaded executor no transform can come while one is waited for, here as on a robot.
 
 PAUSE = 0.02
 """Seconds between two looks."""

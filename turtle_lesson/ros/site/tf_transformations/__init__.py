@@ -103,9 +103,6 @@ def _with_repeated_axis(turn: npt.NDArray[np.float64], a: int, b: int) -> Angles
     return first, middle, math.atan2(turn[a, b], sign * turn[a, other])
 
 
-# -- matrices -----------------------------------------------------------------------------------------------------
-# 4 × 4 matrices that turn, shift and scale.
-
 Matrix = npt.NDArray[np.float64]
 
 
@@ -147,9 +144,6 @@ def concatenate_matrices(*matrices: Any) -> Matrix:
         product = product @ np.asarray(matrix, dtype=np.float64)
     return product
 
-
-# -- quaternions --------------------------------------------------------------------------------------------------
-# Quaternions (x, y, z, w).
 
 Numbers = tuple[float, float, float, float]
 EPSILON = float(np.finfo(float).eps) * 4.0
@@ -239,10 +233,6 @@ def quaternion_slerp(quat0: Any, quat1: Any, fraction: float, spin: int = 0, sho
     if abs(angle) < EPSILON:
         return start
     return (math.sin((1.0 - fraction) * angle) * start + math.sin(fraction * angle) * end) / math.sin(angle)
-
-
-# -- vectors ------------------------------------------------------------------------------------------------------
-# Vectors of any length.
 
 
 def vector_norm(data: Any, axis: int | None = None, out: Any = None) -> Any:

@@ -169,10 +169,6 @@ def _advice(state: int, event: GoalEvent) -> str:
     )
 
 
-# -- goal handle --------------------------------------------------------------------------------------------------
-# A goal, as its server sees it.
-
-
 class ServerGoalHandle:
     """A goal that the server has accepted. Made by ActionServer; callbacks are given it.
 

@@ -290,7 +290,6 @@ class ActionClient:
 class ClientGoalHandle:
     """A goal, as the client sees it that has sent it. Made by ActionClient."""
 
-    __module__ = "rclpy.action.client"
     __class_getitem__: Any = classmethod(
         GenericAlias
     )  # newer releases: ClientGoalHandle[Goal, Result, Feedback] in a hint

@@ -38,16 +38,12 @@ if TYPE_CHECKING:
 class GoalResponse(Enum):
     """What a goal_callback answers."""
 
-    __module__ = "rclpy.action.server"
-
     REJECT = 1
     ACCEPT = 2
 
 
 class CancelResponse(Enum):
     """What a cancel_callback answers."""
-
-    __module__ = "rclpy.action.server"
 
     REJECT = 1
     ACCEPT = 2

@@ -215,10 +215,6 @@ def _told(callback: Callable[..., Any], error: Exception) -> str:
     )
 
 
-# -- services -----------------------------------------------------------------------------------------------------
-# The five services through which a managed node is asked about its states, and told to change them.
-
-
 class LifecycleServices:
     """Made by a managed node for itself. `change(transition_id)` does a transition, and returns whether it succeeded."""
 
