@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from turtle_lesson.ros.runtime.world import World, open_world
-from turtle_lesson.turtlesim.rotation import float32
+from turtle_lesson.turtlesim.turtle import float32
 
 # isort: split
 # Importing turtle_lesson made these packages importable.

@@ -19,8 +19,7 @@ from turtlesim.action import RotateAbsolute
 from turtlesim.msg import Pose
 from turtlesim.srv import Kill, Spawn
 
-from turtle_lesson.turtlesim.rotation import PI, Rotation, float32, normalized
-from turtle_lesson.turtlesim.turtle import TICK
+from turtle_lesson.turtlesim.turtle import PI, TICK, Rotation, float32, normalized
 from turtle_lesson.turtlesim.world import TurtleWorld
 
 RECORDED = Path(__file__).parents[2] / "shared" / "golden" / "turtlesim_cli.txt"

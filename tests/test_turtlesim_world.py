@@ -12,8 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from turtle_lesson.turtlesim.canvas import BARE, DEFAULT_PEN, Canvas
-from turtle_lesson.turtlesim.rotation import float32
-from turtle_lesson.turtlesim.turtle import HEIGHT, WIDTH, Turtle, TurtleError
+from turtle_lesson.turtlesim.turtle import HEIGHT, WIDTH, Turtle, TurtleError, float32
 from turtle_lesson.turtlesim.world import TurtleWorld
 
 DATA = Path(__file__).parent / "data" / "turtlesim"

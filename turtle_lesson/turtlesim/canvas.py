@@ -43,9 +43,6 @@ class Canvas:
     def __init__(self) -> None:
         self.cells: dict[int, Colour] = {}
 
-    def __repr__(self) -> str:
-        return f"<Canvas: {len(self.cells)} cells drawn>"
-
     def colour_at(self, x: float, y: float) -> Colour:
         """Return the colour at the point (x, y), in metres."""
         return self.cells.get(cell_at(x, y), BARE)

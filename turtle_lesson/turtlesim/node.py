@@ -113,8 +113,7 @@ class TurtlesimNode(Node):
         self.get_logger().info(f"Spawning turtle [{turtle.name}] at x=[{x:f}], y=[{y:f}], theta=[{theta:f}]")
 
     def _declare_background(self) -> None:
-        """Declare background_r, _g and _b, and listen for their changes as the real one does to repaint its
-        window."""
+        """Declare background_r, _g and _b, and listen for their changes as the real one does to repaint its window."""
         for letter, (colour, value) in BACKGROUND.items():
             descriptor = ParameterDescriptor(
                 description=f"{colour} channel of the background color",

@@ -1,8 +1,7 @@
 """Obstacles that a page places in the world: circles and boxes, and how they travel as a ROS message.
 
-They stand on the floor of the turtles' world (11.09 m by 11.09 m, the origin in the lower left corner) and
-never move. A turtle drives through them, as through the real turtlesim's empty world; a range sensor sees
-them.
+They stand on the floor of the turtles' world (11.09 m by 11.09 m, the origin in the lower left corner) and never move.
+A turtle drives through them, as through the real turtlesim's empty world; a range sensor sees them.
 """
 
 import difflib
@@ -21,9 +20,7 @@ MARKER_HEIGHT = 0.5
 """Height in metres at which a marker is drawn; the turtles' world itself is flat."""
 
 COLOUR = (0.90, 0.62, 0.0, 1.0)
-"""Red, green, blue and opacity: the orange of Okabe and Ito's palette, told apart from the turtle's blues by
-all eyes."""
-
+"""Red, green, blue and opacity: the orange of Okabe and Ito's palette, told apart from the turtle's blues by all eyes."""
 
 _EXAMPLES = {"Circle": "Circle(x=3.0, y=4.0, radius=0.5)", "Box": "Box(x=3.0, y=4.0, width=2.0, height=0.5)"}
 
@@ -36,14 +33,11 @@ def _check_numbers(obstacle: "Circle | Box", positive: tuple[str, ...]) -> None:
         if number and math.isfinite(value) and (field.name not in positive or value > 0):
             object.__setattr__(obstacle, field.name, float(value))
         else:
+            kind = type(obstacle).__name__
+            wanted = "a number above zero" if field.name in positive else "a finite number"
+            unit = "radians" if field.name == "angle" else "metres"
             error = ValueError if number else TypeError
-            raise error(_complaint(type(obstacle).__name__, field.name, value, field.name in positive))
-
-
-def _complaint(kind: str, field: str, value: object, positive: bool) -> str:
-    wanted = "a number above zero" if positive else "a finite number"
-    unit = "radians" if field == "angle" else "metres"
-    return f"{kind}: {field} must be {wanted}, in {unit}, not {value!r}; try {_EXAMPLES[kind]}"
+            raise error(f"{kind}: {field.name} must be {wanted}, in {unit}, not {value!r}; try {_EXAMPLES[kind]}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,8 +57,7 @@ class Circle:
 
 @dataclass(frozen=True, slots=True)
 class Box:
-    """A rectangular obstacle: middle (x, y), width along its own x axis and height along its own y axis, in
-    metres.
+    """A rectangular obstacle: middle (x, y), width along its own x axis and height along its own y axis, in metres.
 
     ``angle`` in radians turns it about its middle, counter-clockwise.
     """
@@ -104,8 +97,7 @@ WORLDS: dict[str, tuple[Obstacle, ...]] = {
 
 
 def world_named(name: str) -> tuple[Obstacle, ...]:
-    """Return the obstacles of an example world. Raises KeyError, with the names there are, for any other
-    name."""
+    """Return the obstacles of an example world. Raises KeyError, with the names there are, for any other name."""
     if name in WORLDS:
         return WORLDS[name]
     close = difflib.get_close_matches(str(name), WORLDS, n=1)
@@ -138,8 +130,7 @@ def to_marker_array(obstacles: Iterable[Obstacle], stamp: Any) -> "MarkerArray":
 
 
 def from_marker_array(message: "MarkerArray") -> tuple[Obstacle, ...]:
-    """Return the obstacles that a ``visualization_msgs/MarkerArray`` shows; the inverse of
-    ``to_marker_array``.
+    """Return the obstacles that a ``visualization_msgs/MarkerArray`` shows; the inverse of ``to_marker_array``.
 
     Markers are taken in their order: DELETEALL forgets all before it, DELETE the one of the same namespace
     and number. Raises ValueError for a marker that is neither an upright round CYLINDER nor a CUBE.

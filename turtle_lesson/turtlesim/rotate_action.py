@@ -12,8 +12,7 @@ from rclpy.node import Node
 from rclpy.task import Future
 from turtlesim.action import RotateAbsolute
 
-from turtle_lesson.turtlesim.rotation import Rotation, float32
-from turtle_lesson.turtlesim.turtle import LARGEST, Turtle
+from turtle_lesson.turtlesim.turtle import LARGEST, Rotation, Turtle, float32
 
 
 class RotateAction:

@@ -18,10 +18,10 @@ from then on, or beyond what its message can hold).
 """
 
 import math
+import struct
 from collections import deque
 
 from turtle_lesson.turtlesim.canvas import BARE, CELL, DEFAULT_PEN, Canvas, Colour, cell_at
-from turtle_lesson.turtlesim.rotation import PI, TWO_PI, Rotation, float32
 
 TICK_MS = 16
 TICK = 0.001 * TICK_MS
@@ -35,12 +35,59 @@ LARGEST = 1e38
 """The largest number that is taken for a speed or a place: what comes of it still fits into a float32."""
 
 
+PI = 3.14159265
+TWO_PI = 2.0 * PI
+CLOSE = 0.02
+"""How near to a heading (rad) ends a rotation."""
+
+
+def float32(value: float) -> float:
+    """Round to the precision of a float32, as a message does."""
+    return float(struct.unpack("f", struct.pack("f", value))[0])
+
+
+def normalized(angle: float) -> float:
+    """The same angle in [-pi, pi)."""
+    return angle - TWO_PI * math.floor((angle + PI) / TWO_PI)
+
+
 class TurtleError(ValueError):
     """Something was asked of the world that it cannot do; the text says what, and is what the node logs."""
 
 
 WIDTH = HEIGHT = float32(499 / 45)
 """Size of the world in metres, 11.088889: 499 pixels, 45 to the metre."""
+
+
+class Rotation:
+    """A turn to a heading at 1 rad/s, the shorter way round, as the action ``rotate_absolute`` makes it.
+
+    The arithmetic is that of ``turtle.cpp``, with its float32 here and there. ``step`` looks once a tick, before the turtle
+    moves.
+
+    Attributes:
+        remaining: what is left to turn, in rad; negative to the right.
+        delta: from where the turtle is heading to where it was heading at first, in rad.
+        reached: whether it is there.
+    """
+
+    __slots__ = ("_goal", "_start", "delta", "reached", "remaining")
+
+    def __init__(self, goal: float, heading: float) -> None:
+        self._goal = normalized(goal)
+        self._start = heading
+        self.remaining = self.delta = 0.0
+        self.reached = False
+
+    def step(self, heading: float) -> float:
+        """The speed to turn at now, in rad/s."""
+        off = self._goal - float32(heading)
+        self.remaining = normalized(off)
+        self.delta = normalized(float32(self._start - heading))
+        if abs(normalized(-off)) < CLOSE:
+            self.reached = True
+            return 0.0
+        return -1.0 if self.remaining < 0.0 else 1.0
 
 
 class Turtle:

@@ -9,8 +9,7 @@ from typing import NamedTuple
 
 from turtle_lesson.turtlesim.canvas import Canvas
 
-from .rotation import float32
-from .turtle import HEIGHT, LARGEST, TICK, WIDTH, Turtle, TurtleError
+from .turtle import HEIGHT, LARGEST, TICK, WIDTH, Turtle, TurtleError, float32
 
 __all__ = ["HEIGHT", "TICK", "WIDTH", "Turtle", "TurtleError", "TurtleWorld", "WallHit"]
 
@@ -18,8 +17,7 @@ _NAME = re.compile(r"/?[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*")
 
 
 class WallHit(NamedTuple):
-    """A turtle that a wall held up in this tick, and where it would have been (m; y flipped: from the upper
-    wall)."""
+    """A turtle that a wall held up in this tick, and where it would have been (m; y flipped: from the upper wall)."""
 
     turtle: Turtle
     x: float
@@ -27,8 +25,7 @@ class WallHit(NamedTuple):
 
 
 class TurtleWorld:
-    """Turtles in the order in which they were spawned, on one canvas, in a world of 11.088889 m by 11.088889
-    m."""
+    """Turtles in the order in which they were spawned, on one canvas, in a world of 11.088889 m by 11.088889 m."""
 
     def __init__(self) -> None:
         self.turtles: dict[str, Turtle] = {}
@@ -36,29 +33,20 @@ class TurtleWorld:
         self._last_number = 0
         self.spawn_in_the_middle()
 
-    def __repr__(self) -> str:
-        return f"<TurtleWorld: {', '.join(self.turtles) or 'no turtles'}>"
-
     def tick(self) -> list[WallHit]:
         """Move all turtles on by 16 ms. Returns those that hit a wall."""
         canvas = self.canvas
-        hits = []
-        for turtle in self.turtles.values():
-            place = turtle.tick(canvas)
-            if place is not None:
-                hits.append(WallHit(turtle, *place))
-        return hits
+        return [WallHit(turtle, *at) for turtle in self.turtles.values() if (at := turtle.tick(canvas)) is not None]
 
     def spawn_in_the_middle(self) -> Turtle:
         """Add a turtle in the middle of the world, facing +x, with the next automatic name."""
         return self.spawn(WIDTH / 2, HEIGHT / 2, 0.0)
 
     def spawn(self, x: float, y: float, theta: float, name: str = "") -> Turtle:
-        """Add a turtle at (x, y) in metres, heading theta in radians; a place beyond a wall is moved to the
-        wall.
+        """Add a turtle at (x, y) in metres, heading theta in radians; a place beyond a wall is moved to the wall.
 
-        Without a name it gets the next free one: turtle1, turtle2, and so on. Raises TurtleError if the name
-        is taken or cannot be part of a topic's name, or if the place is no finite number.
+        Without a name it gets the next free one: turtle1, turtle2, and so on. Raises TurtleError if the name is taken or
+        cannot be part of a topic's name, or if the place is no finite number.
         """
         if not (abs(x) <= LARGEST and abs(y) <= LARGEST and abs(theta) <= LARGEST):
             raise TurtleError(
