@@ -9,11 +9,10 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator, Sequence
+from difflib import get_close_matches
 from functools import cache
 from itertools import chain, combinations
-
-from ..lab.words import did_you_mean
-from ..session.ros_detection import HERE
+from pathlib import Path
 
 PAGES = (
     "00_welcome",
@@ -32,6 +31,9 @@ PAGES = (
 )
 """The lesson's pages, in their order."""
 
+HERE = Path(__file__).resolve().parents[1]
+FINISHED = HERE / "robot_controller"
+"""The finished package, as a folder of ROS's."""
 PUBLISHED = HERE / "pages" if (HERE / "pages").is_dir() else HERE.parent / "notebooks"
 """The published pages: in `notebooks` of a checkout; a wheel has them beside the modules."""
 
@@ -47,9 +49,9 @@ def page_named(name: str) -> str:
     matches = [page for page in PAGES if name in (page, page.partition("_")[0])]
     if matches:
         return matches[0]
-    hint = did_you_mean(name, PAGES) if isinstance(name, str) else ""
-    known = f"There are {', '.join(PAGES)}."
-    raise ValueError(f"there is no page {name!r}. {hint or known}")
+    near = get_close_matches(name.lower(), PAGES, n=1) if isinstance(name, str) else []
+    hint = f'Did you mean "{near[0]}"?' if near else f"There are {', '.join(PAGES)}."
+    raise ValueError(f"there is no page {name!r}. {hint}")
 
 
 def files_before(page: str) -> dict[str, str]:

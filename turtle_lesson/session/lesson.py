@@ -7,7 +7,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..learner.story import page_named
+from ..learner.story import FINISHED, page_named
 from ..learner.workspace import Workspace, workspace
 from ..ros.ament.package import read_source_package
 from ..ros.ament.source import make_importable
@@ -21,7 +21,7 @@ from ..ros.sim.keyboard import key_named
 from ..ros.sim.simulation import EPOCH, NANOSECONDS
 from .inspection import Inspection
 from .live import Player
-from .ros_detection import HERE, SIMULATOR, real_ros, underlay_packages
+from .ros_detection import SIMULATOR, real_ros, underlay_packages
 from .views import Views
 
 if TYPE_CHECKING:
@@ -36,7 +36,6 @@ if TYPE_CHECKING:
     from .check_target import CheckTarget
 
 
-FINISHED = HERE / "robot_controller"
 LONGEST_RUN = 1e9
 """Seconds of robot time that one run may take: thirty years are enough for every mistake."""
 

@@ -48,8 +48,8 @@ def on_site() -> list[Expectation]:
 
 
 def _exported(probe: Probe) -> Seen:
+    from ...learner.story import FINISHED
     from ...learner.workspace import workspace
-    from ...session.lesson import FINISHED
 
     elsewhere = {"your workspace": workspace().folder, "the finished package": FINISHED}
     for program in page_10.PROGRAMS:
