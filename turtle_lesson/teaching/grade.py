@@ -41,7 +41,7 @@ GRACE = 15.0
 """Real time, s, that a copy's process has to start and to clean up; after that it is killed."""
 
 HOME = Path(__file__).resolve().parents[1]
-FRESH = ("lab/checks/*.py", "lab/troubles/*.py", "lab/words.py", "lab/words.py", "session/check_target.py")
+FRESH = ("lab/checks/*.py", "lab/troubles/*.py", "lab/words.py", "session/check_target.py")
 """The checking code in the package: what decides whether something that was seen is as it should be."""
 
 OWN_CASE = "trouble"

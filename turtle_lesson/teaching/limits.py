@@ -62,7 +62,7 @@ def apply(memory: float) -> None:
         "RLIMIT_FSIZE": LARGEST_FILE,
         "RLIMIT_CORE": 0,
         "RLIMIT_NOFILE": 2048,
-        "RLIMIT_NPROC": _mine() + PROCESSES,
+        "RLIMIT_NPROC": _threads_of_this_user() + PROCESSES,
     }
     for name, value in most.items():
         with contextlib.suppress(AttributeError, OSError, ValueError):  # macOS refuses some
@@ -78,8 +78,7 @@ def apply(memory: float) -> None:
                 resource.setrlimit(kind, (limit, limit))
 
 
-def _mine() -> int:
-    """How many threads all processes of this user have."""
+def _threads_of_this_user() -> int:
     found = 0
     for each in psutil.process_iter():
         with contextlib.suppress(psutil.Error):

@@ -59,10 +59,8 @@ def _parser() -> argparse.ArgumentParser:
         description="Open the lesson's pages in JupyterLab (the default), reset them, grade copies, strip solutions.",
     )
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    _add_open(commands)
-    _add_grade(commands)
-    _add_reset(commands)
-    _add_student(commands)
+    for add in (_add_open, _add_grade, _add_reset, _add_student):
+        add(commands)
     return parser
 
 
@@ -114,8 +112,11 @@ def _add_reset(commands: argparse._SubParsersAction) -> None:
 
 
 def _add_student(commands: argparse._SubParsersAction) -> None:
-    text = "Write a page without its solutions and outputs."
-    student = commands.add_parser("student", help="a page without solutions and outputs", description=text)
+    student = commands.add_parser(
+        "student",
+        help="a page without solutions and outputs",
+        description="Write a page without its solutions and outputs.",
+    )
     student.add_argument("notebook", type=Path, metavar="NOTEBOOK")
     where = "file or folder to write to (default: NAME.student.ipynb beside it)"
     student.add_argument("--to", type=Path, metavar="PATH", help=where)
@@ -145,7 +146,11 @@ def _grade(options: argparse.Namespace) -> int:
     copies = pages.find(options.paths)
     if not copies:
         raise pages.PageError(f"there is no notebook in {', '.join(map(str, options.paths))}")
-    graded = grade(copies, options.timeout, options.jobs, _tell, options.memory)
+
+    def tell(done: int, amount: int, copy: Graded) -> None:
+        print(f"{done} of {amount}: {in_a_line(copy)}", file=sys.stderr, flush=True)
+
+    graded = grade(copies, options.timeout, options.jobs, tell, options.memory)
     print(json.dumps(as_json(graded), indent=1, ensure_ascii=False) if options.json else in_words(graded))
     if options.csv is not None:
         try:
@@ -153,10 +158,6 @@ def _grade(options: argparse.Namespace) -> int:
         except OSError as error:
             raise pages.PageError(f"{options.csv} cannot be written: {error.strerror}") from None
     return 1 if any(copy.problem for copy in graded) else 0
-
-
-def _tell(done: int, amount: int, copy: Graded) -> None:
-    print(f"{done} of {amount}: {in_a_line(copy)}", file=sys.stderr, flush=True)
 
 
 def _open(options: argparse.Namespace) -> int:
@@ -174,20 +175,15 @@ def _reset(options: argparse.Namespace) -> int:
     published = pages.published(path, options.source)
     mine = learner.is_learners(home)
     kept = learner.LearnersFolder(home).reset(path, published) if mine else pages.reset(path, published)
-    print(
-        f"{options.notebook} is as it was published."
-        + (f" Yours is kept as {kept.name}." if kept else " It already was.")
-    )
+    yours = f"Yours is kept as {kept.name}." if kept else "It already was."
+    print(f"{options.notebook} is as it was published. {yours}")
     return 0
 
 
 def _student(options: argparse.Namespace) -> int:
     written, removed = pages.without_solutions(options.notebook, options.to)
-    print(
-        f"{written}: {removed} cells with solutions were left out."
-        if removed != 1
-        else f"{written}: 1 cell with a solution was left out."
-    )
+    cells = "1 cell with a solution was" if removed == 1 else f"{removed} cells with solutions were"
+    print(f"{written}: {cells} left out.")
     return 0
 
 

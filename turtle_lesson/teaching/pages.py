@@ -24,15 +24,14 @@ class PageError(Exception):
 
 def find(paths: Iterable[Path]) -> list[Path]:
     """The files that are named, and the notebooks in the folders that are; each once, in order."""
-    found: dict[Path, None] = {}
+    found: list[Path] = []
     for path in paths:
-        inside = sorted(path.rglob("*.ipynb")) if path.is_dir() else [path]
-        found |= dict.fromkeys(each for each in inside if not path.is_dir() or not _hidden(each.relative_to(path)))
-    return list(found)
-
-
-def _hidden(path: Path) -> bool:
-    return any(part.startswith(".") for part in path.parts)
+        if path.is_dir():
+            inside = sorted(path.rglob("*.ipynb"))
+            found += [each for each in inside if not any(part[0] == "." for part in each.relative_to(path).parts)]
+        else:
+            found.append(path)
+    return list(dict.fromkeys(found))
 
 
 def read(path: Path) -> Any:
@@ -115,15 +114,14 @@ def published(path: Path, source: Path | None = None) -> bytes:
         raise PageError(f"{path} is not a notebook: its name should end in .ipynb")
     name = _published_name(path)
     content = find_published(name, source)
-    file = PUBLISHED / name
-    if source is not None and content is None:
+    if content is None and source is not None:
         raise PageError(f"there is no {name} in {source}")
     if content is None:
         raise PageError(
             f"the published {name} is not here (it would be in {PUBLISHED}). Name a folder of published pages: "
             "--from FOLDER"
         )
-    if source is None and file.resolve() == path.resolve() and _from_git(name) is None:
+    if source is None and (PUBLISHED / name).resolve() == path.resolve() and _from_git(name) is None:
         raise PageError(
             f"{name} is the published page itself, and the checkout has no version control that could restore it. "
             "Download the lesson again, and name its folder of notebooks: --from FOLDER"
@@ -169,7 +167,7 @@ def _from_git(name: str) -> bytes | None:
 def without_solutions(path: Path, to: Path | None = None) -> tuple[Path, int]:
     """Write a page without outputs and the cells tagged "solution"; returns where, and how many cells that were."""
     notebook = clear(read(path))
-    target = _target(path, to)
+    target = path.with_name(f"{path.stem}.student.ipynb") if to is None else to / path.name if to.is_dir() else to
     cells = [cell for cell in notebook.cells if SOLUTION not in cell.metadata.get("tags", [])]
     removed = len(notebook.cells) - len(cells)
     notebook.cells = cells
@@ -183,9 +181,3 @@ def without_solutions(path: Path, to: Path | None = None) -> tuple[Path, int]:
     except OSError as error:
         raise PageError(f"{target} cannot be written: {error.strerror}") from None
     return target, removed
-
-
-def _target(path: Path, to: Path | None) -> Path:
-    if to is None:
-        return path.with_name(f"{path.stem}.student.ipynb")
-    return to / path.name if to.is_dir() else to
