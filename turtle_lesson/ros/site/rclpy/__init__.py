@@ -93,12 +93,12 @@ def get_global_executor() -> Executor:
 
     `rclpy.shutdown()` shuts it down, too: so `rclpy.spin` in another thread returns in silence (rclpy's __init__.py).
     """
-    shelf = current_process().locals
-    executor = shelf.get("rclpy.executor")
+    data = current_process().locals
+    executor = data.get("rclpy.executor")
     if executor is None or not executor.context.ok():
         from .executors import SingleThreadedExecutor
 
-        executor = shelf["rclpy.executor"] = SingleThreadedExecutor()
+        executor = data["rclpy.executor"] = SingleThreadedExecutor()
         if executor.context.ok():
             executor.context.on_shutdown(executor.shutdown)
     return executor

@@ -74,7 +74,7 @@ def spin_live(function: Callable[[], None]) -> None:
         raise call.error
 
 
-class Alarm:
+class WakeUp:
     """Holds up the running strand in `wait`, until a time of the simulation, or until somebody calls `ring`.
 
     A shutdown of its context rings it, too.
@@ -84,13 +84,13 @@ class Alarm:
         strand = running_strand()
         assert strand is not None
         self.strand = strand
-        self.rung = False
+        self.woken = False
         self._context = context
-        context.wake_at_the_end(self.ring)
+        context.wake_on_shutdown(self.wake)
 
-    def ring(self) -> None:
+    def wake(self) -> None:
         """End the waiting."""
-        self.rung = True
+        self.woken = True
         self.strand.simulation.wake(self.strand)
 
     def wait(self, deadline: int | None, *, only_from_within: bool = True) -> bool:
@@ -102,14 +102,14 @@ class Alarm:
         if deadline is not None and simulation.now < deadline:
             simulation.at(deadline, simulation.wake, strand)
         try:
-            while not self.rung and (deadline is None or simulation.now < deadline):
+            while not self.woken and (deadline is None or simulation.now < deadline):
                 if deadline is None and only_from_within:
                     wait_in_vain(strand, "the next tick")
                 simulation.park(strand)
         finally:
             strand.waits_for = None
-            self._context.let_sleep(self.ring)
-        return self.rung
+            self._context.forget_wake(self.wake)
+        return self.woken
 
 
 def somebody_spins(executor: Executor | None, strand: Strand) -> bool:

@@ -39,7 +39,7 @@ class Words:
     make: str = "create_client"
 
 
-def in_a_callback(words: Words) -> str:
+def advice_for_await(words: Words) -> str:
     """What to do instead of a synchronous call in a callback."""
     return (
         f"Make the callback `async def` and write `await {words.ask}`, with the {words.client} in a callback group of "
@@ -81,13 +81,13 @@ def advice_for_callbacks(strand: Strand) -> str:
 hints.append(advice_for_callbacks)
 
 
-def keeps_taken(group: Any) -> bool:
+def holds_group(group: Any) -> bool:
     """Whether the callback that is running here is what keeps a callback group taken."""
     holder = getattr(group, "_active_entity", None)
     return holder is not None and any(entity is holder for entity in callbacks_around())
 
 
-def know_worker(strand: Strand, executor: Executor) -> None:
+def register_worker(strand: Strand, executor: Executor) -> None:
     """Remember that a strand only runs the callbacks that an executor gives it."""
     strand.process.locals.setdefault("rclpy.workers", {})[strand] = executor
 
@@ -104,7 +104,7 @@ def others_may_act(strand: Strand) -> bool:
     is neither waiting forever itself nor is in `spin`, where it does nothing else.
     """
     executor = executor_of_worker(strand)
-    if executor is not None and not executor._spins_to_the_end:
+    if executor is not None and not executor._spinning_forever:
         return True
     others = (each for each in strand.process.strands if each is not strand and not each.dead)
     return any(each.waits_for is None and executor_of_worker(each) is None and not is_in_spin(each) for each in others)
@@ -144,15 +144,15 @@ def _why_nobody_serves(client: Client) -> str:
 def _why_not_taken(client: Client, strand: Strand, drives: bool) -> str:
     """Why nobody would take the answer."""
     words = client._words
-    if keeps_taken(client.callback_group):
+    if holds_group(client.callback_group):
         return (
             f"this callback waits for it and so keeps its callback group, and the {words.client} that would take the "
-            f"answer is in the same group. {in_a_callback(words)}"
+            f"answer is in the same group. {advice_for_await(words)}"
         )
     if drives or client._taken_elsewhere(strand) or (client._executor is None and others_may_act(strand)):
         return ""
     if callbacks_around():
-        return f"the thread that would take the answer is the one that waits here. {in_a_callback(words)}"
+        return f"the thread that would take the answer is the one that waits here. {advice_for_await(words)}"
     return (
         f"no executor spins {client._of_node!r} meanwhile, so nothing takes the answer. Write instead: "
         f"future = {words.ask}, then rclpy.spin_until_future_complete(node, future)."
@@ -170,7 +170,7 @@ def _why_not_served(client: Client, servers: list[ServerEnd], strand: Strand, dr
         )
         executor = service._executor
         spun = by_this_call or (others_may_act(strand) if executor is None else executor._spun_by_another(strand))
-        if spun and not keeps_taken(service.callback_group):
+        if spun and not holds_group(service.callback_group):
             return ""
     words, place = client._words, "notebook" if is_notebook(strand.process) else "process"
     if drives or not callbacks_around():
@@ -188,9 +188,9 @@ def _why_not_served(client: Client, servers: list[ServerEnd], strand: Strand, dr
 def why_never_done(future: Future, executor: Executor, strand: Strand) -> str:
     """Why spinning inside a callback until a future is done would take forever; '' if it need not, or in doubt."""
     client = future._answered_by
-    if client is None or future._done or not keeps_taken(client.callback_group):
+    if client is None or future._done or not holds_group(client.callback_group):
         return ""
-    if others_may_act(strand) or _somebody_may_complete(future, executor, keeps_taken):
+    if others_may_act(strand) or _somebody_may_complete(future, executor, holds_group):
         return ""
     return (
         f"this callback spins until {client.service_name} has answered, which can never happen: the callback keeps its "
@@ -205,7 +205,7 @@ def why_never_awaited(future: Future, task: Task, strand: Strand | None) -> str:
     client, entity, executor = future._answered_by, task._entity, task._executor
     if client is None or entity is None or executor is None or client.callback_group is not entity.callback_group:
         return ""
-    if client.callback_group.can_execute(client) or not executor._spins_to_the_end:
+    if client.callback_group.can_execute(client) or not executor._spinning_forever:
         return ""
     if _somebody_may_complete(future, executor, lambda group: group is entity.callback_group):
         return ""

@@ -79,17 +79,17 @@ class ExecutorBase:
         self._resumed: list[Task] = []
         self._polled: list[Task] = []  # whose coroutine only let others go first, as with asyncio.sleep(0)
         self._has_polled = False  # nothing has happened since they last looked
-        self._held_up: list[Entity] = []
+        self._blocked: list[Entity] = []
         self._waiter: Strand | None = None  # whom a signal wakes: the last of those who wait
         self._waiters: list[Strand] = []
         self._make_ready = self._simulation.make_ready
         self._tasks_in_order = current_world().release.has(TASKS_IN_ORDER)
         self._tasks_made = 0
         self._spinning: list[Strand] = []
-        self._spins_to_the_end: list[Strand] = []  # who is in `spin`, and does nothing else before the shutdown
+        self._spinning_forever: list[Strand] = []  # who is in `spin`, and does nothing else before the shutdown
         self._calls: list[Future] = []  # for what strands wait, without a timeout, in Client.call
         self._is_shutdown = False
-        self._context.wake_at_the_end(self.wake)
+        self._context.wake_on_shutdown(self.wake)
 
     @property
     def context(self) -> Context:
@@ -188,14 +188,14 @@ class ExecutorBase:
                 elif job._executor is self and job._has_work():
                     if job._begin(job):
                         return job
-                    self._held_up.append(job)
+                    self._blocked.append(job)
             if condition is not None and condition():
                 return None
             if self._signalled or self._resumed or (self._polled and not self._has_polled):
                 self._begin_cycle()
                 continue
             if self._is_shutdown or not self._context.ok():
-                self._say_it_is_shut_down()
+                self._raise_shutdown()
             if deadline is not None and self._simulation.now >= deadline:
                 if not self._polled:
                     return None
@@ -216,7 +216,7 @@ class ExecutorBase:
             self._polled, self._resumed = [], []
         self._batch = batch
 
-    def _say_it_is_shut_down(self) -> None:
+    def _raise_shutdown(self) -> None:
         raise ShutdownException if self._is_shutdown else ExternalShutdownException
 
     def _wait(self, strand: Strand, deadline: int | None) -> None:
@@ -269,18 +269,18 @@ class ExecutorBase:
                     traced.open.remove(begun)
                     traced.ended.append((ready, began, self._simulation.now))
                 job._end_run(job)
-                if self._held_up:
-                    self._release_held_up()
+                if self._blocked:
+                    self._retry_blocked()
 
-    def _release_held_up(self) -> None:
+    def _retry_blocked(self) -> None:
         """Let those look again who waited for a callback group."""
-        held_up, self._held_up = self._held_up, []
-        for waiting in held_up:
+        blocked, self._blocked = self._blocked, []
+        for waiting in blocked:
             waiting._signal()
 
     def _free(self, entity: Any) -> None:
         entity._end_run(entity)
-        self._release_held_up()
+        self._retry_blocked()
 
     def _as_task(self, entity: Any) -> Task:
         traced = entity._traced

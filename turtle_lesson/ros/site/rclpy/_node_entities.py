@@ -225,12 +225,12 @@ class NodeEntities(NodeGraph):
 
     def _ros_destroy(self, entity: Any) -> bool:
         if entity not in self._ros_waiting_entities:
-            return self._ros_let_go(entity)
+            return self._ros_destroy_outlived(entity)
         self._ros_waiting_entities.remove(entity)
         entity.destroy()
         return True
 
-    def _ros_let_go(self, end: Any) -> bool:
+    def _ros_destroy_outlived(self, end: Any) -> bool:
         """Destroy for good what rclpy.shutdown() has left; whether it has left that."""
         if end not in self._ros_outlived:
             return False
@@ -241,7 +241,7 @@ class NodeEntities(NodeGraph):
     def destroy_publisher(self, publisher: Publisher) -> bool:
         """Stop publishing; False if it is not this node's."""
         if publisher not in self._ros_publishers:
-            return self._ros_let_go(publisher)
+            return self._ros_destroy_outlived(publisher)
         self._ros_publishers.remove(publisher)
         publisher.destroy()
         return True

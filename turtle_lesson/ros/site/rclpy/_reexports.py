@@ -22,7 +22,7 @@ _TYPING = {
 _MESSAGE = {"rclpy.type_support": "MsgType=MsgT", "rclpy.event_handler": "QoSEventHandler"}
 _SERVICE = {"rclpy.type_support": "SrvType=SrvT SrvTypeRequest=SrvRequestT SrvTypeResponse=SrvResponseT"}
 
-BORROWED: dict[str, dict[str, str]] = {
+REEXPORTS: dict[str, dict[str, str]] = {
     "rclpy.node": _PARAMETERS
     | _TYPING
     | {
@@ -85,11 +85,11 @@ BORROWED: dict[str, dict[str, str]] = {
 """Per module: where it has names from. `here=there` is another name for it."""
 
 
-def borrowed(module: str) -> Callable[[str], Any]:
+def reexported(module: str) -> Callable[[str], Any]:
     """A module-level `__getattr__` that finds what `module` would have imported on a real ROS 2."""
     origins = {
         here: (origin, there or here)
-        for origin, names in BORROWED[module].items()
+        for origin, names in REEXPORTS[module].items()
         for here, _, there in (name.partition("=") for name in names.split())
     }
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from turtle_lesson.ros.runtime.world import current_world
 from turtle_lesson.ros.sim.simulation import EPOCH
 
-from ._blocking import Alarm, drives_the_simulation
+from ._blocking import WakeUp, drives_the_simulation
 from ._entity import Handle
 from .clock_type import ClockType
 from .context import Context
@@ -100,21 +100,21 @@ class Clock:
         if until.clock_type != self._clock_type:
             raise ValueError("until's clock type does not match this clock's type")
         changed = False
-        alarm = Alarm(context)
+        wake_up = WakeUp(context)
 
         def on_jump(jump: TimeJump) -> None:
             nonlocal changed
             changed = changed or jump.clock_change != ClockChange.ROS_TIME_NO_CHANGE
             if changed or self._now() >= until.nanoseconds:
-                alarm.ring()
+                wake_up.wake()
 
         every_jump = JumpThreshold(min_forward=Duration(nanoseconds=1), min_backward=None)
         with self.create_jump_callback(every_jump, post_callback=on_jump):
-            self._sleep(alarm, until)
+            self._sleep(wake_up, until)
         return context.ok() and not changed and self._now() >= until.nanoseconds
 
-    def _sleep(self, alarm: Alarm, until: Time) -> None:
-        alarm.wait(self._when(until.nanoseconds))
+    def _sleep(self, wake_up: WakeUp, until: Time) -> None:
+        wake_up.wait(self._when(until.nanoseconds))
 
     @drives_the_simulation
     def sleep_for(self, rel_time: Duration, context: Context | None = None) -> bool:
@@ -170,13 +170,13 @@ class ROSClock(Clock):
     def _when(self, time: int) -> int | None:
         return None if self._is_active and self._followed.now < time else super()._when(time)
 
-    def _sleep(self, alarm: Alarm, until: Time) -> None:
+    def _sleep(self, wake_up: WakeUp, until: Time) -> None:
         deadline = self._when(until.nanoseconds)
         if self._is_active and self._now() >= until.nanoseconds:
             return
         if deadline is None and self._source is not None:
-            self._source.check_it_may_hear(alarm.strand)
-        alarm.wait(deadline)
+            self._source.check_it_may_hear(wake_up.strand)
+        wake_up.wait(deadline)
 
     def _set_ros_time_is_active(self, enabled: bool) -> None:
         """Begin or end to follow /clock; a TimeSource does it."""

@@ -167,15 +167,15 @@ class Context:
         else:
             self._callbacks.append(_reference(callback))
 
-    def wake_at_the_end(self, callback: Callable[[], Any]) -> None:
+    def wake_on_shutdown(self, callback: Callable[[], Any]) -> None:
         """As `on_shutdown`, for rclpy's own: it is called when a signal ends the context, too."""
         if self.ended:
             callback()
         else:
             self._waiting.append(_reference(callback))
 
-    def let_sleep(self, callback: Callable[[], Any]) -> None:
-        """No longer call what was given to `wake_at_the_end`."""
+    def forget_wake(self, callback: Callable[[], Any]) -> None:
+        """No longer call what was given to `wake_on_shutdown`."""
         for place in reversed(range(len(self._waiting))):
             if self._waiting[place]() == callback:
                 del self._waiting[place]

@@ -19,7 +19,7 @@ from turtle_lesson.ros.stdlib.deadlock import IDLE, look_after, wait_in_vain
 from turtle_lesson.ros.stdlib.pools import number_of_pool
 
 from ._blocking import drive, drives_the_simulation, in_a_plain_cell, spin_live
-from ._deadlock import executor_of_worker, is_notebook, know_worker, others_may_act, why_never_done
+from ._deadlock import executor_of_worker, is_notebook, others_may_act, register_worker, why_never_done
 from ._entity import Entity
 from ._executor_base import (
     Condition,
@@ -31,7 +31,7 @@ from ._executor_base import (
     TimeoutException,
     TimeoutObject,
 )
-from ._reexports import borrowed
+from ._reexports import reexported
 from .context import Context
 from .task import Future, Task, at_once
 
@@ -59,7 +59,7 @@ class Executor(ExecutorBase):
     def _spin(self) -> None:
         strand = running_strand()
         assert strand is not None
-        self._spins_to_the_end.append(strand)
+        self._spinning_forever.append(strand)
         self._process.locals["rclpy.spinning"] = [*self._process.locals.get("rclpy.spinning", ()), strand]
         strand.may_act, before = self._may_run_anything, strand.may_act
         try:
@@ -70,7 +70,7 @@ class Executor(ExecutorBase):
                     self.spin_once()
         finally:
             strand.may_act = before
-            self._spins_to_the_end.remove(strand)
+            self._spinning_forever.remove(strand)
             self._process.locals["rclpy.spinning"].remove(strand)
 
     def _spin_fast(self, strand: Strand) -> None:
@@ -90,7 +90,7 @@ class Executor(ExecutorBase):
                         if entity._begin(entity):
                             execute(entity)
                         else:
-                            self._held_up.append(entity)
+                            self._blocked.append(entity)
                 elif signalled or self._batch or self._resumed or (self._polled and not self._has_polled):
                     try:
                         job = self._next(strand, None, None)
@@ -104,7 +104,7 @@ class Executor(ExecutorBase):
         finally:
             self._end_waiting(strand)
             self._spinning.remove(strand)
-            self._let_another_go_on()
+            self._wake_another_spinner()
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
         """Run one callback, waiting at most `timeout_sec` (s; None waits forever) for one to become ready.
@@ -161,9 +161,9 @@ class Executor(ExecutorBase):
                 self._execute(job)
         finally:
             self._spinning.remove(strand)
-            self._let_another_go_on()
+            self._wake_another_spinner()
 
-    def _let_another_go_on(self) -> None:
+    def _wake_another_spinner(self) -> None:
         """What this strand leaves is taken by another one that spins the same executor, if there is one."""
         if self._waiter is not None and (self._batch or self._signalled or self._resumed):
             self._simulation.wake(self._waiter)
@@ -213,7 +213,7 @@ class Executor(ExecutorBase):
         """Whether some other strand than this one is there, or may come, to take what arrives."""
         if any(spinner is not strand for spinner in self._spinning):
             return True
-        return strand not in self._spins_to_the_end and others_may_act(strand)
+        return strand not in self._spinning_forever and others_may_act(strand)
 
     def _may_run_anything(self) -> bool:
         """Whether there is a callback that could be run, or whether all are held up by callbacks that wait."""
@@ -286,7 +286,7 @@ class MultiThreadedExecutor(Executor):
             if deadline is not None and self._simulation.now >= deadline:
                 return None
             if self._is_shutdown or not self._context.ok():
-                self._say_it_is_shut_down()
+                self._raise_shutdown()
             self._wait(strand, deadline)
 
         def interesting() -> bool:
@@ -303,9 +303,9 @@ class MultiThreadedExecutor(Executor):
         ):  # as the real one does (executors.py); a single-threaded one raises it
             super()._spin_once(strand, deadline, condition)
         if is_notebook(strand.process):
-            self._let_workers_go_on(strand)
+            self._run_ready_workers(strand)
 
-    def _let_workers_go_on(self, strand: Strand) -> None:
+    def _run_ready_workers(self, strand: Strand) -> None:
         """When a cell's call returns, time stands still: what is ready must run before, or it would not be seen."""
         simulation = self._simulation
         simulation.at(simulation.now, simulation.wake, strand)
@@ -320,10 +320,10 @@ class MultiThreadedExecutor(Executor):
     def _new_worker(self) -> _Worker:
         if not self._threads:
             self._pool = number_of_pool(self._process)
-            self._process.before_exit.append(self._let_callbacks_end)
+            self._process.before_exit.append(self._wait_for_callbacks)
         worker = _Worker(self, f"ThreadPoolExecutor-{self._pool}_{self._threads}")
         self._threads += 1
-        know_worker(worker._strand, self)
+        register_worker(worker._strand, self)
         return worker
 
     def _execute_here(self, job: Job) -> None:
@@ -335,10 +335,10 @@ class MultiThreadedExecutor(Executor):
         strand = running_strand()
         own = strand is not None and self._is_worker(strand)  # a callback cannot wait for its own end
         if wait_for_threads and not own and current_world().release.has(SHUTDOWN_WAITS_FOR_THREADS):
-            drive(self._let_callbacks_end) if strand is None else self._let_callbacks_end()
+            drive(self._wait_for_callbacks) if strand is None else self._wait_for_callbacks()
         return done
 
-    def _let_callbacks_end(self) -> None:
+    def _wait_for_callbacks(self) -> None:
         """The program ends, or the executor: callbacks that are in their middle go on to their end, as in Python's pools."""
         strand = running_strand()
         assert strand is not None
@@ -390,4 +390,4 @@ class _Worker:
             executor.wake()
 
 
-__getattr__ = borrowed(__name__)
+__getattr__ = reexported(__name__)

@@ -17,7 +17,7 @@ from ._node_entities import NodeEntities
 from ._node_graph import NodeGraph
 from ._node_parameters import NodeParameters
 from ._parameter_rules import TOLERANCE
-from ._reexports import borrowed
+from ._reexports import reexported
 from ._ros_args import ArgumentError, Arguments, parse_arguments, tell_obsolete
 from .callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup
 from .client import Client
@@ -285,7 +285,7 @@ class Node(NodeEntities, NodeParameters):
     def destroy_node(self) -> None:
         """Leave the graph, with everything that the node has made."""
         for end in list(self._ros_outlived):
-            self._ros_let_go(end)
+            self._ros_destroy_outlived(end)
         self._ros_shut_down = False
         self._ros_leave()
 
@@ -335,4 +335,4 @@ def _own_arguments(cli_args: list[str] | None) -> Arguments:
     return own
 
 
-__getattr__ = borrowed(__name__)
+__getattr__ = reexported(__name__)

@@ -7,7 +7,7 @@ from enum import Enum
 from types import GenericAlias
 from typing import Any
 
-from ._reexports import borrowed
+from ._reexports import reexported
 
 PARAMETER_SEPARATOR_STRING = "."
 
@@ -216,4 +216,4 @@ def _flat(prefix: str, values: dict[str, Any]) -> dict[str, Any]:
     return found
 
 
-__getattr__ = borrowed(__name__)
+__getattr__ = reexported(__name__)

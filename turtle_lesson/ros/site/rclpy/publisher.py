@@ -13,7 +13,7 @@ from turtle_lesson.ros.stdlib.polling import looked_in_vain
 from ._blocking import drives_the_simulation
 from ._entity import Handle
 from ._hints import no_message
-from ._reexports import borrowed
+from ._reexports import reexported
 from .callback_groups import CallbackGroup
 from .duration import Duration
 from .event_handler import EventHandler, PublisherEventCallbacks
@@ -152,4 +152,4 @@ def _wait_for_all_acked(writer: Writer, timeout: int) -> bool:
     return True
 
 
-__getattr__ = borrowed(__name__)
+__getattr__ = reexported(__name__)

@@ -10,7 +10,7 @@ from turtle_lesson.ros.idl import checks
 from turtle_lesson.ros.rmw.service import ServerEnd
 
 from ._entity import SERVICE, Entity
-from ._reexports import borrowed
+from ._reexports import reexported
 from .callback_groups import CallbackGroup
 from .qos import QoSProfile
 
@@ -81,4 +81,4 @@ class Service(Entity):
             self._server.node.process.locals["world"].graph.remove_server(self._server)
 
 
-__getattr__ = borrowed(__name__)
+__getattr__ = reexported(__name__)

@@ -14,7 +14,7 @@ from turtle_lesson.ros.runtime.world import current_world
 from turtle_lesson.ros.sim.simulation import EPOCH
 
 from ._entity import SUBSCRIPTION, Entity
-from ._reexports import borrowed
+from ._reexports import reexported
 from .callback_groups import CallbackGroup
 from .event_handler import EventHandler, SubscriptionEventCallbacks
 from .qos import QoSProfile
@@ -112,4 +112,4 @@ def _wants_info(callback: Callable[..., Any] | None) -> bool:
     return len(needed) == 2
 
 
-__getattr__ = borrowed(__name__)
+__getattr__ = reexported(__name__)

@@ -9,8 +9,8 @@ from turtle_lesson.ros.sim.simulation import NANOSECONDS
 from turtle_lesson.ros.sim.strand import Strand
 
 from ._blocking import somebody_spins
-from ._deadlock import keeps_taken
-from ._reexports import borrowed
+from ._deadlock import holds_group
+from ._reexports import reexported
 from .clock import ROSClock
 from .clock_type import ClockType
 from .parameter import Parameter
@@ -148,10 +148,10 @@ class TimeSource:
 
     def check_it_may_hear(self, strand: Strand) -> None:
         """Raise NeverWakes if nobody can hear /clock while this strand waits for the time to go on."""
-        node, ear = self._node, self._clock_sub
-        if node is None or ear is None:
+        node, subscription = self._node, self._clock_sub
+        if node is None or subscription is None:
             return
-        if somebody_spins(node._ros_executor, strand) and not keeps_taken(ear.callback_group):
+        if somebody_spins(node._ros_executor, strand) and not holds_group(subscription.callback_group):
             return
         raise NeverWakes(
             f"this sleep would never end: {node!r} follows {CLOCK_TOPIC} (use_sim_time is true), and cannot hear it "
@@ -160,4 +160,4 @@ class TimeSource:
         )
 
 
-__getattr__ = borrowed(__name__)
+__getattr__ = reexported(__name__)

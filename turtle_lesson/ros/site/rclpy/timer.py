@@ -14,11 +14,11 @@ from turtle_lesson.ros.sim.errors import NeverWakes
 from turtle_lesson.ros.sim.simulation import EPOCH
 from turtle_lesson.ros.sim.strand import running_strand
 
-from ._blocking import Alarm, drives_the_simulation, somebody_spins
+from ._blocking import WakeUp, drives_the_simulation, somebody_spins
 from ._deadlock import is_notebook
 from ._entity import TIMER, Entity
 from ._hints import shown
-from ._reexports import borrowed
+from ._reexports import reexported
 from .callback_groups import CallbackGroup
 from .clock import ROSClock
 from .constants import S_TO_NS
@@ -222,15 +222,15 @@ class Rate:
         self._is_shutdown = False
         self._is_destroyed = False
         self._ticked = False
-        self._sleepers: list[Alarm] = []
+        self._sleepers: list[WakeUp] = []
         timer.callback = self.tick
-        context.wake_at_the_end(self._on_shutdown)
+        context.wake_on_shutdown(self._on_shutdown)
 
     def tick(self) -> None:
         """The timer ticks."""
         self._ticked = True
-        for alarm in self._sleepers:
-            alarm.ring()
+        for wake_up in self._sleepers:
+            wake_up.wake()
 
     def _on_shutdown(self) -> None:
         self._is_shutdown = True
@@ -269,31 +269,31 @@ class Rate:
                 "this rate would sleep forever: it is woken by a timer of its node, and no other thread is spinning "
                 "the node. Use a timer instead of a loop, or a MultiThreadedExecutor."
             )
-        alarm = Alarm(self._context)
-        self._sleepers.append(alarm)
+        wake_up = WakeUp(self._context)
+        self._sleepers.append(wake_up)
         try:
-            alarm.wait(None)
+            wake_up.wait(None)
         finally:
-            self._sleepers.remove(alarm)
+            self._sleepers.remove(wake_up)
             if not self._sleepers:
                 self._ticked = False
 
     def _wait_alone(self) -> None:
         """In a notebook's cell, where nobody spins: until the timer is due."""
-        timer, alarm = self._timer, Alarm(self._context)
+        timer, wake_up = self._timer, WakeUp(self._context)
         left = timer.time_until_next_call() or 0
         if timer._time is not timer._simulation and left > 0:
             raise NeverWakes(
                 "this rate would sleep forever: its clock follows /clock, and nothing receives /clock meanwhile"
             )
-        alarm.wait(timer._simulation.now + left)
+        wake_up.wait(timer._simulation.now + left)
         timer._take()
 
     def destroy(self) -> None:
         """Wake the sleeping callers, and never sleep again."""
         self._is_destroyed = True
-        for alarm in self._sleepers:
-            alarm.ring()
+        for wake_up in self._sleepers:
+            wake_up.wake()
 
 
-__getattr__ = borrowed(__name__)
+__getattr__ = reexported(__name__)

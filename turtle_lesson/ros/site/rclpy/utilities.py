@@ -15,10 +15,10 @@ from .signals import uninstall_signal_handlers
 
 def get_default_context(*, shutting_down: bool = False) -> Context:
     """The context of this process that is used where none is named."""
-    shelf = current_process().locals
-    if "rclpy.context" not in shelf:
-        shelf["rclpy.context"] = Context()
-    return shelf["rclpy.context"]
+    data = current_process().locals
+    if "rclpy.context" not in data:
+        data["rclpy.context"] = Context()
+    return data["rclpy.context"]
 
 
 def ok(*, context: Context | None = None) -> bool:

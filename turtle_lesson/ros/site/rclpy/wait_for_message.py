@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 from turtle_lesson.ros.sim.simulation import NANOSECONDS
 from turtle_lesson.ros.sim.strand import running_strand
 
-from ._blocking import Alarm, drives_the_simulation
-from ._reexports import borrowed
+from ._blocking import WakeUp, drives_the_simulation
+from ._reexports import reexported
 
 if TYPE_CHECKING:
     from .node import Node
@@ -29,11 +29,11 @@ def wait_for_message(
     simulation = strand.simulation
     subscription = node.create_subscription(msg_type, topic, _not_called, qos_profile)
     subscription._executor = None  # nobody else is to take what comes
-    alarm = Alarm(node.context)
-    subscription._reader.wake = alarm.ring
+    wake_up = WakeUp(node.context)
+    subscription._reader.wake = wake_up.wake
     try:
         deadline = None if time_to_wait < 0 else simulation.now + int(time_to_wait * NANOSECONDS)
-        alarm.wait(deadline, only_from_within=False)
+        wake_up.wait(deadline, only_from_within=False)
         return (True, subscription._take()[0]) if subscription._has_work() else (False, None)
     finally:
         node.destroy_subscription(subscription)
@@ -43,4 +43,4 @@ def _not_called(message: Any) -> None:
     """The callback of a subscription whose messages are taken by hand."""
 
 
-__getattr__ = borrowed(__name__)
+__getattr__ = reexported(__name__)

@@ -17,7 +17,7 @@ from turtle_lesson.ros.sim.strand import running_strand
 from .._blocking import drives_the_simulation
 from .._deadlock import Words, why_never_answered
 from .._hints import did_you_mean, shown
-from .._reexports import borrowed
+from .._reexports import reexported
 from ..callback_groups import CallbackGroup
 from ..client import Client
 from ..qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
@@ -349,4 +349,4 @@ class ClientGoalHandle:
         return self._action_client._get_result_async(self)
 
 
-__getattr__ = borrowed(__name__)
+__getattr__ = reexported(__name__)

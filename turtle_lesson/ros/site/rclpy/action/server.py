@@ -22,7 +22,7 @@ from turtle_lesson.ros.runtime.world import current_world
 from turtle_lesson.ros.sim.errors import print_error
 from turtle_lesson.ros.sim.simulation import NANOSECONDS
 
-from .._reexports import borrowed
+from .._reexports import reexported
 from .._tracing import name_of
 from ..callback_groups import CallbackGroup
 from ..exceptions import RCLError
@@ -370,4 +370,4 @@ class ActionServer:
         self._goals.forget_all()
 
 
-__getattr__ = borrowed(__name__)
+__getattr__ = reexported(__name__)

@@ -110,12 +110,12 @@ class RcutilsLogger:
         now = current_world().sim.now
         if site.filters and not site.lets_through():
             return False
-        shelf = current_process().locals
-        goes_to = shelf.get("rclpy.log_to", EVERYWHERE)
+        data = current_process().locals
+        goes_to = data.get("rclpy.log_to", EVERYWHERE)
         if goes_to.get("stdout", True):
             line = Line(message, severity, name, EPOCH + now, frame)
-            print_line(line, shelf.get("rclpy.log_format"), colorized=shelf.get("rclpy.log_colorized", False))
-        on_rosout = shelf.get("rclpy.rosout", EVERYWHERE)
+            print_line(line, data.get("rclpy.log_format"), colorized=data.get("rclpy.log_colorized", False))
+        on_rosout = data.get("rclpy.rosout", EVERYWHERE)
         publish = on_rosout.get(name if self._parent is None else self._parent)
         if publish is not None and goes_to.get("rosout", True):
             publish(name, message, severity, frame)

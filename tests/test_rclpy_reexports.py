@@ -6,11 +6,11 @@ import importlib
 
 import pytest
 import rclpy
-from rclpy._reexports import BORROWED
+from rclpy._reexports import REEXPORTS
 
 LENT = [
     (module, *name.partition("=")[::2], origin)
-    for module, origins in BORROWED.items()
+    for module, origins in REEXPORTS.items()
     for origin, names in origins.items()
     for name in names.split()
 ]
