@@ -6,6 +6,7 @@ So no run depends on an earlier one, and no page sees what another one wrote.
 from __future__ import annotations
 
 import faulthandler
+import gc
 import os
 import signal
 import sys
@@ -35,6 +36,12 @@ LONG = ("browser", "test_answers.py", "test_teaching_grade.py", "test_real_colco
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Put what takes longest first; within a file the order stays."""
     items.sort(key=lambda item: next((at for at, name in enumerate(LONG) if name in item.path.parts), len(LONG)))
+
+
+def pytest_collection_finish() -> None:
+    """Have the garbage collector pass over what is there before the first test: each full collection would look at it all."""
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.hookimpl(optionalhook=True)
