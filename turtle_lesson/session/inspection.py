@@ -12,7 +12,6 @@ if TYPE_CHECKING:
     from ..lab.graph import GraphPicture
     from ..lab.picture import Picture
     from ..lab.prompts import Prompt
-    from ..lab.recorder import Recorder
     from ..lab.troubles import Case
     from ..ros.rmw.trace import Trace
     from ..ros.runtime.world import World
@@ -22,10 +21,6 @@ class Inspection(Assessment):
     """What a `Lesson` tells about its world from the world's trace and graph."""
 
     _world: World
-
-    @property
-    def _recording(self) -> Recorder:
-        raise NotImplementedError
 
     @property
     def _trace(self) -> Trace:

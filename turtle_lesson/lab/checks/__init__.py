@@ -6,7 +6,7 @@
 
 from .graph_view import field, interface
 from .probe import Answer, Heard, Probe, remembered
-from .registry import Check, Expectation, all_checks, check, checks_of, find
+from .registry import Check, Expectation, all_checks, check, checks_of, expectation, find
 from .results import METADATA, Advice, CannotLook, CheckResult, OutOfTime, Row, Seen, Stopped
 from .runner import run
 
@@ -27,6 +27,7 @@ __all__ = [
     "all_checks",
     "check",
     "checks_of",
+    "expectation",
     "field",
     "find",
     "interface",

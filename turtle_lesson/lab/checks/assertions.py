@@ -6,9 +6,10 @@ from collections.abc import Callable
 from typing import Any
 
 from ..words import count, listed, number
+from .failures import shortened
 from .probe import Probe
 from .registry import Expectation
-from .results import Advice, CannotLook, Seen
+from .results import Advice, CannotLook, Seen, hinted
 from .streams import brief, judge_rate
 
 TOO_MANY = "Stop the extra node: Ctrl-C in a terminal; in a notebook run the set-up cell again, then each cell once."
@@ -175,14 +176,10 @@ def no_errors() -> Expectation:
         if not wrong:
             return Seen(True, "none")
         more = f" (and {count(len(wrong) - 1, 'more', 'more')})" if len(wrong) > 1 else ""
-        return Seen(False, _short(wrong[0]) + more, "Read the log: which callback logs it, and when?")
+        first = shortened(" ".join(wrong[0].split()), 160)
+        return Seen(False, first + more, "Read the log: which callback logs it, and when?")
 
     return Expectation(NO_ERROR, look)
-
-
-def _short(text: str) -> str:
-    plain = " ".join(text.split())
-    return plain if len(plain) <= 160 else f"{plain[:159]}…"
 
 
 # -- services, and parameters that change what a node does ----------------------------------------------------------------
@@ -242,9 +239,9 @@ NANOSECONDS = Advice(
     "The timer's period is next to nothing.",
     "timer_period_ns counts nanoseconds: one second is 1 000 000 000 of them.",
 )
-FOLLOW = Advice(
-    direction="When does the node read the parameter, and what happens to the timer's period then?",
-    hint="Open Hints 2 and 3 under the exercise.",
+FOLLOW = hinted(
+    "When does the node read the parameter, and what happens to the timer's period then?",
+    "Open Hints 2 and 3 under the exercise.",
 )
 
 
@@ -263,7 +260,7 @@ def gives_up(owner: str, parameter: str, seconds: float, ask: Callable[[Probe], 
         step = (
             f"At each step: how long has this goal been under way, and how long may it take, according to {parameter}?"
         )
-        return Seen(good, seen, Advice(direction=step, hint="Open Hint 2 under the exercise."))
+        return Seen(good, seen, hinted(step, 2))
 
     return Expectation(f"{parameter} set to {seconds!r}: gives up on a far goal", look)
 

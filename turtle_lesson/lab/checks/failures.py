@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import traceback
-from types import FrameType, TracebackType
+from types import FrameType
 from typing import Any
 
 from ...ros.sim import errors
@@ -18,33 +18,32 @@ LONGEST = 200
 
 CELL = "a cell of this notebook"
 
-
 ENDLESS = (NeverReturns, DriveTimeout)
 """The errors by which code is stopped that never returns: it computes on and on, or waits again and again."""
 
 
 def in_words(error: BaseException) -> str:
     """The kind and the words of an error: "TypeError: unsupported operand …"."""
-    text = " ".join(str(error).split())
-    if len(text) > LONGEST:
-        text = f"{text[: LONGEST - 1]}…"
+    text = shortened(" ".join(str(error).split()), LONGEST)
     return f"{type(error).__name__}: {text}" if text else type(error).__name__
+
+
+def shortened(text: str, most: int) -> str:
+    """The text, or as much of it as fits into so many characters, the last of which is an ellipsis."""
+    return text if len(text) <= most else f"{text[: most - 1]}…"
 
 
 def trace_of(error: BaseException) -> str:
     """The learner's lines that led to an error, outermost first, and the advice that the error carries."""
     if errors.before_showing is not None:
         errors.before_showing(error)
-    lines = [place(entry) for entry in errors.learners_frames(error.__traceback__)[-MOST_FRAMES:]]
+    entries = errors.learners_frames(error.__traceback__)[-MOST_FRAMES:]
+    lines = [_place(entry.tb_frame, entry.tb_lineno) for entry in entries]
     return "\n".join([*lines, *(str(note) for note in getattr(error, "__notes__", ()))])
 
 
-def place(entry: TracebackType) -> str:
-    """One entry of a traceback: "line 9 in on_timer: self.x + None"."""
-    return _place(entry.tb_frame, entry.tb_lineno)
-
-
 def _place(frame: FrameType, number: int) -> str:
+    """Where a frame is: "line 9 in on_timer: self.x + None"."""
     code = frame.f_code
     file = errors.shown_path(code.co_filename)
     where = f"line {number}" if file == CELL else f"{file}, line {number}"
@@ -57,15 +56,10 @@ def _line(frame: FrameType, number: int) -> str:
     return (summary.line or "").strip().partition("\n")[0]
 
 
-def is_learners(frame: FrameType) -> bool:
-    """Whether a frame runs a learner's own code."""
-    return errors.is_learners(frame.f_code.co_filename)
-
-
 def never_returned(error: BaseException) -> str:
     """Which callback went on without end, and in which line it was stopped."""
     calls = [(each.tb_frame, each.tb_lineno) for each in errors.traceback_entries(error.__traceback__)]
-    inside = _in_a_callback(calls) or [call for call in calls if is_learners(call[0])]
+    inside = _in_a_callback(calls) or _learners(calls)
     if not inside:
         return "something that was called has not returned, and was stopped"
     frame, number = inside[-1]
@@ -80,7 +74,11 @@ def _name(frame: FrameType) -> str:
 def _in_a_callback(calls: list[tuple[FrameType, int]]) -> list[tuple[FrameType, int]]:
     """Of calls, outermost first, the learner's own ones within a callback that an executor runs; the callback first."""
     spinning = [index for index, (frame, _) in enumerate(calls) if _is_executor(frame)]
-    return [call for call in calls[spinning[-1] :] if is_learners(call[0])] if spinning else []
+    return _learners(calls[spinning[-1] :]) if spinning else []
+
+
+def _learners(calls: list[tuple[FrameType, int]]) -> list[tuple[FrameType, int]]:
+    return [call for call in calls if errors.is_learners(call[0].f_code.co_filename)]
 
 
 STOP_ADVICE = Advice(

@@ -1,4 +1,4 @@
-"""One drive of the navigator, seen from outside: what was asked and answered, the commands, and what the turtle did."""
+"""One drive of the navigator, seen from outside: the request and its answer, the commands, and what the turtle did."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ..words import angle, number, point, turned
 from .assertions import no_answer
 from .probe import Answer, Heard, Probe
 from .registry import Expectation
-from .results import Advice, CannotLook, Seen
+from .results import CannotLook, Seen, hinted
 
 NAVIGATE, NAVIGATE_TYPE = "/navigate_to", "robot_controller/srv/NavigateTo"
 POSE, POSE_TYPE = "/turtle1/pose", "turtlesim/msg/Pose"
@@ -37,6 +37,7 @@ AT_REST = 0.5
 TELEPORT, TELEPORT_TYPE = "/turtle1/teleport_absolute", "turtlesim/srv/TeleportAbsolute"
 
 Goal = tuple[float, float, float]
+MIDDLE: Goal = (5.5, 5.5, 0.0)
 
 
 @dataclass(frozen=True)
@@ -119,16 +120,14 @@ def put(probe: Probe, place: Goal) -> None:
 
 def ask_for(probe: Probe, goal: Goal, timeout: float) -> Answer:
     """Ask the navigator for a goal, and let robot time pass until it answers or the timeout (s) is over."""
-    return probe.ask(NAVIGATE, NAVIGATE_TYPE, timeout, **_fields(goal))
+    x, y, theta = goal
+    return probe.ask(NAVIGATE, NAVIGATE_TYPE, timeout, x=x, y=y, theta=theta)
 
 
 def ask_soon_for(probe: Probe, goal: Goal) -> Callable[[], Answer | None]:
     """Ask the navigator for a goal without waiting; returns a function that gives the answer once it has come."""
-    return probe.ask_soon(NAVIGATE, NAVIGATE_TYPE, **_fields(goal))
-
-
-def _fields(goal: Goal) -> dict[str, float]:
-    return dict(zip(("x", "y", "theta"), goal, strict=True))
+    x, y, theta = goal
+    return probe.ask_soon(NAVIGATE, NAVIGATE_TYPE, x=x, y=y, theta=theta)
 
 
 def drive(probe: Probe, name: str, choose: Any) -> Drive:
@@ -179,9 +178,6 @@ def come_to_rest(probe: Probe, timeout: float) -> None:
     probe.wait_for(lambda: at_rest(probe.listen(POSE, POSE_TYPE)), timeout)
 
 
-# -- goals -------------------------------------------------------------------------------------------------------------
-
-
 def far_away(pose: Any) -> Goal:
     """The corner that is farthest away."""
     corners = itertools.product((1.0, WORLD - 1.0), repeat=2)
@@ -216,7 +212,7 @@ def arrived(way: Way, at_rest: bool = False) -> Expectation:
             seen += f", and still moving after {LONGEST:g} s"
         when = "in the end" if at_rest else "when the answer comes"
         step = f"Where is the turtle {when}, and what does /turtle1/pose say on the way?"
-        return Seen(distance <= NEAR, seen, Advice(direction=step))
+        return Seen(distance <= NEAR, seen, step)
 
     return Expectation(f"{way.name}: the turtle within {NEAR:g} m of it", look)
 
@@ -239,9 +235,9 @@ def turns_little(way: Way, most: float) -> Expectation:
         it = driven(probe, way)
         degrees = math.degrees(turning([it.begin, *(each.message for each in it.poses)]))
         seen = f"it came within {number(it.distance(at_rest=True))} m and turned by {number(degrees, 0)}° in all"
-        step = Advice(
-            direction="Between which two headings does the turtle choose the long way round?",
-            hint="Look at turn_to once more: the exercise “the short way” has hints.",
+        step = hinted(
+            "Between which two headings does the turtle choose the long way round?",
+            "Look at turn_to once more: the exercise “the short way” has hints.",
         )
         return Seen(it.distance(at_rest=True) <= NEAR and degrees <= most, seen, step)
 
@@ -265,7 +261,7 @@ def honest_time(way: Way, within: float = 0.1) -> Expectation:
         truth, said = end - begin, float(it.response.time_taken)
         seen = f"it said {number(said)} s; the turtle moved for {number(truth)} s"
         step = "Which two moments lie between the first command and the one that stops the turtle?"
-        return Seen(abs(said - truth) <= within, seen, Advice(direction=step))
+        return Seen(abs(said - truth) <= within, seen, step)
 
     return Expectation(f"time_taken within {within:g} s of the moving time", look)
 
@@ -311,13 +307,10 @@ def refuses(what: str, *goals: Goal) -> Expectation:
         for goal in goals:
             if fault := _fault(probe, goal):
                 step = "Which of the three numbers has to be looked at, and with which limits, before the goal is accepted?"
-                return Seen(False, f"{_typed(goal)}: {fault}", Advice(direction=step, hint=HINTS))
+                return Seen(False, f"{_typed(goal)}: {fault}", hinted(step, 2))
         return Seen(True, f"{len(goals)} goals, all of them refused at once")
 
     return Expectation(f"refuses {what}", look)
-
-
-HINTS = "Open Hint 2 under the exercise."
 
 
 def _typed(goal: Goal) -> str:
@@ -344,9 +337,6 @@ def _fault(probe: Probe, goal: Goal) -> str:
     return fault
 
 
-MIDDLE = (5.5, 5.5, 0.0)
-
-
 def accepts(what: str, *ways: Way) -> Expectation:
     """Goals on the boundary of what makes sense are accepted."""
 
@@ -355,7 +345,7 @@ def accepts(what: str, *ways: Way) -> Expectation:
             response = go(probe, way).response
             if not response.success:
                 step = "Which numbers does your comparison still accept? The ends belong to the world."
-                return Seen(False, f"{_typed(way.goal)}: success is False", Advice(direction=step, hint=HINTS))
+                return Seen(False, f"{_typed(way.goal)}: success is False", hinted(step, 2))
         return Seen(True, f"{' and '.join(_typed(way.goal) for way in ways)}")
 
     return Expectation(f"accepts {what}", look)

@@ -38,7 +38,7 @@ from .navigation import (
     where,
 )
 from .probe import Probe
-from .registry import Expectation, check
+from .registry import Expectation, check, expectation
 from .results import CannotLook, Seen, hinted
 
 RUN = "ros2 run robot_controller navigator"
@@ -163,21 +163,19 @@ def short_way() -> list[Expectation]:
         turn("across due west to the left", (-3.13, 3.13, seam), (-2.0, 2.0, -4.0)),
         turn("across due west to the right", (3.13, -3.13, -seam), (2.0, -2.0, 4.0)),
         turn("more than a whole turn", (9.0, -3.0, 12.0), (-9.0, 3.0, -12.0), (0.5, 13.0, -12.5), (20.0, 0.0, 20.0)),
-        _half_a_turn(),
+        _half_a_turn,
         _steers_across("to the left", TO_THE_LEFT),
         _steers_across("to the right", TO_THE_RIGHT),
         no_errors(),
     ]
 
 
-def _half_a_turn() -> Expectation:
-    def look(probe: Probe) -> Seen:
-        came = probe.call(learner_function(probe, "turn_to"), math.pi, 0.0)
-        if not isinstance(came, float):
-            return Seen(False, f"turn_to(3.1416, 0.0) is {came!r}", "Does turn_to end with `return`, in every case?")
-        return Seen(abs(abs(came) - math.pi) < 1e-6, f"turn_to(3.1416, 0.0) is {number(came, 4)}", DIFFERENCES)
-
-    return Expectation("half a turn, either way round", look)
+@expectation("half a turn, either way round")
+def _half_a_turn(probe: Probe) -> Seen:
+    came = probe.call(learner_function(probe, "turn_to"), math.pi, 0.0)
+    if not isinstance(came, float):
+        return Seen(False, f"turn_to(3.1416, 0.0) is {came!r}", "Does turn_to end with `return`, in every case?")
+    return Seen(abs(abs(came) - math.pi) < 1e-6, f"turn_to(3.1416, 0.0) is {number(came, 4)}", DIFFERENCES)
 
 
 def _steers_across(where_to: str, way: Way) -> Expectation:
@@ -238,7 +236,7 @@ def navigator() -> list[Expectation]:
         refuses("theta that is no finite number", (5.0, 6.0, math.nan), (5.0, 6.0, math.inf), (5.0, 6.0, -math.inf)),
         accepts("goals at the very edge", *CORNERS),
         accepts("any heading", *(Way(f"heading {theta:g}", MIDDLE, (6.5, 5.5, theta)) for theta in ANYWHERE)),
-        _keeps_its_goal(),
+        _keeps_its_goal,
         no_errors(),
     ]
 
@@ -258,20 +256,17 @@ def _logged(way: Way) -> Expectation:
     return Expectation("the goal (4, 3) is logged", look)
 
 
-def _keeps_its_goal() -> Expectation:
+@expectation("refused on its way to (9, 3), it still gets there")
+def _keeps_its_goal(probe: Probe) -> Seen:
     """A goal that is refused on the way changes nothing."""
-
-    def look(probe: Probe) -> Seen:
-        put(probe, (3.0, 3.0, 0.0))
-        first = ask_soon_for(probe, (9.0, 3.0, 0.0))
-        probe.wait(0.5)
-        refused = ask_for(probe, (20.0, 5.0, 0.0), 1.0).response
-        if refused is None or refused.success:
-            raise CannotLook("the goal (20, 5, 0) was not refused on the way")
-        probe.wait_for(lambda: first() and at_rest(probe.listen(POSE, POSE_TYPE)), 20.0)
-        end = where(probe)
-        step = hinted("Is self.goal changed before the goal has been judged?", 1)
-        seen = f"the turtle went to {point(end.x, end.y)}"
-        return Seen(math.hypot(end.x - 9.0, end.y - 3.0) <= NEAR, seen, step)
-
-    return Expectation("refused on its way to (9, 3), it still gets there", look)
+    put(probe, (3.0, 3.0, 0.0))
+    first = ask_soon_for(probe, (9.0, 3.0, 0.0))
+    probe.wait(0.5)
+    refused = ask_for(probe, (20.0, 5.0, 0.0), 1.0).response
+    if refused is None or refused.success:
+        raise CannotLook("the goal (20, 5, 0) was not refused on the way")
+    probe.wait_for(lambda: first() and at_rest(probe.listen(POSE, POSE_TYPE)), 20.0)
+    end = where(probe)
+    step = hinted("Is self.goal changed before the goal has been judged?", 1)
+    seen = f"the turtle went to {point(end.x, end.y)}"
+    return Seen(math.hypot(end.x - 9.0, end.y - 3.0) <= NEAR, seen, step)

@@ -26,7 +26,7 @@ from .navigation import (
 )
 from .page_03 import A_GOAL, TO_THE_LEFT, navigator_is_there
 from .probe import Probe, remembered
-from .registry import Expectation, check
+from .registry import Expectation, check, expectation
 from .results import CannotLook, Seen, hinted
 
 NEAR_GOAL = Way("a near goal", MIDDLE, (6.0, 5.5, 0.0))
@@ -53,7 +53,7 @@ def on_arrival() -> list[Expectation]:
         arrived(TO_THE_LEFT),
         honest_time(TO_THE_LEFT),
         _soon(NEAR_GOAL),
-        _answers_meanwhile(),
+        _answers_meanwhile,
         refuses("what makes no sense, as before", *NONSENSE),
         no_errors(),
     ]
@@ -69,23 +69,20 @@ def _soon(way: Way) -> Expectation:
     return Expectation(f"{way.name} is answered within {WAITING:g} s", look)
 
 
-def _answers_meanwhile() -> Expectation:
+@expectation("it answers other questions meanwhile")
+def _answers_meanwhile(probe: Probe) -> Seen:
     """Another request is answered while a goal is under way."""
-
-    def look(probe: Probe) -> Seen:
-        put(probe, (2.0, 2.0, 0.0))
-        first = ask_soon_for(probe, (8.0, 8.0, 0.0))
-        probe.wait(HALFWAY)
-        if first() is not None:
-            come_to_rest(probe, 15.0)
-            raise CannotLook("a goal 8 m away was answered at once")
-        answer = probe.ask("/navigator/list_parameters", "rcl_interfaces/srv/ListParameters", 1.0)
-        probe.wait_for(first, 30.0)
-        if answer.response is None:
-            return no_answer(probe, "its parameters were not told within 1 s")
-        return Seen(True, "its parameters were told while it drove")
-
-    return Expectation("it answers other questions meanwhile", look)
+    put(probe, (2.0, 2.0, 0.0))
+    first = ask_soon_for(probe, (8.0, 8.0, 0.0))
+    probe.wait(HALFWAY)
+    if first() is not None:
+        come_to_rest(probe, 15.0)
+        raise CannotLook("a goal 8 m away was answered at once")
+    answer = probe.ask("/navigator/list_parameters", "rcl_interfaces/srv/ListParameters", 1.0)
+    probe.wait_for(first, 30.0)
+    if answer.response is None:
+        return no_answer(probe, "its parameters were not told within 1 s")
+    return Seen(True, "its parameters were told while it drove")
 
 
 @check(

@@ -12,7 +12,7 @@ from .assertions import no_errors, node, publishes, subscribes
 from .graph_view import field
 from .navigation import COMMAND_TYPE, COMMANDS, POSE, POSE_TYPE
 from .probe import Heard, Probe, remembered
-from .registry import Expectation, check
+from .registry import Expectation, check, expectation
 from .results import CannotLook, Seen, hinted
 from .streams import rate, some
 
@@ -42,7 +42,7 @@ def battery() -> list[Expectation]:
         node("/status_monitor"),
         publishes(STATUS, STATUS_TYPE, by="/status_monitor"),
         rate(STATUS, STATUS_TYPE, hz=10),
-        battery_starts_full(),
+        battery_starts_full,
         battery_falls(until_it_is_empty, "Hint 1"),
         battery_ends_at_zero("Hint 2"),
         no_errors(),
@@ -61,10 +61,10 @@ def status_monitor() -> list[Expectation]:
         node("/status_monitor", RUN),
         publishes(STATUS, STATUS_TYPE, by="/status_monitor"),
         rate(STATUS, STATUS_TYPE, hz=10),
-        pose_follows(),
+        pose_follows,
         velocity_follows("x", math.cos),
         velocity_follows("y", math.sin),
-        no_velocity_at_rest(),
+        no_velocity_at_rest,
         battery_falls(a_while),
         no_errors(),
     ]
@@ -80,7 +80,7 @@ def battery_watch() -> list[Expectation]:
         says_low("False from 20 % on", (100.0, 50.0, 20.5, 20.0)),
         says_low("True below 20 %", (19.5, 10.0, 0.0)),
         says_low("False again when the battery is full again", (15.0, 100.0)),
-        silent_without_status(),
+        silent_without_status,
         no_errors(),
     ]
 
@@ -127,18 +127,15 @@ def ride(probe: Probe) -> Ride:
     return found
 
 
-def pose_follows() -> Expectation:
+@expectation("x, y, theta follow the turtle")
+def pose_follows(probe: Probe) -> Seen:
     """x, y and theta are those of the turtle, also while it moves."""
-
-    def look(probe: Probe) -> Seen:
-        pairs = [(status.message, pose.message) for status, pose in ride(probe).pairs()]
-        away = {name: max(abs(field(a, name) - field(b, name)) for a, b in pairs) for name in ("x", "y")}
-        off = max(abs(turned(field(a, "theta") - b.theta)) for a, b in pairs)
-        seen = f"at most {number(away['x'])} m off in x, {number(away['y'])} m in y, {angle(off)} in theta"
-        advice = f"Keep what the newest message on {POSE} says, all three fields of it."
-        return Seen(max(away.values()) <= LATE and off <= 2 * LATE, seen, advice)
-
-    return Expectation("x, y, theta follow the turtle", look)
+    pairs = [(status.message, pose.message) for status, pose in ride(probe).pairs()]
+    away = {name: max(abs(field(a, name) - field(b, name)) for a, b in pairs) for name in ("x", "y")}
+    off = max(abs(turned(field(a, "theta") - b.theta)) for a, b in pairs)
+    seen = f"at most {number(away['x'])} m off in x, {number(away['y'])} m in y, {angle(off)} in theta"
+    advice = f"Keep what the newest message on {POSE} says, all three fields of it."
+    return Seen(max(away.values()) <= LATE and off <= 2 * LATE, seen, advice)
 
 
 def velocity_follows(axis: str, part: Callable[[float], float]) -> Expectation:
@@ -176,38 +173,32 @@ def _off(said: float, wanted: float) -> float:
     return abs(said - wanted) if math.isfinite(said) else math.inf
 
 
-def no_velocity_at_rest() -> Expectation:
+@expectation("both are 0 when the turtle stands")
+def no_velocity_at_rest(probe: Probe) -> Seen:
     """Both components are 0 again when the turtle stands."""
-
-    def look(probe: Probe) -> Seen:
-        it = ride(probe)
-        at_rest = [each.message for each in it.statuses if each.at > it.ended + 0.3]
-        if not at_rest:
-            raise CannotLook(f"no message came on {STATUS} when the turtle stood")
-        velocity = [float(field(at_rest[-1], name)) for name in ("vel_x", "vel_y")]
-        seen = f"vel_x {number(velocity[0])} m/s, vel_y {number(velocity[1])} m/s"
-        advice = "Use the speed that the pose tells, not a number of your own."
-        return Seen(all(abs(each) < 0.05 for each in velocity), seen, advice)
-
-    return Expectation("both are 0 when the turtle stands", look)
+    it = ride(probe)
+    at_rest = [each.message for each in it.statuses if each.at > it.ended + 0.3]
+    if not at_rest:
+        raise CannotLook(f"no message came on {STATUS} when the turtle stood")
+    velocity = [float(field(at_rest[-1], name)) for name in ("vel_x", "vel_y")]
+    seen = f"vel_x {number(velocity[0])} m/s, vel_y {number(velocity[1])} m/s"
+    advice = "Use the speed that the pose tells, not a number of your own."
+    return Seen(all(abs(each) < 0.05 for each in velocity), seen, advice)
 
 
 # -- the battery -----------------------------------------------------------------------------------------------------------
 
 
-def battery_starts_full() -> Expectation:
+@expectation("battery starts at 100 %")
+def battery_starts_full(probe: Probe) -> Seen:
     """The first message that is heard has as much charge as it can have by then."""
-
-    def look(probe: Probe) -> Seen:
-        some(probe, STATUS, STATUS_TYPE, 0.5)
-        first = probe.listen(STATUS, STATUS_TYPE)[0]
-        charge = float(field(first.message, "battery"))
-        by_then = max(0.0, 100.0 - 10 * DROP * (first.at + 0.2))
-        seen = f"{number(charge, 1)} % after {number(first.at, 1)} s"
-        advice = "The first status says 100: publish first, take away afterwards."
-        return Seen(by_then - 1e-3 <= charge <= 100.0 + 1e-3, seen, advice)
-
-    return Expectation("battery starts at 100 %", look)
+    some(probe, STATUS, STATUS_TYPE, 0.5)
+    first = probe.listen(STATUS, STATUS_TYPE)[0]
+    charge = float(field(first.message, "battery"))
+    by_then = max(0.0, 100.0 - 10 * DROP * (first.at + 0.2))
+    seen = f"{number(charge, 1)} % after {number(first.at, 1)} s"
+    advice = "The first status says 100: publish first, take away afterwards."
+    return Seen(by_then - 1e-3 <= charge <= 100.0 + 1e-3, seen, advice)
 
 
 def battery_falls(heard: Callable[[Probe], list[Heard]], hint: str = "") -> Expectation:
@@ -293,18 +284,15 @@ def says_low(expected: str, charges: tuple[float, ...]) -> Expectation:
     return Expectation(expected, look)
 
 
-def silent_without_status() -> Expectation:
+@expectation("without a status it says nothing")
+def silent_without_status(probe: Probe) -> Seen:
     """Nothing is published while no status comes."""
-
-    def look(probe: Probe) -> Seen:
-        answers = _answers(probe)
-        before = len(answers)
-        probe.wait(1.0)
-        heard = answers[before:]
-        advice = "Publish in on_status and nowhere else; no timer is needed."
-        return Seen(not heard, f"{count(len(heard), 'message')} in 1 s", advice)
-
-    return Expectation("without a status it says nothing", look)
+    answers = _answers(probe)
+    before = len(answers)
+    probe.wait(1.0)
+    heard = answers[before:]
+    advice = "Publish in on_status and nowhere else; no timer is needed."
+    return Seen(not heard, f"{count(len(heard), 'message')} in 1 s", advice)
 
 
 def _answers(probe: Probe) -> list[Heard]:

@@ -15,7 +15,7 @@ from .functions import agrees, learner_function, returns
 from .graph_view import field, interface
 from .navigation import where
 from .probe import Heard, Probe
-from .registry import Expectation, check
+from .registry import Expectation, check, expectation
 from .results import CannotLook, Seen, hinted
 from .streams import messages, rate, some
 
@@ -71,8 +71,8 @@ def nearest_ahead() -> list[Expectation]:
         _nearest("beams at −29° and +29° count", [(ours, {side * 29: 1.5, side * 35: 1.0}, 1.5) for side in (-1, 1)]),
         _nearest("beams at −31° and +31° do not", [(ours, {side * 31: 1.5}, FAR) for side in (-1, 1)]),
         _nearest("scanners with other angles", [(wide, {28: 1.5, 150: 0.5}, 1.5), (coarse, {-28: 2.5, 32: 1.0}, 2.5)]),
-        _says_ahead(),
-        _keeps_quiet(),
+        _says_ahead,
+        _keeps_quiet,
         no_errors(),
     ]
 
@@ -104,7 +104,7 @@ def ray_cast() -> list[Expectation]:
             [((5, 5, 0.0, (8, 5, 0.5)), 2.5), ((2, 8, -math.pi / 4, (5, 5, 1)), math.sqrt(18) - 1)],
             "Hint 1",
         ),
-        scan_shows_the_circles(),
+        scan_shows_the_circles,
         no_errors(),
     ]
 
@@ -219,29 +219,21 @@ def _scan(fan: Fan, near: dict[int, float]) -> Any:
     return made
 
 
-def _says_ahead() -> Expectation:
+@expectation("an obstacle straight ahead is told")
+def _says_ahead(probe: Probe) -> Seen:
     """An obstacle that the check puts straight ahead is what the node tells, to 5 cm."""
-
-    def look(probe: Probe) -> Seen:
-        distance, before, during = _put_ahead(probe, 0.0)
-        seen = f"{number(during)} m, with its near side at {number(distance)} m; without it {number(before)} m"
-        step = "Does the node say what nearest_ahead returns for each scan?"
-        return Seen(abs(during - distance) <= CLOSE < before - distance, seen, step)
-
-    return Expectation("an obstacle straight ahead is told", look)
+    distance, before, during = _put_ahead(probe, 0.0)
+    seen = f"{number(during)} m, with its near side at {number(distance)} m; without it {number(before)} m"
+    step = "Does the node say what nearest_ahead returns for each scan?"
+    return Seen(abs(during - distance) <= CLOSE < before - distance, seen, step)
 
 
-def _keeps_quiet() -> Expectation:
+@expectation("one at the side is not")
+def _keeps_quiet(probe: Probe) -> Seen:
     """An obstacle that the check puts at the side changes nothing."""
-
-    def look(probe: Probe) -> Seen:
-        distance, before, during = _put_ahead(probe, 75.0)
-        seen = (
-            f"{number(during)} m, although one is {number(distance)} m away at the side; without it {number(before)} m"
-        )
-        return Seen(abs(during - before) <= CLOSE, seen, "Leave out the beams that point more than 30° to a side.")
-
-    return Expectation("one at the side is not", look)
+    distance, before, during = _put_ahead(probe, 75.0)
+    seen = f"{number(during)} m, although one is {number(distance)} m away at the side; without it {number(before)} m"
+    return Seen(abs(during - before) <= CLOSE, seen, "Leave out the beams that point more than 30° to a side.")
 
 
 def _put_ahead(probe: Probe, degrees: float) -> tuple[float, float, float]:
@@ -275,30 +267,27 @@ def _meets(expected: str, examples: Iterable[tuple[tuple[Any, ...], float]], hin
     return returns("ray_circle", examples, expected, advice, within=1e-3)
 
 
-def scan_shows_the_circles() -> Expectation:
+@expectation("the scan shows the circles of the world")
+def scan_shows_the_circles(probe: Probe) -> Seen:
     """Each beam of the newest scan ends at the nearest circle of the world, or reads 10 m."""
-
-    def look(probe: Probe) -> Seen:
-        circles = [each for each in probe.target.obstacles if isinstance(each, Circle)]
-        if not circles:
-            raise CannotLook("there is no circle in the world: run the cell that places them")
-        pose = where(probe)
-        probe.wait(0.25)
-        message = some(probe, SCAN, SCAN_TYPE, 0.3)[-1].message
-        if len(field(message, "ranges")) != beams(message):
-            raise CannotLook("the scan has not one reading for each beam")
-        low, step = field(message, "angle_min"), field(message, "angle_increment")
-        off, at, came = max(
-            (abs(reading - _distance(pose, low + i * step, circles)), low + i * step, reading)
-            for i, reading in enumerate(message.ranges)
-        )
-        if off <= CLOSE:
-            return Seen(True, f"{count(sum(each < FAR for each in message.ranges), 'beam')} see one")
-        wanted = _distance(pose, at, circles)
-        advice = "Are the circles of the node those of the world, and is ray_circle right?"
-        return Seen(False, f"{number(came)} m at {angle(at)}, not {number(wanted)} m", advice)
-
-    return Expectation("the scan shows the circles of the world", look)
+    circles = [each for each in probe.target.obstacles if isinstance(each, Circle)]
+    if not circles:
+        raise CannotLook("there is no circle in the world: run the cell that places them")
+    pose = where(probe)
+    probe.wait(0.25)
+    message = some(probe, SCAN, SCAN_TYPE, 0.3)[-1].message
+    if len(field(message, "ranges")) != beams(message):
+        raise CannotLook("the scan has not one reading for each beam")
+    low, step = field(message, "angle_min"), field(message, "angle_increment")
+    off, at, came = max(
+        (abs(reading - _distance(pose, low + i * step, circles)), low + i * step, reading)
+        for i, reading in enumerate(message.ranges)
+    )
+    if off <= CLOSE:
+        return Seen(True, f"{count(sum(each < FAR for each in message.ranges), 'beam')} see one")
+    wanted = _distance(pose, at, circles)
+    advice = "Are the circles of the node those of the world, and is ray_circle right?"
+    return Seen(False, f"{number(came)} m at {angle(at)}, not {number(wanted)} m", advice)
 
 
 def _distance(pose: Any, bearing: float, circles: Iterable[Circle]) -> float:
@@ -315,18 +304,15 @@ def _distance(pose: Any, bearing: float, circles: Iterable[Circle]) -> float:
     return nearest
 
 
-def sees_three() -> Expectation:
+@expectation("goes on with three obstacles in sight")
+def sees_three(probe: Probe) -> Seen:
     """With three pillars in the world, the scans go on and show three things or more."""
-
-    def look(probe: Probe) -> Seen:
-        pose = where(probe)
-        around = (Circle(pose.x + 1.0 * math.cos(pose.theta + turn), pose.y + 1.0 * math.sin(pose.theta + turn), 0.2)
-                  for turn in (-0.9, 0.0, 0.9))  # fmt: skip
-        with probe.obstacles(*around):
-            probe.wait(0.5)
-            heard = some(probe, SCAN, SCAN_TYPE, 2.0)
-        near = [sum(each < 1.5 for each in field(one.message, "ranges")) for one in heard]
-        seen = f"{count(len(heard), 'scan')} in 2 s, up to {count(max(near), 'near reading')} in one"
-        return Seen(len(heard) >= 9 and max(near) >= 3, seen, "Does the detector still run?")
-
-    return Expectation("goes on with three obstacles in sight", look)
+    pose = where(probe)
+    around = (Circle(pose.x + 1.0 * math.cos(pose.theta + turn), pose.y + 1.0 * math.sin(pose.theta + turn), 0.2)
+              for turn in (-0.9, 0.0, 0.9))  # fmt: skip
+    with probe.obstacles(*around):
+        probe.wait(0.5)
+        heard = some(probe, SCAN, SCAN_TYPE, 2.0)
+    near = [sum(each < 1.5 for each in field(one.message, "ranges")) for one in heard]
+    seen = f"{count(len(heard), 'scan')} in 2 s, up to {count(max(near), 'near reading')} in one"
+    return Seen(len(heard) >= 9 and max(near) >= 3, seen, "Does the detector still run?")

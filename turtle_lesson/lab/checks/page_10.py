@@ -210,7 +210,7 @@ def system() -> list[Expectation]:
         Expectation("a near goal is answered within 2 s", _near_goal),
         Expectation("status every 100 ms ± 10 ms all the time", _statuses),
         Expectation("a scan every 200 ms ± 20 ms all the time", _scans),
-        page_05.sees_three(),
+        page_05.sees_three,
         no_errors(),
     ]
 

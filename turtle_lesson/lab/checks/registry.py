@@ -26,6 +26,11 @@ class Expectation:
     look: Callable[[Probe], Seen]
 
 
+def expectation(expected: str) -> Callable[[Callable[[Probe], Seen]], Expectation]:
+    """Decorator that makes an expectation of a function that looks; `expected` says it in words."""
+    return lambda look: Expectation(expected, look)
+
+
 @dataclass(frozen=True)
 class Check:
     """A named list of expectations, worth some points, that may take so much robot time (s)."""
@@ -89,8 +94,4 @@ def find(name: object) -> Check:
     if isinstance(name, str) and name in known:
         return known[name]
     hint = did_you_mean(name, known) if isinstance(name, str) else ""
-    raise ValueError(f"there is no check {name!r}. {hint or f'There are {_listed(known.values())}.'}")
-
-
-def _listed(checks: Iterable[Check]) -> str:
-    return enumerated(each.name for each in checks)
+    raise ValueError(f"there is no check {name!r}. {hint or f'There are {enumerated(known)}.'}")

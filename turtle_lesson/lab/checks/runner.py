@@ -1,4 +1,4 @@
-"""Carrying a check out: every expectation is looked at, whatever the others come to. Nothing but Ctrl-C gets out of here."""
+"""Carries a check out: looks at every expectation, whatever the others come to, and raises nothing but KeyboardInterrupt."""
 
 from __future__ import annotations
 
@@ -14,25 +14,16 @@ ENDS = "every callback returns"
 
 def run(check: Check, target: Target) -> CheckResult:
     """Look at everything that a check expects of the system at `target`."""
-    if target.ended:
-        return _result(check, _over(check), 0.0)
     began = target.now
-    with Probe(target, check.limit) as probe:
-        rows = [_look(each, probe) for each in check.expectations]
-        rows = _with_errors(rows, probe)
-    return _result(check, tuple(rows), round(target.now - began, 3))
-
-
-def _result(check: Check, rows: tuple[Row, ...], seconds: float) -> CheckResult:
-    return CheckResult(check.name, check.title, check.page, check.points, rows, seconds, check.learnt)
-
-
-def _over(check: Check) -> tuple[Row, ...]:
-    """What is said of a world that has ended."""
-    step = "Use the lesson that start() returned last, or run the set-up cell again."
-    gone = Row(BAD, "a world to look at", "it was closed by a later start()", Advice(step, step))
-    rest = (Row(OPEN, each.expected, _because("the world has ended")) for each in check.expectations)
-    return gone, *rest
+    if target.ended:
+        step = "Use the lesson that start() returned last, or run the set-up cell again."
+        rows = [Row(BAD, "a world to look at", "it was closed by a later start()", Advice(step, step))]
+        rows += [Row(OPEN, each.expected, _because("the world has ended")) for each in check.expectations]
+    else:
+        with Probe(target, check.limit) as probe:
+            rows = _with_errors([_look(each, probe) for each in check.expectations], probe)
+    seconds = round(target.now - began, 3)
+    return CheckResult(check.name, check.title, check.page, check.points, tuple(rows), seconds, check.learnt)
 
 
 def _look(expectation: Expectation, probe: Probe) -> Row:

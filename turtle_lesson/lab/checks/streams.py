@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from ..words import count, number
+from .failures import shortened
 from .probe import Heard, Probe
 from .registry import Expectation
 from .results import Advice, CannotLook, Seen
@@ -136,8 +137,7 @@ MOST_WORDS = 120
 def brief(message: Any) -> str:
     """A message in a few words: the value of its field where it has but one."""
     names = list(message.get_fields_and_field_types())
-    text = repr(getattr(message, names[0])) if len(names) == 1 else str(message)
-    return text if len(text) <= MOST_WORDS else f"{text[: MOST_WORDS - 1]}…"
+    return shortened(repr(getattr(message, names[0])) if len(names) == 1 else str(message), MOST_WORDS)
 
 
 def _any_since(answers: list[Heard], before: int, right: Callable[[Any], bool]) -> Callable[[], bool]:

@@ -9,11 +9,10 @@ from typing import Any
 
 from ..checks import CannotLook, CheckResult, Expectation, Probe, Seen
 from . import faults
+from .expect import status_as_specified
 from .faults import Environment, Fault, Trouble
 
-# -- cases --------------------------------------------------------------------------------------------------------
 # The troubles: four of the lesson, and bugs that were found in published teaching code.
-
 TROUBLES: dict[str, Trouble] = {
     trouble.name: trouble
     for trouble in (
@@ -45,7 +44,7 @@ TROUBLES: dict[str, Trouble] = {
             ("ros2 node list", "ros2 topic list", "ros2 topic hz /robot/status", "ros2 node info /status_monitor",
              "ros2 param get /status_monitor publish_rate"),
             faults.silent,
-            faults.topic_rows,
+            status_as_specified,
         ),
         Trouble(
             "turtle stands still",
@@ -73,7 +72,7 @@ TROUBLES: dict[str, Trouble] = {
              "ros2 topic list -t, ros2 topic info /robot/status --verbose."),
             ("ros2 topic list -t", "ros2 topic info /robot/status --verbose", "ros2 node list"),
             faults.typed_wrong,
-            faults.topic_rows,
+            status_as_specified,
         ),
         Trouble(
             "goal in the west",
@@ -102,16 +101,14 @@ TROUBLES: dict[str, Trouble] = {
             ("ros2 topic echo /robot/status --once", "ros2 node info /status_monitor",
              "ros2 topic info /turtle1/pose --verbose"),
             faults.frozen,
-            faults.frozen_rows,
+            status_as_specified,
         ),
     )
 }  # fmt: skip
 
 
-# -- case ---------------------------------------------------------------------------------------------------------
-# A case file: what a user reports of a broken system, and hints for finding the cause.
-
 LEVELS = 3
+"""How many hints a case has."""
 
 
 class Case:
@@ -194,7 +191,12 @@ def open_case(environment: Environment, seed: int | None, name: str | None, chec
     chance = Random(f"trouble {number}")
     trouble = TROUBLES[chance.choice(sorted(TROUBLES))] if name is None else _named(name)
     fault = trouble.choose(Random(f"{trouble.name} {number}"))
-    _put_on(environment, fault)
+    environment.clear()
+    if fault.workspace:
+        environment.make_workspace(fault.workspace)
+    environment.start(fault.programs)
+    if not fault.simulator:
+        environment.stop_simulator()
     case = Case(number, name is not None, trouble, fault, check)
     _current = (case, environment)
     return case
@@ -209,50 +211,42 @@ def _named(name: Any) -> Trouble:
     return TROUBLES[key]
 
 
-def _put_on(environment: Environment, fault: Fault) -> None:
-    environment.clear()
-    if fault.workspace:
-        environment.make_workspace(fault.workspace)
-    environment.start(fault.programs)
-    if not fault.simulator:
-        environment.stop_simulator()
-
-
 def carry_over(before: Any) -> None:
     """Take over the open case of an earlier import of this module, `before`; what it expects is what is written here."""
     global _current
     if before._current is not None:
         case, environment = before._current
-        _current = (
-            Case(case.number, case.trouble is not None, TROUBLES[case._trouble.name], case._fault, case._check),
-            environment,
-        )
+        trouble = TROUBLES[case._trouble.name]
+        _current = (Case(case.number, case.trouble is not None, trouble, case._fault, case._check), environment)
+
+
+def _open_case() -> Case | None:
+    """The case that is open in a world that goes on."""
+    return None if _current is None or _current[1].ended else _current[0]
 
 
 def current_expectations() -> list[Expectation]:
     """What is expected of the system once the current case is mended."""
-    if _current is None or _current[1].ended:
-        return [Expectation("a case that was opened", _no_case)]
-    return _current[0]._trouble.expectations()
+
+    def look(probe: Probe) -> Seen:
+        raise CannotLook("there is none in this world yet: case = lesson.trouble(1)")
+
+    case = _open_case()
+    return [Expectation("a case that was opened", look)] if case is None else case._trouble.expectations()
 
 
 def expectations_of(number: int, name: str) -> list[Expectation]:
-    """The same, and that the current case is this one."""
+    """What is expected once this case is mended, after the expectation that it is the one that is open."""
     wanted = f'case = lesson.trouble({number}, name="{name}")'
 
     def look(probe: Probe) -> Seen:
-        if _current is None or _current[1].ended:
+        case = _open_case()
+        if case is None:
             return Seen(False, "there is none in this world yet", f"Run the cell with {wanted} first.")
-        return Seen(is_open(), f"it is {_current[0]._title}", f"Another one is asked for: {wanted}")
+        return Seen(is_open(case), f"it is {case._title}", f"Another one is asked for: {wanted}")
 
-    def is_open() -> bool:
-        if _current is None or _current[1].ended:
-            return False
-        return (_current[0].number, _current[0].trouble) == (number, name)
+    def is_open(case: Case | None) -> bool:
+        return case is not None and (case.number, case.trouble) == (number, name)
 
-    case = Expectation(f"the case {number}, {name}", look)
-    return [case, *TROUBLES[name].expectations()] if is_open() else [case]
-
-
-def _no_case(probe: Probe) -> Seen:
-    raise CannotLook("there is none in this world yet: case = lesson.trouble(1)")
+    first = Expectation(f"the case {number}, {name}", look)
+    return [first, *TROUBLES[name].expectations()] if is_open(_open_case()) else [first]

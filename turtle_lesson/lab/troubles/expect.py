@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
-from ..checks import CannotLook, Expectation, Probe, Seen, interface, remembered
+from ..checks import CannotLook, Expectation, Probe, Seen, expectation, interface, remembered
 from ..checks.assertions import node, publishes
 from ..checks.navigation import COMMANDS, NAVIGATE, NAVIGATE_TYPE, NEAR, POSE, POSE_TYPE, Drive, drive, where
 from ..checks.streams import rate
@@ -89,7 +89,7 @@ def status_as_specified() -> list[Expectation]:
             published, f"ros2 topic info {STATUS} --verbose; ros2 node info /status_monitor: what does it publish?"
         ),
         settled(advised(paced, f"ros2 topic hz {STATUS}. Which node publishes it, and what sets its rate?")),
-        status_follows(),
+        status_follows,
     ]
 
 
@@ -161,36 +161,30 @@ def _answers(probe: Probe) -> Seen:
     return Seen(True, f"after {number(answer.seconds)} s")
 
 
-def status_follows() -> Expectation:
+@expectation(f"{STATUS} says where the turtle is")
+def status_follows(probe: Probe) -> Seen:
     """The status says where the turtle is."""
-
-    def look(probe: Probe) -> Seen:
-        poses, statuses = probe.listen(POSE, POSE_TYPE), probe.listen(STATUS, STATUS_TYPE)
-        probe.wait(0.5)
-        if not poses or not statuses:
-            raise CannotLook(f"nothing came on {STATUS if poses else POSE}")
-        told, true = statuses[-1].message, poses[-1].message
-        seen = f"it says {point(told.x, told.y)}, the turtle is at {point(true.x, true.y)}"
-        good = math.dist((told.x, told.y), (true.x, true.y)) < 0.3
-        return Seen(
-            good, seen, "ros2 node info /status_monitor: which topic does it hear, and which node publishes that one?"
-        )
-
-    return Expectation(f"{STATUS} says where the turtle is", look)
+    poses, statuses = probe.listen(POSE, POSE_TYPE), probe.listen(STATUS, STATUS_TYPE)
+    probe.wait(0.5)
+    if not poses or not statuses:
+        raise CannotLook(f"nothing came on {STATUS if poses else POSE}")
+    told, true = statuses[-1].message, poses[-1].message
+    seen = f"it says {point(told.x, told.y)}, the turtle is at {point(true.x, true.y)}"
+    good = math.dist((told.x, told.y), (true.x, true.y)) < 0.3
+    return Seen(
+        good, seen, "ros2 node info /status_monitor: which topic does it hear, and which node publishes that one?"
+    )
 
 
-def battery_falls() -> Expectation:
+@expectation("the battery falls 1 % a second")
+def battery_falls(probe: Probe) -> Seen:
     """The battery falls by a tenth of a percent a message, ten times a second."""
-
-    def look(probe: Probe) -> Seen:
-        heard = probe.hear(STATUS, STATUS_TYPE, 2.0)
-        if len(heard) < 2:
-            raise CannotLook(f"nothing came on {STATUS}")
-        first, last = heard[0], heard[-1]
-        if last.message.battery <= 0.0:
-            raise CannotLook("the battery is empty: start the monitor again")
-        fall = (first.message.battery - last.message.battery) / (last.at - first.at)
-        step = 'lesson.plot_timeline("/status_monitor"): how often is each callback called? ros2 node list: how many?'
-        return Seen(abs(fall - 1.0) < 0.1, f"it falls {number(fall, 1)} % a second", step)
-
-    return Expectation("the battery falls 1 % a second", look)
+    heard = probe.hear(STATUS, STATUS_TYPE, 2.0)
+    if len(heard) < 2:
+        raise CannotLook(f"nothing came on {STATUS}")
+    first, last = heard[0], heard[-1]
+    if last.message.battery <= 0.0:
+        raise CannotLook("the battery is empty: start the monitor again")
+    fall = (first.message.battery - last.message.battery) / (last.at - first.at)
+    step = 'lesson.plot_timeline("/status_monitor"): how often is each callback called? ros2 node list: how many?'
+    return Seen(abs(fall - 1.0) < 0.1, f"it falls {number(fall, 1)} % a second", step)

@@ -24,9 +24,6 @@ from .expect import (
     there,
 )
 
-# -- model --------------------------------------------------------------------------------------------------------
-# What a trouble is: a symptom, and faults that it may come from, one of which is put into the world.
-
 
 @dataclass(frozen=True)
 class Program:
@@ -83,7 +80,7 @@ class Trouble:
 
 
 class Environment(Protocol):
-    """Where a trouble is put on: what can be done to a world by public means."""
+    """The world that a trouble is put into, and what can be done to it by public means."""
 
     def clear(self) -> None:
         """End every program but the simulator; the simulator and the package are there again, as before."""
@@ -102,12 +99,8 @@ class Environment(Protocol):
         """Whether a newer world has taken its place."""
 
 
-# -- faults -------------------------------------------------------------------------------------------------------
-# The faults behind each symptom, one of which is chosen by chance, and what a well system shows instead.
-
 DRAFT = "robot_draft"
 OTHERS = (MONITOR, DETECTOR)
-
 
 # -- 1: the custom message cannot be found ------------------------------------------------------------------------------
 
@@ -189,11 +182,6 @@ def silent(chance: Random) -> Fault:
         ),
     )
     return chance.choice(faults)
-
-
-def topic_rows() -> list[Expectation]:
-    """The status comes."""
-    return status_as_specified()
 
 
 # -- 4: the turtle does not move ----------------------------------------------------------------------------------------
@@ -320,7 +308,7 @@ def twice(chance: Random) -> Fault:
 
 def twice_rows() -> list[Expectation]:
     """The status comes once, and the battery falls as specified."""
-    return [*status_as_specified(), battery_falls()]
+    return [*status_as_specified(), battery_falls]
 
 
 def frozen(chance: Random) -> Fault:
@@ -331,8 +319,3 @@ def frozen(chance: Random) -> Fault:
         "ros2 node info /status_monitor: which topic does it hear, and which node publishes that one?",
         (Program("status_monitor", remaps={"/turtle1/pose": wrong}), NAVIGATOR, DETECTOR),
     )
-
-
-def frozen_rows() -> list[Expectation]:
-    """The status says where the turtle is."""
-    return status_as_specified()
