@@ -360,10 +360,10 @@ def test_each_callback_has_a_handler_of_its_own(world: World) -> None:
     )
     subscription = node.create_subscription(Int32, "x", print, 10, event_callbacks=everything)
     assert {handler.event_type for handler in subscription.event_handlers} == set(QoSSubscriptionEventType)
-    assert set(subscription.event_handlers + publisher.event_handlers) <= set(node._ros_entities())
+    assert set(subscription.event_handlers + publisher.event_handlers) <= set(node._ros_waiting_entities)
     node.destroy_subscription(subscription)
     node.destroy_publisher(publisher)
-    assert not set(subscription.event_handlers + publisher.event_handlers) & set(node._ros_entities())
+    assert not set(subscription.event_handlers + publisher.event_handlers) & set(node._ros_waiting_entities)
 
 
 def test_a_coroutine_may_hear_of_events(run: Run) -> None:

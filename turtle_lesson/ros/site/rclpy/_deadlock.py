@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Words:
-    """What a client, and the one who answers it, are called in these texts."""
+    """What a client and its server are called in these texts."""
 
     client: str = "client"
     server: str = "service"
@@ -218,11 +218,11 @@ def why_never_awaited(future: Future, task: Task, strand: Strand | None) -> str:
 
 
 def _somebody_may_complete(future: Future, executor: Executor, taken: Callable[[Any], bool]) -> bool:
-    """Whether some callback or task can run while these groups are taken: who knows whether it sets the result."""
+    """Whether some callback or task can run while these groups are taken, since it may set the result."""
     if executor._resumed or executor._polled:
         return True
     nodes = future._answered_by._of_node.context._nodes
-    return any(_may_act(entity, taken) for node in nodes for entity in node._ros_entities())
+    return any(_may_act(entity, taken) for node in nodes for entity in node._ros_waiting_entities)
 
 
 def _may_act(entity: Any, taken: Callable[[Any], bool]) -> bool:

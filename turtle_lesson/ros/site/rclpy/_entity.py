@@ -105,7 +105,7 @@ class Entity:
 
 
 class Handle:
-    """An entity, node or clock, seen as the C object beneath it of the real rclpy: held with `with`, and compared.
+    """What stands for the C object of an entity, node or clock in the real rclpy: held with `with`, and compared.
 
     Nothing of the C interface is here but `pointer`; whatever else is asked for is looked up in the entity.
     """

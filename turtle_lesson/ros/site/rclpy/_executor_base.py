@@ -1,4 +1,4 @@
-"""What executors have in common beneath their spinning: they know nodes, choose what is next, and run it.
+"""What all executors have in common: they know nodes, choose what is next, and run it.
 
 One *cycle* takes everything that is ready at that moment and runs one callback of each: first actions, QoS events and
 tasks that can go on, then node by node timers, subscriptions, guard conditions, clients and services, each kind in order
@@ -80,13 +80,13 @@ class ExecutorBase:
         self._polled: list[Task] = []  # whose coroutine only let others go first, as with asyncio.sleep(0)
         self._has_polled = False  # nothing has happened since they last looked
         self._blocked: list[Entity] = []
-        self._waiter: Strand | None = None  # whom a signal wakes: the last of those who wait
+        self._waiter: Strand | None = None  # the strand that a signal wakes: the last that began to wait
         self._waiters: list[Strand] = []
         self._make_ready = self._simulation.make_ready
         self._tasks_in_order = current_world().release.has(TASKS_IN_ORDER)
         self._tasks_made = 0
         self._spinning: list[Strand] = []
-        self._spinning_forever: list[Strand] = []  # who is in `spin`, and does nothing else before the shutdown
+        self._spinning_forever: list[Strand] = []  # strands in `spin`, which do nothing else before the shutdown
         self._calls: list[Future] = []  # for what strands wait, without a timeout, in Client.call
         self._is_shutdown = False
         self._context.wake_on_shutdown(self.wake)
@@ -106,7 +106,7 @@ class ExecutorBase:
             raise no_node(node)
         if node._ros_simulation.closed:
             refuse_destroyed(node._ros_simulation)
-        if self._context.handle is None:
+        if not self._context.initialized:
             raise not_valid("guard_condition")
         if node._ros_executor is not None:
             node._ros_executor.remove_node(node)
@@ -116,7 +116,7 @@ class ExecutorBase:
         if not comes_again:
             self._nodes_seen += 1
             node._ros_place = (self, self._nodes_seen)
-        for entity in node._ros_entities():
+        for entity in list(node._ros_waiting_entities):
             if comes_again and entity._turn is not NO_TURN:
                 entity._executor = self  # type: ignore[assignment]
                 if entity._has_work():
@@ -138,7 +138,7 @@ class ExecutorBase:
         if node in self._nodes:
             self._nodes.remove(node)
             node._ros_executor = None
-            for entity in node._ros_entities():
+            for entity in list(node._ros_waiting_entities):
                 entity._executor = None
 
     def get_nodes(self) -> list[Node]:
@@ -273,7 +273,7 @@ class ExecutorBase:
                     self._retry_blocked()
 
     def _retry_blocked(self) -> None:
-        """Let those look again who waited for a callback group."""
+        """Look again at the entities that waited for a callback group."""
         blocked, self._blocked = self._blocked, []
         for waiting in blocked:
             waiting._signal()

@@ -1,4 +1,4 @@
-"""The part of a node that looks at the graph: who is there, under which names and types."""
+"""The part of a node that looks at the graph: nodes, topics and services, with their names and types."""
 
 from __future__ import annotations
 

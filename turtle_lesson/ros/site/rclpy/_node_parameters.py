@@ -1,4 +1,4 @@
-"""The part of a node that keeps its parameters: declared with a type, described, checked, and told of changes."""
+"""The part of a node that keeps its parameters: declared with a type, described, checked and published."""
 
 from __future__ import annotations
 

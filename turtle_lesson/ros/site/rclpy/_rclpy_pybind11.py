@@ -13,15 +13,15 @@ class InvalidHandle(RuntimeError):
 
 
 class RCUtilsError(RuntimeError):
-    """An error that the real rclpy hears from rcutils."""
+    """An error that the real rclpy gets from rcutils."""
 
 
 class RMWError(RuntimeError):
-    """An error that the real rclpy hears from the middleware."""
+    """An error that the real rclpy gets from the middleware."""
 
 
 class RCLError(RuntimeError):
-    """An error that the real rclpy hears from the C library beneath it."""
+    """An error that the real rclpy gets from the C library rcl."""
 
 
 class RCLInvalidROSArgsError(RCLError):

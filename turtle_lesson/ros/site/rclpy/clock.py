@@ -67,7 +67,7 @@ class Clock:
         return Time(nanoseconds=self._origin + self._simulation.read_clock(), clock_type=self._clock_type)
 
     def _now(self) -> int:
-        """The time now (ns), for whom looking at it costs nothing."""
+        """The time now (ns); looking at it costs no virtual time."""
         return self._origin + self._simulation.now
 
     def _when(self, time: int) -> int | None:
@@ -210,7 +210,7 @@ class ROSClock(Clock):
             handle.after(jump)
 
 
-# -- jumps of a clock: what is told to whom are the rules of rcl's time.c ---------------------------------------------
+# -- jumps of a clock (which callbacks are called: rcl's time.c) ------------------------------------------------------
 
 
 class ClockChange(IntEnum):

@@ -26,7 +26,7 @@ class Context:
 
     def __init__(self) -> None:
         self._process = current_process()
-        self._initialized = False
+        self.initialized = False
         self.ended = False
         """Whether it was shut down."""
         self.ended_by_signal = False
@@ -46,11 +46,11 @@ class Context:
         """
         if domain_id is not None and domain_id < 0:
             raise RuntimeError(f"Domain id ({domain_id}) should not be lower than zero.")
-        if self._initialized:
+        if self.initialized:
             raise RuntimeError("Context.init() must only be called once")
         self.arguments = self._read(self._process.argv if args is None else args)
         self._domain_id = domain_id or 0
-        self._initialized = True
+        self.initialized = True
         contexts_of(self._process).append(self)
         if initialize_logging:
             self._set_up_logging()
@@ -84,18 +84,18 @@ class Context:
     @property
     def handle(self) -> Handle | None:
         """What stands for the C object of the real one; None before `init`."""
-        return Handle(self) if self._initialized else None
+        return Handle(self) if self.initialized else None
 
     def ok(self) -> bool:
         """Whether the context is initialized and not shut down."""
-        return self._initialized and not self.ended
+        return self.initialized and not self.ended
 
     def get_domain_id(self) -> int:
         """The ROS domain, which is only a number here: all processes of a world see each other.
 
         Raises RuntimeError before `init`, RCLError after the shutdown.
         """
-        if not self._initialized:
+        if not self.initialized:
             raise RuntimeError("Context must be initialized before it can have a domain id")
         if self.ended:
             raise RCLError("Failed to get domain id: the context has been shut down")
@@ -106,10 +106,10 @@ class Context:
         if self.ended:
             self._forget_as_default()
             error = RCLError("failed to shutdown: rcl_shutdown already called on the given context")
-            who = "Ctrl-C has already shut it down, as on a robot. " if self.ended_by_signal else ""
-            error.add_note(f"{who}rclpy.try_shutdown() does it only if it is still necessary.")
+            cause = "Ctrl-C has already shut it down, as on a robot. " if self.ended_by_signal else ""
+            error.add_note(f"{cause}rclpy.try_shutdown() does it only if it is still necessary.")
             raise error
-        if not self._initialized:
+        if not self.initialized:
             raise RuntimeError("Context must be initialized before it can be shutdown")
         self.try_shutdown()
 
@@ -197,7 +197,7 @@ class Context:
         self._leave()
 
     def __enter__(self) -> Context:
-        if not self._initialized:
+        if not self.initialized:
             raise RuntimeError("init() must be called on this Context before using it with a context manager")
         return self
 

@@ -219,7 +219,7 @@ class Executor(ExecutorBase):
         """Whether there is a callback that could be run, or whether all are held up by callbacks that wait."""
         if self._batch or self._resumed or self._polled:
             return True
-        entities = [entity for node in self._nodes for entity in node._ros_entities()]
+        entities = [entity for node in self._nodes for entity in node._ros_waiting_entities]
         return not entities or any(entity.callback_group.can_execute(entity) for entity in entities)
 
     def _is_worker(self, strand: Strand) -> bool:
@@ -376,7 +376,7 @@ class _Worker:
             while self._job is None:
                 self._strand.waits_for = IDLE
                 if executor._waiter is None:
-                    look_after(self._strand)  # nobody spins: may those who wait still hope for anything?
+                    look_after(self._strand)  # nobody spins: look for a deadlock
                 self._strand.park()
             self._strand.waits_for = None
             job, self._job = self._job, None

@@ -170,9 +170,6 @@ class Node(NodeEntities, NodeParameters):
 
     # -- what it has -----------------------------------------------------------------------------------------------
 
-    def _ros_entities(self) -> Iterator[Entity]:
-        return iter(list(self._ros_waiting_entities))
-
     def _ros_of_kind(self, kind: type) -> Iterator[Any]:
         return (entity for entity in list(self._ros_waiting_entities) if isinstance(entity, kind))
 
@@ -249,7 +246,7 @@ class Node(NodeEntities, NodeParameters):
         """The node's clock, which shows ROS time."""
         return self._ros_clock
 
-    # -- what it tells everybody ------------------------------------------------------------------------------------
+    # -- /rosout and /parameter_events ------------------------------------------------------------------------------
 
     def _ros_publish_rosout(self, profile: QoSProfile | int) -> None:
         """Publish on /rosout what the logger prints."""

@@ -240,7 +240,7 @@ class QoSProfile:
 
 
 def _expectation(name: str, kind: type, value: object) -> str:
-    """What a policy must be, for one who gave something else."""
+    """The error text for a policy of another type."""
     example = {int: "10", bool: "True", Duration: "Duration(seconds=1)"}.get(kind, "")
     if issubclass(kind, QoSPolicyEnum):
         words = [f"{kind.__name__}.{key}" for key in kind.__members__ if key not in {"SYSTEM_DEFAULT", "UNKNOWN"}]

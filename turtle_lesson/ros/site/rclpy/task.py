@@ -123,7 +123,7 @@ class Future:
         return None if self._exception is None else self._exception_fetched()
 
     def _exception_fetched(self) -> BaseException:
-        """The exception, for somebody who deals with it."""
+        """The exception, for a caller that deals with it."""
         if self._never_retrieved is not None:
             self._never_retrieved.detach()
         assert self._exception is not None
@@ -137,7 +137,7 @@ class Future:
         self._call_callbacks()
 
     def set_exception(self, exception: BaseException) -> None:
-        """Now it is done, and has failed. If nobody ever asks for the exception, it is told of at the end."""
+        """Now it is done, and has failed. An exception that is never asked for is reported at the end."""
         self._exception = exception
         self._never_retrieved = weakref.finalize(self, _tell_never_retrieved, str(exception))
         self._never_retrieved.atexit = False
@@ -208,7 +208,7 @@ class Task(Future):
 
     _traced = None
     _number = 0
-    """The how manieth task of its executor this is."""
+    """Its place among the tasks of its executor."""
 
     def __init__(
         self,

@@ -25,7 +25,7 @@ CLOCK_TOPIC = "/clock"
 USE_SIM_TIME_NAME = "use_sim_time"
 
 PATIENCE = 5 * NANOSECONDS
-"""How long nothing may be heard on /clock before the node is told of it (a real one waits in silence)."""
+"""How long /clock may be silent before the node logs a warning (a real one waits in silence)."""
 
 SILENCE = (
     "The parameter use_sim_time is true, but nothing has been heard on /clock so far: time stands still for this node, "

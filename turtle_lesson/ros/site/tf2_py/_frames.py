@@ -26,7 +26,7 @@ class ConnectivityException(TransformException):
 
 
 class LookupException(TransformException):
-    """A frame is asked for that nobody has told of."""
+    """A frame is asked for that is not known."""
 
     __module__ = "tf2"
 

@@ -17,9 +17,9 @@ from .transform_broadcaster import as_list
 
 
 class StaticTransformBroadcaster:
-    """Publishes transforms once, for all who listen now or later.
+    """Publishes transforms once, for all subscriptions of now and later.
 
-    All frames that one broadcaster was told of go into one message. The first transform of a frame counts; a later
+    All frames of one broadcaster go into one message. The first transform of a frame counts; a later
     one of the same frame is ignored, as by the real one, which says nothing; here it is said in the log.
     """
 

@@ -27,7 +27,7 @@ class Transition(NamedTuple):
 
 
 class TransitionCallbackReturnType(Enum):
-    """What a transition's callback returns. Everybody knows it as `rclpy.lifecycle.TransitionCallbackReturn`."""
+    """What a transition's callback returns: `rclpy.lifecycle.TransitionCallbackReturn`."""
 
     SUCCESS = 97
     FAILURE = 98
@@ -87,7 +87,7 @@ TRANSITIONS = [
 
 
 class StateMachine:
-    """Which state a node is in. `notify(start, goal)` is told of each change.
+    """Which state a node is in. `notify(start, goal)` is called at each change.
 
     It has the names of the real one's `LifecycleStateMachine`, where states are pairs of number and label.
     """

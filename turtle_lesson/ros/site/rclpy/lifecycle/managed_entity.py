@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class ManagedEntity:
-    """Base class. Each method is told of a transition, with the state it begins in, and returns how that went."""
+    """Base class. Each method is called in a transition, with the state it begins in, and returns how that went."""
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """The node is being configured."""
