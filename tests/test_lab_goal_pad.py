@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from turtle_lesson import start
+from turtle_lesson.lab.path import WORLD
 from turtle_lesson.lab.recording import Table
-from turtle_lesson.lab.widgets.goal_client import WORLD
 from turtle_lesson.lab.widgets.panels_world import POINTS, SPACING, TAIL, Trail
 from turtle_lesson.session.lesson import Lesson
 from turtle_lesson.session.live import Stopwatch

@@ -16,7 +16,6 @@ def test_a_listener_takes_the_numbers_out_of_a_message_and_the_time_out_of_its_i
     hear(twist, {"source_timestamp": 1_800_000_000_100_000_000, "received_timestamp": 5})
     assert len(table) == 1
     assert table.array().tolist() == [(1_800_000_000_100_000_000, 0.2, -1.0)]
-    assert repr(table) == "<Table of stamp, forward, turn: 1 rows>"
 
 
 def test_a_number_that_a_message_does_not_have_is_nothing():

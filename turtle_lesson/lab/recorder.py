@@ -61,6 +61,8 @@ class Recorder(Recording):
         limit: int = LIMIT,
         advice: Advice = IN_A_LESSON,
     ) -> None:
+        from rcl_interfaces.msg import ParameterEvent
+
         if origin is None:
             origin = node.get_clock().now().nanoseconds
         super().__init__(turtle=turtle, origin=origin, limit=limit)
@@ -68,7 +70,8 @@ class Recorder(Recording):
         self._closed = False
         self._channels = self._make_channels(node, advice)
         self._timer = node.create_timer(GLANCE_PERIOD, self._glance)
-        self._events = self._hear_of_new_nodes(node)
+        # every node announces its parameters when it starts
+        self._events = node.create_subscription(ParameterEvent, "/parameter_events", lambda _: self.look(), 100)
         self.look()
 
     def look(self) -> None:
@@ -122,7 +125,8 @@ class Recorder(Recording):
     def _status_listener(self, message_type: Any) -> Listener:
         """A learner's TurtleStatus may lack a number that ours has: that column then holds nothing."""
         known = message_type.get_fields_and_field_types()
-        numbers = {name for name, kind in known.items() if kind.rstrip("0123456789") in _NUMBERS}
+        kinds = ("float", "double", "int", "uint")
+        numbers = {name for name, kind in known.items() if kind.rstrip("0123456789") in kinds}
         return self.statuses.listener(*(name if name in numbers else "" for name in self.statuses.names))
 
     def _hear_scan(self, message: Any, info: Any) -> None:
@@ -132,18 +136,6 @@ class Recorder(Recording):
     def _hear_markers(self, message: Any, info: Any) -> None:
         self.worlds.append(info["source_timestamp"])
         apply(message, self.obstacles)
-
-    def _hear_of_new_nodes(self, node: Any) -> Any:
-        """Look at the graph whenever a node has just started: every node then announces its parameters."""
-        from rcl_interfaces.msg import ParameterEvent
-
-        def look(event: Any) -> None:
-            self.look()
-
-        return node.create_subscription(ParameterEvent, "/parameter_events", look, 100)
-
-
-_NUMBERS = {"float", "double", "int", "uint"}
 
 
 DEPTH = 1000
@@ -197,10 +189,13 @@ class Channel:
     def follow(self) -> None:
         """Subscribe if there is a publisher, unsubscribe if there is none any more."""
         message_type = self._find_message_type() if self._wanted() else None
-        if message_type is not self._message_type:
-            self.close()
-            if message_type is not None:
-                self._open(message_type)
+        if message_type is self._message_type:
+            return
+        self.close()
+        if message_type is not None:
+            self._message_type = message_type
+            listener = with_time(self.node, self._make_listener(message_type))
+            self._subscription = self.node.create_subscription(message_type, self.topic, listener, self._quality())
 
     def close(self) -> None:
         """Unsubscribe."""
@@ -221,7 +216,7 @@ class Channel:
             package = self.type_name.split("/")[0]
             unknown = f"{self.topic} is published as {self.type_name}, but that type cannot be imported here"
             return f"{unknown}: try colcon build --packages-select {package}, then source install/setup.bash"
-        names = listed(sorted({_full_name(publisher) for publisher in publishers}))
+        names = listed(sorted({f"{end.node_namespace.rstrip('/')}/{end.node_name}" for end in publishers}))
         return f"{names} can publish {self.topic}, but no message has come yet. {self.patience}"
 
     def _wanted(self) -> bool:
@@ -230,11 +225,8 @@ class Channel:
             ends = self.node.get_publishers_info_by_topic(self.topic)
             return any(end.topic_type == self.type_name for end in ends)
         me = (self.node.get_name(), self.node.get_namespace())
-        others = [
-            end
-            for end in self.node.get_subscriptions_info_by_topic(self.topic)
-            if (end.node_name, end.node_namespace) != me
-        ]
+        listening = self.node.get_subscriptions_info_by_topic(self.topic)
+        others = [end for end in listening if (end.node_name, end.node_namespace) != me]
         return any(end.topic_type == self.type_name for end in others)
 
     def _find_message_type(self) -> Any:
@@ -244,12 +236,6 @@ class Channel:
             return getattr(importlib.import_module(f"{package}.msg"), name, None)
         except ImportError:
             return None
-
-    def _open(self, message_type: Any) -> None:
-        self._message_type = message_type
-        listener = with_time(self.node, self._make_listener(message_type))
-        quality = self._quality()
-        self._subscription = self.node.create_subscription(message_type, self.topic, listener, quality)
 
     def _quality(self) -> Any:
         """Best effort matches every publisher; only a latched topic has to be reliable to give its past."""
@@ -277,10 +263,6 @@ def with_time(node: Any, listener: Listener) -> Callable[..., None]:
     return lambda message: listener(message, {"source_timestamp": clock.now().nanoseconds})
 
 
-def _full_name(end: Any) -> str:
-    return f"{end.node_namespace.rstrip('/')}/{end.node_name}"
-
-
 # visualization_msgs/msg/Marker: its types and actions
 CUBE, SPHERE, CYLINDER = 1, 2, 3
 DELETE, DELETEALL = 2, 3
@@ -299,15 +281,7 @@ def apply(message: Any, obstacles: dict[tuple[str, int], Obstacle]) -> None:
         elif marker.action == DELETE:
             obstacles.pop(key, None)
         elif marker.type in (CUBE, SPHERE, CYLINDER):
-            obstacles[key] = _obstacle(marker)
-
-
-def _obstacle(marker: Any) -> Obstacle:
-    place, size, turn = marker.pose.position, marker.scale, marker.pose.orientation
-    shape = "box" if marker.type == CUBE else "circle"
-    return Obstacle(shape, place.x, place.y, size.x, size.y, _yaw(turn))
-
-
-def _yaw(turn: Any) -> float:
-    """The turn about the vertical axis, in radians, of any quaternion."""
-    return math.atan2(2 * (turn.w * turn.z + turn.x * turn.y), 1 - 2 * (turn.y * turn.y + turn.z * turn.z))
+            place, size, turn = marker.pose.position, marker.scale, marker.pose.orientation
+            shape = "box" if marker.type == CUBE else "circle"
+            yaw = math.atan2(2 * (turn.w * turn.z + turn.x * turn.y), 1 - 2 * (turn.y * turn.y + turn.z * turn.z))
+            obstacles[key] = Obstacle(shape, place.x, place.y, size.x, size.y, yaw)

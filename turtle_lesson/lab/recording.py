@@ -38,9 +38,6 @@ class Table:
     def __len__(self) -> int:
         return min(len(self._rows) // self._row.size, self.limit)
 
-    def __repr__(self) -> str:
-        return f"<Table of {', '.join(('stamp', *self.names))}: {len(self)} rows>"
-
     def append(self, stamp: int, *values: float) -> None:
         """Add a row: the time in ns, then one number for each name."""
         self._rows += self._row.pack(stamp, *values)
@@ -72,6 +69,15 @@ class Table:
         wanted = min(count, len(self)) * self._row.size
         return np.frombuffer(bytes(self._rows[len(self._rows) - wanted :]), self._type)
 
+    def after(self, stamp: int) -> np.ndarray:
+        """The rows that are newer than `stamp` (ns): cheap where they are few, however long the table is."""
+        count = 16
+        while True:
+            rows = self.newest(count)
+            if len(rows) < count or rows["stamp"][0] <= stamp:
+                return rows[rows["stamp"] > stamp]
+            count *= 4
+
     @property
     def _full(self) -> int:
         """Bytes at which old rows go: some way over the limit, so that it is not done for each row."""
@@ -86,12 +92,8 @@ def _reader(paths: tuple[str, ...]) -> Callable[[Any], tuple[float, ...]]:
     """A function from a message to its numbers; `attrgetter` alone is fastest, for two numbers and more."""
     if all(paths) and len(paths) > 1:
         return attrgetter(*paths)
-    readers = [attrgetter(path) if path else _missing for path in paths]
+    readers = [attrgetter(path) if path else lambda message: math.nan for path in paths]
     return lambda message: tuple(read(message) for read in readers)
-
-
-def _missing(message: Any) -> float:
-    return float("nan")
 
 
 NANOSECONDS = 1_000_000_000

@@ -65,19 +65,17 @@ def _draw(seconds: np.ndarray, rows: np.ndarray) -> Figure:
         panel = style.axes_at(figure, 0.95, 3.56 - 1.02 * row, 4.75, 0.82, sharex=shared)
         panel.tick_params(labelbottom=row == 3)
         panels.append(panel)
-    _draw_position(panels[0], seconds, rows)
+    panels[0].set_ylabel("position\nin m")
+    _lines(panels[0], seconds, {"x": (rows["x"], style.BLUE), "y": (rows["y"], style.VERMILLION)}, least=1.0)
     _draw_heading(panels[1], seconds, rows["theta"])
     _draw_velocity(panels[2], seconds, rows)
     _draw_battery(panels[3], seconds, rows["battery"])
     panels[3].set_xlabel("robot time in seconds")
-    panels[3].set_xlim(*_span(seconds))
+    begin, end = float(seconds[0]), float(seconds[-1])  # the axis is a little wider than the data, and begins at 0 if
+    spare = 0.01 * (end - begin) or 0.5  # they start close to it
+    panels[3].set_xlim(0.0 if 0 <= begin < 5 * spare else begin - spare, end + spare)
     figure.align_ylabels(panels)
     return figure
-
-
-def _draw_position(panel: Axes, seconds: np.ndarray, rows: np.ndarray) -> None:
-    panel.set_ylabel("position\nin m")
-    _lines(panel, seconds, {"x": (rows["x"], style.BLUE), "y": (rows["y"], style.VERMILLION)}, least=1.0)
 
 
 def _draw_heading(panel: Axes, seconds: np.ndarray, theta: np.ndarray) -> None:
@@ -91,11 +89,8 @@ def _draw_heading(panel: Axes, seconds: np.ndarray, theta: np.ndarray) -> None:
     panel.grid(which="minor")
     degrees = panel.twinx()
     degrees.set_ylim(panel.get_ylim())
-    degrees.set_yticks(
-        [-math.pi, -math.pi / 2, 0, math.pi / 2, math.pi],
-        ["−180°", "−90°", "0°", "90°", "180°"],
-        fontsize=7.5,
-    )
+    quarters = [quarter * math.pi / 2 for quarter in range(-2, 3)]
+    degrees.set_yticks(quarters, ["−180°", "−90°", "0°", "90°", "180°"], fontsize=7.5)
     degrees.grid(False)
     panel.tick_params(which="minor", length=0)
 
@@ -104,12 +99,8 @@ def _draw_velocity(panel: Axes, seconds: np.ndarray, rows: np.ndarray) -> None:
     panel.set_ylabel("velocity\nin m/s")
     speed = np.hypot(rows["vel_x"], rows["vel_y"])
     panel.fill_between(seconds, 0, speed, color=style.LINE, linewidth=0)
-    lines = {
-        "x": (rows["vel_x"], style.BLUE),
-        "y": (rows["vel_y"], style.VERMILLION),
-        "speed": (speed, style.INK),
-    }
-    _lines(panel, seconds, lines, least=0.2, drawn=("x", "y"))
+    along = {"x": (rows["vel_x"], style.BLUE), "y": (rows["vel_y"], style.VERMILLION)}
+    _lines(panel, seconds, {**along, "speed": (speed, style.INK)}, least=0.2)
 
 
 def _draw_battery(panel: Axes, seconds: np.ndarray, battery: np.ndarray) -> None:
@@ -120,10 +111,8 @@ def _draw_battery(panel: Axes, seconds: np.ndarray, battery: np.ndarray) -> None
     panel.set_yticks([0, 50, 100])
 
 
-def _lines(
-    panel: Axes, seconds: np.ndarray, lines: dict[str, Any], least: float, drawn: Sequence[str] = ("x", "y")
-) -> None:
-    """Lines with their name at their end, in a range of at least `least`, so that noise looks like noise."""
+def _lines(panel: Axes, seconds: np.ndarray, lines: dict[str, Any], least: float) -> None:
+    """Lines with their names at their ends, in a range of at least `least`, so that noise looks like noise."""
     from matplotlib.ticker import MaxNLocator
 
     values = np.concatenate([values[np.isfinite(values)] for values, _ in lines.values()])
@@ -133,19 +122,15 @@ def _lines(
     panel.yaxis.set_major_locator(MaxNLocator(nbins=3, steps=[1, 2, 5, 10]))
     ends = spread([float(values[-1]) for values, _ in lines.values()], 0.22 * (high - low + 2 * spare))
     for (name, (values, colour)), end in zip(lines.items(), ends, strict=True):
-        if name in drawn:
+        if name != "speed":
             panel.plot(seconds, values, color=colour, linewidth=1.8)
-        panel.annotate(
-            name,
-            (1.0, end),
-            xycoords=("axes fraction", "data"),
-            xytext=(7, 0),
-            textcoords="offset points",
-            color=colour,
-            fontweight="bold" if name in drawn else "normal",
-            va="center",
-            annotation_clip=False,
-        )
+        label_beside(panel, name, end, 7, color=colour, fontweight="normal" if name == "speed" else "bold")
+
+
+def label_beside(axes: Axes, text: str, height: float, gap: float, **look: Any) -> None:
+    """Write a text to the right of the axes, at a height in the axes' units and so many points away from them."""
+    place: dict[str, Any] = {"xycoords": ("axes fraction", "data"), "textcoords": "offset points"}
+    axes.annotate(text, (1.0, height), xytext=(gap, 0), va="center", annotation_clip=False, **place, **look)
 
 
 def spread(places: Sequence[float], least: float) -> list[float]:
@@ -159,10 +144,3 @@ def spread(places: Sequence[float], least: float) -> list[float]:
     placed = np.empty(len(moved))
     placed[order] = moved
     return placed.tolist()
-
-
-def _span(seconds: np.ndarray) -> tuple[float, float]:
-    """The range of the time axis: a little wider than the data, and from 0 if they start close to it."""
-    begin, end = float(seconds[0]), float(seconds[-1])
-    spare = 0.01 * (end - begin) or 0.5
-    return (0.0 if 0 <= begin < 5 * spare else begin - spare, end + spare)

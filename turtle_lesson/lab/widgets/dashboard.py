@@ -10,7 +10,6 @@ import traitlets
 from .. import style
 from ..path import plot_path
 from ..picture import SHARPNESS, Picture
-from ..recording import Recording
 from ..scan import read_beams
 from ..status import plot_status
 from ..words import angle, count, listed, number, point
@@ -22,26 +21,13 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from .backend import Backend
-    from .goal_client import Goal
 
 
-GAP = 12
-"""Pixels shown between two cards."""
-
-
-def dashboard_picture(recording: Recording, text: str, goal: Goal | None) -> Picture:
-    """Path, with the newest goal, and status side by side, as far as there is anything to draw."""
-    place = None if goal is None else (goal.x, goal.y, goal.theta)
-    cards = [plot_path(recording, goal=place), plot_status(recording)]
-    drawn = [card.pixels() for card in cards if card.figure is not None]
-    return Picture(text, _sheet(drawn) if drawn else None)
-
-
-def _sheet(cards: list[np.ndarray]) -> Figure:
+def _side_by_side(cards: list[np.ndarray]) -> Figure:
     """A figure on which pictures (rows of pixels) stand side by side, pixel for pixel, their tops in line."""
     from matplotlib.figure import Figure
 
-    gap = GAP * SHARPNESS
+    gap = 12 * SHARPNESS
     width = sum(card.shape[1] + gap for card in cards) - gap
     height = max(len(card) for card in cards)
     figure = Figure(
@@ -77,12 +63,8 @@ class LabView(GoalsPanel, EditorPanel, MapPanel, ClockPanel):
 
     def text(self) -> str:
         """Where the turtle is, what became of the goals, and how many obstacles there are."""
-        sentences = [
-            f"{self.title} at {number(self.backend.now)} s of robot time: {self._place()}.",
-            self.goals_in_words(),
-            self.obstacles_in_words(),
-        ]
-        return " ".join(sentences)
+        here = f"{self.title} at {number(self.backend.now)} s of robot time: {self._place()}."
+        return f"{here} {self.goals_in_words()} {self.obstacles_in_words()}"
 
     def picture(self) -> Picture | None:
         """The map with the path so far."""
@@ -109,32 +91,25 @@ class Dashboard(LogPanel, LightsPanel, RatesPanel, ScanPanel, StatusPanel, LabVi
 
     def text(self) -> str:
         """Time, place, battery, the nearest thing, what is missing, and how many goals were sent."""
-        facts = [self._place(), *self._nearest(), self._presence(), f"{count(len(self.desk.goals), 'goal')} sent"]
+        scan, lost = self.backend.recorder.last_scan, missing(look(self.backend.node))
+        facts = [
+            self._place(),
+            "no scan heard yet" if scan is None else f"nearest in the scan: {in_words(read_beams(scan))['nearest']}",
+            f"missing: {listed(lost)}" if lost else "all expected nodes and services are there",
+            f"{count(len(self.desk.goals), 'goal')} sent",
+        ]
         return f"Dashboard at {number(self.backend.now)} s of robot time: {'; '.join(facts)}."
 
     def picture(self) -> Picture | None:
-        """Path and status side by side."""
-        pass  # HOUSE: was an import of this file
-
-        kept = [goal for goal in self.desk.goals if goal.was_taken]
-        return dashboard_picture(self.backend.recorder, self.text(), kept[-1] if kept else None)
+        """Path, with the newest goal, and status side by side, as far as there is anything to draw."""
+        kept = [(goal.x, goal.y, goal.theta) for goal in self.desk.goals if goal.was_taken]
+        recorder = self.backend.recorder
+        cards = [plot_path(recorder, goal=kept[-1] if kept else None), plot_status(recorder)]
+        drawn = [card.pixels() for card in cards if card.figure is not None]
+        return Picture(self.text(), _side_by_side(drawn) if drawn else None)
 
     def _place(self) -> str:
         recorder = self.backend.recorder
-        poses, statuses = recorder.poses.newest(1), recorder.statuses.newest(1)
-        if not len(poses):
-            return "no pose heard yet"
-        x, y, theta = (poses[0][name] for name in ("x", "y", "theta"))
-        battery = f", battery {number(statuses[0]['battery'], 1)} %" if len(statuses) else ""
-        return f"the turtle is at {point(x, y)} m facing {angle(theta)}{battery}"
-
-    def _nearest(self) -> list[str]:
-        scan = self.backend.recorder.last_scan
-        if scan is None:
-            return ["no scan heard yet"]
-        words = in_words(read_beams(scan))
-        return [f"nearest in the scan: {words['nearest']}"]
-
-    def _presence(self) -> str:
-        lost = missing(look(self.backend.node))
-        return f"missing: {listed(lost)}" if lost else "all expected nodes and services are there"
+        statuses = recorder.statuses.newest(1)
+        battery = f", battery {number(statuses[0]['battery'], 1)} %" if len(statuses) and len(recorder.poses) else ""
+        return super()._place() + battery

@@ -147,12 +147,9 @@ class Form(LiveWidget):
 
     def _publish_again_and_again(self) -> None:
         self._drop_timer()
-        self._timer = self.backend.node.create_timer(1 / self.rate, self._hop)
+        self._timer = self.backend.node.create_timer(1 / self.rate, lambda: self.backend.loop.now_or_soon(self._repeat))
         self.words = f"Publishing on {self.name}, {self.rate:g} times a second of robot time."
         self._bring_up_to_date()
-
-    def _hop(self) -> None:
-        self.backend.loop.now_or_soon(self._repeat)
 
     def _repeat(self) -> None:
         if self._timer is not None and not self.backend.ended:  # or it was stopped while this was on its way
@@ -206,17 +203,15 @@ class Form(LiveWidget):
         self.errors = {single.path: words for single in singles if (words := _error_of(single))}
         if fields_too:
             self.tree = self._whole.state()["parts"]
+        has_now = "'now': True" in repr(self.tree)
+        self.remark = "The stamp is left out: a line for the terminal cannot know it." if has_now else ""
         self.line = "" if self.errors else self._terminal_line()
-        self.remark = "The stamp is left out: a line for the terminal cannot know it." if self._has_now() else ""
 
     def _terminal_line(self) -> str:
         values = self._whole.changed() or {}
         if self.kind == "service":
-            return call_line(self.name, self.type_name, values)
+            return f"ros2 service call {self.name} {self.type_name} {_yaml(values)}"
         return publish_line(self.name, self.type_name, values, None if self._timer is None else self.rate)
-
-    def _has_now(self) -> bool:
-        return "'now': True" in repr(self.tree)
 
     def text(self) -> str:
         """What the form is for, and what it would send."""
@@ -261,11 +256,6 @@ def publish_line(topic: str, type_name: str, values: dict[str, Any], rate: float
     """The `ros2 topic pub` that publishes these values: once, or so often a second."""
     how = "--once" if rate is None else f"--rate {rate:g}"
     return f"ros2 topic pub {how} {topic} {type_name} {_yaml(values)}"
-
-
-def call_line(service: str, type_name: str, values: dict[str, Any]) -> str:
-    """The `ros2 service call` that asks with these values."""
-    return f"ros2 service call {service} {type_name} {_yaml(values)}"
 
 
 def _yaml(values: dict[str, Any]) -> str:

@@ -10,19 +10,14 @@ from weakref import WeakSet
 
 from ...ros.stdlib.clocks import real_monotonic
 from .backend import Backend
-from .lazy_endpoints import Server
+from .lazy_endpoints import DISCOVERY, Server
 from .live_widget import Pace
 
 SERVICE = "/navigate_to"
-DISCOVERY = 2.0
-"""Seconds of real time that a real network may take until a new client has found the navigator."""
-
 AT_ONCE = 0.5
 """An answer within so much robot time, s, that tells of no driving, is a refusal."""
 
 WAITING = ("looking for the navigator", "on its way")
-
-Number = int | float
 
 
 @dataclass(slots=True)
@@ -88,15 +83,10 @@ class GoalDesk:
         """What the desk's system is known by; None once it has ended."""
         return None if self._backend.ended else self._backend.recorder
 
-    @property
-    def current(self) -> Goal | None:
-        """The goal that the turtle is on its way to."""
-        return next((goal for goal in self.goals if goal.state == "on its way"), None)
-
     def send(self, x: float, y: float, theta: float) -> Goal:
         """Ask the navigator to drive there. Raises ValueError for what is no number."""
         for name, value in (("x", x), ("y", y), ("heading", theta)):
-            if isinstance(value, bool) or not isinstance(value, Number) or not math.isfinite(value):
+            if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
                 raise ValueError(f"A goal's {name} must be a number, got {value!r}.")
         goal = Goal(len(self.goals) + 1, float(x), float(y), float(theta), self._backend.now)
         newest = self._backend.recorder.poses.newest(1)
@@ -117,11 +107,8 @@ class GoalDesk:
                 self._ask(goal)
             elif gone:
                 self._client.remove_pending_request(self._asked.pop(goal.number, None))
-                self._finish(
-                    goal,
-                    "no answer",
-                    "The navigator was stopped on the way; send the goal again when another one is running.",
-                )
+                words = "The navigator was stopped on the way; send the goal again when another one is running."
+                self._finish(goal, "no answer", words)
 
     def open(self) -> None:
         """Somebody looks."""
@@ -146,7 +133,9 @@ class GoalDesk:
 
             request = NavigateTo.Request(x=goal.x, y=goal.y, theta=goal.theta)
         except ImportError:
-            self._finish(goal, "not sent", f"The package robot_controller is not here. {self._how_to_build()}")
+            build = "colcon build --packages-select robot_controller, then source install/setup.bash"
+            words = f"The package robot_controller is not here. Build it and source it: {build}"
+            self._finish(goal, "not sent", words)
         except (AssertionError, TypeError, ValueError) as error:  # too large for its float32
             self._finish(goal, "not sent", f"{error}")
         else:
@@ -173,9 +162,6 @@ class GoalDesk:
             return f"Start the navigator in a terminal: {by_hand}"
         return f'Start the navigator: lesson.launch("robot_controller", "start_system.launch.py") or {by_hand} &'
 
-    def _how_to_build(self) -> str:
-        return "Build it and source it: colcon build --packages-select robot_controller, then source install/setup.bash"
-
     def _answered(self, goal: Goal, future: Any) -> None:
         if self._asked.pop(goal.number, None) is None:
             return
@@ -184,18 +170,14 @@ class GoalDesk:
         except Exception as error:
             self._finish(goal, "no answer", f"The call failed: {error}")
             return
-        reply = f"success: {response.success}, time_taken: {response.time_taken:.1f} s"
-        state = "reached" if response.success else self._why_not(goal, response.time_taken)
-        if state != "reached":
+        state = "reached"
+        if not response.success:
+            drove = response.time_taken or self._backend.now - goal.sent > AT_ONCE
+            busy = any(other.state == "on its way" and other.number < goal.number for other in self.goals)
+            state = "not reached" if drove else "busy" if busy else "refused"
             self._unexplained[goal.number] = goal
-        self._finish(goal, state, reply)
+        self._finish(goal, state, f"success: {response.success}, time_taken: {response.time_taken:.1f} s")
         self._explain()
-
-    def _why_not(self, goal: Goal, seconds: float) -> str:
-        if seconds or self._backend.now - goal.sent > AT_ONCE:
-            return "not reached"
-        busy = any(other.state == "on its way" and other.number < goal.number for other in self.goals)
-        return "busy" if busy else "refused"
 
     def _explain(self) -> None:
         """Give the goals that failed the navigator's own words; these come a little after its answer."""

@@ -83,10 +83,8 @@ class Outlet:
         from rclpy.qos import DurabilityPolicy, QoSProfile
 
         wanted = {end.qos_profile.durability for end in self._others(self.topic)}
-        latched = DurabilityPolicy.TRANSIENT_LOCAL in wanted
-        return QoSProfile(
-            depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE
-        )
+        latched, volatile = DurabilityPolicy.TRANSIENT_LOCAL, DurabilityPolicy.VOLATILE
+        return QoSProfile(depth=10, durability=latched if latched in wanted else volatile)
 
 
 def let_time_go_on(backend: Backend) -> None:
@@ -96,10 +94,10 @@ def let_time_go_on(backend: Backend) -> None:
             backend.clock.play(backend.clock.rate)
 
 
-def in_a_moment(backend: Backend, future: Any) -> None:
+def in_a_moment(backend: Backend, has_come: Callable[[], bool]) -> None:
     """Where robot time stands still, let a moment of it pass (0.05 s at most), so that an answer can come."""
     for _ in range(10):
-        if backend.clock is None or backend.clock.playing or future.done():
+        if backend.clock is None or backend.clock.playing or has_come():
             return
         backend.clock.step(0.005)
 
@@ -117,7 +115,7 @@ class Ear:
         self._subscription: Any = None
         self.trouble = ""
         try:
-            self._subscription = self._subscribe(topic, type_name)
+            self._subscribe(topic, type_name)
         except Exception as error:  # a type that is not built here, or that is another one in this very program
             self.trouble = f"{type_name} cannot be heard here: {error}"
 
@@ -132,7 +130,7 @@ class Ear:
             self._backend.node.destroy_subscription(self._subscription)
             self._subscription = None
 
-    def _subscribe(self, topic: str, type_name: str) -> Any:
+    def _subscribe(self, topic: str, type_name: str) -> None:
         from rclpy.qos import QoSProfile, ReliabilityPolicy
 
         package, kind, name = type_name.split("/")
@@ -145,7 +143,7 @@ class Ear:
         node = self._backend.node
         quality = QoSProfile(depth=KEPT, reliability=ReliabilityPolicy.BEST_EFFORT)
         bare = self._backend.clock is None  # on a robot, where it may be images: never made into Python objects
-        return node.create_subscription(message_type, topic, with_time(node, hear), quality, raw=bare)
+        self._subscription = node.create_subscription(message_type, topic, with_time(node, hear), quality, raw=bare)
 
 
 Answered = Callable[[str, str], object]
@@ -194,7 +192,12 @@ class Caller:
         if not self.asking:
             return
         if self._held is not None:
-            self._look_again()
+            if self._client.service_is_ready():
+                request, self._held = self._held, None
+                self._send(request)
+            elif self._backend.now - self._asked > DISCOVERY:
+                self._held = None
+                self._end(f"Not asked: {self.why_unheard()}", "")
         elif self._backend.now > self._deadline:
             waited = number(self._deadline - self._asked, 1)
             self._end(f"No answer from {self._name} within {waited} s of robot time.", "")
@@ -227,16 +230,6 @@ class Caller:
     def _send(self, request: Any) -> None:
         self._future = future = self._client.call_async(request)
         future.add_done_callback(lambda done: self._backend.loop.now_or_soon(self._done, done))
-
-    def _look_again(self) -> None:
-        """Send the question that was held back, if there is somebody now."""
-        request = self._held
-        if self._client.service_is_ready():
-            self._held = None
-            self._send(request)
-        elif self._backend.now - self._asked > DISCOVERY:
-            self._held = None
-            self._end(f"Not asked: {self.why_unheard()}", "")
 
     def _done(self, future: Any) -> None:
         if future is not self._future:
@@ -292,7 +285,7 @@ class Server:
 
     def listen(self) -> None:
         """Notice which node offers the service now, and listen to its warnings."""
-        self._names = self._offering()
+        self._names = servers(self._backend.node, self._service)
         self._ends = self._rosout_ends()
         if self._subscription is None:
             from rcl_interfaces.msg import Log
@@ -310,7 +303,7 @@ class Server:
 
     def is_there(self) -> bool:
         """Whether it is the one that was there when `listen` was called: started again, it has forgotten all calls."""
-        return bool(self._offering()) and self._ends <= self._rosout_ends()
+        return bool(servers(self._backend.node, self._service)) and self._ends <= self._rosout_ends()
 
     def why(self, called: float, answered: float, *, last: bool) -> str:
         """What it warned of between a call and its answer (robot time, s), or "". A warning is given out once.
@@ -323,7 +316,10 @@ class Server:
             return ""
         chosen = found[-1 if last else 0]
         self._warnings.remove(chosen)
-        return _shortened_warning(chosen[1])
+        # without "Goal refused:" in front, since the state says that already; with a capital and a full stop
+        head, colon, rest = chosen[1].partition(": ")
+        text = rest if colon and head.lower().startswith("goal") else chosen[1]
+        return f"{text[:1].upper()}{text[1:]}".rstrip(".") + "."
 
     def _hear(self, message: Any) -> None:
         names = [name.strip("/").replace("/", ".") for name in self._names]
@@ -331,14 +327,6 @@ class Server:
             stamp = message.stamp.sec * 1_000_000_000 + message.stamp.nanosec
             self._warnings.append((self._backend.recorder.seconds(stamp), message.msg))
             self._said()
-
-    def _offering(self) -> list[str]:
-        node = self._backend.node
-        return [
-            f"{namespace.rstrip('/')}/{name}"
-            for name, namespace in node.get_node_names_and_namespaces()
-            if self._service in _services(node, name, namespace)
-        ]
 
     def _rosout_ends(self) -> set[tuple[int, ...]]:
         """What tells this very node from the next one of its name: the end with which it publishes its log."""
@@ -349,17 +337,13 @@ class Server:
         }
 
 
-def _services(node: Any, name: str, namespace: str) -> list[str]:
+def servers(node: Any, service: str) -> list[str]:
+    """The nodes that offer a service. A list of all services would also name those that are only asked for."""
     from rclpy.node import NodeNameNonExistentError
 
-    try:
-        return [service for service, _ in node.get_service_names_and_types_by_node(name, namespace)]
-    except NodeNameNonExistentError:  # gone since the list was made
-        return []
-
-
-def _shortened_warning(warning: str) -> str:
-    """A warning without "Goal refused:" in front, since the state says that already; with a capital and a full stop."""
-    head, colon, rest = warning.partition(": ")
-    text = rest if colon and head.lower().startswith("goal") else warning
-    return f"{text[:1].upper()}{text[1:]}".rstrip(".") + "."
+    offering = []
+    for name, namespace in sorted(node.get_node_names_and_namespaces()):
+        with suppress(NodeNameNonExistentError):  # gone since the list was made
+            if service in dict(node.get_service_names_and_types_by_node(name, namespace)):
+                offering.append(f"{namespace.rstrip('/')}/{name}")
+    return offering

@@ -14,7 +14,7 @@ from .. import style
 from ..picture import Picture
 from ..recorder import Channel
 from ..recording import NANOSECONDS, OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, Table
-from ..status import spread
+from ..status import label_beside, spread
 from ..words import count, did_you_mean, enumerated, is_hidden, nearest, number
 from .backend import Backend
 from .live_widget import LiveWidget, Pace, pack, script, styles
@@ -42,7 +42,7 @@ class Curve:
         self.problem = "The topic has not been looked for yet."
         """Why it cannot be heard now, as a sentence; "" if it can."""
         self.table = Table("value", limit=KEPT)
-        self.read: Callable[[Any], float] = _nothing
+        self.read: Callable[[Any], float] = lambda message: math.nan
 
     @property
     def name(self) -> str:
@@ -107,7 +107,8 @@ def check_steps(message_class: Any, steps: list[Step], curve: Curve) -> list[Ste
         name = pending.pop(0)
         if not isinstance(name, str) or name not in kinds:
             hint = did_you_mean(str(name), kinds)
-            raise ValueError(" ".join(filter(None, (f'{where} has no field "{name}".', hint, _fields(kinds)))))
+            fields = f"Its fields: {enumerated(kinds)}."
+            raise ValueError(" ".join(filter(None, (f'{where} has no field "{name}".', hint, fields))))
         kind, walked = kinds[name], f"{walked}/{name}"
         if kind.array:
             kind, walked = _element(kind, pending, walked)
@@ -122,10 +123,6 @@ def check_steps(message_class: Any, steps: list[Step], curve: Curve) -> list[Ste
         if pending:
             raise ValueError(f"{walked} is a {kind}, a number without fields: leave out the rest")
         return steps
-
-
-def _fields(kinds: Mapping[str, Any]) -> str:
-    return f"Its fields: {enumerated(kinds)}."
 
 
 def _element(kind: Any, pending: list[Step], walked: str) -> tuple[Any, str]:
@@ -171,16 +168,9 @@ def mistyped(asked: str, topics: Iterable[str], to_come: Iterable[str]) -> str:
         begin = "/".join(parts[:length])
         meant = nearest(begin, [each for each in known if each.count("/") == begin.count("/")], SLIP)
         if meant:
-            return "" if _without_digits(meant) == _without_digits(begin) else meant
+            without_digits, begin_without = (re.sub(r"\d+", "#", name) for name in (meant, begin))
+            return "" if without_digits == begin_without else meant
     return ""
-
-
-def _without_digits(name: str) -> str:
-    return re.sub(r"\d+", "#", name)
-
-
-def _nothing(message: Any) -> float:
-    return float("nan")
 
 
 MOST = 8
@@ -236,11 +226,8 @@ class LivePlot(LiveWidget):
 
     def _listen(self) -> None:
         if self._timer is None:
-            self._timer = self.backend.node.create_timer(1.0, self._hop)
+            self._timer = self.backend.node.create_timer(1.0, lambda: self.backend.loop.now_or_soon(self._look))
             self._look()
-
-    def _hop(self) -> None:
-        self.backend.loop.now_or_soon(self._look)
 
     def _look(self) -> None:
         """Find what is there by now, and listen to it."""
@@ -248,18 +235,16 @@ class LivePlot(LiveWidget):
             return
         topics = dict(self.backend.node.get_topic_names_and_types())
         for curve in self._curves:
-            if curve.topic not in self._channels:
-                self._try(curve, topics)
+            if curve.topic in self._channels:
+                continue
+            try:
+                curve.find(topics)
+            except ValueError as error:  # found out only now, when there is a cell no more in which to say it
+                curve.problem = f"{error}"
+            if not curve.problem:
+                self._channels[curve.topic] = self._channel(curve.topic, curve.type_name)
         for channel in self._channels.values():
             channel.glance()
-
-    def _try(self, curve: Curve, topics: dict[str, list[str]]) -> None:
-        try:
-            curve.find(topics)
-        except ValueError as error:  # found out only now, when there is a cell no more in which to say it
-            curve.problem = f"{error}"
-        if not curve.problem:
-            self._channels[curve.topic] = self._channel(curve.topic, curve.type_name)
 
     def _channel(self, topic: str, type_name: str) -> Channel:
         def hear(message: Any, info: Any) -> None:
@@ -310,14 +295,17 @@ class LivePlot(LiveWidget):
         self.points = pack(np.concatenate(parts))
         if self._looks.due():
             self._look()
-        self.curves = [self._state(curve) for curve in self._curves]
+        self.curves = [
+            {
+                "name": curve.name,
+                "topic": curve.topic or curve.asked,
+                "last": figure(float(curve.table.newest(1)["value"][0])) if len(curve.table) else "",
+                "note": self._note(curve),
+            }
+            for curve in self._curves
+        ]
         if self._labels.due():
             self.label = self.text()
-
-    def _state(self, curve: Curve) -> dict[str, Any]:
-        rows = curve.table
-        last = figure(float(rows.array()["value"][-1])) if len(rows) else ""
-        return {"name": curve.name, "topic": curve.topic or curve.asked, "last": last, "note": self._note(curve)}
 
     def _note(self, curve: Curve) -> str:
         if curve.problem:
@@ -408,16 +396,12 @@ def draw(text: str, windows: list[Window], now: float, seconds: float) -> Pictur
         for index, (_, times, values) in enumerate(windows):
             axes.plot(times, values, color=COLOURS[index], linestyle=DASHES[index], linewidth=1.8)
         axes.set_xlim(begin, max(now, begin + 1e-6))
-        _set_heights(axes, windows)
+        every = np.concatenate([values[np.isfinite(values)] for _, _, values in windows])
+        low, high = every.min(), every.max()
+        spare = 0.08 * (high - low) or max(0.5, 0.05 * abs(high))
+        axes.set_ylim(low - spare, high + spare)
         _label(axes, windows)
     return Picture(text, figure)
-
-
-def _set_heights(axes: Any, windows: list[Window]) -> None:
-    every = np.concatenate([values[np.isfinite(values)] for _, _, values in windows])
-    low, high = every.min(), every.max()
-    spare = 0.08 * (high - low) or max(0.5, 0.05 * abs(high))
-    axes.set_ylim(low - spare, high + spare)
 
 
 def _label(axes: Any, windows: list[Window]) -> None:
@@ -427,16 +411,5 @@ def _label(axes: Any, windows: list[Window]) -> None:
     places = spread([float(values[-1]) for *_, values in shown], 0.085 * (high - low))
     for (index, name, _, values), place in zip(shown, places, strict=True):
         short = name if len(name) <= LONGEST_NAME else f"…{name[1 - LONGEST_NAME :]}"
-        label = f"{short}  {number(float(values[-1]))}"
-        axes.annotate(
-            label,
-            (1.0, place),
-            xycoords=("axes fraction", "data"),
-            xytext=(8, 0),
-            textcoords="offset points",
-            color=COLOURS[index],
-            fontsize=8.5,
-            fontweight="bold",
-            va="center",
-            annotation_clip=False,
-        )
+        text = f"{short}  {number(float(values[-1]))}"
+        label_beside(axes, text, place, 8, color=COLOURS[index], fontsize=8.5, fontweight="bold")

@@ -15,7 +15,7 @@ from ..recording import NANOSECONDS, OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, T
 from ..scan import Beams, read_beams
 from ..words import is_hidden, listed, number
 from .backend import Backend
-from .lazy_endpoints import Ear
+from .lazy_endpoints import Ear, servers
 from .live_widget import LiveWidget, Pace, pack
 
 
@@ -106,12 +106,13 @@ class LightsPanel(LiveWidget):
 
 def look(node: Any) -> list[dict[str, Any]]:
     """The lights, from the graph that `node` (an rclpy Node) sees."""
-    places = sorted(node.get_node_names_and_namespaces())
-    found = Counter(name for name in map(_full_name, places) if not is_hidden(name))
+    places = node.get_node_names_and_namespaces()
+    names = [f"{namespace.rstrip('/')}/{name}" for name, namespace in places]
+    found = Counter(name for name in names if not is_hidden(name))
     nodes = [_light(name, "node", found[name]) for name in NODES]
     extra = [{**_light(name, "node", found[name]), "state": "extra"} for name in sorted(found) if name not in NODES]
-    servers = {service: _servers(node, service, places) for service in SERVICES}
-    services = [_light(name, "service", len(who), listed(who)) for name, who in servers.items()]
+    offering = {service: servers(node, service) for service in SERVICES}
+    services = [_light(name, "service", len(nodes), listed(nodes)) for name, nodes in offering.items()]
     return [*nodes, *services, *extra]
 
 
@@ -129,26 +130,6 @@ def _light(name: str, kind: str, amount: int, by: str = "") -> dict[str, Any]:
         state = "several"
         words = f"offered {amount} times" if by else f"{amount} nodes of this name"
     return {"name": name, "kind": kind, "state": state, "words": words}
-
-
-def _servers(node: Any, service: str, places: list[tuple[str, str]]) -> list[str]:
-    """Which nodes offer a service. A list of all services would also name those that are only asked for."""
-    from rclpy.node import NodeNameNonExistentError
-
-    offering = []
-    for name, namespace in places:
-        try:
-            offers = node.get_service_names_and_types_by_node(name, namespace)
-        except NodeNameNonExistentError:  # gone since the list was made
-            continue
-        if any(offered == service for offered, _ in offers):
-            offering.append(_full_name((name, namespace)))
-    return offering
-
-
-def _full_name(place: tuple[str, str]) -> str:
-    name, namespace = place
-    return f"{namespace.rstrip('/')}/{name}"
 
 
 # -- log ------------------------------------------------------------------------------------------------------------
@@ -187,9 +168,8 @@ class LogPanel(LiveWidget):
 
         self._log_read_until = self._log_newest
         latched = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-        hear = self._hear_log
-        loop = self.backend.loop
-        self._rosout = self.backend.node.create_subscription(
+        node, loop, hear = self.backend.node, self.backend.loop, self._hear_log
+        self._rosout = node.create_subscription(
             Log, "/rosout", lambda message: loop.now_or_soon(hear, message), latched
         )
 

@@ -342,12 +342,7 @@ class Trail:
                 self._last = rows[:1]
                 self._add(float(rows["x"][0]), float(rows["y"][0]), False)
             return rows
-        stamp, count = self._last["stamp"][0], 16
-        while True:
-            rows = self._poses.newest(count)
-            if len(rows) < count or rows["stamp"][0] <= stamp:
-                return np.concatenate([self._last, rows[rows["stamp"] > stamp]])
-            count *= 4
+        return np.concatenate([self._last, self._poses.after(int(self._last["stamp"][0]))])
 
     def _add(self, x: float, y: float, jumped: bool) -> None:
         if not (math.isfinite(x) and math.isfinite(y)):

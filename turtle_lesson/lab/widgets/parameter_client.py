@@ -77,15 +77,14 @@ class ParameterDesk:
         self._asked += 1
         turn = self._asked
 
-        def listed(answer: Any) -> None:
+        def describe(answer: Any) -> None:
             names = list(answer.result.names)
-            self._call("describe", {"names": names}, lambda described: described_(names, described), turn)
+            self._call("describe", {"names": names}, lambda answer: get(names, list(answer.descriptors)), turn)
 
-        def described_(names: list[str], answer: Any) -> None:
-            descriptors = list(answer.descriptors)
+        def get(names: list[str], descriptors: list[Any]) -> None:
             self._call("get", {"names": names}, lambda got: self._take(names, descriptors, list(got.values)), turn)
 
-        self._call("list", {}, listed, turn)
+        self._call("list", {}, describe, turn)
 
     def _take(self, names: list[str], descriptors: list[Any], values: list[Any]) -> None:
         """One that is not set makes some nodes give no value at all; then every value counts as not set."""
@@ -121,16 +120,12 @@ class ParameterDesk:
         if future is None:
             told(self.problem)
         else:
-            in_a_moment(self._backend, future)
+            in_a_moment(self._backend, future.done)
 
     def ask_in_a_moment(self) -> None:
         """Ask now, and let a moment of robot time pass if it stands still."""
         self.ask()
-        clock = self._backend.clock
-        for _ in range(10):
-            if self.known or self.problem or clock is None or clock.playing:
-                return
-            clock.step(0.005)
+        in_a_moment(self._backend, lambda: bool(self.known or self.problem))
 
     def _call(self, what: str, content: dict[str, Any], then: Callable[[Any], object], turn: int | None) -> Any:
         """Call one of the node's services; an answer to an older round of questions (`turn`) is dropped."""
@@ -195,18 +190,8 @@ def node_names(node: Any) -> list[str]:
 
 # -- values ---------------------------------------------------------------------------------------------------------
 
-TYPES = (
-    "not set",
-    "bool",
-    "integer",
-    "double",
-    "string",
-    "byte array",
-    "bool array",
-    "integer array",
-    "double array",
-    "string array",
-)
+ARRAYS = ("byte array", "bool array", "integer array", "double array", "string array")
+TYPES = ("not set", "bool", "integer", "double", "string", *ARRAYS)
 """By number of rcl_interfaces/msg/ParameterType."""
 
 NOT_SET, BOOL, INTEGER, DOUBLE, STRING, BYTES, BOOLS, INTEGERS, DOUBLES, STRINGS = range(10)
@@ -255,38 +240,26 @@ def read(typed: Any, kind: int, dynamic: bool = False) -> Any:
 
 
 def _converted(typed: Any, kind: int) -> Any:
-    if kind == BOOL:
-        return _boolean(typed)
     text = str(typed).strip().replace("−", "-")
+    if kind == BOOL:
+        if not isinstance(typed, bool):
+            raise ValueError(f"expected true or false, got {typed!r}")
+        return typed
     if kind == INTEGER:
-        return _whole(text)
+        try:
+            value = int(text)
+        except ValueError:
+            raise ValueError(f'expected a whole number, got "{text}"') from None
+        if not -_LARGEST <= value < _LARGEST:
+            raise ValueError("expected a whole number of 64 bits, and this one is larger")
+        return value
     if kind == DOUBLE:
-        return _decimal(text)
+        try:
+            return float(text)
+        except ValueError:
+            hint = ": write a point, not a comma" if "," in text else ""
+            raise ValueError(f'expected a number, got "{text}"{hint}') from None
     return str(typed) if kind == STRING else _array(_yaml(str(typed)), _ELEMENTS[kind])
-
-
-def _boolean(typed: Any) -> bool:
-    if not isinstance(typed, bool):
-        raise ValueError(f"expected true or false, got {typed!r}")
-    return typed
-
-
-def _whole(text: str) -> int:
-    try:
-        value = int(text)
-    except ValueError:
-        raise ValueError(f'expected a whole number, got "{text}"') from None
-    if not -_LARGEST <= value < _LARGEST:
-        raise ValueError("expected a whole number of 64 bits, and this one is larger")
-    return value
-
-
-def _decimal(text: str) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        hint = ": write a point, not a comma" if "," in text else ""
-        raise ValueError(f'expected a number, got "{text}"{hint}') from None
 
 
 def _array(value: Any, element: type) -> list[Any]:

@@ -43,7 +43,7 @@ class ParametersPanel(LiveWidget):
         if found is None:
             raise ValueError(f"{self.node_name} has no parameter {name!r}.")
         try:
-            wanted = read(value, _kind(found), found.descriptor.dynamic_typing)
+            wanted = read(value, found.type or found.descriptor.type, found.descriptor.dynamic_typing)
         except ValueError as error:
             self._told(name, f"Not asked: {error}")
             return
@@ -115,7 +115,7 @@ class ParametersPanel(LiveWidget):
         limits = _limits(found)
         item = {
             "name": found.name,
-            "type": TYPES[found.type] if found.type else "not set",
+            "type": TYPES[found.type],
             "control": _control(found, limits),
             "value": found.value if isinstance(found.value, bool) else shown(found.value),
             "help": " ".join(filter(None, (descriptor.description, descriptor.additional_constraints))),
@@ -133,10 +133,6 @@ class ParametersPanel(LiveWidget):
             return f"Parameters of {self.node_name}: {problem}"
         found = [f"{each.name} = {shown(each.value)}" for each in self._desk.found.values()]
         return f"{self.node_name} has {count(len(found), 'parameter')}: {', '.join(found)}."
-
-
-def _kind(found: Found) -> int:
-    return found.type or found.descriptor.type
 
 
 def _limits(found: Found) -> dict[str, float]:

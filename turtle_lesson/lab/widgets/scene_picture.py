@@ -20,7 +20,7 @@ from .scene_mesh import Mesh, joined, placed
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from ..recording import Obstacle, Recording
+    from ..recording import Recording
     from .goal_client import Goal
 
 
@@ -65,19 +65,15 @@ def _draw_things(axes: Axes, recording: Recording, goal: Goal | None, pose: tupl
     if goal is not None:
         _draw(axes, world.goal_mark(goal.x, goal.y, goal.theta), layer=6, lit=False)
         things.append([world.goal_flag(goal.x, goal.y, goal.state == "reached")])
-    things.sort(key=lambda pieces: _distance(joined(pieces)), reverse=True)
+    things.sort(key=lambda pieces: float(_seen(joined(pieces).corners)[2].mean()))
     for layer, piece in enumerate(piece for pieces in things for piece in pieces):
         _draw(axes, piece, layer=10 + layer)
     if recording.last_scan is not None:
-        _draw_laser(axes, recording)
-
-
-def _draw_laser(axes: Axes, recording: Recording) -> None:
-    there = newest_pose(recording, until=int(recording.scans.newest(1)["stamp"][0]) - UNDER_WAY)
-    if there is not None:
-        free, marks = world.fan(read_beams(recording.last_scan), *there)
-        _draw(axes, free, layer=4, lit=False, alpha=0.22)
-        _draw(axes, marks, layer=5, lit=False, alpha=0.8)
+        place = newest_pose(recording, until=int(recording.scans.newest(1)["stamp"][0]) - UNDER_WAY)
+        if place is not None:
+            free, marks = world.fan(read_beams(recording.last_scan), *place)
+            _draw(axes, free, layer=4, lit=False, alpha=0.22)
+            _draw(axes, marks, layer=5, lit=False, alpha=0.8)
 
 
 def _draw(axes: Axes, mesh: Mesh, layer: float, lit: bool = True, **look: Any) -> None:
@@ -102,10 +98,6 @@ def _seen(points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     outward = x * math.cos(AROUND) + y * math.sin(AROUND)
     across = -x * math.sin(AROUND) + y * math.cos(AROUND)
     return across, -outward * math.sin(UP) + z * math.cos(UP), outward * math.cos(UP) + z * math.sin(UP)
-
-
-def _distance(mesh: Mesh) -> float:
-    return -float(_seen(mesh.corners)[2].mean())
 
 
 def _brightness(mesh: Mesh) -> np.ndarray:
@@ -150,26 +142,18 @@ def describe(recorder: Recording, goal: Goal | None) -> str:
     if pose is None:
         return "no pose heard yet."
     x, y, theta = pose
-    around = [*_standing(list(recorder.obstacles.values())), *_seen_by_laser(recorder.last_scan)]
+    around = []
+    if standing := recorder.obstacles.values():
+        places = ", ".join(f"{each.shape} at {point(each.x, each.y)} m" for each in standing)
+        around.append(f"{count(len(standing), 'obstacle')} ({places})")
+    if recorder.last_scan is not None:
+        beams = read_beams(recorder.last_scan)
+        around.append(f"{int(beams.sees.sum())} of the laser's {count(len(beams), 'beam')} see something")
     if goal is not None:
         away = number(math.hypot(goal.x - x, goal.y - y))
         around.append(f"the goal at {point(goal.x, goal.y)} m is {away} m away")
     rest = f"; {listed(around)}" if around else ""
     return f"the turtle is at {point(x, y)} m facing {angle(theta)}{rest}."
-
-
-def _standing(obstacles: list[Obstacle]) -> list[str]:
-    if not obstacles:
-        return []
-    places = ", ".join(f"{each.shape} at {point(each.x, each.y)} m" for each in obstacles)
-    return [f"{count(len(obstacles), 'obstacle')} ({places})"]
-
-
-def _seen_by_laser(scan: Any) -> list[str]:
-    if scan is None:
-        return []
-    beams = read_beams(scan)
-    return [f"{int(beams.sees.sum())} of the laser's {count(len(beams), 'beam')} see something"]
 
 
 STEP = 0.04
@@ -209,7 +193,7 @@ class Trail:
 
     def follow(self) -> bool:
         """Take in what was heard since the last time; returns whether there was anything new to draw."""
-        rows = _after(self._table, None if self._seen is None else int(self._seen["stamp"][-1]))
+        rows = self._table.array() if self._seen is None else self._table.after(int(self._seen["stamp"][-1]))
         rows = rows[np.isfinite(rows["x"]) & np.isfinite(rows["y"])]
         if not len(rows):
             return False
@@ -262,15 +246,3 @@ def _way(begin: np.ndarray, end: np.ndarray) -> tuple[float, float]:
     """How far it is (m), and in which direction (rad)."""
     x, y = end - begin
     return math.hypot(x, y), math.atan2(y, x)
-
-
-def _after(table: Table, stamp: int | None) -> np.ndarray:
-    """The rows that are newer than `stamp`: without a copy of all rows each time."""
-    if stamp is None:
-        return table.array()
-    count = 64
-    while True:
-        rows = table.newest(count)
-        if len(rows) < count or rows["stamp"][0] <= stamp:
-            return rows[rows["stamp"] > stamp]
-        count *= 4

@@ -73,7 +73,7 @@ class Teleop(LiveWidget):
         self.stick = {**place, "held": True}
         if begun:
             self.words = f"Driving on {self.topic}."
-            self._timer = self.backend.node.create_timer(PERIOD, self._hop)
+            self._timer = self.backend.node.create_timer(PERIOD, lambda: self.backend.loop.now_or_soon(self._beat))
         if begun or (changed and not any(place.values())):
             self._publish()
         if begun:
@@ -129,9 +129,6 @@ class Teleop(LiveWidget):
         self.do_release()
         self._outlet.close()
 
-    def _hop(self) -> None:
-        self.backend.loop.now_or_soon(self._beat)
-
     def _beat(self) -> None:
         self._watch()
         if self._timer is not None and not self.backend.ended:
@@ -159,11 +156,9 @@ class Teleop(LiveWidget):
     def text(self) -> str:
         """Where it drives, how fast at most, and what it sent last."""
         most = f"at most {number(self.limits['forward'])} m/s and {number(self.limits['turn'])} rad/s"
-        last = (
-            f"last sent {in_words(self.sent['linear'], self.sent['angular'])}"
-            if self.sent["count"]
-            else "nothing sent yet"
-        )
+        last = "nothing sent yet"
+        if self.sent["count"]:
+            last = f"last sent {in_words(self.sent['linear'], self.sent['angular'])}"
         keys = f"Keys go to {self.program}. " if self.program else ""
         return f"Teleop on {self.topic}, {most}: {last}. {keys}{self._outlet.why_unheard()}".strip()
 
