@@ -175,6 +175,9 @@ _PUBLIC = {
 }
 """By what a frame's code is called: the documented function that it stands for."""
 
+thread_of: Callable[[Strand], Any]
+"""The thread object of a strand; `threads.py`, which imports this module, brings it."""
+
 hints: list[Callable[[Strand], str]] = []
 """Functions that know what to advise a strand that waits for something impossible; the first text that one returns is used."""
 
@@ -257,8 +260,6 @@ def _where(what: str) -> str:
 
 def name_of(strand: Strand) -> str:
     """The name of a thread."""
-    from .threads import thread_of
-
     return str(thread_of(strand).name)
 
 
