@@ -4,9 +4,8 @@ They stand on the floor of the turtles' world (11.09 m by 11.09 m, the origin in
 A turtle drives through them, as through the real turtlesim's empty world; a range sensor sees them.
 """
 
-import difflib
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, fields
 from numbers import Real
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -96,23 +95,6 @@ WORLDS: dict[str, tuple[Obstacle, ...]] = {
 """Example worlds by name. All leave the middle, where the turtle starts, free by more than a metre."""
 
 
-def world_named(name: str) -> tuple[Obstacle, ...]:
-    """Return the obstacles of an example world. Raises KeyError, with the names there are, for any other name."""
-    if name in WORLDS:
-        return WORLDS[name]
-    close = difflib.get_close_matches(str(name), WORLDS, n=1)
-    hint = f"; did you mean {close[0]!r}?" if close else ""
-    raise KeyError(f"no world is called {name!r}; there are {', '.join(map(repr, WORLDS))}{hint}")
-
-
-def describe(obstacles: Sequence[Obstacle]) -> str:
-    """Return the obstacles as text, a line each below their number."""
-    if not obstacles:
-        return "no obstacles"
-    count = "1 obstacle" if len(obstacles) == 1 else f"{len(obstacles)} obstacles"
-    return "\n".join([f"{count}:", *(f"  {number}. {each}" for number, each in enumerate(obstacles, start=1))])
-
-
 def to_marker_array(obstacles: Iterable[Obstacle], stamp: Any) -> "MarkerArray":
     """Return a ``visualization_msgs/MarkerArray`` that shows exactly these obstacles.
 
@@ -127,26 +109,6 @@ def to_marker_array(obstacles: Iterable[Obstacle], stamp: Any) -> "MarkerArray":
     wipe.header.stamp = stamp
     markers = [_to_marker(number, each, stamp) for number, each in enumerate(obstacles)]
     return MarkerArray(markers=[wipe, *markers])
-
-
-def from_marker_array(message: "MarkerArray") -> tuple[Obstacle, ...]:
-    """Return the obstacles that a ``visualization_msgs/MarkerArray`` shows; the inverse of ``to_marker_array``.
-
-    Markers are taken in their order: DELETEALL forgets all before it, DELETE the one of the same namespace
-    and number. Raises ValueError for a marker that is neither an upright round CYLINDER nor a CUBE.
-    """
-    from visualization_msgs.msg import Marker
-
-    shown: dict[tuple[str, int], Obstacle] = {}
-    for marker in message.markers:
-        key = (marker.ns, marker.id)
-        if marker.action == Marker.DELETEALL:
-            shown.clear()
-        elif marker.action == Marker.DELETE:
-            shown.pop(key, None)
-        else:
-            shown[key] = _from_marker(marker)
-    return tuple(shown.values())
 
 
 def _to_marker(number: int, obstacle: Obstacle, stamp: Any) -> "Marker":
@@ -169,25 +131,3 @@ def _to_marker(number: int, obstacle: Obstacle, stamp: Any) -> "Marker":
         marker.pose.orientation.z = math.sin(obstacle.angle / 2)
         marker.pose.orientation.w = math.cos(obstacle.angle / 2)
     return marker
-
-
-def _from_marker(marker: "Marker") -> Obstacle:
-    from visualization_msgs.msg import Marker
-
-    x, y = marker.pose.position.x, marker.pose.position.y
-    width, height = marker.scale.x, marker.scale.y
-    if marker.type == Marker.CUBE:
-        return Box(x, y, width, height, _yaw(marker.pose.orientation))
-    if marker.type == Marker.CYLINDER and width == height:
-        return Circle(x, y, width / 2)
-    raise ValueError(
-        f"marker {marker.id} of namespace {marker.ns!r} is not an obstacle: expected type CUBE ({Marker.CUBE}) "
-        f"or CYLINDER ({Marker.CYLINDER}) with scale.x equal to scale.y; "
-        f"it has type {marker.type} and scale ({width}, {height})"
-    )
-
-
-def _yaw(quaternion: Any) -> float:
-    """Return the turn about the z axis, in [-pi, pi], of a quaternion that turns about no other."""
-    yaw = 2 * math.atan2(quaternion.z, quaternion.w)
-    return math.remainder(yaw, 2 * math.pi)
