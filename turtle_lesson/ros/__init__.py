@@ -23,6 +23,7 @@ def _late(module: str, name: str) -> Callable[..., Any]:
 
 hooks.wind_down = _late("stdlib.threads", "wind_down")
 hooks.name_of_wait = _late("stdlib.deadlock", "wait_of")
+hooks.thread_of = _late("stdlib.threads", "thread_of")
 hooks.current_process = _late("runtime.world", "current_process")
 hooks.current_world = _late("runtime.world", "current_world")
 hooks.plan_child = _late("launching.child_programs", "plan")

@@ -10,6 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    import threading
+
     from launch.actions._processes import Program
 
     from .ament.index import PackageIndex
@@ -24,6 +26,11 @@ wind_down: Callable[[Process], None]
 """Waits for the threads of a process whose main program has ended."""
 name_of_wait: Callable[[Strand], str]
 """What a strand waits for, as it stands in the program."""
+
+# -- stdlib asks itself, without a circle of imports ---------------------------------------------------------------------
+
+thread_of: Callable[[Strand], threading.Thread]
+"""The thread object of a strand."""
 
 # -- stdlib asks runtime and launching ---------------------------------------------------------------------------------
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from greenlet import getcurrent
 
+from .. import hooks
 from ..sim.errors import NeverWakes
 from ..sim.run_blocking import LOCK
 from ..sim.strand import Strand
@@ -175,9 +176,6 @@ _PUBLIC = {
 }
 """By what a frame's code is called: the documented function that it stands for."""
 
-thread_of: Callable[[Strand], Any]
-"""The thread object of a strand; `threads.py`, which imports this module, brings it."""
-
 hints: list[Callable[[Strand], str]] = []
 """Functions that know what to advise a strand that waits for something impossible; the first text that one returns is used."""
 
@@ -260,7 +258,7 @@ def _where(what: str) -> str:
 
 def name_of(strand: Strand) -> str:
     """The name of a thread."""
-    return str(thread_of(strand).name)
+    return str(hooks.thread_of(strand).name)
 
 
 def _hint(strand: Strand) -> list[str]:

@@ -15,7 +15,6 @@ from ..sim.errors import format_error, learners_frames
 from ..sim.run_blocking import drive
 from ..sim.simulation import CLOCK_READ, NANOSECONDS
 from ..sim.strand import Strand, running_strand
-from . import deadlock
 from .deadlock import look_after
 from .locks import VirtualLock
 from .ownership import is_called_by_learner, notebook_here, process_here
@@ -206,9 +205,6 @@ def thread_of(strand: Strand) -> threading.Thread:
         kind = _MainThread() if strand is strand.process.main_strand else _DummyThread(strand.name or "Dummy")
         become(kind, strand)
     return strand.thread
-
-
-deadlock.thread_of = thread_of
 
 
 def become(thread: threading.Thread, strand: Strand) -> None:
