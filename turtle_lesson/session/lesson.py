@@ -248,7 +248,7 @@ class Lesson(Views, Inspection):
         reliable. What is lost is chance, and the same in each run of the same world.
 
         Args:
-            topic: a full name such as "/scan", or a pattern such as "/turtle*/pose"; nobody need use it yet. A name goes
+            topic: a full name such as "/scan", or a pattern such as "/turtle*/pose"; it need not be used yet. A name goes
                 before patterns, a later pattern before an earlier one.
             latency: how long a transmission takes (s); at least the 0.1 ms that it always takes.
             jitter: up to how much longer it takes (s), each time anew; best-effort messages that are overtaken are lost.

@@ -23,8 +23,9 @@ _newest: Robot | None = None
 def connect() -> Robot:
     """Join the ROS 2 system that runs here with a hidden node, `/_lab`, and return the `Robot` that shows it.
 
-    A cell can be run twice: what the `connect()` before has made is closed. ROS_DOMAIN_ID and its kin count, as for any
-    node. The node has a context of its own, so that `rclpy.init()` and `rclpy.shutdown()` in the notebook stay its own.
+    A cell can be run twice: what the `connect()` before has made is closed. ROS_DOMAIN_ID and similar variables count, as
+    for any node. The node has a context of its own, so that the notebook's `rclpy.init()` and `rclpy.shutdown()` do not touch
+    it.
 
     Raises RuntimeError where no real ROS 2 is sourced, and in a script, which has no event loop that goes on.
     """

@@ -7,7 +7,7 @@ the world on and publishes.
 
 Where it differs from the real one:
 
-- there is no window, so the background's parameters can be set but are seen by nobody;
+- there is no window, so the background's parameters can be set, but nothing shows them;
 - a turtle that pushes against a wall is reported when it gets there and then once a second, not 62.5 times a
   second;
 - what ends the real program or leads its turtle to NaN is refused, with an error in the log;

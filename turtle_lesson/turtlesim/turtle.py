@@ -135,9 +135,6 @@ class Turtle:
         self._stop()
         self._wake()  # it may have been spawned beyond a wall
 
-    def __repr__(self) -> str:
-        return f"<Turtle {self.name}: x={self.x:.3f} y={self.y:.3f} theta={self.theta:.3f}>"
-
     @property
     def y(self) -> float:
         """Height above the lower wall in metres, as a pose shows it."""

@@ -136,7 +136,7 @@ def message_rows() -> list[Expectation]:
 
 
 def no_answer(chance: Random) -> Fault:
-    """A service that nobody answers."""
+    """A service that is never answered."""
     wrong = chance.choice(("/navigate", "/navigation/navigate_to", "/go_to", "/robot/navigate_to"))
     faults = (
         Fault("The navigator did not run.", "Compare ros2 node list with the nodes that should be there.", OTHERS),
