@@ -10,7 +10,7 @@ import pytest
 from command_cases import check, type_in
 from command_interfaces import interfaces  # noqa: F401
 
-from turtle_lesson.ros.cli.param_values import TYPES, flat, from_text, nested
+from turtle_lesson.ros.cli.group_param import TYPES, flat, from_text, nested
 from turtle_lesson.ros.cli.verb import CommandError
 from turtle_lesson.ros.runtime.world import World
 

@@ -13,9 +13,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as some
 
 from turtle_lesson.ros.cli.jobs import CellErrors, Errors
-from turtle_lesson.ros.cli.lexer import Operator, UnfinishedError, Word, command_end, tokens
 from turtle_lesson.ros.cli.parser import GROUPS, NOT_HERE, WIDTH, group_help, top_help, verb_parser
 from turtle_lesson.ros.cli.run_command import run
+from turtle_lesson.ros.cli.script import Operator, UnfinishedError, Word, command_end, tokens
 from turtle_lesson.ros.cli.shell import run_line
 from turtle_lesson.ros.runtime.world import World
 

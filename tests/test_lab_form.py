@@ -220,7 +220,7 @@ def test_the_line_holds_what_differs_from_the_default() -> None:
 
 @given(st.text(max_size=40))
 def test_any_text_survives_the_shell_and_yaml(text: str) -> None:
-    from turtle_lesson.ros.cli.lexer import Word, tokens
+    from turtle_lesson.ros.cli.script import Word, tokens
     from turtle_lesson.ros.cli.typed_values import read_yaml
 
     whole = group("std_msgs/msg/String")

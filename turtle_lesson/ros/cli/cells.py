@@ -18,7 +18,7 @@ from collections.abc import Container, Iterator
 from itertools import accumulate
 
 from .command_hints import ELSEWHERE, NEVER_PYTHON
-from .lexer import UnfinishedError, command_end
+from .script import UnfinishedError, command_end
 
 COMMANDS = ("ros2", "colcon", "source", "mkdir", "cd", "ls", "pwd", "cat", "touch", "jobs", "kill")
 """Words that are a command unless they are a variable."""

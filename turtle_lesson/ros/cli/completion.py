@@ -20,8 +20,8 @@ from ..runtime.world import current_world
 from .cells import COMMANDS, inner_places
 from .group_pkg import package_names
 from .jobs import jobs
-from .lexer import Operator, UnfinishedError, Word, tokens
 from .parser import GROUPS, Parser, Stop, Verb, verb_parser
+from .script import Operator, UnfinishedError, Word, tokens
 from .verb import absolute
 
 if TYPE_CHECKING:

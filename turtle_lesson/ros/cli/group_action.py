@@ -6,7 +6,6 @@ import sys
 from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING, Any
 
-from .arg_types import stretch
 from .parser import Verb
 from .typed_values import action_class, print_names, print_types, read_yaml
 from .verb import (
@@ -19,6 +18,7 @@ from .verb import (
     expanded,
     now,
     spin_for,
+    stretch,
     suggest,
 )
 

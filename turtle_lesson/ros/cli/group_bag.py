@@ -17,8 +17,7 @@ from typing import Any
 from ..bags import BagError
 from ..runtime import files
 from ..runtime.world import current_process
-from .arg_types import frequency
-from .verb import Command, add_duration, end_of_stretch, now, remark, stretch_of
+from .verb import Command, add_duration, end_of_stretch, frequency, now, remark, stretch_of
 
 # -- bag arguments ------------------------------------------------------------------------------------------------
 # The arguments of `ros2 bag`.

@@ -4,16 +4,277 @@ from __future__ import annotations
 
 import sys
 from argparse import ArgumentParser, Namespace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from . import param_files, param_values
-from .param_values import TYPES, arguments_of_all, ask, find_node, listed, set_values, with_reason
+from ..runtime import files
 from .parser import Verb
-from .verb import Command, CommandError, answer_of, direct_node, node_names, suggest
+from .typed_values import MAX_LENGTH, Unparsable, read_yaml
+from .verb import (
+    PATIENCE,
+    Command,
+    CommandError,
+    absolute,
+    add_node_arguments,
+    answer_of,
+    direct_node,
+    node_names,
+    suggest,
+)
 
 if TYPE_CHECKING:
     from rclpy.node import Node
 
+
+# -- param values -------------------------------------------------------------------------------------------------
+# Parameters' values as text and as YAML, and asking a node about its parameters: what the verbs of `ros2 param`
+# share.
+
+# -- param values -------------------------------------------------------------------------------------------------
+# Parameters' values: from text as typed, to text, and to what YAML has.
+# Which text becomes which type follows a recording of the real `ros2 param set`.
+
+TYPES: tuple[tuple[str, str, str], ...] = (
+    ("not set", "", "Parameter not set."),
+    ("boolean", "bool_value", "Boolean value is:"),
+    ("integer", "integer_value", "Integer value is:"),
+    ("double", "double_value", "Double value is:"),
+    ("string", "string_value", "String value is:"),
+    ("byte array", "byte_array_value", "Byte values are:"),
+    ("boolean array", "bool_array_value", "Boolean values are:"),
+    ("integer array", "integer_array_value", "Integer values are:"),
+    ("double array", "double_array_value", "Double values are:"),
+    ("string array", "string_array_value", "String values are:"),
+)
+"""By number of rcl_interfaces/msg/ParameterType: the type's name, its field of a ParameterValue, and how it is shown."""
+
+_SCALARS: tuple[tuple[type, int], ...] = ((bool, 1), (int, 2), (float, 3))
+_ELEMENTS: tuple[tuple[type, int], ...] = ((bool, 6), (int, 7), (float, 8), (str, 9))
+
+
+def from_text(text: str) -> Any:
+    """The ParameterValue that a text means, read as YAML. Raises CommandError for what no parameter can be."""
+    try:
+        value = read_yaml(text, "The value")
+    except Unparsable:
+        value = text
+    return from_python(value, text)
+
+
+def from_python(value: Any, text: str) -> Any:
+    """The ParameterValue of what YAML gave for a text."""
+    from rcl_interfaces.msg import ParameterValue
+
+    kind = _kind_of(value)
+    message = ParameterValue(type=kind)
+    if kind == 4 and isinstance(value, list):
+        value = text
+    try:
+        setattr(message, TYPES[kind][1], value)
+    except (AssertionError, OverflowError) as error:
+        raise CommandError(f"{text[:200]!r} is not a valid parameter value: {error}") from None
+    return message
+
+
+def _kind_of(value: Any) -> int:
+    for type_, kind in _SCALARS:
+        if isinstance(value, type_):
+            return kind
+    if isinstance(value, list):
+        for type_, kind in _ELEMENTS:
+            if all(isinstance(each, type_) for each in value):
+                return kind
+    return 4
+
+
+def to_python(value: Any) -> Any:
+    """What YAML has for a ParameterValue; None if it is not set."""
+    if not 0 < value.type < len(TYPES):
+        return None
+    found = getattr(value, TYPES[value.type][1])
+    return list(found) if TYPES[value.type][0].endswith("array") else found
+
+
+def nested(names_and_values: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Parameters as nested dictionaries: `a.b` is `b` in `a`."""
+    tree: dict[str, Any] = {}
+    for name, value in names_and_values:
+        place = tree
+        *folders, last = name.split(".")
+        for folder in folders:
+            inner = place.setdefault(folder, {})
+            if not isinstance(inner, dict):
+                break
+            place = inner
+        place[last] = value
+    return tree
+
+
+def flat(tree: dict[Any, Any], prefix: str = "") -> list[tuple[str, Any]]:
+    """Nested dictionaries as parameters' full names and values."""
+    found: list[tuple[str, Any]] = []
+    for name, value in tree.items():
+        full_name = f"{prefix}{name}"
+        found += flat(value, f"{full_name}.") if isinstance(value, dict) else [(full_name, value)]
+    return found
+
+
+# -- param calls --------------------------------------------------------------------------------------------------
+# Asking a node about its parameters: what the verbs of `ros2 param` share.
+
+
+def arguments_of_all(parser: ArgumentParser, *, optional_node: bool = False) -> None:
+    """The arguments of every verb of `ros2 param`."""
+    add_node_arguments(parser)
+    parser.add_argument("node_name", nargs="?" if optional_node else None, help="Name of the node, such as /turtlesim")
+    parser.add_argument("--include-hidden-nodes", action="store_true", help="Also use nodes with a hidden name")
+
+
+def find_node(node: Node, args: Namespace) -> str:
+    """The full name of the node that was named. Raises CommandError if it is not there."""
+    name, known = absolute(args.node_name), node_names(node, args.include_hidden_nodes)
+    if name not in known:
+        raise CommandError("Node not found", suggest(name, known))
+    return name
+
+
+def ask(node: Node, node_name: str, service: str, **request: Any) -> Any:
+    """The answer of a node's parameter service, such as GetParameters.
+
+    Raises CommandError if there is none: the real tool waits forever for a node that is busy.
+    """
+    import rcl_interfaces.srv
+
+    kind = getattr(rcl_interfaces.srv, service)
+    words = "".join(f"_{letter.lower()}" if letter.isupper() else letter for letter in service).lstrip("_")
+    client = node.create_client(kind, f"{node_name}/{words}")
+    if not client.wait_for_service(timeout_sec=PATIENCE):
+        raise CommandError(f"Wait for service timed out: {node_name} offers no {words}")
+    response = answer_of(node, client.call_async(kind.Request(**request)), PATIENCE)
+    if response is None:
+        raise CommandError(
+            f"No answer from {node_name} in {PATIENCE:g} s of robot time: is it busy in a callback, or not spinning?"
+        )
+    return response
+
+
+def listed(node: Node, name: str, prefixes: list[str] | None = None) -> list[str]:
+    """The names of a node's parameters, sorted."""
+    return sorted(ask(node, name, "ListParameters", prefixes=prefixes or []).result.names)
+
+
+def set_values(node: Node, node_name: str, names_and_values: list[tuple[str, Any]]) -> Any:
+    """Ask a node to set parameters; how each went, as rcl_interfaces/msg/SetParametersResult."""
+    from rcl_interfaces.msg import Parameter
+
+    parameters = [Parameter(name=name, value=value) for name, value in names_and_values]
+    return ask(node, node_name, "SetParameters", parameters=parameters).results
+
+
+def with_reason(text: str, result: Any) -> str:
+    """A text, and the reason that the node gave, if any."""
+    return f"{text}: {result.reason}" if result.reason else text
+
+
+# -- param files --------------------------------------------------------------------------------------------------
+# `ros2 param dump` and `load`: all parameters of a node, to and from a file.
+
+
+def dump_arguments(parser: ArgumentParser) -> None:
+    """The arguments of dump."""
+    arguments_of_all(parser)
+    parser.add_argument("--output-dir", help="Deprecated: write a file named after the node into this folder")
+    parser.add_argument("--print", action="store_true", help="Deprecated, and without effect")
+
+
+def dump(args: Namespace) -> None:
+    """`ros2 param dump`."""
+    import yaml
+
+    if args.output_dir is not None and not Path(args.output_dir).is_dir():
+        raise CommandError(f"'{args.output_dir}' is not a valid directory.")
+    with direct_node(args) as node:
+        name = find_node(node, args)
+        names = listed(node, name)
+        values = ask(node, name, "GetParameters", names=names).values
+    pairs = zip(names, map(to_python, values), strict=False)
+    tree = {name: {"ros__parameters": nested(list(pairs))}}
+    text = yaml.safe_dump(tree, default_flow_style=False, allow_unicode=True)
+    if args.print:
+        print("WARNING: '--print' is deprecated; this utility prints to stdout by default", file=sys.stderr)
+    if args.output_dir is None or args.print:
+        print(text)
+        return
+    print("WARNING: '--output-dir' is deprecated; use redirection to save to a file", file=sys.stderr)
+    file = Path(args.output_dir) / f"{name.lstrip('/').replace('/', '__')}.yaml"
+    print("Saving to: ", file)
+    try:
+        files.save(file, text)
+    except (OSError, ValueError) as error:
+        raise CommandError(f"cannot write {file}: {getattr(error, 'strerror', None) or error}") from None
+
+
+def load_arguments(parser: ArgumentParser) -> None:
+    """The arguments of load."""
+    arguments_of_all(parser)
+    parser.add_argument("parameter_file", help="A file as `ros2 param dump` prints it")
+    parser.add_argument(
+        "--no-use-wildcard", action="store_true", help="Leave out what the file says for all nodes (/**)"
+    )
+
+
+def load(args: Namespace) -> None:
+    """`ros2 param load`."""
+    with direct_node(args) as node:
+        name = find_node(node, args)
+        parameters = _read_file(args.parameter_file, name, wildcard=not args.no_use_wildcard)
+        messages = [(each, from_python(value, str(value))) for each, value in parameters]
+        for (each, _), result in zip(messages, set_values(node, name, messages), strict=True):
+            if result.successful:
+                print(with_reason(f"Set parameter {each} successful", result))
+            else:
+                print(with_reason(f"Set parameter {each} failed", result), file=sys.stderr)
+
+
+def _read_file(path: str, node_name: str, *, wildcard: bool) -> list[tuple[str, Any]]:
+    """The parameters that a file has for a node. Raises CommandError if it has none."""
+    content = read_yaml(_text_of(path), path)
+    if not isinstance(content, dict):
+        raise CommandError(
+            f"{path} is not a parameter file: expected a line '{node_name}:' and ros__parameters below it"
+        )
+    keys = [key for key in (["/**"] if wildcard else []) + [node_name] if key in content]
+    if not keys:
+        raise CommandError(
+            f"Param file does not contain parameters for {node_name},  only for nodes: {content.keys()}",
+            suggest(node_name, map(str, content)) and f"Write the name with its slash: {node_name}",
+        )
+    found: dict[str, Any] = {}
+    for key in keys:
+        if not isinstance(content[key], dict) or not isinstance(content[key].get("ros__parameters"), dict):
+            raise CommandError(
+                f"Invalid structure of parameter file for node {key}expected same format as provided by ros2 param dump"
+            )
+        found.update(flat(content[key]["ros__parameters"]))
+    return list(found.items())
+
+
+def _text_of(path: str) -> str:
+    """The text of a file. Devices are not read, and of a file no more than YAML may have: some never end."""
+    file = Path(path)
+    try:
+        if file.exists() and not file.is_file():
+            raise CommandError(f"cannot read {path}: it is a folder or a device, not a file")
+        with file.open(encoding="utf-8") as stream:
+            return stream.read(MAX_LENGTH + 1)
+    except FileNotFoundError:
+        raise CommandError(f"[Errno 2] No such file or directory: '{path}'") from None
+    except (OSError, ValueError) as error:
+        raise CommandError(f"cannot read {path}: {getattr(error, 'strerror', None) or error}") from None
+
+
+# -- group param --------------------------------------------------------------------------------------------------
+# `ros2 param`: read and change the parameters of nodes.
 
 LIST_PATIENCE = 1.0
 """How long, in s, `param list` waits for each node, as the real one does."""
@@ -113,7 +374,7 @@ def set_parameter(args: Namespace) -> None:
     """`ros2 param set`. As in the real tool, the exit code is 0 also if the node refuses the value."""
     with direct_node(args) as node:
         name = find_node(node, args)
-        value = param_values.from_text(args.value)
+        value = from_text(args.value)
         [result] = set_values(node, name, [(args.parameter_name, value)])
         if result.successful:
             print(with_reason("Set parameter successful", result))
@@ -186,11 +447,9 @@ def _print_descriptor(descriptor: Any) -> None:
 VERBS: dict[str, Verb] = {
     "delete": Command("Delete a parameter", _delete_arguments, delete),
     "describe": Command("What a parameter is for, its type and limits", _describe_arguments, describe),
-    "dump": Command(
-        "All parameters of a node, in the format that `load` reads", param_files.dump_arguments, param_files.dump
-    ),
+    "dump": Command("All parameters of a node, in the format that `load` reads", dump_arguments, dump),
     "get": Command("A parameter's value", _get_arguments, get),
     "list": Command("The names of the parameters", _list_arguments, list_parameters),
-    "load": Command("Set parameters from a file", param_files.load_arguments, param_files.load),
+    "load": Command("Set parameters from a file", load_arguments, load),
     "set": Command("Change a parameter", _set_arguments, set_parameter),
 }

@@ -21,11 +21,10 @@ from ..runtime.run_world import run_for
 from ..runtime.world import current_world
 from ..sim.errors import shown_path
 from ..sim.process import Process
-from .arg_types import positive_float
 from .group_pkg import not_found, path_of
 from .jobs import Job, jobs, lasting
 from .parser import cut
-from .verb import CellCommand, CommandError
+from .verb import CellCommand, CommandError, positive_float
 
 if TYPE_CHECKING:
     from ..launching.start import LaunchHandle

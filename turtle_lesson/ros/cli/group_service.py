@@ -6,7 +6,6 @@ import time
 from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING, Any
 
-from .arg_types import frequency
 from .parser import Verb
 from .typed_values import populate, print_names, print_types, read_yaml, service_class, stamp, unknown
 from .verb import (
@@ -19,6 +18,7 @@ from .verb import (
     direct_node,
     end_of_stretch,
     expanded,
+    frequency,
     now,
     of_the_classroom,
     services,

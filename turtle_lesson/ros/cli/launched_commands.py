@@ -9,9 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from ..launching.commands import ForeignCommand, UnknownCommand
-from .lexer import UnfinishedError, tokens
 from .parser import Stop, parse
-from .script import ShellSyntaxError, expand, pipelines
+from .script import ShellSyntaxError, UnfinishedError, expand, pipelines, tokens
 
 
 def commands_of_text(text: str) -> list[tuple[str, list[str]]]:

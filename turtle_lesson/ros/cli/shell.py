@@ -22,9 +22,7 @@ from ..runtime.console import FileOutput
 from . import terminal_files
 from .command_hints import advice
 from .jobs import cell_streams
-from .lexer import UnfinishedError, Word, tokens
 from .parser import cut
-from .python_script import names_a_script, run_script
 from .run_command import INTERRUPTED
 from .run_command import run as run_ros2
 from .script import (
@@ -32,9 +30,14 @@ from .script import (
     TO_STDOUT,
     Command,
     ShellSyntaxError,
+    UnfinishedError,
+    Word,
     commands_in,
     expand,
+    names_a_script,
     pipelines,
+    run_script,
+    tokens,
     with_its_program,
 )
 from .terminal import BUILTINS

@@ -1,19 +1,128 @@
-"""The terminal's own words, beside ros2, colcon and source; those for what goes on: jobs, kill, sleep."""
+"""The terminal's own words, beside ros2, colcon and source: those for texts (cat, echo, grep, …) and for jobs."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..runtime.run_world import run_for
 from .jobs import SIGNALS, Job, jobs, send
 from .terminal_files import cd, chmod, cp, ls, mkdir, mv, pwd, rm, touch
-from .terminal_io import Builtin, Terminal, export, printenv, unset
-from .terminal_text import cat, echo, grep, head, printf, sort, tail, wc
+from .terminal_io import Builtin, Terminal, export, options, printenv, unset
 
 if TYPE_CHECKING:
     from ..sim.process import Process
 
+
+# -- terminal text ------------------------------------------------------------------------------------------------
+# The terminal's words for texts: cat, echo, printf, and what a pipe leads to: grep, head, tail, sort, wc.
+
+
+def cat(terminal: Terminal, words: list[str]) -> int:
+    """`cat file…`: print files."""
+    if not words and terminal.given is None:
+        return terminal.fail("cat: name the files to print")
+    terminal.stdout.write("".join(_texts(terminal, words)))
+    return 0
+
+
+def _texts(terminal: Terminal, names: Iterable[str]) -> list[str]:
+    """The files of these names, or else what a pipe gives."""
+    found = [Path(name).read_text(encoding="utf-8", errors="replace") for name in names]
+    return found or [terminal.given or ""]
+
+
+def echo(terminal: Terminal, words: list[str]) -> int:
+    """`echo [-n] [-e] words`: print words; -n without a line end, -e with `\\n` and its kin as what they stand for."""
+    signs = ""
+    while words and re.fullmatch("-[neE]+", words[0]):
+        signs, words = signs + words[0], words[1:]
+    text = " ".join(words)
+    terminal.stdout.write((_unescaped(text) if "e" in signs else text) + ("" if "n" in signs else "\n"))
+    return 0
+
+
+def printf(terminal: Terminal, words: list[str]) -> int:
+    """`printf FORMAT words`: print a text in which `\\n` is a line end and %s a word; further words use it once more."""
+    if not words:
+        return terminal.fail("printf: usage: printf format [arguments]", 2)
+    shape, rest = _unescaped(words[0]), iter(words[1:])
+    places = len(re.findall("%[sdi]", shape.replace("%%", "")))
+    left = max(1, -(-len(words[1:]) // places)) if places else 1
+    for _ in range(left):
+        filled = re.sub("%([sdi%])", lambda found: "%" if found[1] == "%" else next(rest, ""), shape)
+        terminal.stdout.write(filled)
+    return 0
+
+
+def _unescaped(text: str) -> str:
+    return re.sub(r"\\([ntr\\])", lambda found: {"n": "\n", "t": "\t", "r": "\r"}.get(found[1], found[1]), text)
+
+
+def grep(terminal: Terminal, words: list[str]) -> int:
+    """`… | grep [-i] [-v] [-c] pattern`: the lines with a pattern in them."""
+    letters, rest = options(words)
+    if unknown := sorted(set(letters) - set("civqE")):
+        return terminal.fail(
+            f"grep: this terminal's knows -i, -v, -c, -q and -E, but no -{unknown[0]}: leave it out", 2
+        )
+    if not rest:
+        return terminal.fail("grep: name the pattern to look for", 2)
+    pattern = re.compile(rest[0] if "E" in letters else re.escape(rest[0]), re.IGNORECASE if "i" in letters else 0)
+    lines = [line for text in _texts(terminal, rest[1:]) for line in text.splitlines()]
+    found = [line for line in lines if bool(pattern.search(line)) != ("v" in letters)]
+    if "c" in letters:
+        terminal.say(str(len(found)))
+    elif "q" not in letters and found:
+        terminal.say("\n".join(found))
+    return 0 if found else 1
+
+
+def head(terminal: Terminal, words: list[str]) -> int:
+    """`… | head [-n number]`: the first lines."""
+    count, rest = _count(words)
+    lines = [line for text in _texts(terminal, rest) for line in text.splitlines()][:count]
+    return terminal.say("\n".join(lines)) if lines else 0
+
+
+def tail(terminal: Terminal, words: list[str]) -> int:
+    """`… | tail [-n number]`: the last lines."""
+    count, rest = _count(words)
+    lines = [line for text in _texts(terminal, rest) for line in text.splitlines()]
+    return terminal.say("\n".join(lines[-count:])) if lines and count else 0
+
+
+def _count(words: list[str]) -> tuple[int, list[str]]:
+    count, rest = 10, []
+    expected = False
+    for word in words:
+        if expected or re.fullmatch(r"-n?\d+", word):
+            count, expected = int(word.lstrip("-n") or 0), False
+        elif word == "-n":
+            expected = True
+        else:
+            rest.append(word)
+    return count, rest
+
+
+def sort(terminal: Terminal, words: list[str]) -> int:
+    """`… | sort [-r] [-u]`: the lines in order."""
+    letters, rest = options(words)
+    lines = [line for text in _texts(terminal, rest) for line in text.splitlines()]
+    ordered = sorted(set(lines) if "u" in letters else lines, reverse="r" in letters)
+    return terminal.say("\n".join(ordered)) if ordered else 0
+
+
+def wc(terminal: Terminal, words: list[str]) -> int:
+    """`… | wc -l`: how many lines."""
+    _, rest = options(words)
+    return terminal.say(str(sum(text.count("\n") for text in _texts(terminal, rest))))
+
+
+# -- terminal -----------------------------------------------------------------------------------------------------
+# The terminal's own words, beside ros2, colcon and source; those for what goes on: jobs, kill, sleep.
 
 # -- terminal jobs ------------------------------------------------------------------------------------------------
 # The terminal's words for what goes on: jobs, kill, sleep.

@@ -1,14 +1,9 @@
-"""What the verbs of the `ros2` command line share: their node, their limits in robot time, and how they end.
-
-Each command is a simulated process; a verb is ordinary blocking rclpy code in it. It prints to `sys.stdout` and
-`sys.stderr` as the real tool does, and `main` returns the exit code: 0, 1 after an error, 2 for wrong usage and for
-what would go on forever in a terminal (as after a Ctrl-C there).
-"""
+"""What the verbs of `ros2` share: their arguments, their node, their limits in robot time, and how they end."""
 
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentParser, Namespace
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -16,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 
 from ..idl.names import did_you_mean, is_hidden
 from ..runtime.world import current_process
-from .arg_types import frequency, positive_float, seconds, stretch
 from .parser import Verb
 
 if TYPE_CHECKING:
@@ -56,6 +50,87 @@ __all__ = [
     "topics",
 ]
 
+
+# -- arg types ----------------------------------------------------------------------------------------------------
+# Numbers as arguments: times, frequencies and counts, within what makes sense in a simulated world.
+
+LONGEST = 86_400.0
+"""How long, in s of robot time, a command can be told to go on: a day."""
+
+FASTEST = 10_000.0
+"""How often a second a command can be told to do something."""
+
+MOST = 2**31 - 1
+"""The greatest whole number that a command takes."""
+
+
+def positive_float(text: str) -> float:
+    """An argument that is a number above 0."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0 < value < float("inf"):
+        raise ArgumentTypeError(f"'{text}' is not a number above 0")
+    return value
+
+
+def frequency(text: str) -> float:
+    """An argument that says how often a second; more often than `FASTEST` no robot could.
+
+    Anything but a number above 0 is refused in the words that argparse has for ros2topic's `positive_float`.
+    """
+    try:
+        value = positive_float(text)
+    except ArgumentTypeError as error:
+        raise ArgumentTypeError(f"invalid positive_float value: '{text}'\n{error}") from None
+    if value > FASTEST:
+        raise ArgumentTypeError(f"'{text}' times a second is too often; at most {FASTEST:g}")
+    if value < 1 / LONGEST:
+        raise ArgumentTypeError(f"'{text}' times a second is too rare; at least once a day")
+    return value
+
+
+def seconds(text: str) -> float:
+    """An argument that is a number of seconds, 0 or more, up to a day."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = -1.0
+    if not 0 <= value < float("inf"):
+        raise ArgumentTypeError(f"'{text}' is not a number of seconds")
+    if value > LONGEST:
+        raise ArgumentTypeError(f"'{text}' is too long; at most {LONGEST:.0f} s, a day")
+    return value
+
+
+def stretch(text: str) -> float:
+    """An argument that is a stretch of time: more than 0 s, up to a day."""
+    positive_float(text)
+    return seconds(text)
+
+
+def positive_int(text: str) -> int:
+    """An argument that is a whole number above 0."""
+    if not text.isdigit() or not text.strip("0"):
+        raise ArgumentTypeError("value must be a positive integer")
+    return unsigned_int(text)
+
+
+def unsigned_int(text: str) -> int:
+    """An argument that is a whole number, 0 or above."""
+    if not (text.isascii() and text.isdigit() and len(text) < 19):
+        raise ArgumentTypeError("value must be non-negative integer")
+    if int(text) > MOST:
+        raise ArgumentTypeError(f"value must be at most {MOST}")
+    return int(text)
+
+
+# -- verb ---------------------------------------------------------------------------------------------------------
+# What the verbs of the `ros2` command line share: their node, their limits in robot time, and how they end.
+# Each command is a simulated process; a verb is ordinary blocking rclpy code in it. It prints to `sys.stdout` and
+# `sys.stderr` as the real tool does, and `main` returns the exit code: 0, 1 after an error, 2 for wrong usage and for
+# what would go on forever in a terminal (as after a Ctrl-C there).
 
 STRETCH = 5.0
 """How long, in s of robot time, goes on what never ends in a terminal, unless `--for` tells otherwise."""
