@@ -149,17 +149,13 @@ def stamp_of(msg: Any, allow_headerless: bool, logger: str) -> Time | None:
         return stamp if hasattr(stamp, "nanoseconds") else Time.from_msg(stamp)
     if allow_headerless:
         return ROSClock().now()
-    _warn(logger, type(msg).__name__)
-    return None
-
-
-def _warn(name: str, kind: str) -> None:
-    logger = get_logger(name)
-    logger.set_level(LoggingSeverity.INFO)
-    logger.warning(
-        f"a {kind} has no header with a stamp, so it is left out; with allow_headerless=True it is given the time "
-        "at which it comes"
+    log = get_logger(logger)
+    log.set_level(LoggingSeverity.INFO)
+    log.warning(
+        f"a {type(msg).__name__} has no header with a stamp, so it is left out; with allow_headerless=True it is given the "
+        "time at which it comes"
     )
+    return None
 
 
 Queue = dict[int, Any]
@@ -228,7 +224,10 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
 
     def add(self, msg: Any, my_queue: Queue, my_queue_index: int | None = None) -> None:
         """A message has come out of one of the filters."""
-        stamp = self._stamp(msg)
+        if self.sync_arrival_time:
+            stamp: Time | None = ROSClock().now()
+        else:
+            stamp = stamp_of(msg, self.allow_headerless, "message_filters_approx")
         if stamp is None:
             return
         with self.lock:
@@ -237,11 +236,6 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
                 if self._fit(stamps):
                     self._hand_out(stamps)
                     return
-
-    def _stamp(self, msg: Any) -> Time | None:
-        if self.sync_arrival_time:
-            return ROSClock().now()
-        return stamp_of(msg, self.allow_headerless, "message_filters_approx")
 
     def _candidates(self, mine: int, my_index: int | None) -> list[list[int]]:
         """For each queue the stamps that are near enough to the new one, the nearest first."""

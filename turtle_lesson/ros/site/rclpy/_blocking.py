@@ -75,9 +75,9 @@ def spin_live(function: Callable[[], None]) -> None:
 
 
 class WakeUp:
-    """Holds up the running strand in `wait`, until a time of the simulation, or until somebody calls `ring`.
+    """A one-shot wake-up: `wait` blocks the running strand until a time of the simulation, or until `wake` is called.
 
-    A shutdown of its context rings it, too.
+    A shutdown of its context calls `wake`, too.
     """
 
     def __init__(self, context: Context) -> None:
@@ -94,9 +94,9 @@ class WakeUp:
         self.strand.simulation.wake(self.strand)
 
     def wait(self, deadline: int | None, *, only_from_within: bool = True) -> bool:
-        """Wait until the deadline (ns of the simulation; None forever); whether it rang before.
+        """Wait until the deadline (ns of the simulation; None forever); whether `wake` was called before.
 
-        `only_from_within`: nobody but another thread of this process can ring it.
+        `only_from_within`: only another thread of this process can call `wake`.
         """
         simulation, strand = self.strand.simulation, self.strand
         if deadline is not None and simulation.now < deadline:

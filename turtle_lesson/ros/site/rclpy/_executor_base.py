@@ -9,6 +9,7 @@ the real one builds a wait set for every cycle, entities here signal their execu
 from __future__ import annotations
 
 from collections.abc import Callable
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 from turtle_lesson.ros.distro import TASKS_IN_ORDER
@@ -166,9 +167,6 @@ class ExecutorBase:
         self._resumed.append(task)
         self.wake()
 
-    def _poll_task(self, task: Task) -> None:
-        self._polled.append(task)
-
     def wake(self) -> None:
         """Have a waiting `spin_once` look again at what it waits for."""
         if self._waiter is not None:
@@ -206,13 +204,13 @@ class ExecutorBase:
     def _begin_cycle(self) -> None:
         """Take all that is ready now as the next batch."""
         self._has_polled = not self._signalled and not self._resumed
-        batch: list[Job] = sorted(self._signalled, key=_turn, reverse=True)
+        batch: list[Job] = sorted(self._signalled, key=attrgetter("_turn"), reverse=True)
         for entity in batch:
             entity._listed_in = None
         self._signalled.clear()
         if self._resumed or self._polled:
             tasks = [*self._polled, *self._resumed]
-            batch += reversed(tasks) if self._tasks_in_order else sorted(tasks, key=_age)
+            batch += reversed(tasks) if self._tasks_in_order else sorted(tasks, key=attrgetter("_number"))
             self._polled, self._resumed = [], []
         self._batch = batch
 
@@ -278,16 +276,17 @@ class ExecutorBase:
         for waiting in blocked:
             waiting._signal()
 
-    def _free(self, entity: Any) -> None:
-        entity._end_run(entity)
-        self._retry_blocked()
-
     def _as_task(self, entity: Any) -> Task:
         traced = entity._traced
         begun = None if traced is None else begin_task(entity, traced, self._simulation.now)
         task = self._number(Task(_call_and_await, (entity, entity._take()), executor=self))  # type: ignore[arg-type]
         task._entity, task._node = entity, entity._node
-        task._finally = lambda: self._free(entity)
+
+        def free() -> None:
+            entity._end_run(entity)
+            self._retry_blocked()
+
+        task._finally = free
         if traced is not None and begun is not None:
             note_end(task, traced, begun, self._simulation)
         return task
@@ -309,11 +308,3 @@ async def _call_and_await(entity: Any, arguments: tuple[Any, ...] | None) -> Non
             result = await result
         if entity._kind == SERVICE:
             entity._done_with(arguments, result)
-
-
-def _age(task: Task) -> int:
-    return task._number
-
-
-def _turn(entity: Entity) -> tuple[int, int, int]:
-    return entity._turn

@@ -80,13 +80,13 @@ def why_refused(parameter: Parameter, descriptor: Any, is_declared: bool) -> str
     elif kind not in (Parameter.Type.NOT_SET, Parameter.Type(descriptor.type)):
         return f"Wrong parameter type, expected '{Parameter.Type(descriptor.type)}' got '{kind}'"
     if kind == Parameter.Type.DOUBLE and descriptor.floating_point_range:
-        return range_flaw(parameter, descriptor.floating_point_range[0])
+        return _range_flaw(parameter, descriptor.floating_point_range[0])
     if kind == Parameter.Type.INTEGER and descriptor.integer_range:
-        return integer_range_flaw(parameter, descriptor.integer_range[0])
+        return _integer_range_flaw(parameter, descriptor.integer_range[0])
     return ""
 
 
-def range_flaw(parameter: Parameter, limits: Any) -> str:
+def _range_flaw(parameter: Parameter, limits: Any) -> str:
     """Why a floating-point value is out of its range or off its steps, or ''."""
     name, value, step = parameter.name, parameter.value, limits.step
     low, high = sorted((limits.from_value, limits.to_value))
@@ -100,7 +100,7 @@ def range_flaw(parameter: Parameter, limits: Any) -> str:
     return ""
 
 
-def integer_range_flaw(parameter: Parameter, limits: Any) -> str:
+def _integer_range_flaw(parameter: Parameter, limits: Any) -> str:
     """Why an integer is out of its range or off its steps, or ''."""
     name, value, step = parameter.name, parameter.value, limits.step
     low, high = sorted((limits.from_value, limits.to_value))

@@ -43,20 +43,15 @@ class Parameter:
             """The type of a Python value; TypeError if no parameter can have it."""
             if parameter_value is None:
                 return cls.NOT_SET
-            for kind, name in ((bool, "BOOL"), (int, "INTEGER"), (float, "DOUBLE"), (str, "STRING")):
-                if isinstance(parameter_value, kind):
+            for name in ("BOOL", "INTEGER", "DOUBLE", "STRING"):
+                if isinstance(parameter_value, _PYTHON[name]):
                     return cls[name]
-            if isinstance(parameter_value, (list, tuple, array.array)):
-                return cls._from_sequence(parameter_value)
-            raise TypeError(f"The given value is not one of the allowed types '{parameter_value}'.")
-
-        @classmethod
-        def _from_sequence(cls, values: Any) -> Parameter.Type:
-            kinds = ((bytes, "BYTE"), (bool, "BOOL"), (int, "INTEGER"), (float, "DOUBLE"), (str, "STRING"))
-            for kind, name in kinds:
-                if all(isinstance(value, kind) for value in values):
+            if not isinstance(parameter_value, (list, tuple, array.array)):
+                raise TypeError(f"The given value is not one of the allowed types '{parameter_value}'.")
+            for name in ("BYTE", "BOOL", "INTEGER", "DOUBLE", "STRING"):
+                if all(isinstance(value, _PYTHON[name]) for value in parameter_value):
                     return cls[f"{name}_ARRAY"]
-            raise TypeError(f"The given value is not a list of one of the allowed types '{values}'.")
+            raise TypeError(f"The given value is not a list of one of the allowed types '{parameter_value}'.")
 
         def check(self, parameter_value: Any) -> bool:
             """Whether a Python value can have this type. An empty list can be a list of any type."""
@@ -150,19 +145,13 @@ def get_parameter_value(string_value: str) -> Any:
         value = safe_load(string_value)
     except (yaml.YAMLError, ValueError):
         value = string_value
-    for kind in (Parameter.Type[name] for name in _TRIED):
-        if kind.check(value) and (kind.name not in ("INTEGER", "INTEGER_ARRAY") or _fits(value)):
+    for name in ("BOOL", "INTEGER", "DOUBLE", "BOOL_ARRAY", "INTEGER_ARRAY", "DOUBLE_ARRAY", "STRING_ARRAY"):
+        kind = Parameter.Type[name]
+        numbers = (value if isinstance(value, list) else [value]) if name.startswith("INTEGER") else []
+        if kind.check(value) and all(-(2**63) <= number < 2**63 for number in numbers):
             return Parameter("", kind, value).get_parameter_value()
     text = value if isinstance(value, str) else string_value
     return Parameter("", Parameter.Type.STRING, text).get_parameter_value()
-
-
-def _fits(value: Any) -> bool:
-    """Whether whole numbers are not too large for a parameter."""
-    return all(-(2**63) <= number < 2**63 for number in (value if isinstance(value, list) else [value]))
-
-
-_TRIED = ("BOOL", "INTEGER", "DOUBLE", "BOOL_ARRAY", "INTEGER_ARRAY", "DOUBLE_ARRAY", "STRING_ARRAY")
 
 
 def parameter_dict_from_yaml_file(

@@ -91,15 +91,12 @@ class Publisher:
         Raises TypeError for anything but a message of the publisher's type (or its CDR bytes).
         """
         if msg.__class__ is not self.msg_type and not isinstance(msg, self.msg_type):
-            msg = self._from_bytes(msg)
+            if not isinstance(msg, bytes):
+                raise no_message(msg, self.msg_type)
+            from turtle_lesson.ros.idl import cdr
+
+            msg = cdr.deserialize(msg, self.msg_type)
         self._write(msg)
-
-    def _from_bytes(self, msg: Any) -> Any:
-        if not isinstance(msg, bytes):
-            raise no_message(msg, self.msg_type)
-        from turtle_lesson.ros.idl import cdr
-
-        return cdr.deserialize(msg, self.msg_type)
 
     def get_subscription_count(self) -> int:
         """How many subscriptions get what this publishes."""

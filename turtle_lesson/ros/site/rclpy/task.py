@@ -266,10 +266,10 @@ class Task(Future):
         awaited = self._handler.send(None)
         while (problem := self._why_not_awaited(awaited)) is not None:
             awaited = self._handler.throw(problem)  # it may catch that, and await something else
-        if awaited is None:
-            self._poll()
-        else:
+        if awaited is not None:
             awaited._callbacks.append(self._go_on)
+        elif self._executor is not None:
+            self._executor._polled.append(self)
 
     def _why_not_awaited(self, awaited: Any) -> Exception | None:
         """What is wrong with what the coroutine waits for, if anything is."""
@@ -292,10 +292,6 @@ class Task(Future):
     def _go_on(self, awaited: Future) -> None:
         if self._executor is not None:
             self._executor._resume_task(self)
-
-    def _poll(self) -> None:
-        if self._executor is not None:
-            self._executor._poll_task(self)
 
     def _complete(self, value: Any) -> None:
         self._end()

@@ -1,5 +1,7 @@
 """The types of fields, as `SLOT_TYPES` of a message class holds them (names as in rosidl_parser/definition.py)."""
 
+# ruff: noqa: F401
+
 from turtle_lesson.ros.idl.message import (
     AbstractGenericString,
     AbstractNestableType,
@@ -19,23 +21,3 @@ from turtle_lesson.ros.idl.message import (
     UnboundedString,
     UnboundedWString,
 )
-
-__all__ = [
-    "AbstractGenericString",
-    "AbstractNestableType",
-    "AbstractNestedType",
-    "AbstractSequence",
-    "AbstractString",
-    "AbstractType",
-    "AbstractWString",
-    "Array",
-    "BasicType",
-    "BoundedSequence",
-    "BoundedString",
-    "BoundedWString",
-    "NamedType",
-    "NamespacedType",
-    "UnboundedSequence",
-    "UnboundedString",
-    "UnboundedWString",
-]

@@ -3,6 +3,8 @@
 Names as in tf2_py (geometry2); programs mostly use `tf2_ros.Buffer`, which is a `BufferCore` that can wait.
 """
 
+# ruff: noqa: F401
+
 from ._buffer_core import BufferCore
 from ._frames import (
     ConnectivityException,
@@ -12,13 +14,3 @@ from ._frames import (
     TimeoutException,
     TransformException,
 )
-
-__all__ = [
-    "BufferCore",
-    "ConnectivityException",
-    "ExtrapolationException",
-    "InvalidArgumentException",
-    "LookupException",
-    "TimeoutException",
-    "TransformException",
-]

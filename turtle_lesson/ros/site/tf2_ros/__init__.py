@@ -1,5 +1,7 @@
 """tf2 for ROS nodes: broadcasters that tell where frames are, a listener that hears it, and a buffer that answers."""
 
+# ruff: noqa: F401
+
 from __future__ import annotations
 
 from typing import Any
@@ -30,30 +32,6 @@ from .buffer_interface import (
 from .static_transform_broadcaster import StaticTransformBroadcaster
 from .transform_broadcaster import TransformBroadcaster
 from .transform_listener import TransformListener
-
-__all__ = [
-    "Buffer",
-    "BufferCore",
-    "BufferInterface",
-    "ConnectivityException",
-    "ConvertRegistration",
-    "Duration",
-    "ExtrapolationException",
-    "InvalidArgumentException",
-    "LookupException",
-    "NotImplementedException",
-    "Stamped",
-    "StaticTransformBroadcaster",
-    "Time",
-    "TimeoutException",
-    "TransformBroadcaster",
-    "TransformException",
-    "TransformListener",
-    "TransformRegistration",
-    "TransformStamped",
-    "TypeException",
-    "convert",
-]
 
 _NOT_HERE = {
     "BufferClient": "ask a Buffer with a TransformListener instead",

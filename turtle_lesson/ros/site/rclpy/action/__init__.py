@@ -1,6 +1,6 @@
 """Actions: goals that take their time, with feedback on the way, a result at the end, and the possibility to cancel."""
 
-from __future__ import annotations
+# ruff: noqa: F401
 
 from .client import ActionClient
 from .graph import (
@@ -9,13 +9,3 @@ from .graph import (
     get_action_server_names_and_types_by_node,
 )
 from .server import ActionServer, CancelResponse, GoalResponse
-
-__all__ = [
-    "ActionClient",
-    "ActionServer",
-    "CancelResponse",
-    "GoalResponse",
-    "get_action_client_names_and_types_by_node",
-    "get_action_names_and_types",
-    "get_action_server_names_and_types_by_node",
-]

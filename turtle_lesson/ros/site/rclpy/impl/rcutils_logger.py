@@ -304,24 +304,19 @@ def print_line(line: Line, wanted: str | None, *, colorized: bool = False) -> No
 
 def formatted(line: Line, wanted: str) -> str:
     """A line in a format such as `{severity} {name}: {message}`; what is no known word in braces stays as it is."""
-    words = _words(line)
-    text = re.sub(r"\{(\w+)\}", lambda found: str(words.get(found[1], found[0])), wanted)
-    return text.replace("\\n", "\n").replace("\\t", "\t").replace("\\033", "\033")
-
-
-def _words(line: Line) -> dict[str, Any]:
     seconds, nanoseconds = divmod(line.time, NANOSECONDS)
-    code = line.frame.f_code
-    moment = datetime.fromtimestamp(seconds, UTC)
-    return {
+    path = shown_path(line.frame.f_code.co_filename)
+    words = {
         "severity": line.severity.name,
         "name": line.name,
         "message": line.message,
-        "function_name": code.co_name,
-        "file_name": shown_path(code.co_filename),
-        "short_file_name": shown_path(code.co_filename).rpartition("/")[2],
+        "function_name": line.frame.f_code.co_name,
+        "file_name": path,
+        "short_file_name": path.rpartition("/")[2],
         "line_number": line.frame.f_lineno,
         "time": f"{seconds}.{nanoseconds:09d}",
         "time_as_nanoseconds": line.time,
-        "date_time_with_ms": f"{moment:%Y-%m-%d %H:%M:%S}.{nanoseconds // 1_000_000:03d}",
+        "date_time_with_ms": f"{datetime.fromtimestamp(seconds, UTC):%Y-%m-%d %H:%M:%S}.{nanoseconds // 1_000_000:03d}",
     }
+    text = re.sub(r"\{(\w+)\}", lambda found: str(words.get(found[1], found[0])), wanted)
+    return text.replace("\\n", "\n").replace("\\t", "\t").replace("\\033", "\033")

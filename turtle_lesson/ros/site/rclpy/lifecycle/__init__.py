@@ -3,7 +3,7 @@
 Facts: rclpy's lifecycle package, rcl_lifecycle's default_state_machine.c, https://design.ros2.org/articles/node_lifecycle.html.
 """
 
-from __future__ import annotations
+# ruff: noqa: F401
 
 from ._states import TransitionCallbackReturnType as TransitionCallbackReturn
 from .managed_entity import ManagedEntity, SimpleManagedEntity
@@ -14,13 +14,3 @@ Node = LifecycleNode
 NodeMixin = LifecycleNodeMixin
 State = LifecycleState
 Publisher = LifecyclePublisher
-
-__all__ = [
-    "LifecycleNode",
-    "LifecycleNodeMixin",
-    "LifecyclePublisher",
-    "LifecycleState",
-    "ManagedEntity",
-    "SimpleManagedEntity",
-    "TransitionCallbackReturn",
-]
