@@ -83,19 +83,14 @@ def draw_obstacles(axes: Axes, obstacles: Iterable[Obstacle]) -> None:
     """Draw the obstacles where they stand."""
     from matplotlib.patches import Ellipse, Rectangle
 
-    look: dict[str, Any] = {
-        "facecolor": style.ORANGE + "66",
-        "edgecolor": style.DARK_ORANGE,
-        "linewidth": 1.0,
-        "zorder": 2,
-    }
+    colours: dict[str, Any] = {"facecolor": style.ORANGE + "66", "edgecolor": style.DARK_ORANGE}
     for each in obstacles:
+        look = {**colours, "angle": math.degrees(each.angle), "linewidth": 1.0, "zorder": 2}
         if each.shape == "box":
             corner = (each.x - each.width / 2, each.y - each.height / 2)
-            turn = math.degrees(each.angle)
-            axes.add_artist(Rectangle(corner, each.width, each.height, angle=turn, rotation_point="center", **look))
+            axes.add_artist(Rectangle(corner, each.width, each.height, rotation_point="center", **look))
         else:
-            axes.add_artist(Ellipse((each.x, each.y), each.width, each.height, angle=math.degrees(each.angle), **look))
+            axes.add_artist(Ellipse((each.x, each.y), each.width, each.height, **look))
 
 
 # -- svg ------------------------------------------------------------------------------------------------------------

@@ -11,23 +11,16 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from . import drawing, style
-from .drawing import image
 from .words import count, is_hidden, listed, number
 
 EVERYWHERE = frozenset({"/rosout", "/parameter_events"})
 """Topics that every node has: they say nothing about how a system is built."""
 
-PARAMETER_SERVICES = frozenset(
-    {
-        "describe_parameters",
-        "get_parameter_types",
-        "get_parameters",
-        "list_parameters",
-        "set_parameters",
-        "set_parameters_atomically",
-        "get_type_description",
-    }
-)
+PARAMETER_SERVICES = {f"{verb}_parameters" for verb in ("describe", "get", "list", "set")} | {
+    "get_parameter_types",
+    "set_parameters_atomically",
+    "get_type_description",
+}
 """Services that every node offers below its own name; the last one since ROS 2 Iron."""
 
 Ends = dict[str, list[str]]
@@ -59,18 +52,14 @@ def read_system(node: Any) -> list[NodeView]:
             found[full_name].copies += 1
             continue
         with suppress(NodeNameNonExistentError):  # gone since the list was made
-            found[full_name] = _view(node, name, namespace, full_name)
+            found[full_name] = NodeView(
+                full_name,
+                publishes=_visible(node.get_publisher_names_and_types_by_node(name, namespace)),
+                hears=_visible(node.get_subscriber_names_and_types_by_node(name, namespace)),
+                offers=_visible(node.get_service_names_and_types_by_node(name, namespace)),
+                calls=_visible(node.get_client_names_and_types_by_node(name, namespace)),
+            )
     return [found[name] for name in sorted(found)]
-
-
-def _view(node: Any, name: str, namespace: str, full_name: str) -> NodeView:
-    return NodeView(
-        full_name,
-        publishes=_visible(node.get_publisher_names_and_types_by_node(name, namespace)),
-        hears=_visible(node.get_subscriber_names_and_types_by_node(name, namespace)),
-        offers=_visible(node.get_service_names_and_types_by_node(name, namespace)),
-        calls=_visible(node.get_client_names_and_types_by_node(name, namespace)),
-    )
 
 
 def topics_of(nodes: list[NodeView]) -> Ends:
@@ -115,7 +104,7 @@ class GraphPicture:
         """What Jupyter shows: the drawing with its alternative text, with or without a kernel."""
         if not self.svg:
             return {"text/plain": self.text}
-        shown = image(self.svg, self.text)
+        shown = drawing.image(self.svg, self.text)
         return {"text/html": shown, "text/vnd.mermaid": self.mermaid, "text/plain": self.text}
 
 
@@ -134,11 +123,11 @@ def plot_graph(node: Any) -> GraphPicture:
 
 def describe(nodes: list[NodeView]) -> str:
     """Return the graph in words: the numbers, then a sentence for each node."""
-    types = topics_of(nodes) | services_of(nodes)
-    sentences = [f"The ROS graph has {_summary(nodes)}."]
-    sentences += [_node_sentence(node) for node in nodes]
-    sentences.append(_types_sentence(types))
-    return " ".join(filter(None, sentences))
+    types = (topics_of(nodes) | services_of(nodes)).items()
+    sentences = [f"The ROS graph has {_summary(nodes)}.", *map(_node_sentence, nodes)]
+    if types:
+        sentences.append(f"Types: {', '.join(f'{name} {listed(kinds)}' for name, kinds in types)}.")
+    return " ".join(sentences)
 
 
 def _summary(nodes: list[NodeView]) -> str:
@@ -150,14 +139,7 @@ def _summary(nodes: list[NodeView]) -> str:
 def _node_sentence(node: NodeView) -> str:
     verbs = {"publishes": node.publishes, "hears": node.hears, "offers": node.offers, "calls": node.calls}
     parts = [f"{verb} {listed(list(ends))}" for verb, ends in verbs.items() if ends]
-    name = node.name if node.copies == 1 else f"{node.name} ({node.copies} nodes of this name)"
-    return f"{name} {'; '.join(parts)}." if parts else f"{name} uses no topic and no service."
-
-
-def _types_sentence(types: Ends) -> str:
-    if not types:
-        return ""
-    return f"Types: {', '.join(f'{name} {listed(kinds)}' for name, kinds in types.items())}."
+    return f"{_counted(node)} {'; '.join(parts) or 'uses no topic and no service'}."
 
 
 # -- graph drawing --------------------------------------------------------------------------------------------------
@@ -193,9 +175,8 @@ class Box:
     @property
     def width(self) -> float:
         """Pixels that its texts need."""
-        sizes = [drawing.text_width(each, NAME) for each in self.names] + [
-            drawing.text_width(each, TYPE) for each in self.types
-        ]
+        sizes = [drawing.text_width(each, NAME) for each in self.names]
+        sizes += [drawing.text_width(each, TYPE) for each in self.types]
         return max(sizes) + 2 * PADDING
 
 
@@ -262,14 +243,12 @@ def _arrange(columns: dict[str, list[Box]]) -> None:
         _stack(boxes, [0.0] * len(boxes))
     for _ in range(8):
         for boxes in columns.values():
-            wanted = [
-                statistics.fmean(arrow.other(box).middle for arrow in box.arrows) if box.arrows else box.middle
+            wanted = {
+                box: statistics.fmean(arrow.other(box).middle for arrow in box.arrows) if box.arrows else box.middle
                 for box in boxes
-            ]
-            order = sorted(range(len(boxes)), key=lambda at: wanted[at])
-            wanted = [wanted[at] for at in order]
-            boxes[:] = [boxes[at] for at in order]
-            _stack(boxes, wanted)
+            }
+            boxes.sort(key=wanted.__getitem__)
+            _stack(boxes, [wanted[box] for box in boxes])
     bottom, up = TOP - GAP, -math.inf  # what is connected with nothing else may lie far off: no empty band is left
     everything = [box for boxes in columns.values() for box in boxes]
     for box in sorted(everything, key=lambda box: box.middle - box.height / 2):
@@ -353,7 +332,7 @@ COLOURS = (
 
 def flowchart(nodes: list[NodeView], title: str, description: str) -> str:
     """Return the Mermaid text for these nodes; `title` and `description` are for readers who cannot see it."""
-    lines = [SETTINGS, "flowchart TD", f"accTitle: {_plain(title)}", f"accDescr: {_plain(description)}"]
+    lines = [SETTINGS, "flowchart TD", f"accTitle: {plain_line(title)}", f"accDescr: {plain_line(description)}"]
     lines += [f'n{number}(["{_label(_counted(node))}"]):::rosnode' for number, node in enumerate(nodes)]
     topics = topics_of(nodes)
     lines += [f'{_id("t", topics, topic)}["{_label(topic, *types)}"]:::rostopic' for topic, types in topics.items()]
@@ -375,15 +354,10 @@ def _services(nodes: list[NodeView]) -> list[str]:
         lines += [f"n{at} -.-> {_id('s', services, service)}" for service in node.calls]
         lines += [f"{_id('s', services, service)} -.-> n{at}" for service in node.offers if service in called]
         if waiting := [service for service in node.offers if service not in called]:
-            lines.append(f'w{at}[["{_waiting_label(node, waiting)}"]]:::rosservice')
-            lines.append(f"w{at} -.-> n{at}")
+            types = node.offers[waiting[0]] if len(waiting) == 1 else []
+            label = _label(waiting[0], *types) if types else "<br/>".join(map(_escaped, waiting))
+            lines += [f'w{at}[["{label}"]]:::rosservice', f"w{at} -.-> n{at}"]
     return lines
-
-
-def _waiting_label(node: NodeView, waiting: list[str]) -> str:
-    if len(waiting) == 1:
-        return _label(waiting[0], *node.offers[waiting[0]])
-    return "<br/>".join(_escaped(service) for service in waiting)
 
 
 def _counted(node: NodeView) -> str:
@@ -404,6 +378,6 @@ def _escaped(text: str) -> str:
     return re.sub(r"[^A-Za-z0-9/ _]|_(?=_)", lambda match: f"#{ord(match.group())};", text)
 
 
-def _plain(text: str) -> str:
+def plain_line(text: str) -> str:
     """Text for a line of its own, in which `#` and `;` would have a meaning."""
     return re.sub(r"[#;{}<>\n]+", ",", text)

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import html
 import io
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -71,10 +69,14 @@ class Picture:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
 
         figure = self._figure()
-        with style.applied(), _sharp(figure):
-            canvas = FigureCanvasAgg(figure)
-            canvas.draw()
-            return np.asarray(canvas.buffer_rgba())
+        figure.dpi = style.DPI * SHARPNESS
+        try:
+            with style.applied():
+                canvas = FigureCanvasAgg(figure)
+                canvas.draw()
+                return np.asarray(canvas.buffer_rgba())
+        finally:
+            figure.dpi = style.DPI
 
     def save(self, path: str | Path) -> Path:
         """Write the figure to a file in the format of its ending (png, svg, pdf); returns the path."""
@@ -91,13 +93,3 @@ class Picture:
         if self.figure is None:
             raise ValueError(f"there is no figure yet, only a text: {self.text}")
         return self.figure
-
-
-@contextmanager
-def _sharp(figure: Figure) -> Iterator[None]:
-    """Within this block the figure has `SHARPNESS` times its pixels."""
-    figure.dpi = style.DPI * SHARPNESS
-    try:
-        yield
-    finally:
-        figure.dpi = style.DPI

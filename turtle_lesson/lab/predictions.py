@@ -15,13 +15,16 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from . import drawing, style
 from .path import TOLERANCE, WORLD, Goal
-from .words import listed, number, point
+from .words import did_you_mean, enumerated, listed, number, point
 
 if TYPE_CHECKING:
     from .widgets.prediction import PredictionWidget
 
 
 NO_GUESS = "no guess yet"
+
+TYPED = re.compile(r"\s*([+-]?(?:\d+[.,]?\d*|[.,]\d+)(?:e[+-]?\d+)?)\s*(.*?)\s*", re.I)
+"""A number and its unit, as somebody types them."""
 
 
 class Kind(Protocol):
@@ -76,28 +79,18 @@ class Number:
 
     def read(self, value: Any) -> float:
         """A finite number; what was typed may have a unit, a decimal comma and a true minus sign."""
-        if isinstance(value, str):
-            return self._typed(value)
-        if isinstance(value, bool) or not isinstance(value, Real) or not math.isfinite(value):
-            raise ValueError(f"{self._asked()}, got {value!r}.")
-        return float(value)
-
-    def _typed(self, text: str) -> float:
-        found = re.fullmatch(
-            r"\s*([+-]?(?:\d+[.,]?\d*|[.,]\d+)(?:e[+-]?\d+)?)\s*(.*?)\s*", text.replace("−", "-"), re.I
-        )
-        if found is None or not math.isfinite(value := float(found[1].replace(",", "."))):
-            raise ValueError(f"{self._asked()}, got {text!r}. Write it like 2.5{self._example()}.")
+        asked = f"A number{f' in {self.unit}' if self.unit else ''} is asked for, got {value!r}"
+        if not isinstance(value, str):
+            if isinstance(value, bool) or not isinstance(value, Real) or not math.isfinite(value):
+                raise ValueError(f"{asked}.")
+            return float(value)
+        found = TYPED.fullmatch(value.replace("−", "-"))
+        if found is None or not math.isfinite(given := float(found[1].replace(",", "."))):
+            raise ValueError(f"{asked}. Write it like 2.5{f' or 2.5 {self.unit}' if self.unit else ''}.")
         factor = _factor(found[2], self.unit)
         if factor is None:
-            raise ValueError(f"{self._asked()}, got {text!r}: {found[2]!r} is not understood. Write only the number.")
-        return value * factor
-
-    def _asked(self) -> str:
-        return f"A number{f' in {self.unit}' if self.unit else ''} is asked for"
-
-    def _example(self) -> str:
-        return f" or 2.5 {self.unit}" if self.unit else ""
+            raise ValueError(f"{asked}: {found[2]!r} is not understood. Write only the number.")
+        return given * factor
 
     def shown(self, value: Any) -> str:
         """The number, with at most three decimals, and its unit."""
@@ -238,12 +231,9 @@ def ask(
 def tell(name: str, value: Any) -> Outcome:
     """Say what came of it. Raises ValueError for a name that was never asked, and for a value that the question cannot have."""
     if name not in _questions:
-        from .words import did_you_mean, enumerated
-
         hint = did_you_mean(str(name), _questions) or f"Asked were: {enumerated(_questions)}."
-        raise ValueError(
-            f"no question was asked under the name {name!r}. {hint} Run the cell with lesson.predict first."
-        )
+        begin = f"no question was asked under the name {name!r}."
+        raise ValueError(f"{begin} {hint} Run the cell with lesson.predict first.")
     found = _questions[name]
     found.outcome = found.kind.read(value)
     return Outcome(found)
@@ -285,17 +275,8 @@ class Outcome:
             self._map = draw_map(question.turtle, question.goal, question.guess, question.outcome)
 
     def __repr__(self) -> str:
-        return "\n".join(
-            filter(
-                None,
-                [
-                    self.title,
-                    f"  your guess: {self.guess}",
-                    f"  outcome:    {self.outcome}",
-                    self.verdict and f"  {self.verdict}",
-                ],
-            )
-        )
+        lines = [self.title, f"  your guess: {self.guess}", f"  outcome:    {self.outcome}"]
+        return "\n".join([*lines, f"  {self.verdict}"] if self.verdict else lines)
 
     def _repr_html_(self) -> str:
         cell = 'style="text-align: left; vertical-align: top; white-space: normal"'
@@ -323,13 +304,8 @@ def draw_map(turtle: tuple[float, float, float] | None, goal: Goal | None, guess
     side = WORLD * SCALE
     signs: list[tuple[str, str, str]] = []  # on the map, in the key, and in words
     if turtle is not None:
-        signs.append(
-            (
-                drawing.turtle(*_pixels(turtle[:2]), turtle[2], SCALE),
-                drawing.turtle(0, 0, 0, 18),
-                _words("start", turtle),
-            )
-        )
+        there = drawing.turtle(*_pixels(turtle[:2]), turtle[2], SCALE)
+        signs.append((there, drawing.turtle(0, 0, 0, 18), _words("start", turtle)))
     if goal is not None:
         signs.append((_flag(*_pixels(goal), SCALE), _flag(-2, 6, 16), _words("goal", goal)))
     if guess is not None:
@@ -383,9 +359,7 @@ def _axes(side: float) -> list[str]:
 
 
 def _line(x: float, y: float, to_x: float, to_y: float, colour: str, more: str = "") -> str:
-    ends = " ".join(
-        f'{name}="{number(at, 1)}"' for name, at in zip(("x1", "y1", "x2", "y2"), (x, y, to_x, to_y), strict=True)
-    )
+    ends = f'x1="{number(x, 1)}" y1="{number(y, 1)}" x2="{number(to_x, 1)}" y2="{number(to_y, 1)}"'
     return f'<line {ends} stroke="{colour}" {more}/>'
 
 

@@ -23,6 +23,7 @@ FILE = ".turtle_lesson_progress.json"
 VARIABLE = "TURTLE_LESSON_PROGRESS"
 """Environment variable: another file, or "off" to keep points only as long as the kernel lives (for tests of pages)."""
 
+KERNEL_ONLY = "points are only kept until the kernel ends."
 FORMAT = 1
 BAR = 20
 
@@ -68,36 +69,28 @@ class ProgressFile:
             content = json.loads(self.path.read_text(encoding="utf-8"))
             return _numbers_in(content, "points"), _numbers_in({"failures": {}, **content}, "failures")
         except OSError as error:
-            self.remark = (
-                f"{self.path.name} cannot be read ({error.strerror}); points are only kept until the kernel ends."
-            )
+            self.remark = f"{self.path.name} cannot be read ({error.strerror}); {KERNEL_ONLY}"
         except (ValueError, RecursionError):
-            self._set_aside()
+            self._set_aside(self.path)
         return {}, {}
 
-    def _set_aside(self) -> None:
-        assert self.path is not None
-        aside = unused(self.path.with_name(f"{self.path.name}.broken"))
+    def _set_aside(self, path: Path) -> None:
+        aside = unused(path.with_name(f"{path.name}.broken"))
         try:
-            self.path.rename(aside)
-            self.remark = f"{self.path.name} was damaged. It is kept as {aside.name}, and a new one was started."
+            path.rename(aside)
+            self.remark = f"{path.name} was damaged. It is kept as {aside.name}, and a new one was started."
         except OSError:
-            self.remark = f"{self.path.name} is damaged and cannot be replaced."
+            self.remark = f"{path.name} is damaged and cannot be replaced."
 
     def _write(self) -> None:
         if self.path is None:
             return
         kept = {"points": self._points, "failures": self._failures}
-        content = {
-            "format": FORMAT,
-            **{key: {k: v for k, v in sorted(each.items()) if v} for key, each in kept.items()},
-        }
+        content = {key: {k: v for k, v in sorted(each.items()) if v} for key, each in kept.items()}
         try:
-            files.write(self.path, json.dumps(content, indent=1) + "\n")
+            files.write(self.path, json.dumps({"format": FORMAT, **content}, indent=1) + "\n")
         except OSError as error:
-            self.remark = (
-                f"{self.path.name} cannot be written ({error.strerror}); points are only kept until the kernel ends."
-            )
+            self.remark = f"{self.path.name} cannot be written ({error.strerror}); {KERNEL_ONLY}"
 
 
 def _numbers_in(content: Any, key: str) -> dict[str, int]:
@@ -165,38 +158,29 @@ class Progress:
 
     def __repr__(self) -> str:
         wide = max((len(each.page) for each in self.pages), default=0)
-        lines = [
-            f"  {each.page.ljust(wide)}  {_bar(each)}  {each.earned:2} of {each.points:2}  {_open(each)}".rstrip()
-            for each in self.pages
-        ]
+        lines = []
+        for each in self.pages:
+            done = BAR * each.earned // each.points
+            bar = "█" * done + "·" * (BAR - done)
+            still = f"open: {', '.join(each.open)}" if each.open else "done"
+            lines.append(f"  {each.page.ljust(wide)}  {bar}  {each.earned:2} of {each.points:2}  {still}")
         return "\n".join(filter(None, [self.headline, *lines, self.remark]))
 
     def _repr_html_(self) -> str:
         cell = 'style="text-align: left; white-space: nowrap"'
-        rows = "".join(_html_row(each, cell) for each in self.pages)
+        rows = ""
+        for each in self.pages:
+            points = f"{each.earned} of {each.points}"
+            meter = f'<meter min="0" max="{each.points}" value="{each.earned}">{points}</meter>'
+            cells = (each.page, meter, points, html.escape(", ".join(each.open) or "none"))
+            rows += f"<tr>{''.join(f'<td {cell}>{text}</td>' for text in cells)}</tr>"
         remark = f"<p>{html.escape(self.remark)}</p>" if self.remark else ""
         head = f"<tr><th {cell}>page</th><th></th><th {cell}>points</th><th {cell}>open</th></tr>"
         table = f"<table><thead>{head}</thead><tbody>{rows}</tbody></table>"
         return f"<p><strong>{self.headline}</strong></p>{table}{remark}"
 
 
-def _html_row(score: PageScore, cell: str) -> str:
-    points = f"{score.earned} of {score.points}"
-    meter = f'<meter min="0" max="{score.points}" value="{score.earned}">{points}</meter>'
-    cells = (score.page, meter, points, html.escape(", ".join(score.open) or "none"))
-    return f"<tr>{''.join(f'<td {cell}>{each}</td>' for each in cells)}</tr>"
-
-
 def _score(page: str, checks: list[Check], earned: dict[str, int]) -> PageScore:
     got = {each.name: min(earned.get(each.name, 0), each.points) for each in checks}
     still = tuple(each.name for each in checks if got[each.name] < each.points)
     return PageScore(page, sum(got.values()), sum(each.points for each in checks), still)
-
-
-def _bar(score: PageScore) -> str:
-    done = BAR * score.earned // score.points
-    return "█" * done + "·" * (BAR - done)
-
-
-def _open(score: PageScore) -> str:
-    return f"open: {', '.join(score.open)}" if score.open else "done"

@@ -7,10 +7,10 @@ import html
 import inspect
 import linecache
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from types import CodeType, FunctionType
+from types import FunctionType
 from typing import Any
 
 KINDS = ("debugging", "code review")
@@ -49,19 +49,16 @@ class Prompt:
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         """What Jupyter shows: a field in which one click and Ctrl+A choose all of it."""
-        return {"text/plain": self.text, "text/html": self._as_html()}
-
-    def _as_html(self) -> str:
         lines = min(24, self.text.count("\n") + 2)
         label = f"A prompt for {self.kind}: click into it, then Ctrl+A and Ctrl+C (⌘A and ⌘C on a Mac) copy it."
         look = (
             "width: 100%; box-sizing: border-box; font-family: monospace; font-size: 0.9em; color: inherit; "
             "background: transparent"
         )
-        return (
-            f'<label>{label}<textarea readonly rows="{lines}" spellcheck="false" style="{look}">'
-            f"\n{html.escape(self.text)}</textarea></label>"
+        area = (
+            f'<textarea readonly rows="{lines}" spellcheck="false" style="{look}">\n{html.escape(self.text)}</textarea>'
         )
+        return {"text/plain": self.text, "text/html": f"<label>{label}{area}</label>"}
 
 
 def compose(kind: str, code: Mapping[str, str], error: str, graph: str, log: Sequence[str], now: float) -> Prompt:
@@ -71,22 +68,17 @@ def compose(kind: str, code: Mapping[str, str], error: str, graph: str, log: Seq
     """
     if kind not in KINDS:
         raise ValueError(f'there are prompts for "debugging" and for "code review", got {kind!r}')
+    written = "\n\n".join(f"{name}:\n\n{_fenced(text, _language(name))}" for name, text in code.items())
     parts = [
         _OPENING[kind],
         f"## Specification\n\n{SPECIFICATION.strip()}",
-        f"## Code\n\n{_code(code)}",
+        f"## Code\n\n{written or '(none chosen)'}",
         f"## Error\n\n{_fenced(error) if error else 'None: nothing has raised an error.'}",
         f"## The running system, after {now:.1f} s\n\n{graph}",
         f"## The last lines of the log\n\n{_fenced(chr(10).join(log)) if log else 'Nothing was logged.'}",
         "## What I ask\n\n" + "\n".join(f"{number}. {text}" for number, text in enumerate(_QUESTIONS[kind], 1)),
     ]
     return Prompt(kind, re.sub(r"\b0x[0-9a-f]{6,}\b", "0x…", "\n\n".join(parts)))
-
-
-def _code(code: Mapping[str, str]) -> str:
-    if not code:
-        return "(none chosen)"
-    return "\n\n".join(f"{name}:\n\n{_fenced(text, _language(name))}" for name, text in code.items())
 
 
 def _language(name: str) -> str:
@@ -148,16 +140,13 @@ def code_of(what: Any) -> dict[str, str]:
 
 
 def _texts(what: Any) -> dict[str, str]:
-    if isinstance(what, Path) or (isinstance(what, str) and _is_path(what)):
-        return _files(Path(what))
+    if isinstance(what, Path):
+        return _files(what)
     if isinstance(what, str):
-        return {"code": f"{what.strip()}\n"}
+        is_path = "\n" not in what and len(what) < 300 and (Path(what).exists() or what.endswith(SUFFIXES))
+        return _files(Path(what)) if is_path else {"code": f"{what.strip()}\n"}
     target = what if isinstance(what, (type, FunctionType)) else getattr(what, "__func__", type(what))
     return {target.__qualname__: _source(target)}
-
-
-def _is_path(text: str) -> bool:
-    return "\n" not in text and len(text) < 300 and (Path(text).exists() or text.endswith(SUFFIXES))
 
 
 def _files(path: Path) -> dict[str, str]:
@@ -165,13 +154,10 @@ def _files(path: Path) -> dict[str, str]:
         raise ValueError(f"there is no file {path} here ({Path.cwd().name}/): look with ls, or give the class itself")
     if path.is_file():
         return {path.name: _read(path)}
-    return {file.relative_to(path).as_posix(): _read(file) for file in _code_files(path)}
-
-
-def _code_files(folder: Path) -> Iterable[Path]:
-    hidden = {"build", "install", "log", "__pycache__"}
-    files = (file for file in folder.rglob("*") if file.is_file() and file.suffix in SUFFIXES)
-    return sorted(file for file in files if not hidden & set(file.relative_to(folder).parts))
+    made = {"build", "install", "log", "__pycache__"}
+    files = sorted(file for file in path.rglob("*") if file.is_file() and file.suffix in SUFFIXES)
+    names = {file: file.relative_to(path) for file in files}
+    return {name.as_posix(): _read(file) for file, name in names.items() if not made & set(name.parts)}
 
 
 def _read(path: Path) -> str:
@@ -183,22 +169,16 @@ def _read(path: Path) -> str:
 
 def _source(target: Any) -> str:
     """The source of a function or class, also of a class from a cell, which Python 3.11's inspect does not find."""
-    if isinstance(target, type):
-        for code in _codes(target):
-            tree_text = "".join(linecache.getlines(code.co_filename))
-            if tree_text and (text := _class_in(tree_text, target.__name__)):
+    methods = [getattr(value, "__func__", value) for value in vars(target).values()] if isinstance(target, type) else []
+    for method in methods:
+        if isinstance(method, FunctionType):
+            text = _class_in("".join(linecache.getlines(method.__code__.co_filename)), target.__name__)
+            if text:
                 return text
     try:
         return inspect.getsource(target)
     except (OSError, TypeError):
         raise ValueError(f"the source of {target!r} cannot be found: give the file, or the text itself") from None
-
-
-def _codes(kind: type) -> Iterable[CodeType]:
-    for value in vars(kind).values():
-        function = getattr(value, "__func__", value)
-        if isinstance(function, FunctionType):
-            yield function.__code__
 
 
 def _class_in(text: str, name: str) -> str | None:

@@ -7,10 +7,11 @@ import re
 import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 from typing import Any, NamedTuple
 
 from . import drawing, style
-from .graph import LOOKS, PARAMETER_SERVICES, THEME, GraphPicture
+from .graph import LOOKS, PARAMETER_SERVICES, THEME, GraphPicture, plain_line
 from .recording import NANOSECONDS
 from .timeline import SHORT, Window, window_of
 from .words import count, listed, number
@@ -27,8 +28,12 @@ def plot_sequence(trace: Any, *services: str, since: float | None = None, until:
     Raises TypeError or ValueError for what is no service, or none that was called, with those that were.
     """
     window = window_of(trace.now, since, until)
-    names = [_full_name(name) for name in services]
-    called = [call for call in trace.calls if _wanted(call, names)]
+    for name in services:
+        if not isinstance(name, str) or not name.strip("/ "):
+            raise TypeError(f'a service is named as in `ros2 service list`, such as "/navigate_to", got {name!r}')
+    names = [f"/{name.strip().lstrip('/')}" for name in services]
+    wanted = names or {call.service for call in trace.calls if call.service.split("/")[-1] not in PARAMETER_SERVICES}
+    called = [call for call in trace.calls if call.service in wanted]
     calls = [call for call in called if window.begin <= call.asked <= window.end]
     if not calls:
         return GraphPicture(_nothing(trace, names, called, window))
@@ -36,16 +41,6 @@ def plot_sequence(trace: Any, *services: str, since: float | None = None, until:
     text = _describe(steps, len(calls))
     title = f"Calls of {listed(_services(steps))}"
     return GraphPicture(text, sequence_diagram(steps, title, text), draw_sequence(steps, title, text))
-
-
-def _full_name(name: Any) -> str:
-    if not isinstance(name, str) or not name.strip("/ "):
-        raise TypeError(f'a service is named as in `ros2 service list`, such as "/navigate_to", got {name!r}')
-    return f"/{name.strip().lstrip('/')}"
-
-
-def _wanted(call: Any, names: Sequence[str]) -> bool:
-    return call.service in names if names else call.service.split("/")[-1] not in PARAMETER_SERVICES
 
 
 def _services(steps: Sequence[Step]) -> list[str]:
@@ -110,23 +105,18 @@ class Step:
 
 def step_of(trace: Any, call: Any) -> Step:
     """What the trace tells of a call: of those that a server received at one instant, the first was served first."""
-    same = [each for each in trace.calls if _received(each) == _received(call)]
-    place = same.index(call)
+    received = attrgetter("process", "server", "service", "received")
+    place = [each for each in trace.calls if received(each) == received(call)].index(call)
     for callback in trace.callbacks:
         if (callback.process, callback.node, callback.source) != (call.process, call.server, call.service):
             continue
         runs = [*callback.ended, *((*run, None) for run in callback.open)]
-        mine = sorted(
-            ((began, ended) for ready, began, ended in runs if ready == call.received), key=lambda run: run[0]
-        )
+        mine = [(began, ended) for ready, began, ended in runs if ready == call.received]
+        mine.sort(key=lambda run: run[0])
         if place < len(mine):
             began, ended = mine[place]
             return Step(call, callback.name, began, ended, _waited(trace, callback, began, ended or trace.now))
     return Step(call, "", None, None, {})
-
-
-def _received(call: Any) -> tuple[Any, ...]:
-    return call.process, call.server, call.service, call.received
 
 
 def _waited(trace: Any, server: Any, began: int, ended: int) -> dict[str, tuple[int, int]]:
@@ -198,8 +188,10 @@ def draw_sequence(steps: Sequence[Step], title: str, description: str) -> str:
         x = places[event.of]
         if event.kind == "activate":
             busy.setdefault(event.of, []).append(y)
-        elif event.kind == "deactivate":
-            bars.append(_bar(x, busy[event.of].pop(), y))
+        elif event.kind == "deactivate":  # while a callback runs, or waits, there is a bar
+            begin = busy[event.of].pop()
+            size = f'y="{number(begin, 1)}" width="8" height="{number(y - begin, 1)}"'
+            bars.append(f'<rect x="{x - 4:g}" {size} fill="{style.GREEN}" opacity="0.7"/>')
         else:
             lines = [line for part in event.text.split("<br/>") for line in textwrap.wrap(part, LONGEST)]
             y += LINE * len(lines) + 14
@@ -236,12 +228,6 @@ def _draw(event: Event, x: float, to: float, y: float, lines: list[str]) -> str:
         )
     first = y - 6 - LINE * (len(lines) - 1)
     return arrow + "".join(drawing.text((x + end) / 2, first + LINE * at, line, SIZE) for at, line in enumerate(lines))
-
-
-def _bar(x: float, begin: float, end: float) -> str:
-    """While a callback runs, or waits."""
-    size = f'y="{number(begin, 1)}" width="8" height="{number(end - begin, 1)}"'
-    return f'<rect x="{x - 4:g}" {size} fill="{style.GREEN}" opacity="0.7"/>'
 
 
 def _box(x: float, top: float, width: float, height: float, lines: list[str], kind: str) -> str:
@@ -286,12 +272,13 @@ def sequence_diagram(steps: Sequence[Step], title: str, description: str) -> str
     """Return the Mermaid text: a lifeline for each program, an arrow for each message. `title` and `description` are for
     readers who cannot see it.
     """
-    letters = {name: f"p{number}" for number, name in enumerate(programs_of(steps))}
-    lines = [SETTINGS, "sequenceDiagram", f"accTitle: {_plain(title)}", f"accDescr: {_plain(description)}"]
+    letters = {name: f"p{place}" for place, name in enumerate(programs_of(steps))}
+    lines = [SETTINGS, "sequenceDiagram", f"accTitle: {plain_line(title)}", f"accDescr: {plain_line(description)}"]
     lines += [f"participant {letters[name]} as {_escaped(name)}" for name in letters]
     for kind, of, to, text in events_of(steps):
         form = ARROWS.get(kind, f"{kind} {{0}}")
-        lines.append(form.format(letters[of], letters.get(to), _label(text)))
+        label = "<br/>".join(_escaped(line) for line in text.split("<br/>"))
+        lines.append(form.format(letters[of], letters.get(to), label))
     return "\n".join([*lines, ""])
 
 
@@ -316,14 +303,11 @@ def _events(step: Step) -> list[tuple[int, Event]]:
     events = [(call.asked, Event("call", call.caller, call.server, asked))]
     if step.began is None:
         return [*events, (call.asked, Event("note", call.server, text="waits: no callback has begun yet"))]
+    waited = step.began - call.received
+    begins = f"{step.callback} begins" + (f", after a wait of {after(0, waited)}" if waited >= SHORT else "")
     events.append((step.began, Event("activate", call.server)))
-    events.append((step.began, Event("note", call.server, text=_begin(step))))
+    events.append((step.began, Event("note", call.server, text=begins)))
     return events + _end(step)
-
-
-def _begin(step: Step) -> str:
-    waited = (step.began or 0) - step.call.received
-    return f"{step.callback} begins" + (f", after a wait of {after(0, waited)}" if waited >= SHORT else "")
 
 
 def _end(step: Step) -> list[tuple[int, Event]]:
@@ -341,16 +325,6 @@ def _end(step: Step) -> list[tuple[int, Event]]:
     return [(end, event) for event in [*events, Event("deactivate", call.server)]]
 
 
-def _label(text: str) -> str:
-    """Text of a message or a note: line breaks stay, what has a meaning in Mermaid becomes a code."""
-    return "<br/>".join(_escaped(line) for line in text.split("<br/>"))
-
-
 def _escaped(text: str) -> str:
     """Text in which what has a meaning in Mermaid is a code: signs, and the first letter of the word `end`."""
     return re.sub(r"[^A-Za-z0-9/ _.,:()-]|\be(?=nd\b)", lambda match: f"#{ord(match.group())};", text)
-
-
-def _plain(text: str) -> str:
-    """Text for a line of its own, in which `#` and `;` would have a meaning."""
-    return re.sub(r"[#;{}<>\n]+", ",", text)

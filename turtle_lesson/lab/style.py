@@ -103,17 +103,9 @@ def card(width: float, height: float) -> Figure:
 
     figure = Figure(figsize=(width, height), dpi=DPI, facecolor="none")
     edge = 2.0 / DPI
-    sheet = FancyBboxPatch(
-        (edge, edge),
-        width - 2 * edge,
-        height - 2 * edge,
-        boxstyle="round,pad=0,rounding_size=0.09",
-        facecolor="none",
-        edgecolor=EDGE,
-        linewidth=0.8,
-        transform=figure.dpi_scale_trans,
-        zorder=-10,
-    )
+    look: dict[str, Any] = {"facecolor": "none", "edgecolor": EDGE, "linewidth": 0.8, "zorder": -10}
+    sheet = FancyBboxPatch((edge, edge), width - 2 * edge, height - 2 * edge, "round,pad=0,rounding_size=0.09", **look)
+    sheet.set_transform(figure.dpi_scale_trans)
     figure.add_artist(sheet)
     return figure
 

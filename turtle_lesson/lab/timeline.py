@@ -89,19 +89,15 @@ def _draw_lane(axes: Axes, place: int, lane: Lane) -> None:
         axes.plot([begin, end], [place + 0.37] * 2, **line)
         axes.plot([begin], [place + 0.37], color=style.VERMILLION, marker="o", markersize=3.0, zorder=2)
     if len(lane.bars):
-        _draw_bars(axes, place, lane)
+        spans = [(begin, end - begin) for begin, end in lane.bars / NANOSECONDS]
+        look: dict[str, Any] = {"facecolors": style.GREEN, "edgecolors": style.DARK_GREEN}
+        if lane.awaits:
+            look = {"facecolors": PALE_ORANGE, "edgecolors": style.DARK_ORANGE, "hatch": "////"}
+        axes.broken_barh(spans, (place - 0.27, 0.54), linewidth=0.8, zorder=2.5, **look)
     if len(lane.marks):
         colour = style.GREEN if lane.callback else style.BLUE
         marks = lane.marks / NANOSECONDS
         axes.vlines(marks, place - 0.27, place + 0.27, color=colour, linewidth=_mark_width(axes, marks), zorder=3)
-
-
-def _draw_bars(axes: Axes, place: int, lane: Lane) -> None:
-    spans = [(begin, end - begin) for begin, end in lane.bars / NANOSECONDS]
-    look: dict[str, Any] = {"facecolors": style.GREEN, "edgecolors": style.DARK_GREEN}
-    if lane.awaits:
-        look = {"facecolors": PALE_ORANGE, "edgecolors": style.DARK_ORANGE, "hatch": "////"}
-    axes.broken_barh(spans, (place - 0.27, 0.54), linewidth=0.8, zorder=2.5, **look)
 
 
 def _mark_width(axes: Axes, marks: np.ndarray) -> float:
@@ -129,6 +125,7 @@ def _legend(figure: Figure, lanes: list[Lane]) -> None:
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
 
+    look: dict[str, Any]
     tick: dict[str, Any] = {"linestyle": "none", "marker": "|", "markersize": 9, "markeredgewidth": 1.5}
     wait: dict[str, Any] = {"marker": "o", "markersize": 3, "linestyle": (0, (1.2, 1.2)), "linewidth": 1.6}
     topics = [lane for lane in lanes if not lane.callback]
@@ -141,13 +138,12 @@ def _legend(figure: Figure, lanes: list[Lane]) -> None:
     if any(len(lane.bars) for lane in calls if not lane.awaits):
         signs.append(Patch(facecolor=style.GREEN, edgecolor=style.DARK_GREEN, label="holds its thread"))
     if any(len(lane.bars) for lane in calls if lane.awaits):
-        signs.append(
-            Patch(facecolor=PALE_ORANGE, edgecolor=style.DARK_ORANGE, hatch="////", label="awaits, thread free")
-        )
+        look = {"facecolor": PALE_ORANGE, "edgecolor": style.DARK_ORANGE, "hatch": "////"}
+        signs.append(Patch(label="awaits, thread free", **look))
     if any(len(lane.waits) for lane in lanes):
         signs.append(Line2D([], [], color=style.VERMILLION, label="ready, had to wait", **wait))
     if signs:
-        look: dict[str, Any] = {"frameon": False, "fontsize": 8.0, "handlelength": 1.6, "columnspacing": 1.3}
+        look = {"frameon": False, "fontsize": 8.0, "handlelength": 1.6, "columnspacing": 1.3}
         figure.legend(handles=signs, loc="lower left", bbox_to_anchor=(0.02, 0.0), ncols=len(signs), **look)
 
 
@@ -236,7 +232,10 @@ def lanes_of(
     lanes: list[Lane] = []
     here = set(alive)
     for name in names or nodes:
-        full = _full_name(name)
+        if not isinstance(name, str) or not name.strip("/ "):
+            rows = 'the name of a topic or of a node, such as "/robot/status" or "/navigator"'
+            raise TypeError(f"a row is {rows}, got {name!r}")
+        full = f"/{name.strip().lstrip('/')}"
         node, _, function = full.partition(".")
         if node in nodes:
             lanes += _callback_lanes(trace, node, function, window, node in here)
@@ -245,14 +244,6 @@ def lanes_of(
         else:
             raise ValueError(_unknown(full, nodes, sorted(each for each in topics if not is_hidden(each))))
     return lanes
-
-
-def _full_name(name: Any) -> str:
-    if not isinstance(name, str) or not name.strip("/ "):
-        raise TypeError(
-            f'a row is the name of a topic or of a node, such as "/robot/status" or "/navigator", got {name!r}'
-        )
-    return f"/{name.strip().lstrip('/')}"
 
 
 def _unknown(name: str, nodes: list[str], topics: list[str]) -> str:
@@ -279,23 +270,15 @@ def _topic_lane(trace: Any, topic: str, window: Window) -> Lane:
     text = f"{topic}: {rate(times)}"
     if len(publishers) > 1:
         text += f"; {listed([f'{len(by_node[node])} from {node}' for node in publishers])}"
+    about = count(len(times), "message")
     if len(times):
         silent = window.end - int(times[-1])
+        usual = max(3 * float(np.median(np.diff(times))), SHORT) if len(times) > 2 else NANOSECONDS
         text += f"; the last at {number(times[-1] / NANOSECONDS)} s"
-        text += f", then nothing for {number(silent / NANOSECONDS)} s" if silent > _usual(times) else ""
-    return Lane(topic, _frequency(times, "message"), f"{text}.", times, NOTHING, NOTHING)
-
-
-def _usual(times: np.ndarray) -> float:
-    """How long a silence (ns) may last before it is worth a word: three usual intervals."""
-    return max(3 * float(np.median(np.diff(times))), SHORT) if len(times) > 2 else NANOSECONDS
-
-
-def _frequency(times: np.ndarray, noun: str) -> str:
-    if len(times) < 2 or times[-1] == times[0]:
-        return count(len(times), noun)
-    hertz = (len(times) - 1) / (times[-1] - times[0]) * NANOSECONDS
-    return f"{count(len(times), noun)}, {number(hertz, 1)} Hz"
+        text += f", then nothing for {number(silent / NANOSECONDS)} s" if silent > usual else ""
+        if times[-1] != times[0]:
+            about += f", {number((len(times) - 1) / (times[-1] - times[0]) * NANOSECONDS, 1)} Hz"
+    return Lane(topic, about, f"{text}.", times, NOTHING, NOTHING)
 
 
 def _callback_lanes(trace: Any, node: str, function: str, window: Window, alive: bool) -> list[Lane]:
@@ -303,7 +286,8 @@ def _callback_lanes(trace: Any, node: str, function: str, window: Window, alive:
     groups: dict[tuple[str, str], list[Any]] = {}
     for callback in trace.callbacks:
         if callback.node == node and function in ("", callback.name):
-            groups.setdefault((callback.name, _called_by(callback)), []).append(callback)
+            called_by = callback.source or f"every {callback.period / NANOSECONDS:g} s"
+            groups.setdefault((callback.name, called_by), []).append(callback)
     if function and not groups:
         own = [each for each in trace.callbacks if each.source.split("/")[-1] not in PARAMETER_SERVICES]
         names = sorted({each.name for each in own if each.node == node})
@@ -313,15 +297,10 @@ def _callback_lanes(trace: Any, node: str, function: str, window: Window, alive:
         runs = np.concatenate([callback.runs(trace.now) for callback in callbacks])
         shown = runs[(runs["ended"] >= window.begin) & (runs["ready"] <= window.end)]
         waiting = _waiting(callbacks, trace.now, window) if alive else NOTHING
-        if (
-            len(shown) or len(waiting) or function or callbacks[0].kind != "service"
-        ):  # a node has many services that nobody calls
+        # a node has many services that nobody calls
+        if len(shown) or len(waiting) or function or callbacks[0].kind != "service":
             lanes.append(_callback_lane(name, called_by, callbacks, shown, waiting, window))
     return lanes
-
-
-def _called_by(callback: Any) -> str:
-    return callback.source or f"every {callback.period / NANOSECONDS:g} s"
 
 
 def _waiting(callbacks: list[Any], now: int, window: Window) -> np.ndarray:
@@ -348,7 +327,9 @@ def _callback_lane(
         text += "; none took any robot time"
     if len(kept_waiting):
         text += f"; {len(kept_waiting)} had to wait, at most {number(float(kept_waiting.max()) / NANOSECONDS)} s"
-    if missed := _missed(callbacks[0].period, waited[within]):
+    # a timer leaves out the ticks that were due before the one that waited began
+    period = callbacks[0].period
+    if missed := int(((waited[within] - 1) // period).clip(0).sum()) if period else 0:
         text += f"; {count(missed, 'tick')} {'was' if missed == 1 else 'were'} skipped"
     if going_on := sum(len(callback.open) for callback in callbacks):
         text += f"; {going_on} continues" if going_on == 1 else f"; {going_on} continue"
@@ -368,8 +349,3 @@ def _calls(began: np.ndarray) -> str:
     gaps = np.diff(began) / 1e6
     mean, longest = number(float(gaps.mean()), 1), number(float(gaps.max()), 1)
     return f"{count(len(began), 'call')}, one every {mean} ms on average, the longest gap {longest} ms"
-
-
-def _missed(period: int, waited: np.ndarray) -> int:
-    """How many ticks a timer left out because it could not run: those that were due before the one that waited began."""
-    return int(((waited - 1) // period).clip(0).sum()) if period else 0
