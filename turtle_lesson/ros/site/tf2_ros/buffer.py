@@ -19,6 +19,10 @@ from tf2_py import BufferCore
 
 from .buffer_interface import AT_ONCE, BufferInterface
 
+PAUSE = 0.02
+"""Seconds between two looks for a transform that is waited for, as in tf2_ros."""
+Question = Callable[..., tuple[bool, str]]
+
 
 class Buffer(BufferCore, BufferInterface):
     """Keeps the transforms that a TransformListener hears, and answers for any two frames.
@@ -34,7 +38,7 @@ class Buffer(BufferCore, BufferInterface):
     def __init__(self, cache_time: Duration | None = None, node: Node | None = None) -> None:
         BufferCore.__init__(self, cache_time)
         BufferInterface.__init__(self)
-        self._waiting: list[Waiting] = []
+        self._waiting: list[tuple[Future, Callable[[], None]]] = []
         if node is not None:
             self.srv = node.create_service(FrameGraph, "tf2_frames", self._get_frames)
             self.clock = node.get_clock()
@@ -55,18 +59,18 @@ class Buffer(BufferCore, BufferInterface):
     def set_transform(self, transform: TransformStamped, authority: str) -> None:
         """Keep the transform of a frame that moves."""
         super().set_transform(transform, authority)
-        self._tell_who_waits()
+        self._try_waiting_again()
 
     def set_transform_static(self, transform: TransformStamped, authority: str) -> None:
         """Keep the transform of a frame that never moves."""
         super().set_transform_static(transform, authority)
-        self._tell_who_waits()
+        self._try_waiting_again()
 
-    def _tell_who_waits(self) -> None:
+    def _try_waiting_again(self) -> None:
         if self._waiting:
-            for waiting in self._waiting:
-                waiting.try_again()
-            self._waiting = [waiting for waiting in self._waiting if not waiting.over]
+            for _, try_again in self._waiting:
+                try_again()
+            self._waiting = [(future, again) for future, again in self._waiting if not _is_over(future)]
 
     # -- looking up ----------------------------------------------------------------------------------------
 
@@ -77,7 +81,7 @@ class Buffer(BufferCore, BufferInterface):
 
         Raises LookupException, ConnectivityException, ExtrapolationException, InvalidArgumentException.
         """
-        wait_until(lambda: self.can_transform_core(target_frame, source_frame, time)[0], timeout)
+        wait_until(self.can_transform_core, (target_frame, source_frame, time), timeout)
         return self.lookup_transform_core(target_frame, source_frame, time)
 
     async def lookup_transform_async(self, target_frame: str, source_frame: str, time: Time) -> TransformStamped:
@@ -99,7 +103,7 @@ class Buffer(BufferCore, BufferInterface):
         `fixed_frame` is one that does not move between the two, such as "world". Raises as `lookup_transform`.
         """
         asked = (target_frame, target_time, source_frame, source_time, fixed_frame)
-        wait_until(lambda: self.can_transform_full_core(*asked)[0], timeout)
+        wait_until(self.can_transform_full_core, asked, timeout)
         return self.lookup_transform_full_core(*asked)
 
     async def lookup_transform_full_async(
@@ -120,7 +124,7 @@ class Buffer(BufferCore, BufferInterface):
         return_debug_tuple: bool = False,
     ) -> Any:
         """Whether there is such a transform; with `return_debug_tuple` also why not."""
-        wait_until(lambda: self.can_transform_core(target_frame, source_frame, time)[0], timeout)
+        wait_until(self.can_transform_core, (target_frame, source_frame, time), timeout)
         found = self.can_transform_core(target_frame, source_frame, time)
         return found if return_debug_tuple else found[0]
 
@@ -136,7 +140,7 @@ class Buffer(BufferCore, BufferInterface):
     ) -> Any:
         """Whether there is such a transform between two times; with `return_debug_tuple` also why not."""
         asked = (target_frame, target_time, source_frame, source_time, fixed_frame)
-        wait_until(lambda: self.can_transform_full_core(*asked)[0], timeout)
+        wait_until(self.can_transform_full_core, asked, timeout)
         found = self.can_transform_full_core(*asked)
         return found if return_debug_tuple else found[0]
 
@@ -144,63 +148,47 @@ class Buffer(BufferCore, BufferInterface):
 
     def wait_for_transform_async(self, target_frame: str, source_frame: str, time: Time) -> Future:
         """A future whose result is the transform, as soon as it can be looked up."""
-        asked = (target_frame, source_frame, time)
-        return self._wait(
-            Waiting(lambda: self.can_transform_core(*asked)[0], lambda: self.lookup_transform_core(*asked))
-        )
+        return self._wait_for(self.can_transform_core, self.lookup_transform_core, (target_frame, source_frame, time))
 
     def wait_for_transform_full_async(
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
     ) -> Future:
         """A future whose result is the transform between two times, as soon as it can be looked up."""
         asked = (target_frame, target_time, source_frame, source_time, fixed_frame)
-        return self._wait(
-            Waiting(lambda: self.can_transform_full_core(*asked)[0], lambda: self.lookup_transform_full_core(*asked))
-        )
+        return self._wait_for(self.can_transform_full_core, self.lookup_transform_full_core, asked)
 
-    def _wait(self, waiting: Waiting) -> Future:
-        if not waiting.over:
-            self._waiting.append(waiting)
-        return waiting.future
+    def _wait_for(self, can: Question, look_up: Callable[..., TransformStamped], asked: tuple[Any, ...]) -> Future:
+        """A future that is done as soon as what is asked can be looked up."""
+        future = Future()
+
+        def try_again() -> None:
+            try:
+                if not _is_over(future) and can(*asked)[0]:
+                    future.set_result(look_up(*asked))
+            except Exception as error:
+                future.set_exception(error)
+
+        try_again()
+        if not _is_over(future):
+            self._waiting.append((future, try_again))
+        return future
 
 
-PAUSE = 0.02
-"""Seconds between two looks."""
+def _is_over(future: Future) -> bool:
+    return future.done() or future.cancelled()
 
 
-def wait_until(ready: Callable[[], bool], timeout: Duration) -> None:
-    """Look until it is ready, or the timeout is over. Raises TypeError for something else than a Duration."""
+def wait_until(can: Question, asked: tuple[Any, ...], timeout: Duration) -> None:
+    """Wait until what is asked can be looked up, or the timeout is over. Raises TypeError for anything but a Duration."""
     if not isinstance(timeout, Duration):
         raise TypeError(f"timeout must be a rclpy.duration.Duration, got {timeout!r}: write Duration(seconds=1.0)")
     if timeout.nanoseconds > 0:
-        _look_again(ready, timeout)
+        _look_again(can, asked, timeout)
 
 
 @drives_the_simulation
-def _look_again(ready: Callable[[], bool], timeout: Duration) -> None:
+def _look_again(can: Question, asked: tuple[Any, ...], timeout: Duration) -> None:
     clock = Clock()
     end = clock.now() + timeout
-    while clock.now() < end and not ready():
+    while clock.now() < end and not can(*asked)[0]:
         sleep(PAUSE)
-
-
-class Waiting:
-    """A future that is done as soon as a transform can be looked up."""
-
-    def __init__(self, ready: Callable[[], bool], look_up: Callable[[], Any]) -> None:
-        self._ready, self._look_up = ready, look_up
-        self.future = Future()
-        self.try_again()
-
-    @property
-    def over(self) -> bool:
-        """Whether nobody waits any more."""
-        return self.future.done() or self.future.cancelled()
-
-    def try_again(self) -> None:
-        """Something new was heard."""
-        try:
-            if not self.over and self._ready():
-                self.future.set_result(self._look_up())
-        except Exception as error:
-            self.future.set_exception(error)
