@@ -8,6 +8,7 @@ import linecache
 import re
 from collections.abc import Callable, Iterable
 from pathlib import Path
+from types import ModuleType
 
 from ..ament import catalog
 from ..ament.errors import PackageNotFoundError
@@ -191,7 +192,14 @@ def _importable() -> dict[str, list[str]]:
         "launch_ros.parameter_descriptions", "launch_ros.descriptions", "launch_ros.event_handlers", "launch.events",
         "launch_ros.events.lifecycle", "launch_xml.launch_description_sources", "launch_yaml.launch_description_sources",
     )  # fmt: skip
-    return {name: list(importlib.import_module(name).__all__) for name in names}
+    return {name: _public_names(importlib.import_module(name)) for name in names}
+
+
+def _public_names(module: ModuleType) -> list[str]:
+    """What a module says that it exports, or else what was made in its package."""
+    package = f"{module.__name__.partition('.')[0]}."
+    made = [name for name, value in vars(module).items() if f"{getattr(value, '__module__', '')}.".startswith(package)]
+    return getattr(module, "__all__", [name for name in made if not name.startswith("_")])
 
 
 def _unexpected_keyword(match: re.Match[str]) -> str:

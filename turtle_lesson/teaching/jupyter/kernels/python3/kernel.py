@@ -41,7 +41,7 @@ def watch(shell: Any) -> None:
     def transform(lines: list[str]) -> list[str]:
         if "turtle_lesson" in shell.extension_manager.loaded or not SET_UP.search("".join(lines)):
             return lines
-        from .....ros.cli.cells import translate
+        from turtle_lesson.ros.cli.cells import translate
 
         return translate(lines, shell.user_ns)  # behind %load_ext in the same cell the commands work
 
