@@ -15,7 +15,5 @@ from .tf2_geometry_msgs import (
     do_transform_pose_with_covariance_stamped,
     do_transform_vector3,
     do_transform_wrench,
-    from_msg_msg,
-    to_msg_msg,
     transform_covariance,
 )

@@ -23,19 +23,9 @@ from geometry_msgs.msg import (
     WrenchStamped,
 )
 from tf2_py import _rotation as turns
-from tf2_ros import ConvertRegistration, TransformRegistration
+from tf2_ros import TransformRegistration
 
 Parts = tuple[turns.Quaternion, turns.Vector]
-
-
-def to_msg_msg(msg: Any) -> Any:
-    """A message as a message: the same."""
-    return msg
-
-
-def from_msg_msg(msg: Any) -> Any:
-    """A message as data: the same."""
-    return msg
 
 
 def _parts(transform: TransformStamped) -> Parts:
@@ -130,5 +120,3 @@ for _kind, _function in (
     (WrenchStamped, do_transform_wrench),
 ):
     TransformRegistration().add(_kind, _function)
-    ConvertRegistration().add_to_msg(_kind, to_msg_msg)
-    ConvertRegistration().add_from_msg(_kind, from_msg_msg)

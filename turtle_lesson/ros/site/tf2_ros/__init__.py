@@ -22,18 +22,18 @@ from tf2_py import (
 from .buffer import Buffer
 from .buffer_interface import (
     BufferInterface,
-    ConvertRegistration,
     NotImplementedException,
     Stamped,
     TransformRegistration,
     TypeException,
-    convert,
 )
 from .static_transform_broadcaster import StaticTransformBroadcaster
 from .transform_broadcaster import TransformBroadcaster
 from .transform_listener import TransformListener
 
 _NOT_HERE = {
+    "ConvertRegistration": "data is transformed as messages only; register with TransformRegistration",
+    "convert": "data is transformed as messages only",
     "BufferClient": "ask a Buffer with a TransformListener instead",
     "StaticTransformListener": "a TransformListener also receives /tf_static",
 }

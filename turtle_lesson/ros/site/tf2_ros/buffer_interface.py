@@ -6,10 +6,10 @@ Facts: geometry2, tf2_ros_py/tf2_ros/buffer_interface.py.
 from __future__ import annotations
 
 from collections.abc import Callable
-from copy import deepcopy
 from typing import Any, ClassVar
 
 from geometry_msgs.msg import TransformStamped
+from rclpy._hints import refuse_unbuilt
 from rclpy.duration import Duration
 from rclpy.time import Time
 from std_msgs.msg import Header
@@ -20,7 +20,7 @@ Transforming = Callable[[Any, TransformStamped], Any]
 
 
 class TypeException(Exception):
-    """Nobody has registered how to transform, or to convert, something of this type."""
+    """No function is registered that transforms data of this type."""
 
     def __init__(self, errstr: str) -> None:
         super().__init__(errstr)
@@ -46,60 +46,14 @@ class TransformRegistration:
 
     def get(self, key: Any) -> Transforming:
         """The function for a type. Raises TypeException."""
-        return _found(self._functions, key)
-
-
-class ConvertRegistration:
-    """The functions that convert data between types, and to and from messages; all registrations are one."""
-
-    _to_message: ClassVar[dict[Any, Callable[[Any], Any]]] = {}
-    _from_message: ClassVar[dict[Any, Callable[[Any], Any]]] = {}
-    _direct: ClassVar[dict[Any, Callable[[Any], Any]]] = {}
-
-    def add_from_msg(self, key: Any, callback: Callable[[Any], Any]) -> None:
-        """How a message becomes data of a type."""
-        self._from_message[key] = callback
-
-    def add_to_msg(self, key: Any, callback: Callable[[Any], Any]) -> None:
-        """How data of a type becomes a message."""
-        self._to_message[key] = callback
-
-    def add_convert(self, key: tuple[Any, Any], callback: Callable[[Any], Any]) -> None:
-        """How data of one type becomes data of another."""
-        self._direct[key] = callback
-
-    def get_from_msg(self, key: Any) -> Callable[[Any], Any]:
-        """The function from a message. Raises TypeException."""
-        return _found(self._from_message, key)
-
-    def get_to_msg(self, key: Any) -> Callable[[Any], Any]:
-        """The function to a message. Raises TypeException."""
-        return _found(self._to_message, key)
-
-    def get_convert(self, key: tuple[Any, Any]) -> Callable[[Any], Any]:
-        """The function between two types. Raises TypeException."""
-        return _found(self._direct, key)
-
-
-def _found(functions: dict[Any, Callable[..., Any]], key: Any) -> Callable[..., Any]:
-    if key in functions:
-        return functions[key]
-    error = TypeException(f"Type {key} is not loaded or supported")
-    if "sensor_msgs" in str(key) and "geometry_msgs" not in str(key):
-        error.add_note("The types of sensor_msgs are transformed by tf2_sensor_msgs, which is not available here")
-    else:
-        error.add_note("For the types of geometry_msgs write: import tf2_geometry_msgs")
-    raise error
-
-
-def convert(a: Any, b_type: Any) -> Any:
-    """Data as data of another type. Raises TypeException."""
-    registered = ConvertRegistration()
-    if (type(a), b_type) in registered._direct:
-        return registered.get_convert((type(a), b_type))(a)
-    if type(a) is b_type:
-        return deepcopy(a)
-    return registered.get_from_msg(b_type)(registered.get_to_msg(type(a))(a))
+        if key in self._functions:
+            return self._functions[key]
+        error = TypeException(f"Type {key} is not loaded or supported")
+        if "sensor_msgs" in str(key) and "geometry_msgs" not in str(key):
+            error.add_note("The types of sensor_msgs are transformed by tf2_sensor_msgs, which is not available here")
+        else:
+            error.add_note("For the types of geometry_msgs write: import tf2_geometry_msgs")
+        raise error
 
 
 def Stamped(obj: Any, stamp: Any, frame_id: str) -> Any:
@@ -119,14 +73,13 @@ class BufferInterface:
     ) -> Any:
         """Stamped data as seen from the target frame, at the time of its stamp.
 
-        Raises TypeException for a type that is not registered, and TransformException.
+        Raises TypeException for a type that is not registered, TransformException, and NotImplementedError for a `new_type`,
+        which asks for the data in another library's type.
         """
+        refuse_unbuilt(new_type=new_type)
         do_transform = self.registration.get(type(object_stamped))
         header = object_stamped.header
-        found = do_transform(
-            object_stamped, self.lookup_transform(target_frame, header.frame_id, header.stamp, timeout)
-        )
-        return found if new_type is None else convert(found, new_type)
+        return do_transform(object_stamped, self.lookup_transform(target_frame, header.frame_id, header.stamp, timeout))
 
     def transform_full(
         self,
@@ -138,13 +91,13 @@ class BufferInterface:
         new_type: Any = None,
     ) -> Any:
         """Stamped data as seen from the target frame at another time. Raises as `transform`."""
+        refuse_unbuilt(new_type=new_type)
         do_transform = self.registration.get(type(object_stamped))
         header = object_stamped.header
         transform = self.lookup_transform_full(
             target_frame, target_time, header.frame_id, header.stamp, fixed_frame, timeout
         )
-        found = do_transform(object_stamped, transform)
-        return found if new_type is None else convert(found, new_type)
+        return do_transform(object_stamped, transform)
 
     def lookup_transform(self, *asked: Any, **keywords: Any) -> Any:
         """Where a frame is, seen from another one, as `Buffer` has it; for subclasses to say."""
