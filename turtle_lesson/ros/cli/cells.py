@@ -211,7 +211,7 @@ class _Cell:
         """
         if self.lines[at].lstrip().startswith(("%", "!")):
             return next(
-                (end for end in range(at + 1, len(self.lines)) if not _is_continued(self.lines[end - 1])),
+                (end for end in range(at + 1, len(self.lines)) if not self.lines[end - 1].rstrip("\n").endswith("\\")),
                 len(self.lines),
             )
         if at not in self._ends:
@@ -249,10 +249,6 @@ class _Cell:
             else:
                 ends.setdefault(line, ends.get(line + 1, behind) if line in joined else line + 1)
         self._ends.update((line, ends[line] or line + 1) for line in starts)
-
-
-def _is_continued(line: str) -> bool:
-    return line.rstrip("\n").endswith("\\")
 
 
 def _pieces(line: str, string: str) -> Iterator[tuple[str, str, int]]:

@@ -49,7 +49,7 @@ def _candidates(world: World, words: list[str], begun: str) -> Iterable[str]:
     if program in {"jobs", "pwd"}:
         return []
     if program == "kill":
-        return ["-INT", "-TERM", "-KILL", *job_numbers(world)]
+        return ["-INT", "-TERM", "-KILL", *(f"%{job.number}" for job in jobs(world).running)]
     if program != "ros2":
         return paths(begun, folders_only=program in {"cd", "mkdir"})
     if not rest:
@@ -69,7 +69,8 @@ def _candidates(world: World, words: list[str], begun: str) -> Iterable[str]:
 def _colcon(words: Sequence[str]) -> list[str]:
     if not words:
         return ["build", "graph", "list"]
-    return ["--packages-select", "--symlink-install", "--event-handlers", *source_packages()]
+    packages = {path.parent.name for path in Path("src").glob("**/package.xml")}
+    return ["--packages-select", "--symlink-install", "--event-handlers", *packages]
 
 
 # -- the arguments of a verb ---------------------------------------------------------------------------------------------
@@ -149,9 +150,6 @@ def _reads_like_a_command(line: str) -> bool:
     return found is not None and found[1] in COMMANDS
 
 
-# -- completion words ---------------------------------------------------------------------------------------------
-# What the arguments of a command may be: names of nodes, topics, services, types, parameters and packages, and files.
-
 # -- files ---------------------------------------------------------------------------------------------------------------
 
 
@@ -164,11 +162,6 @@ def paths(begun: str, *, folders_only: bool = False) -> list[str]:
     except (OSError, ValueError, RuntimeError):
         return []
     return [f"{head}{slash}{path.name}{'/' * path.is_dir()}" for path in found if path.is_dir() or not folders_only]
-
-
-def source_packages() -> list[str]:
-    """The packages that `colcon build` would build from here."""
-    return sorted({path.parent.name for path in Path("src").glob("**/package.xml")})
 
 
 # -- names ---------------------------------------------------------------------------------------------------------------
@@ -271,11 +264,6 @@ def _node_of(world: World, name: str) -> Any:
             if node.get_fully_qualified_name() == absolute(name):
                 return node
     return None
-
-
-def job_numbers(world: World) -> list[str]:
-    """What `kill` may be given: `%1`."""
-    return [f"%{job.number}" for job in jobs(world).running]
 
 
 def _files(world: World, given: Sequence[str], begun: str) -> list[str]:

@@ -7,7 +7,7 @@ from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING, Any
 
 from .parser import Verb
-from .typed_values import action_class, print_names, print_types, read_yaml
+from .typed_values import Names, action_class, read_yaml
 from .verb import (
     HIDDEN_PREFIX,
     PATIENCE,
@@ -16,6 +16,7 @@ from .verb import (
     Interrupted,
     direct_node,
     expanded,
+    flag,
     now,
     spin_for,
     stretch,
@@ -29,9 +30,7 @@ if TYPE_CHECKING:
     from rclpy.task import Future
 
 
-# -- action send goal ---------------------------------------------------------------------------------------------
-# `ros2 action send_goal`: from the goal to its result, with feedback on the way. Texts are those of ros2action of
-# Humble.
+# -- send_goal: texts are those of ros2action of Humble --------------------------------------------------------------
 
 LONGEST_GOAL = 600.0
 """How long, in s of robot time, a goal may take unless `--for` tells otherwise. The real tool waits forever."""
@@ -44,7 +43,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("action_name", help="Name of the action, such as /turtle1/rotate_absolute")
     parser.add_argument("action_type", help="Its type, such as turtlesim/action/RotateAbsolute")
     parser.add_argument("values", metavar="goal", help="Values for the goal's fields, in YAML")
-    parser.add_argument("-f", "--feedback", action="store_true", help="Print the feedback messages, too")
+    flag(parser, "-f --feedback", "Print the feedback messages, too")
     parser.add_argument(
         "--for",
         dest="seconds",
@@ -161,35 +160,21 @@ def _too_long(node: Node, handle: ClientGoalHandle | None) -> Exception:
     return Interrupted("(the goal took too long; --for SECONDS gives it more robot time, or less)")
 
 
-# -- group action -------------------------------------------------------------------------------------------------
-# `ros2 action`: which actions there are, and which nodes offer and use them.
+# -- list, info, type, find ------------------------------------------------------------------------------------------
 
 
-def actions(node: Node) -> dict[str, list[str]]:
-    """The actions that are there, with their types."""
+def actions(node: Node, include_hidden: bool = False) -> dict[str, list[str]]:
+    """The actions that are there, with their types; none of them is hidden."""
     return dict(node.get_action_names_and_types())
 
 
-def _list_arguments(parser: ArgumentParser) -> None:
-    parser.add_argument("-t", "--show-types", action="store_true", help="Show each action's type beside it")
-    parser.add_argument("-c", "--count-actions", action="store_true", help="Print only how many there are")
-
-
-def list_actions(args: Namespace) -> None:
-    """`ros2 action list`."""
-    with direct_node(args) as node:
-        found = actions(node)
-    if args.count_actions:
-        print(len(found))
-        return
-    for name, types in found.items():
-        print(f"{name} [{', '.join(types)}]" if args.show_types else name)
+ACTIONS = Names("action", "action", ("/turtle1/rotate_absolute", "turtlesim/action/RotateAbsolute"), actions)
 
 
 def _info_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("action_name", help="Name of the action, such as /turtle1/rotate_absolute")
-    parser.add_argument("-t", "--show-types", action="store_true", help="Also show each node's type of the action")
-    parser.add_argument("-c", "--count", action="store_true", help="Print only how many clients and servers there are")
+    flag(parser, "-t --show-types", "Also show each node's type of the action")
+    flag(parser, "-c --count", "Print only how many clients and servers there are")
 
 
 def info(args: Namespace) -> None:
@@ -218,33 +203,10 @@ def _ends(node: Node, action: str, role: str) -> list[tuple[str, list[str]]]:
     return found
 
 
-def _type_arguments(parser: ArgumentParser) -> None:
-    parser.add_argument("action_name", help="Full name of the action, such as /turtle1/rotate_absolute")
-
-
-def type_of(args: Namespace) -> None:
-    """`ros2 action type`, which Humble lacks and newer releases have."""
-    with direct_node(args) as node:
-        known = actions(node)
-    print_types("action", args.action_name, known)
-
-
-def _find_arguments(parser: ArgumentParser) -> None:
-    parser.add_argument("action_type", help="Name of the type, such as turtlesim/action/RotateAbsolute")
-    parser.add_argument("-c", "--count-actions", action="store_true", help="Print only how many there are")
-
-
-def find(args: Namespace) -> None:
-    """`ros2 action find`, which Humble lacks and newer releases have."""
-    with direct_node(args) as node:
-        known = actions(node)
-    print_names(args.action_type, "action", known, count=args.count_actions)
-
-
 VERBS: dict[str, Verb] = {
-    "find": Command("The actions of a type", _find_arguments, find),
+    "find": Command("The actions of a type", ACTIONS.find_arguments, ACTIONS.print_found),
     "info": Command("Which nodes offer and use an action", _info_arguments, info),
-    "list": Command("The names of the actions that nodes offer or use", _list_arguments, list_actions),
+    "list": Command("The names of the actions that nodes offer or use", ACTIONS.list_arguments, ACTIONS.print_list),
     "send_goal": Command("Send a goal and print its outcome", add_arguments, send_goal),
-    "type": Command("An action's type", _type_arguments, type_of),
+    "type": Command("An action's type", ACTIONS.type_arguments, ACTIONS.print_type),
 }

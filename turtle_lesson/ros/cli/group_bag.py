@@ -17,7 +17,7 @@ from typing import Any
 from ..bags import BagError
 from ..runtime import files
 from ..runtime.world import current_process
-from .verb import Command, add_duration, end_of_stretch, frequency, now, remark, stretch_of
+from .verb import Command, add_duration, end_of_stretch, flag, frequency, now, remark, stretch_of
 
 # -- bag arguments ------------------------------------------------------------------------------------------------
 # The arguments of `ros2 bag`.
@@ -123,17 +123,17 @@ def record_arguments(parser: ArgumentParser) -> None:
         metavar="topic",
         help="The same, as newer releases spell it",
     )
-    add("-a", "--all", "--all-topics", action="store_true", help="Record all topics but the hidden ones")
+    flag(parser, "-a --all --all-topics", "Record all topics but the hidden ones")
     add("-e", "--regex", default="", help="Record the topics that match this pattern")
     add("-x", "--exclude", "--exclude-regex", default="", help="Leave out the topics that match this pattern")
-    add("--include-hidden-topics", action="store_true", help="Also record topics with a hidden name")
-    add("--include-unpublished-topics", action="store_true", help="Also note topics without publishers")
+    flag(parser, "--include-hidden-topics", "Also record topics with a hidden name")
+    flag(parser, "--include-unpublished-topics", "Also note topics without publishers")
     add("-o", "--output", help="Folder to create (default: named after the date and time)")
     add("-s", "--storage", default="mcap", choices=["mcap", "sqlite3"], help="Storage format of the bag")
     add_duration(parser)
     _accept(parser, "--max-cache-size", "--polling-interval", "--compression-queue-size", "--compression-threads")
-    add("--disable-keyboard-controls", action="store_true", help=SUPPRESS)
-    add("--use-sim-time", action="store_true", help=SUPPRESS)
+    flag(parser, "--disable-keyboard-controls", SUPPRESS)
+    flag(parser, "--use-sim-time", SUPPRESS)
     _refuse(parser, "a bag is one file here", "-b --max-bag-size", "-d --max-bag-duration", "--max-splits")
     _refuse(parser, "a bag is not compressed here", "--compression-mode", "--compression-format")
     _refuse(parser, "a bag is always written in the same way", "--storage-preset-profile", "--storage-config-file")
@@ -154,7 +154,7 @@ def play_arguments(parser: ArgumentParser) -> None:
     add("-r", "--rate", type=positive_rate, default=1.0, help="How many times as fast as recorded")
     add("--topics", nargs="+", default=[], help="Play only these topics")
     add("-m", "--remap", nargs="+", default=[], help="Other names for topics: /old:=/new ...")
-    add("-l", "--loop", action="store_true", help="Start over at the end")
+    flag(parser, "-l --loop", "Start over at the end")
     add("-d", "--delay", type=not_negative, default=0.0, help="Seconds to wait before the first message (each time)")
     add("--start-offset", type=not_negative, default=0.0, help="Start this many seconds into the bag")
     add("--playback-duration", type=_number, default=-1.0, help="Play only this many seconds of the bag")
@@ -166,7 +166,7 @@ def play_arguments(parser: ArgumentParser) -> None:
         default=0.0,
         help="Publish the bag's time on /clock this many times a second (default: never; without a number: 40)",
     )
-    add("--disable-keyboard-controls", action="store_true", help="Accepted; there are none here")
+    flag(parser, "--disable-keyboard-controls", "Accepted; there are none here")
     add_duration(parser)
     _accept(parser, "--read-ahead-queue-size")
     _refuse(parser, "there is no key to press to continue", "-p --start-paused")
@@ -178,7 +178,7 @@ def play_arguments(parser: ArgumentParser) -> None:
 def info_arguments(parser: ArgumentParser) -> None:
     """Arguments of `ros2 bag info`."""
     reader_arguments(parser)
-    parser.add_argument("-t", "--topic-name", action="store_true", help="Print only the names of the topics")
+    flag(parser, "-t --topic-name", "Print only the names of the topics")
     _refuse(parser, "there are no further details of a bag", "-v --verbose", "--sort")
 
 

@@ -11,24 +11,19 @@ from typing import TYPE_CHECKING
 from ..idl.names import is_hidden
 from ..runtime.world import current_world
 from .jobs import jobs
-from .verb import CellCommand, Command, direct_node, node_names, services, topics
+from .verb import CellCommand, Command, direct_node, flag, node_names, services, topics
 
 if TYPE_CHECKING:
     from rclpy.node import Node
 
 
-# -- group doctor -------------------------------------------------------------------------------------------------
-# `ros2 doctor`: describes the simulation, what is running in it, and what looks wrong.
-
 CHECKS = 2
 
 
 def _arguments(parser: ArgumentParser) -> None:
-    parser.add_argument("-r", "--report", action="store_true", help="also list nodes, topics, services and jobs")
-    parser.add_argument(
-        "-rf", "--report-failed", action="store_true", help="accepted: only failed checks are printed anyway"
-    )
-    parser.add_argument("-iw", "--include-warnings", action="store_true", help="count warnings as failures")
+    flag(parser, "-r --report", "also list nodes, topics, services and jobs")
+    flag(parser, "-rf --report-failed", "accepted: only failed checks are printed anyway")
+    flag(parser, "-iw --include-warnings", "count warnings as failures")
 
 
 def _doctor(args: Namespace) -> int:

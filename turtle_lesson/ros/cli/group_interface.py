@@ -12,7 +12,7 @@ from ..idl.names import did_you_mean
 from ..idl.registry import registry
 from ..sim.errors import shown_path
 from .parser import cut
-from .verb import CellCommand, CommandError
+from .verb import CellCommand, CommandError, flag
 
 KINDS = {"msg": "Messages", "srv": "Services", "action": "Actions"}
 
@@ -103,8 +103,8 @@ def _where_is(base: str) -> str:
 def _show_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("type", help="full name of the interface, such as geometry_msgs/msg/Twist")
     comments = parser.add_mutually_exclusive_group()
-    comments.add_argument("--all-comments", action="store_true", help="also show the comments of nested types")
-    comments.add_argument("--no-comments", action="store_true", help="show neither comments nor empty lines")
+    flag(comments, "--all-comments", "also show the comments of nested types")
+    flag(comments, "--no-comments", "show neither comments nor empty lines")
 
 
 def _show(args: Namespace) -> None:
@@ -165,7 +165,7 @@ def _field_type(package: str, line: str) -> FieldType | None:
 
 def _proto_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("type", help="full name of the interface, such as geometry_msgs/msg/Twist")
-    parser.add_argument("--no-quotes", action="store_true", help="without the quotation marks around it")
+    flag(parser, "--no-quotes", "without the quotation marks around it")
 
 
 def _proto(args: Namespace) -> None:

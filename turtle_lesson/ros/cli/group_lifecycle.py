@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 from .parser import Verb
 from .verb import (
-    PATIENCE,
     Command,
     CommandError,
     absolute,
     add_node_arguments,
-    answer_of,
+    ask,
     direct_node,
+    flag,
     node_names,
     suggest,
 )
@@ -34,21 +34,11 @@ def _managed(node: Node, include_hidden: bool) -> list[str]:
 
 
 def _ask(node: Node, node_name: str, kind: str, service: str, **request: Any) -> Any:
-    """The answer of a managed node's service. Raises CommandError: the real tool waits forever for a busy node."""
+    """The answer of a managed node's service."""
     import lifecycle_msgs.srv
 
-    made = getattr(lifecycle_msgs.srv, kind)
-    client = node.create_client(made, f"{node_name}/{service}")
-    if not client.wait_for_service(timeout_sec=PATIENCE):
-        raise CommandError(
-            f"{node_name} offers no {service}: it is not a managed node (`ros2 lifecycle nodes` lists those)"
-        )
-    response = answer_of(node, client.call_async(made.Request(**request)), PATIENCE)
-    if response is None:
-        raise CommandError(
-            f"No answer from {node_name} in {PATIENCE:g} s of robot time: is it busy in a callback, or not spinning?"
-        )
-    return response
+    not_there = f"{node_name} offers no {service}: it is not a managed node (`ros2 lifecycle nodes` lists those)"
+    return ask(node, getattr(lifecycle_msgs.srv, kind), f"{node_name}/{service}", not_there, request)
 
 
 def _find(node: Node, args: Namespace, known: list[str]) -> str:
@@ -65,8 +55,8 @@ def _find(node: Node, args: Namespace, known: list[str]) -> str:
 
 def _nodes_arguments(parser: ArgumentParser) -> None:
     add_node_arguments(parser)
-    parser.add_argument("-a", "--all", action="store_true", help="Also list nodes with a hidden name")
-    parser.add_argument("-c", "--count-nodes", action="store_true", help="Print only how many there are")
+    flag(parser, "-a --all", "Also list nodes with a hidden name")
+    flag(parser, "-c --count-nodes", "Print only how many there are")
 
 
 def nodes(args: Namespace) -> None:
@@ -83,7 +73,7 @@ def nodes(args: Namespace) -> None:
 
 
 def _include_hidden(parser: ArgumentParser) -> None:
-    parser.add_argument("--include-hidden-nodes", action="store_true", help="Also use nodes with a hidden name")
+    flag(parser, "--include-hidden-nodes", "Also use nodes with a hidden name")
 
 
 def _get_arguments(parser: ArgumentParser) -> None:
@@ -116,9 +106,7 @@ def _list_arguments(parser: ArgumentParser) -> None:
     add_node_arguments(parser)
     parser.add_argument("node_name", help="Name of the node, such as /lc_talker")
     _include_hidden(parser)
-    parser.add_argument(
-        "-a", "--all", action="store_true", help="All transitions, not only those that are possible now"
-    )
+    flag(parser, "-a --all", "All transitions, not only those that are possible now")
 
 
 def list_transitions(args: Namespace) -> None:

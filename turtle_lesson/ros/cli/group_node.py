@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ..idl.names import is_hidden
 from .parser import Verb
-from .verb import Command, CommandError, add_node_arguments, direct_node, node_names, suggest
+from .verb import Command, CommandError, add_node_arguments, direct_node, flag, node_names, suggest
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -21,8 +21,8 @@ TWINS = "WARNING: Be aware that are nodes in the graph that share an exact name,
 
 def _list_arguments(parser: ArgumentParser) -> None:
     add_node_arguments(parser)
-    parser.add_argument("-a", "--all", action="store_true", help="Also list nodes with a hidden name")
-    parser.add_argument("-c", "--count-nodes", action="store_true", help="Print only how many there are")
+    flag(parser, "-a --all", "Also list nodes with a hidden name")
+    flag(parser, "-c --count-nodes", "Print only how many there are")
 
 
 def list_nodes(args: Namespace) -> None:
@@ -40,9 +40,7 @@ def list_nodes(args: Namespace) -> None:
 def _info_arguments(parser: ArgumentParser) -> None:
     add_node_arguments(parser)
     parser.add_argument("node_name", help="Full name of the node, such as /turtlesim")
-    parser.add_argument(
-        "--include-hidden", action="store_true", help="Also show topics and services with a hidden name"
-    )
+    flag(parser, "--include-hidden", "Also show topics and services with a hidden name")
 
 
 def info(args: Namespace) -> None:

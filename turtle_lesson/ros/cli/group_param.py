@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from argparse import ArgumentParser, Namespace
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,13 +12,14 @@ from ..runtime import files
 from .parser import Verb
 from .typed_values import MAX_LENGTH, Unparsable, read_yaml
 from .verb import (
-    PATIENCE,
     Command,
     CommandError,
     absolute,
     add_node_arguments,
     answer_of,
+    ask,
     direct_node,
+    flag,
     node_names,
     suggest,
 )
@@ -26,11 +28,7 @@ if TYPE_CHECKING:
     from rclpy.node import Node
 
 
-# -- param values -------------------------------------------------------------------------------------------------
-# Parameters' values as text and as YAML, and asking a node about its parameters: what the verbs of `ros2 param`
-# share.
-
-# -- param values -------------------------------------------------------------------------------------------------
+# -- values ----------------------------------------------------------------------------------------------------
 # Parameters' values: from text as typed, to text, and to what YAML has.
 # Which text becomes which type follows a recording of the real `ros2 param set`.
 
@@ -119,15 +117,14 @@ def flat(tree: dict[Any, Any], prefix: str = "") -> list[tuple[str, Any]]:
     return found
 
 
-# -- param calls --------------------------------------------------------------------------------------------------
-# Asking a node about its parameters: what the verbs of `ros2 param` share.
+# -- what the verbs share --------------------------------------------------------------------------------------------
 
 
 def arguments_of_all(parser: ArgumentParser, *, optional_node: bool = False) -> None:
     """The arguments of every verb of `ros2 param`."""
     add_node_arguments(parser)
     parser.add_argument("node_name", nargs="?" if optional_node else None, help="Name of the node, such as /turtlesim")
-    parser.add_argument("--include-hidden-nodes", action="store_true", help="Also use nodes with a hidden name")
+    flag(parser, "--include-hidden-nodes", "Also use nodes with a hidden name")
 
 
 def find_node(node: Node, args: Namespace) -> str:
@@ -138,29 +135,18 @@ def find_node(node: Node, args: Namespace) -> str:
     return name
 
 
-def ask(node: Node, node_name: str, service: str, **request: Any) -> Any:
-    """The answer of a node's parameter service, such as GetParameters.
-
-    Raises CommandError if there is none: the real tool waits forever for a node that is busy.
-    """
+def _ask(node: Node, node_name: str, service: str, **request: Any) -> Any:
+    """The answer of a node's parameter service, such as GetParameters. Raises CommandError if there is none."""
     import rcl_interfaces.srv
 
-    kind = getattr(rcl_interfaces.srv, service)
     words = "".join(f"_{letter.lower()}" if letter.isupper() else letter for letter in service).lstrip("_")
-    client = node.create_client(kind, f"{node_name}/{words}")
-    if not client.wait_for_service(timeout_sec=PATIENCE):
-        raise CommandError(f"Wait for service timed out: {node_name} offers no {words}")
-    response = answer_of(node, client.call_async(kind.Request(**request)), PATIENCE)
-    if response is None:
-        raise CommandError(
-            f"No answer from {node_name} in {PATIENCE:g} s of robot time: is it busy in a callback, or not spinning?"
-        )
-    return response
+    not_there = f"Wait for service timed out: {node_name} offers no {words}"
+    return ask(node, getattr(rcl_interfaces.srv, service), f"{node_name}/{words}", not_there, request)
 
 
 def listed(node: Node, name: str, prefixes: list[str] | None = None) -> list[str]:
     """The names of a node's parameters, sorted."""
-    return sorted(ask(node, name, "ListParameters", prefixes=prefixes or []).result.names)
+    return sorted(_ask(node, name, "ListParameters", prefixes=prefixes or []).result.names)
 
 
 def set_values(node: Node, node_name: str, names_and_values: list[tuple[str, Any]]) -> Any:
@@ -168,7 +154,7 @@ def set_values(node: Node, node_name: str, names_and_values: list[tuple[str, Any
     from rcl_interfaces.msg import Parameter
 
     parameters = [Parameter(name=name, value=value) for name, value in names_and_values]
-    return ask(node, node_name, "SetParameters", parameters=parameters).results
+    return _ask(node, node_name, "SetParameters", parameters=parameters).results
 
 
 def with_reason(text: str, result: Any) -> str:
@@ -176,15 +162,14 @@ def with_reason(text: str, result: Any) -> str:
     return f"{text}: {result.reason}" if result.reason else text
 
 
-# -- param files --------------------------------------------------------------------------------------------------
-# `ros2 param dump` and `load`: all parameters of a node, to and from a file.
+# -- dump, load ------------------------------------------------------------------------------------------------------
 
 
 def dump_arguments(parser: ArgumentParser) -> None:
     """The arguments of dump."""
     arguments_of_all(parser)
     parser.add_argument("--output-dir", help="Deprecated: write a file named after the node into this folder")
-    parser.add_argument("--print", action="store_true", help="Deprecated, and without effect")
+    flag(parser, "--print", "Deprecated, and without effect")
 
 
 def dump(args: Namespace) -> None:
@@ -196,7 +181,7 @@ def dump(args: Namespace) -> None:
     with direct_node(args) as node:
         name = find_node(node, args)
         names = listed(node, name)
-        values = ask(node, name, "GetParameters", names=names).values
+        values = _ask(node, name, "GetParameters", names=names).values
     pairs = zip(names, map(to_python, values), strict=False)
     tree = {name: {"ros__parameters": nested(list(pairs))}}
     text = yaml.safe_dump(tree, default_flow_style=False, allow_unicode=True)
@@ -218,9 +203,7 @@ def load_arguments(parser: ArgumentParser) -> None:
     """The arguments of load."""
     arguments_of_all(parser)
     parser.add_argument("parameter_file", help="A file as `ros2 param dump` prints it")
-    parser.add_argument(
-        "--no-use-wildcard", action="store_true", help="Leave out what the file says for all nodes (/**)"
-    )
+    flag(parser, "--no-use-wildcard", "Leave out what the file says for all nodes (/**)")
 
 
 def load(args: Namespace) -> None:
@@ -273,16 +256,8 @@ def _text_of(path: str) -> str:
         raise CommandError(f"cannot read {path}: {getattr(error, 'strerror', None) or error}") from None
 
 
-# -- group param --------------------------------------------------------------------------------------------------
-# `ros2 param`: read and change the parameters of nodes.
-
 LIST_PATIENCE = 1.0
 """How long, in s, `param list` waits for each node, as the real one does."""
-
-
-def _hint(node: Node, node_name: str, parameter: str) -> str:
-    """What may have been meant by a parameter that a node does not have."""
-    return suggest(parameter, listed(node, node_name))
 
 
 # -- list --------------------------------------------------------------------------------------------------------
@@ -291,7 +266,7 @@ def _hint(node: Node, node_name: str, parameter: str) -> str:
 def _list_arguments(parser: ArgumentParser) -> None:
     arguments_of_all(parser, optional_node=True)
     parser.add_argument("--param-prefixes", nargs="+", default=[], help="Only parameters that begin with these")
-    parser.add_argument("--param-type", action="store_true", help="Show each parameter's type beside it")
+    flag(parser, "--param-type", "Show each parameter's type beside it")
     parser.add_argument("--filter", metavar="FILTER", help="Only names whose beginning this regular expression matches")
 
 
@@ -335,7 +310,7 @@ def _ask_all(node: Node, names: list[str], prefixes: list[str]) -> list[tuple[st
 def _print_names(node: Node, node_name: str, names: list[str], with_types: bool) -> None:
     types: dict[str, str] = {}
     if with_types and names:
-        descriptors = ask(node, node_name, "DescribeParameters", names=names).descriptors
+        descriptors = _ask(node, node_name, "DescribeParameters", names=names).descriptors
         types = {each.name: f" (type: {TYPES[each.type][0]})" for each in descriptors}
     for name in names:
         print(f"  {name}{types.get(name, '')}")
@@ -347,16 +322,16 @@ def _print_names(node: Node, node_name: str, names: list[str], with_types: bool)
 def _get_arguments(parser: ArgumentParser) -> None:
     arguments_of_all(parser)
     parser.add_argument("parameter_name", help="Name of the parameter")
-    parser.add_argument("--hide-type", action="store_true", help="Print only the value")
+    flag(parser, "--hide-type", "Print only the value")
 
 
 def get(args: Namespace) -> None:
     """`ros2 param get`."""
     with direct_node(args) as node:
         name = find_node(node, args)
-        values = ask(node, name, "GetParameters", names=[args.parameter_name]).values
+        values = _ask(node, name, "GetParameters", names=[args.parameter_name]).values
         if not values:
-            raise CommandError("Parameter not set", _hint(node, name, args.parameter_name))
+            raise CommandError("Parameter not set", suggest(args.parameter_name, listed(node, name)))
     _, field, label = TYPES[values[0].type]
     if not field:
         print(label if not args.hide_type else None)
@@ -371,22 +346,22 @@ def _set_arguments(parser: ArgumentParser) -> None:
 
 
 def set_parameter(args: Namespace) -> None:
-    """`ros2 param set`. As in the real tool, the exit code is 0 also if the node refuses the value."""
+    """`ros2 param set`."""
+    _change(args, lambda: from_text(args.value), "Set parameter successful", "Setting parameter failed")
+
+
+def _change(args: Namespace, value: Callable[[], Any], done: str, failed: str) -> None:
+    """Set a parameter. As in the real tool, the exit code is 0 also if the node refuses the value."""
     with direct_node(args) as node:
         name = find_node(node, args)
-        value = from_text(args.value)
-        [result] = set_values(node, name, [(args.parameter_name, value)])
+        [result] = set_values(node, name, [(args.parameter_name, value())])
         if result.successful:
-            print(with_reason("Set parameter successful", result))
+            print(with_reason(done, result))
             return
-        print(with_reason("Setting parameter failed", result), file=sys.stderr)
-        _print_hint(node, name, args.parameter_name, result)
-
-
-def _print_hint(node: Node, node_name: str, parameter: str, result: Any) -> None:
-    known = listed(node, node_name)
-    if parameter not in known and (hint := suggest(parameter, known)):
-        print(hint, file=sys.stderr)
+        print(with_reason(failed, result), file=sys.stderr)
+        known = listed(node, name)
+        if args.parameter_name not in known and (hint := suggest(args.parameter_name, known)):
+            print(hint, file=sys.stderr)
 
 
 def _delete_arguments(parser: ArgumentParser) -> None:
@@ -398,14 +373,7 @@ def delete(args: Namespace) -> None:
     """`ros2 param delete`."""
     from rcl_interfaces.msg import ParameterValue
 
-    with direct_node(args) as node:
-        name = find_node(node, args)
-        [result] = set_values(node, name, [(args.parameter_name, ParameterValue())])
-        if result.successful:
-            print(with_reason("Deleted parameter successfully", result))
-            return
-        print(with_reason("Deleting parameter failed", result), file=sys.stderr)
-        _print_hint(node, name, args.parameter_name, result)
+    _change(args, ParameterValue, "Deleted parameter successfully", "Deleting parameter failed")
 
 
 def _describe_arguments(parser: ArgumentParser) -> None:
@@ -417,7 +385,7 @@ def describe(args: Namespace) -> None:
     """`ros2 param describe`. If one of the parameters is unknown the real one says nothing, of any of them."""
     with direct_node(args) as node:
         name = find_node(node, args)
-        descriptors = ask(node, name, "DescribeParameters", names=args.parameter_names).descriptors
+        descriptors = _ask(node, name, "DescribeParameters", names=args.parameter_names).descriptors
         for descriptor in descriptors:
             _print_descriptor(descriptor)
         if not descriptors:

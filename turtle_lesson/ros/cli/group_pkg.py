@@ -14,7 +14,7 @@ from ..idl.names import did_you_mean
 from ..idl.registry import registry
 from ..sim.errors import shown_path
 from .parser import cut
-from .verb import CellCommand, CommandError
+from .verb import CellCommand, CommandError, flag
 
 SITE = Path(__file__).resolve().parents[1] / "site"
 
@@ -68,7 +68,7 @@ def _list(args: Namespace) -> None:
 
 def _prefix_arguments(parser: ArgumentParser) -> None:
     _package(parser)
-    parser.add_argument("--share", action="store_true", help="the folder of its shared files instead")
+    flag(parser, "--share", "the folder of its shared files instead")
 
 
 def _prefix(args: Namespace) -> None:
@@ -111,7 +111,7 @@ def _xml(args: Namespace) -> None:
 
 def _executables_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("package_name", nargs="?", help="name of the package; all packages if left out")
-    parser.add_argument("--full-path", action="store_true", help="print the paths of the programs")
+    flag(parser, "--full-path", "print the paths of the programs")
 
 
 def _executables(args: Namespace) -> None:

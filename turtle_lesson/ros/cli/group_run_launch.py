@@ -24,11 +24,10 @@ from ..sim.process import Process
 from .group_pkg import not_found, path_of
 from .jobs import Job, jobs, lasting
 from .parser import cut
-from .verb import CellCommand, CommandError, positive_float
+from .verb import CellCommand, CommandError, flag, positive_float
 
 if TYPE_CHECKING:
     from ..launching.start import LaunchHandle
-    from ..runtime.world import World
 
 
 SIGNAL_TEXTS = {-2: "Interrupt", -9: "Killed", -15: "Terminated"}
@@ -112,22 +111,13 @@ def _status(process: Process) -> int:
 
 def _launch_arguments(parser: ArgumentParser) -> None:
     nothing = "accepted, but without effect here"
-    parser.add_argument("-n", "--noninteractive", action="store_true", help=nothing)
-    parser.add_argument("-d", "--debug", action="store_true", help=nothing)
+    flag(parser, "-n --noninteractive", nothing)
+    flag(parser, "-d --debug", nothing)
     shown = parser.add_mutually_exclusive_group()
-    shown.add_argument(
-        "-p",
-        "--print",
-        "--print-description",
-        dest="print",
-        action="store_true",
-        help="not available here",
-    )
-    shown.add_argument(
-        "-s", "--show-args", "--show-arguments", dest="show", action="store_true", help="list the arguments it takes"
-    )
+    flag(shown, "-p --print --print-description", "not available here", dest="print")
+    flag(shown, "-s --show-args --show-arguments", "list the arguments it takes", dest="show")
     shown_all = "show all that the programs print, whatever the launch file says"
-    parser.add_argument("-a", "--show-all-subprocesses-output", action="store_true", dest="all", help=shown_all)
+    flag(parser, "-a --show-all-subprocesses-output", shown_all, dest="all")
     parser.add_argument("--launch-prefix", help=nothing)
     parser.add_argument("--launch-prefix-filter", help=nothing)
     _add_for(parser, "ros2 launch")
@@ -204,24 +194,17 @@ def leave(what: Process | LaunchHandle, words: str, seconds: float | None) -> in
         for twin in jobs(world).like(job):
             twice = f"The same command is running as [{twin.number}], so everything in it exists twice now."
             print(f"{twice} To stop that one: kill -INT %{twin.number}", file=cell)
-        if len(world.graph.servers("/spawn")) > simulators and _has_one_of_its_own(world):
+        if len(world.graph.servers("/spawn")) > simulators and any(
+            server.node.process.name == "turtlesim"
+            for server in world.graph.servers("/spawn")  # no job: start() began it
+        ):
             twins = "Two simulators are running now, and both follow every command: start(simulator=False) starts none."
             print(twins, file=cell)
         return 0
-    return _code_of(what)
-
-
-def _has_one_of_its_own(world: World) -> bool:
-    """Whether `start()` has begun a simulator, which no job is."""
-    return any(server.node.process.name == "turtlesim" for server in world.graph.servers("/spawn"))
-
-
-def _code_of(what: Process | LaunchHandle) -> int:
-    """The exit code of `ros2 run` is its program's; that of `ros2 launch` is 0, however its programs ended."""
-    if isinstance(what, Process):
-        code = _status(what)
-        return code if code >= 0 else 256 + code
-    return 0
+    if not isinstance(what, Process):
+        return 0  # that of `ros2 launch`, however its programs ended
+    code = _status(what)
+    return code if code >= 0 else 256 + code
 
 
 COMMANDS = {

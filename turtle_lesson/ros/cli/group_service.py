@@ -7,14 +7,13 @@ from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING, Any
 
 from .parser import Verb
-from .typed_values import populate, print_names, print_types, read_yaml, service_class, stamp, unknown
+from .typed_values import Names, populate, read_yaml, service_class, stamp
 from .verb import (
     HIDDEN_PREFIX,
     PATIENCE,
     Command,
     CommandError,
     add_duration,
-    add_node_arguments,
     direct_node,
     end_of_stretch,
     expanded,
@@ -39,46 +38,7 @@ LONGEST_ANSWER = 600.0
 LOOK_AGAIN = 1.0
 
 
-def _list_arguments(parser: ArgumentParser) -> None:
-    add_node_arguments(parser)
-    parser.add_argument("-t", "--show-types", action="store_true", help="Show each service's type beside it")
-    parser.add_argument("-c", "--count-services", action="store_true", help="Print only how many there are")
-    parser.add_argument("--include-hidden-services", action="store_true", help="Also list services with a hidden name")
-
-
-def list_services(args: Namespace) -> None:
-    """`ros2 service list`."""
-    with direct_node(args) as node:
-        found = services(node, args.include_hidden_services)
-    if args.count_services:
-        print(len(found))
-        return
-    for name, types in found.items():
-        print(f"{name} [{', '.join(types)}]" if args.show_types else name)
-
-
-def _type_arguments(parser: ArgumentParser) -> None:
-    parser.add_argument("service_name", help="Full name of the service, such as /spawn")
-
-
-def type_of(args: Namespace) -> None:
-    """`ros2 service type`."""
-    with direct_node(args) as node:
-        known = services(node, include_hidden=True)
-    print_types("service", args.service_name, known)
-
-
-def _find_arguments(parser: ArgumentParser) -> None:
-    parser.add_argument("service_type", help="Name of the type, such as std_srvs/srv/Empty")
-    parser.add_argument("-c", "--count-services", action="store_true", help="Print only how many there are")
-    parser.add_argument("--include-hidden-services", action="store_true", help="Also find services with a hidden name")
-
-
-def find(args: Namespace) -> None:
-    """`ros2 service find`."""
-    with direct_node(args) as node:
-        known = services(node, args.include_hidden_services)
-    print_names(args.service_type, "srv", known, count=args.count_services)
+SERVICES = Names("service", "srv", ("/spawn", "std_srvs/srv/Empty"), services)
 
 
 def info(args: Namespace) -> None:
@@ -86,9 +46,7 @@ def info(args: Namespace) -> None:
     with direct_node(args) as node:
         known = services(node, include_hidden=True)
         name = args.service_name
-        if name not in known:
-            raise unknown("service", name, known)
-        types = known[name]
+        types = SERVICES.types_of(name, known)
         print(f"Type: {types[0] if len(types) == 1 else types}")
         print(f"Clients count: {node.count_clients(name) - _clients_of_the_classroom(node, name)}")
         print(f"Services count: {node.count_services(name)}")
@@ -173,8 +131,8 @@ def _ask(node: Node, client: Client, request: Any, seconds: float) -> None:
 
 VERBS: dict[str, Verb] = {
     "call": Command("Call a service and print its answer", _call_arguments, call),
-    "find": Command("The services of a type", _find_arguments, find),
-    "info": Command("A service's type, and how many servers and clients it has", _type_arguments, info),
-    "list": Command("The names of the services that are offered", _list_arguments, list_services),
-    "type": Command("A service's type", _type_arguments, type_of),
+    "find": Command("The services of a type", SERVICES.find_arguments, SERVICES.print_found),
+    "info": Command("A service's type, and how many servers and clients it has", SERVICES.type_arguments, info),
+    "list": Command("The names of the services that are offered", SERVICES.list_arguments, SERVICES.print_list),
+    "type": Command("A service's type", SERVICES.type_arguments, SERVICES.print_type),
 }

@@ -10,15 +10,13 @@ from typing import TYPE_CHECKING, Any
 from . import topic_listen
 from .parser import Verb
 from .typed_values import (
+    Names,
     add_qos_arguments,
     message_class,
     populate,
-    print_names,
-    print_types,
     profile_of,
     read_yaml,
     stamp,
-    unknown,
 )
 from .verb import (
     LONGEST,
@@ -30,6 +28,7 @@ from .verb import (
     direct_node,
     end_of_stretch,
     expanded,
+    flag,
     frequency,
     now,
     of_the_classroom,
@@ -48,8 +47,7 @@ if TYPE_CHECKING:
     from rclpy.publisher import Publisher
 
 
-# -- topic pub ----------------------------------------------------------------------------------------------------
-# `ros2 topic pub`: publish a message on a topic.
+# -- pub -------------------------------------------------------------------------------------------------------------
 
 PRESET = "system_default"
 
@@ -62,7 +60,7 @@ def arguments(parser: ArgumentParser) -> None:
     parser.add_argument("-r", "--rate", metavar="N", type=frequency, default=1.0, help="How often a second (1)")
     parser.add_argument("-p", "--print", metavar="N", type=int, default=1, help="Print only every N-th message (1)")
     group = parser.add_mutually_exclusive_group()
-    group.add_argument("-1", "--once", action="store_true", help="Publish one message")
+    flag(group, "-1 --once", "Publish one message")
     group.add_argument("-t", "--times", type=unsigned_int, default=0, help="Publish this many messages")
     parser.add_argument(
         "-w",
@@ -183,22 +181,19 @@ def _publish(
     time.sleep(args.keep_alive)
 
 
-# -- group topic --------------------------------------------------------------------------------------------------
-# `ros2 topic`: which topics there are, what comes along them, and how fast.
+# -- list, info, type, find ------------------------------------------------------------------------------------------
+
+
+TOPICS = Names("topic", "msg", ("/turtle1/pose", "geometry_msgs/msg/Twist"), topics, add_node_arguments)
 
 
 def _list_arguments(parser: ArgumentParser) -> None:
-    add_node_arguments(parser)
-    parser.add_argument("-t", "--show-types", action="store_true", help="Show each topic's type beside it")
-    parser.add_argument("-c", "--count-topics", action="store_true", help="Print only how many there are")
-    parser.add_argument("--include-hidden-topics", action="store_true", help="Also list topics with a hidden name")
-    parser.add_argument(
-        "-v", "--verbose", action="store_true", help="Show types, and count publishers and subscriptions"
-    )
+    TOPICS.list_arguments(parser)
+    flag(parser, "-v --verbose", "Show types, and count publishers and subscriptions")
 
 
 def list_topics(args: Namespace) -> None:
-    """`ros2 topic list`."""
+    """`ros2 topic list`; all that are hidden include those that only the simulation itself subscribes to."""
     with direct_node(args) as node:
         found = topics(node, args.include_hidden_topics, ears=args.include_hidden_topics)
         if args.count_topics:
@@ -222,50 +217,21 @@ def _print_ends(title: str, what: str, found: dict[str, list[str]], counts: dict
 
 
 def _info_arguments(parser: ArgumentParser) -> None:
-    add_node_arguments(parser)
-    parser.add_argument("topic_name", help="Full name of the topic, such as /turtle1/pose")
-    parser.add_argument("--verbose", "-v", action="store_true", help="Show every publisher and subscription, with QoS")
+    TOPICS.type_arguments(parser)
+    flag(parser, "--verbose -v", "Show every publisher and subscription, with QoS")
 
 
 def info(args: Namespace) -> None:
     """`ros2 topic info`."""
     with direct_node(args) as node:
         name, known = args.topic_name, topics(node, include_hidden=True)
-        if name not in known:
-            raise unknown("topic", name, known)
-        types = known[name]
+        types = TOPICS.types_of(name, known)
         end = "\n\n" if args.verbose else "\n"
         print(f"Type: {types[0] if len(types) == 1 else types}", end=end)
         for title, ends in (("Publisher", publishers(node, name)), ("Subscription", subscriptions(node, name))):
             print(f"{title} count: {len(ends)}", end=end)
             for each in ends if args.verbose else ():
                 print(each, end="\n\n")
-
-
-def _type_arguments(parser: ArgumentParser) -> None:
-    add_node_arguments(parser)
-    parser.add_argument("topic_name", help="Full name of the topic, such as /turtle1/pose")
-
-
-def type_of(args: Namespace) -> None:
-    """`ros2 topic type`."""
-    with direct_node(args) as node:
-        known = topics(node, include_hidden=True)
-    print_types("topic", args.topic_name, known)
-
-
-def _find_arguments(parser: ArgumentParser) -> None:
-    add_node_arguments(parser)
-    parser.add_argument("topic_type", help="Name of the type, such as geometry_msgs/msg/Twist")
-    parser.add_argument("-c", "--count-topics", action="store_true", help="Print only how many there are")
-    parser.add_argument("--include-hidden-topics", action="store_true", help="Also find topics with a hidden name")
-
-
-def find(args: Namespace) -> None:
-    """`ros2 topic find`."""
-    with direct_node(args) as node:
-        known = topics(node, args.include_hidden_topics)
-    print_names(args.topic_type, "msg", known, count=args.count_topics)
 
 
 VERBS: dict[str, Verb] = {
@@ -276,10 +242,10 @@ VERBS: dict[str, Verb] = {
         topic_listen.delay,
     ),
     "echo": Command("Print the messages of a topic", topic_listen.arguments, topic_listen.echo),
-    "find": Command("The topics of a type", _find_arguments, find),
+    "find": Command("The topics of a type", TOPICS.find_arguments, TOPICS.print_found),
     "hz": Command("How many messages a second arrive on a topic", topic_listen.hz_arguments, topic_listen.hz),
     "info": Command("A topic's type, its publishers and its subscriptions", _info_arguments, info),
     "list": Command("The names of the topics that are in use", _list_arguments, list_topics),
     "pub": Command("Publish a message on a topic", arguments, pub),
-    "type": Command("A topic's type", _type_arguments, type_of),
+    "type": Command("A topic's type", TOPICS.type_arguments, TOPICS.print_type),
 }

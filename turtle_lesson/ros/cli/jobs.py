@@ -16,9 +16,6 @@ if TYPE_CHECKING:
     from ..sim.simulation import Simulation
 
 
-# -- jobs ---------------------------------------------------------------------------------------------------------
-# What `ros2 run`, `ros2 launch` and a trailing `&` leave running: numbered jobs, as in a terminal.
-
 SIGNALS = {"INT": 2, "TERM": 15, "KILL": 9}
 
 
@@ -93,8 +90,7 @@ def jobs(world: World) -> Jobs:
     return found
 
 
-# -- streams ------------------------------------------------------------------------------------------------------
-# Where a command's words go: the cell's stdout and stderr, in the order in which they were written.
+# -- the streams of a cell and of a command --------------------------------------------------------------------------
 
 LONGEST = 1500
 """How many characters of a line of stderr are shown: nobody reads on in a name of 10,000."""

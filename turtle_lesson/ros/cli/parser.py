@@ -13,9 +13,6 @@ from typing import Any, NoReturn, Protocol
 
 from ..idl.names import did_you_mean
 
-# -- parser -------------------------------------------------------------------------------------------------------
-# Reading `ros2 <command> <verb> …`: from words to a verb and its arguments, or to a usage text as the real tool
-# prints it.
 # The shape of usage and error texts follows recordings of ros2cli of Humble; help texts are our own words. Options
 # that only this simulation has (`--for`) stand in the help of a verb, but not in its usage line.
 
@@ -264,8 +261,7 @@ def _help(usage: str, about: str, options: list[tuple[str, str]], commands: dict
     return "\n".join([*lines, "", f"  Call `{prog} <command> -h` for more detailed usage."])
 
 
-# -- groups -------------------------------------------------------------------------------------------------------
-# The commands of `ros2`: which there are, where their verbs are, and what a verb is.
+# -- the commands, and where their verbs are -------------------------------------------------------------------------
 
 
 class Verb(Protocol):

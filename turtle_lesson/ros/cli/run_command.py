@@ -11,19 +11,13 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..runtime.run_world import Waiter, live_rate
+from ..runtime.run_world import Waiter
 from .jobs import Errors, cell_streams, lasting
 from .parser import Call, Stop, cut, parse
 
 if TYPE_CHECKING:
     from ..runtime.world import World
     from ..sim.process import Output, Process
-
-__all__ = [
-    "live_rate",
-    "run",
-    "run_here",
-]
 
 
 BACKGROUND = "background"

@@ -21,8 +21,7 @@ if TYPE_CHECKING:
     from ..runtime.world import World
 
 
-# -- lexer --------------------------------------------------------------------------------------------------------
-# A shell's line taken apart: words with their quotes, and the signs between commands.
+# -- words and signs -------------------------------------------------------------------------------------------------
 # The rules are those of POSIX's shells, without what this simulation leaves out: substitutions, braces and what is
 # between double quotes stay as they are typed, so that `"{x: 5.0}"` needs no care.
 
@@ -180,11 +179,7 @@ def _here_text(sign: re.Match[str]) -> tuple[HereText, str]:
     return HereText(re.sub(r"(?m)^\t+", "", inside) if tabs else inside), text[: begin - 1] + text[closing.end() :]
 
 
-# -- script -------------------------------------------------------------------------------------------------------
-# A script taken apart into pipelines of commands, and files that are run by their name.
-
-# -- script -------------------------------------------------------------------------------------------------------
-# A script taken apart into pipelines of commands, and what their words stand for.
+# -- pipelines -------------------------------------------------------------------------------------------------------
 
 
 class ShellSyntaxError(ValueError):
@@ -285,7 +280,7 @@ def expand(word: Word, *, home: Path, exit_code: int) -> list[str]:
     return [word.text]
 
 
-# -- script files -------------------------------------------------------------------------------------------------
+# -- files of commands -----------------------------------------------------------------------------------------------
 # Files that are run by their name: `./draw.py`, `./commands.sh`, `bash commands.sh`, and `source commands.sh`.
 
 NOT_EXECUTABLE = 126
@@ -336,7 +331,7 @@ def commands_in(words: Sequence[str]) -> str | None:
     return text
 
 
-# -- python script ------------------------------------------------------------------------------------------------
+# -- Python programs -------------------------------------------------------------------------------------------------
 # `python3 FILE.py …` and `python3 -m MODULE …`: run a file, or a module of a package that was sourced, as a program
 # of this world, as `ros2 run` does with those of packages.
 

@@ -16,8 +16,7 @@ if TYPE_CHECKING:
     from ..sim.process import Process
 
 
-# -- terminal text ------------------------------------------------------------------------------------------------
-# The terminal's words for texts: cat, echo, printf, and what a pipe leads to: grep, head, tail, sort, wc.
+# -- texts, and what a pipe leads to ---------------------------------------------------------------------------------
 
 
 def cat(terminal: Terminal, words: list[str]) -> int:
@@ -121,11 +120,7 @@ def wc(terminal: Terminal, words: list[str]) -> int:
     return terminal.say(str(sum(text.count("\n") for text in _texts(terminal, rest))))
 
 
-# -- terminal -----------------------------------------------------------------------------------------------------
-# The terminal's own words, beside ros2, colcon and source; those for what goes on: jobs, kill, sleep.
-
-# -- terminal jobs ------------------------------------------------------------------------------------------------
-# The terminal's words for what goes on: jobs, kill, sleep.
+# -- jobs, kill, sleep -----------------------------------------------------------------------------------------------
 
 
 def list_jobs(terminal: Terminal, words: list[str]) -> int:
@@ -177,9 +172,6 @@ def _kill_one(terminal: Terminal, word: str, name: str) -> int:
     terminal.world.sim.settle()
     return 0
 
-
-# -- terminal -----------------------------------------------------------------------------------------------------
-# The terminal's own words, beside ros2, colcon and source.
 
 BUILTINS: dict[str, Builtin] = {
     "cat": cat,

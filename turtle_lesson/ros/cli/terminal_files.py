@@ -11,9 +11,6 @@ from ..runtime import files
 from ..sim.errors import shown_path
 from .terminal_io import Terminal, options
 
-# -- terminal files -----------------------------------------------------------------------------------------------
-# The terminal's words for folders and files: cd, pwd, mkdir, ls, touch, chmod.
-
 last_cd: Path | None = None
 """Where the last `cd` went, or None."""
 
@@ -134,8 +131,7 @@ def chmod(terminal: Terminal, words: list[str]) -> int:
     return 0
 
 
-# -- terminal changes ---------------------------------------------------------------------------------------------
-# The terminal's words that change files and folders: rm, cp, mv.
+# -- rm, cp, mv ------------------------------------------------------------------------------------------------------
 
 
 def rm(terminal: Terminal, words: list[str]) -> int:

@@ -13,10 +13,6 @@ if TYPE_CHECKING:
     from ..runtime.world import World
 
 
-# -- terminal io --------------------------------------------------------------------------------------------------
-# What a command of the terminal works with: its world, its streams, and the options among its words.
-
-
 @dataclass
 class Terminal:
     """What a command of the terminal works with."""
@@ -46,8 +42,7 @@ def options(words: list[str]) -> tuple[set[str], list[str]]:
     return letters, [word for word in words if not re.fullmatch("-[A-Za-z0-9]+", word) and word != "--"]
 
 
-# -- terminal variables -------------------------------------------------------------------------------------------
-# The terminal's words for environment variables: export, unset, printenv, and `NAME=value` before a command.
+# -- environment variables -------------------------------------------------------------------------------------------
 # They are the notebook's own variables, which each process has a copy of when it begins.
 
 _ASSIGNMENT = re.compile(r"([A-Za-z_]\w*)=(.*)", re.DOTALL)

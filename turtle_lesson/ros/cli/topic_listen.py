@@ -21,6 +21,7 @@ from .verb import (
     direct_node,
     end_of_stretch,
     expanded,
+    flag,
     now,
     positive_int,
     publishers,
@@ -36,21 +37,6 @@ if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
     from rclpy.task import Future
 
-__all__ = [
-    "bw",
-    "bw_arguments",
-    "delay",
-    "delay_arguments",
-    "hz",
-    "hz_arguments",
-]
-
-
-# -- topic echo ---------------------------------------------------------------------------------------------------
-# `ros2 topic echo`: print the messages of a topic; what the verbs that listen share.
-
-# -- topic echo ---------------------------------------------------------------------------------------------------
-# `ros2 topic echo`: print the messages of a topic.
 
 TRUNCATE = 128
 PRESET = "sensor_data"
@@ -62,9 +48,9 @@ def arguments(parser: ArgumentParser) -> None:
     parser.add_argument("topic_name", help="Name of the topic, such as /turtle1/pose")
     parser.add_argument("message_type", nargs="?", help="Type of its messages, such as turtlesim/msg/Pose")
     add_qos_arguments(parser, "subscribe", PRESET, automatic=True)
-    parser.add_argument("--csv", action="store_true", help="Print each message as one line, with commas between values")
+    flag(parser, "--csv", "Print each message as one line, with commas between values")
     parser.add_argument("--field", help="Print only this field; a dot leads to a field of a field, as in header.stamp")
-    parser.add_argument("--full-length", "-f", action="store_true", help="Do not cut off long arrays and texts")
+    flag(parser, "--full-length -f", "Do not cut off long arrays and texts")
     parser.add_argument(
         "--truncate-length",
         "-l",
@@ -72,19 +58,19 @@ def arguments(parser: ArgumentParser) -> None:
         default=TRUNCATE,
         help="How much of long arrays and texts is printed (default: %(default)s)",
     )
-    parser.add_argument("--no-arr", action="store_true", help="Print the type and length of arrays instead of them")
-    parser.add_argument("--no-str", action="store_true", help="Print the length of texts instead of them")
-    parser.add_argument("--flow-style", action="store_true", help="Print an array in one line, in brackets")
-    parser.add_argument("--lost-messages", action="store_true", help="Deprecated, and without effect")
-    parser.add_argument("--no-lost-messages", action="store_true", help="Do not report lost messages")
-    parser.add_argument("--raw", action="store_true", help="Print the bytes as they are sent")
+    flag(parser, "--no-arr", "Print the type and length of arrays instead of them")
+    flag(parser, "--no-str", "Print the length of texts instead of them")
+    flag(parser, "--flow-style", "Print an array in one line, in brackets")
+    flag(parser, "--lost-messages", "Deprecated, and without effect")
+    flag(parser, "--no-lost-messages", "Do not report lost messages")
+    flag(parser, "--raw", "Print the bytes as they are sent")
     parser.add_argument(
         "--filter",
         dest="filter_expr",
         metavar="FILTER_EXPR",
         help="Print a message m only where this Python expression is true, as in 'm.x > 5'",
     )
-    parser.add_argument("--once", action="store_true", help="End after the first message")
+    flag(parser, "--once", "End after the first message")
     add_duration(parser)
 
 
@@ -191,8 +177,7 @@ def _printer(args: Namespace) -> Callable[[Any], None]:
     return show
 
 
-# -- listening ----------------------------------------------------------------------------------------------------
-# What the verbs that listen to a topic share: finding its type, and saying why nothing comes.
+# -- what the verbs that listen to a topic share: finding its type, and saying why nothing comes -------------------
 
 LOOK_AGAIN = 0.1
 
@@ -292,13 +277,10 @@ def listen(
     raise end_of_stretch(seconds)
 
 
-# -- topic rates --------------------------------------------------------------------------------------------------
-# `ros2 topic hz`, `bw` and `delay`: how often messages come, how large they are, and how old.
+# -- hz, bw and delay ---------------------------------------------------------------------------------------------
 # What is counted when follows recordings of the real tools: `hz` reports at a message that comes a second or more
 # after the last report, `bw` and `delay` report every second.
 
-HZ_WINDOW = DELAY_WINDOW = 10_000
-BW_WINDOW = 100
 SECOND = 1_000_000_000
 
 
@@ -312,24 +294,19 @@ def _now() -> int:
     return current_process().simulation.now
 
 
+def _window_arguments(parser: ArgumentParser, topic: str, about: str, window: int) -> None:
+    parser.add_argument(topic, help=f"Name of the topic, {about}")
+    text = "How many messages to average over (default: %(default)s)"
+    parser.add_argument("--window", "-w", metavar="WINDOW", type=positive_int, default=window, help=text)
+
+
 def hz_arguments(parser: ArgumentParser) -> None:
     """The arguments of hz."""
-    parser.add_argument("topic_name", help="Name of the topic, such as /turtle1/pose")
-    parser.add_argument(
-        "--window",
-        "-w",
-        dest="window_size",
-        metavar="WINDOW",
-        type=positive_int,
-        default=HZ_WINDOW,
-        help="How many messages to average over (default: %(default)s)",
-    )
+    _window_arguments(parser, "topic_name", "such as /turtle1/pose", 10_000)
     parser.add_argument(
         "--filter", dest="filter_expr", metavar="EXPR", help="Count a message m only where this expression is true"
     )
-    parser.add_argument(
-        "--wall-time", dest="use_wtime", action="store_true", help="Accepted; there is only one clock here"
-    )
+    flag(parser, "--wall-time", "Accepted; there is only one clock here", dest="use_wtime")
     add_node_arguments(parser, daemon=False)
     add_duration(parser)
 
@@ -365,7 +342,7 @@ def hz(args: Namespace) -> None:
     """`ros2 topic hz`."""
     from rclpy.qos import qos_profile_sensor_data
 
-    rate, wanted = Rate(args.window_size), filter_of(args.filter_expr)
+    rate, wanted = Rate(args.window), filter_of(args.filter_expr)
     with direct_node(args) as node:
         kind = wait_for_class(node, args.topic_name, stretch_of(args))
         listen(
@@ -380,15 +357,7 @@ def hz(args: Namespace) -> None:
 
 def bw_arguments(parser: ArgumentParser) -> None:
     """The arguments of bw."""
-    parser.add_argument("topic", help="Name of the topic, such as /turtle1/pose")
-    parser.add_argument(
-        "--window",
-        "-w",
-        metavar="WINDOW",
-        type=positive_int,
-        default=BW_WINDOW,
-        help="How many messages to average over (default: %(default)s)",
-    )
+    _window_arguments(parser, "topic", "such as /turtle1/pose", 100)
     add_node_arguments(parser, daemon=False)
     add_duration(parser)
 
@@ -436,15 +405,7 @@ def bw(args: Namespace) -> None:
 
 def delay_arguments(parser: ArgumentParser) -> None:
     """The arguments of delay."""
-    parser.add_argument("topic", help="Name of the topic, whose messages have a header")
-    parser.add_argument(
-        "--window",
-        "-w",
-        metavar="WINDOW",
-        type=positive_int,
-        default=DELAY_WINDOW,
-        help="How many messages to average over (default: %(default)s)",
-    )
+    _window_arguments(parser, "topic", "whose messages have a header", 10_000)
     add_node_arguments(parser, daemon=False)
     add_duration(parser)
 

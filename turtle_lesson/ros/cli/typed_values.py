@@ -6,23 +6,20 @@ import sys
 import warnings
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from ..idl.errors import InvalidDefinition
 from ..idl.names import did_you_mean
 from ..idl.registry import FOLDERS, registry
-from .verb import MOST, CommandError, expanded, suggest
+from .verb import MOST, CommandError, direct_node, expanded, flag, suggest
 
 if TYPE_CHECKING:
     from rclpy.node import Node
     from rclpy.qos import QoSProfile
 
 
-# -- typed values -------------------------------------------------------------------------------------------------
-# From what was typed to types, messages and names in the graph, or to a sentence that helps.
-
-# -- types --------------------------------------------------------------------------------------------------------
-# From a type's name as typed, such as `geometry_msgs/Twist`, to its class, or to a sentence that helps.
+# -- types -----------------------------------------------------------------------------------------------------------
 
 
 def message_class(name: str) -> Any:
@@ -95,8 +92,7 @@ def suggest_type(name: str, folder: str) -> str:
     return did_you_mean(full, [each for each in known if each != name])
 
 
-# -- values -------------------------------------------------------------------------------------------------------
-# What is typed as YAML, read safely, and put into the fields of a message.
+# -- values ----------------------------------------------------------------------------------------------------------
 
 MAX_LENGTH = 100_000
 """How many characters of YAML are read at most."""
@@ -157,35 +153,90 @@ def stamp(setters: list[Callable[[Any], None]], node: Node) -> None:
             set_stamp(now)
 
 
-# -- named --------------------------------------------------------------------------------------------------------
-# What `ros2 topic` and `ros2 service` say alike of the names in the graph and their types.
+# -- names in the graph ---------------------------------------------------------------------------------------------
 
 
-def unknown(kind: str, name: str, known: dict[str, list[str]]) -> CommandError:
-    """What is said of a topic or service (`kind`) that does not exist."""
-    return CommandError(f"Unknown {kind} '{name}'", suggest(name, known))
+@dataclass(frozen=True)
+class Names:
+    """The names of one kind in the graph, such as topics: what their `list`, `type` and `find` have alike.
+
+    Attributes:
+        kind: "topic", "service" or "action".
+        folder: the kind of their types: "msg", "srv" or "action".
+        examples: the name of one, and of a type.
+        known: all that are there with their types, also hidden ones if wanted.
+        common: adds the arguments that each of the verbs has.
+    """
+
+    kind: str
+    folder: str
+    examples: tuple[str, str]
+    known: Callable[[Node, bool], dict[str, list[str]]]
+    common: Callable[[ArgumentParser], object] = lambda parser: None
+
+    def list_arguments(self, parser: ArgumentParser) -> None:
+        """The arguments of `list`."""
+        self.common(parser)
+        flag(parser, "-t --show-types", f"Show each {self.kind}'s type beside it")
+        self._add_count(parser, "list")
+
+    def _add_count(self, parser: ArgumentParser, verb: str) -> None:
+        flag(parser, f"-c --count-{self.kind}s", "Print only how many there are")
+        if self.kind != "action":
+            flag(parser, f"--include-hidden-{self.kind}s", f"Also {verb} {self.kind}s with a hidden name")
+
+    def _chosen(self, args: Namespace) -> tuple[dict[str, list[str]], bool]:
+        """The names that `list` and `find` look through, and whether only their number is wanted."""
+        with direct_node(args) as node:
+            known = self.known(node, getattr(args, f"include_hidden_{self.kind}s", False))
+        return known, getattr(args, f"count_{self.kind}s")
+
+    def print_list(self, args: Namespace) -> None:
+        """Print the names, or how many there are."""
+        found, count = self._chosen(args)
+        if count:
+            print(len(found))
+            return
+        for name, types in found.items():
+            print(f"{name} [{', '.join(types)}]" if args.show_types else name)
+
+    def type_arguments(self, parser: ArgumentParser) -> None:
+        """The arguments of `type`."""
+        self.common(parser)
+        parser.add_argument(f"{self.kind}_name", help=f"Full name of the {self.kind}, such as {self.examples[0]}")
+
+    def print_type(self, args: Namespace) -> None:
+        """Print the types of a name. For an unknown one the real tool says nothing, and ends with exit code 1."""
+        with direct_node(args) as node:
+            known = self.known(node, True)
+        print(*self.types_of(getattr(args, f"{self.kind}_name"), known), sep="\n")
+
+    def types_of(self, name: str, known: dict[str, list[str]]) -> list[str]:
+        """The types of a name. Raises CommandError if there is no such name."""
+        if name not in known:
+            raise CommandError(f"Unknown {self.kind} '{name}'", suggest(name, known))
+        return known[name]
+
+    def find_arguments(self, parser: ArgumentParser) -> None:
+        """The arguments of `find`."""
+        self.common(parser)
+        parser.add_argument(f"{self.kind}_type", help=f"Name of the type, such as {self.examples[1]}")
+        self._add_count(parser, "find")
+
+    def print_found(self, args: Namespace) -> None:
+        """Print the names that have a type, or how many these are."""
+        known, count = self._chosen(args)
+        wanted = getattr(args, f"{self.kind}_type")
+        found = [name for name, types in known.items() if wanted in types]
+        if count:
+            print(len(found))
+        elif found:
+            print(*found, sep="\n")
+        elif about := unknown_type(wanted, self.folder):
+            print(about, file=sys.stderr)
 
 
-def print_types(kind: str, name: str, known: dict[str, list[str]]) -> None:
-    """The types of a name. For an unknown one the real tool says nothing, and ends with exit code 1."""
-    if name not in known:
-        raise unknown(kind, name, known)
-    print(*known[name], sep="\n")
-
-
-def print_names(type_name: str, folder: str, known: dict[str, list[str]], *, count: bool) -> None:
-    """The names that have a type, or only how many these are; `folder` is the kind of type: "msg" or "srv"."""
-    found = [name for name, types in known.items() if type_name in types]
-    if count:
-        print(len(found))
-    elif found:
-        print(*found, sep="\n")
-    elif about := unknown_type(type_name, folder):
-        print(about, file=sys.stderr)
-
-
-# -- qos arguments ------------------------------------------------------------------------------------------------
-# The `--qos-*` options, and quality of service as text.
+# -- quality of service ----------------------------------------------------------------------------------------------
 
 PRESETS = (
     "unknown",

@@ -1,4 +1,9 @@
-"""What the verbs of `ros2` share: their arguments, their node, their limits in robot time, and how they end."""
+"""What the verbs of `ros2` share: their arguments, their node, their limits in robot time, and how they end.
+
+Each command is a simulated process; a verb is ordinary blocking rclpy code in it. It prints to `sys.stdout` and
+`sys.stderr` as the real tool does, and `main` returns the exit code: 0, 1 after an error, 2 for wrong usage and for
+what would go on forever in a terminal (as after a Ctrl-C there).
+"""
 
 from __future__ import annotations
 
@@ -11,48 +16,14 @@ from typing import TYPE_CHECKING, Any
 
 from ..idl.names import did_you_mean, is_hidden
 from ..runtime.world import current_process
-from .parser import Verb
 
 if TYPE_CHECKING:
     from rclpy.node import Node
     from rclpy.task import Future
     from rclpy.topic_endpoint_info import TopicEndpointInfo
 
-__all__ = [
-    "DISCOVERY",
-    "HIDDEN_PREFIX",
-    "INTERRUPTED",
-    "PATIENCE",
-    "STRETCH",
-    "Command",
-    "CommandError",
-    "Interrupted",
-    "Verb",
-    "absolute",
-    "add_duration",
-    "add_node_arguments",
-    "answer_of",
-    "direct_node",
-    "end_of_stretch",
-    "expanded",
-    "frequency",
-    "node_names",
-    "now",
-    "of_the_classroom",
-    "positive_float",
-    "publishers",
-    "remark",
-    "services",
-    "spin_for",
-    "stretch_of",
-    "subscriptions",
-    "suggest",
-    "topics",
-]
 
-
-# -- arg types ----------------------------------------------------------------------------------------------------
-# Numbers as arguments: times, frequencies and counts, within what makes sense in a simulated world.
+# -- numbers as arguments, within what makes sense in a simulated world ----------------------------------------------
 
 LONGEST = 86_400.0
 """How long, in s of robot time, a command can be told to go on: a day."""
@@ -126,12 +97,6 @@ def unsigned_int(text: str) -> int:
     return int(text)
 
 
-# -- verb ---------------------------------------------------------------------------------------------------------
-# What the verbs of the `ros2` command line share: their node, their limits in robot time, and how they end.
-# Each command is a simulated process; a verb is ordinary blocking rclpy code in it. It prints to `sys.stdout` and
-# `sys.stderr` as the real tool does, and `main` returns the exit code: 0, 1 after an error, 2 for wrong usage and for
-# what would go on forever in a terminal (as after a Ctrl-C there).
-
 STRETCH = 5.0
 """How long, in s of robot time, goes on what never ends in a terminal, unless `--for` tells otherwise."""
 
@@ -186,6 +151,11 @@ class Command:
 # -- arguments that several verbs have ---------------------------------------------------------------------------
 
 
+def flag(parser: Any, options: str, text: str, **more: Any) -> None:
+    """Add an option without a value, which is false unless it is given; `options` are its spellings."""
+    parser.add_argument(*options.split(), action="store_true", help=text, **more)
+
+
 def add_node_arguments(parser: ArgumentParser, *, daemon: bool = True) -> None:
     """Arguments of every verb that looks at the graph. A simulated world needs no daemon and no simulated clock."""
     parser.add_argument(
@@ -193,9 +163,9 @@ def add_node_arguments(parser: ArgumentParser, *, daemon: bool = True) -> None:
         type=seconds,
         help=f"Seconds of robot time to spend on discovery first (default: {DISCOVERY})",
     )
-    parser.add_argument("-s", "--use-sim-time", action="store_true", help="Accepted; all time here is simulated")
+    flag(parser, "-s --use-sim-time", "Accepted; all time here is simulated")
     if daemon:
-        parser.add_argument("--no-daemon", action="store_true", help="Accepted; no daemon is needed here")
+        flag(parser, "--no-daemon", "Accepted; no daemon is needed here")
 
 
 def add_duration(parser: ArgumentParser) -> None:
@@ -245,6 +215,23 @@ def answer_of(node: Node, future: Future, seconds: float | None = None) -> Any:
 
     rclpy.spin_until_future_complete(node, future, timeout_sec=seconds)
     return future.result() if future.done() else None
+
+
+def ask(node: Node, kind: Any, service: str, not_there: str, request: dict[str, Any]) -> Any:
+    """The answer of a node's own service, such as /turtlesim/get_parameters.
+
+    Raises CommandError, with `not_there` if the node has no such service: the real tool waits forever for a busy node.
+    """
+    client = node.create_client(kind, service)
+    if not client.wait_for_service(timeout_sec=PATIENCE):
+        raise CommandError(not_there)
+    response = answer_of(node, client.call_async(kind.Request(**request)), PATIENCE)
+    if response is None:
+        name = service.rpartition("/")[0]
+        raise CommandError(
+            f"No answer from {name} in {PATIENCE:g} s of robot time: is it busy in a callback, or not spinning?"
+        )
+    return response
 
 
 def spin_for(node: Node, seconds: float | None, done: Future | None = None) -> bool:
@@ -351,11 +338,7 @@ def suggest(name: str, known: Iterable[str]) -> str:
     return did_you_mean(name, [each for each in known if each != name])
 
 
-# -- in cell ------------------------------------------------------------------------------------------------------
-# Commands that need neither robot time nor a node: they run in the cell itself, not as a process.
-
-
 class CellCommand(Command):
-    """As `Command`, but run in the cell."""
+    """A command that needs neither robot time nor a node: it runs in the cell itself, not as a process."""
 
     in_cell = True
