@@ -6,7 +6,6 @@ A ROS clock that is told to (by the parameter use_sim_time of its node) follows 
 from __future__ import annotations
 
 from collections.abc import Callable
-from enum import IntEnum
 from typing import TYPE_CHECKING, Any
 
 from turtle_lesson.ros.runtime.world import current_world
@@ -14,7 +13,7 @@ from turtle_lesson.ros.sim.simulation import EPOCH
 
 from ._blocking import WakeUp, drives_the_simulation
 from ._entity import Handle
-from .clock_type import ClockType
+from .clock_type import CEnum, ClockType
 from .context import Context
 from .duration import Duration
 from .exceptions import NotInitializedException
@@ -213,19 +212,13 @@ class ROSClock(Clock):
 # -- jumps of a clock (which callbacks are called: rcl's time.c) ------------------------------------------------------
 
 
-class ClockChange(IntEnum):
+class ClockChange(CEnum):
     """Whether a jump changes the source of ROS time: /clock (activated), or the system's clock (deactivated)."""
 
     ROS_TIME_NO_CHANGE = 1
     ROS_TIME_ACTIVATED = 2
     ROS_TIME_DEACTIVATED = 3
     SYSTEM_TIME_NO_CHANGE = 4
-
-    def __str__(self) -> str:
-        return f"ClockChange.{self.name}"
-
-    def __format__(self, format_spec: str) -> str:
-        return format(str(self), format_spec)
 
 
 class JumpThreshold:

@@ -10,6 +10,7 @@ import inspect
 from collections import deque
 from collections.abc import Callable
 from random import Random
+from types import GenericAlias
 from typing import TYPE_CHECKING, Any
 from uuid import UUID as Number
 
@@ -104,6 +105,27 @@ def _detached(node: Node, part: Any) -> Any:
     if isinstance(part, Entity):
         part._executor = None
     return part
+
+
+class ActionEndpoint:
+    """Base class of action clients and servers."""
+
+    __class_getitem__: Any = classmethod(GenericAlias)  # newer releases: ActionClient[Goal, Result, Feedback] in a hint
+    _entity: ActionEntity
+    _name: str
+
+    def __enter__(self) -> Any:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        """Nothing is released: as in rclpy, the endpoint lives on."""
+
+    def _on_arrival(self) -> None:
+        """A message or request has come; it is taken when the executor gets to it."""
+
+    def destroy(self) -> None:
+        """Leave the action: answers under way are dropped, goals that go on are not followed any more."""
+        self._entity.destroy()
 
 
 class ActionEntity(Entity):

@@ -22,7 +22,7 @@ from ..callback_groups import CallbackGroup
 from ..client import Client
 from ..qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
 from ..task import Future
-from ._endpoints import ActionEntity, call_back, check_action, full_names, make_parts, new_goal_id
+from ._endpoints import ActionEndpoint, ActionEntity, call_back, check_action, full_names, make_parts, new_goal_id
 from ._goals import ACTIVE, key_of
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ FEEDBACK = QoSProfile(depth=10)
 POLL = 0.25  # how often, in s, the real one looks whether a server has appeared (client.py)
 
 
-class ActionClient:
+class ActionClient(ActionEndpoint):
     """Sends goals to an action's server.
 
     Args:
@@ -51,8 +51,6 @@ class ActionClient:
         action_name: its name.
         callback_group: for the taking of answers and feedback; the node's default one if none is given.
     """
-
-    __class_getitem__: Any = classmethod(GenericAlias)  # newer releases: ActionClient[Goal, Result, Feedback] in a hint
 
     def __init__(
         self,
@@ -269,19 +267,6 @@ class ActionClient:
 
     def _may_call_back(self) -> bool:
         return bool(self._feedback_callbacks) or any(client._waiting for client in self._clients)
-
-    def __enter__(self) -> ActionClient:
-        return self
-
-    def __exit__(self, *error: object) -> None:
-        """Nothing to let go of."""
-
-    def destroy(self) -> None:
-        """Leave the action; answers under way are dropped."""
-        self._entity.destroy()
-
-    def _on_arrival(self) -> None:
-        """Nothing to do at once."""
 
     def _end(self) -> None:
         self._feedback_callbacks.clear()

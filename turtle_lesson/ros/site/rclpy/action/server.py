@@ -11,7 +11,6 @@ import inspect
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from enum import Enum
-from types import GenericAlias
 from typing import TYPE_CHECKING, Any
 
 from action_msgs.msg import GoalInfo, GoalStatus, GoalStatusArray
@@ -28,7 +27,7 @@ from ..callback_groups import CallbackGroup
 from ..exceptions import RCLError
 from ..impl.logging_severity import LoggingSeverity
 from ..qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
-from ._endpoints import ActionEntity, call_back, check_action, full_names, make_parts
+from ._endpoints import ActionEndpoint, ActionEntity, call_back, check_action, full_names, make_parts
 from ._goals import GoalEvent, Goals, ServerGoalHandle, goals_to_cancel
 
 if TYPE_CHECKING:
@@ -71,7 +70,7 @@ OVERHEAD = 200_000
 goal hears that it was accepted before there is any feedback."""
 
 
-class ActionServer:
+class ActionServer(ActionEndpoint):
     """Offers an action.
 
     Args:
@@ -86,8 +85,6 @@ class ActionServer:
         result_timeout: how long, in s, a goal that has ended is remembered, so that its result can be asked for. Until
             Iron this time begins when the goal is accepted.
     """
-
-    __class_getitem__: Any = classmethod(GenericAlias)  # newer releases: ActionServer[Goal, Result, Feedback] in a hint
 
     def __init__(
         self,
@@ -355,16 +352,6 @@ class ActionServer:
 
     def _may_call_back(self) -> bool:
         return True
-
-    def __enter__(self) -> ActionServer:
-        return self
-
-    def __exit__(self, *error: object) -> None:
-        """Nothing to let go of."""
-
-    def destroy(self) -> None:
-        """Stop offering the action. Goals that go on are not followed any more."""
-        self._entity.destroy()
 
     def _end(self) -> None:
         self._goals.forget_all()
