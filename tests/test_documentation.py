@@ -60,6 +60,15 @@ def test_every_room_has_its_row(folder: Path) -> None:
     assert rooms <= set(re.findall(r"^\| `(\w+)` \|", document.read_text(encoding="utf-8"), re.MULTILINE))
 
 
+def test_the_rooms_of_ros_stand_in_the_order_of_their_contract() -> None:
+    declared = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["importlinter"]["contracts"]
+    (layers,) = (contract["layers"] for contract in declared if contract["id"] == "ros")
+    height = {name: at for at, layer in enumerate(layers) for name in re.findall(r"ros\.(\w+)", layer) or ["site"]}
+    text = (PACKAGE / "ros" / "README.md").read_text(encoding="utf-8")
+    heights = [height[name] for name in re.findall(r"^\| `(\w+)` \|", text, re.MULTILINE)]
+    assert heights == sorted(heights)
+
+
 def test_the_changelog_begins_with_the_version() -> None:
     changelog = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
     declared = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
