@@ -162,7 +162,7 @@ def test_a_node_that_goes_and_comes_back(lesson: Lesson) -> None:
 
 
 def look(panel: Any) -> None:
-    panel._looks._next = -1.0
+    panel._paces.clear()
     panel.tick()
 
 

@@ -107,7 +107,7 @@ def test_it_says_when_nobody_listens_and_who_does_elsewhere(lesson: Lesson) -> N
     assert lesson.teleop().unheard == ""
     listen(lesson, "/turtle9/cmd_vel")
     widget = lesson.teleop("/turtle9/cmd_vel")
-    widget._looks._next = -1.0
+    widget._paces.clear()
     widget.tick()
     assert widget.unheard == ""
 

@@ -11,7 +11,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from numbers import Real
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from . import drawing, style
 from .path import TOLERANCE, WORLD, Goal
@@ -25,27 +25,6 @@ NO_GUESS = "no guess yet"
 
 TYPED = re.compile(r"\s*([+-]?(?:\d+[.,]?\d*|[.,]\d+)(?:e[+-]?\d+)?)\s*(.*?)\s*", re.I)
 """A number and its unit, as somebody types them."""
-
-
-class Kind(Protocol):
-    """What is guessed: it reads values, says them in words, and compares two."""
-
-    @property
-    def name(self) -> str:
-        """ "choice", "number" or "point"."""
-        ...
-
-    def read(self, value: Any) -> Any:
-        """The value as it is kept. Raises ValueError, in words, for what it cannot be."""
-        ...
-
-    def shown(self, value: Any) -> str:
-        """A value in words."""
-        ...
-
-    def compared(self, guess: Any, value: Any) -> str:
-        """How near a guess was."""
-        ...
 
 
 @dataclass(frozen=True)
@@ -133,6 +112,9 @@ class Point:
         """How far apart they are."""
         return f"{number(math.dist(guess, value))} m off."
 
+
+Kind = Choice | Number | Point
+"""What is guessed: it reads values, says them in words, and compares two."""
 
 UNITS: dict[str, dict[str, float]] = {
     "s": {"sec": 1, "second": 1, "ms": 0.001, "millisecond": 0.001, "min": 60, "minute": 60},

@@ -142,38 +142,29 @@ DEPTH = 1000
 """Messages that wait if the recorder's node is not spun for a while: 16 seconds of a turtle's pose."""
 
 
+@dataclass(eq=False)
 class Channel:
-    """Follows one topic of one type.
+    """Follows one topic of one type: subscribed to as long as somebody is at its other end.
 
-    `make_listener` is given the message class and returns the two-argument callback. With `driven`, it
-    subscribes while somebody else subscribes (a topic that drives a machine); otherwise while somebody
-    publishes. `latched` asks for the last message from before, too. `remedy` is what to try where no node publishes,
-    `patience` where somebody does, who has said nothing yet.
+    A topic that drives a machine (`driven`) is followed while somebody else subscribes to it, any other while somebody
+    publishes it.
     """
 
-    def __init__(
-        self,
-        node: Any,
-        topic: str,
-        type_name: str,
-        make_listener: Callable[[Any], Listener],
-        remedy: str,
-        *,
-        driven: bool = False,
-        latched: bool = False,
-        patience: str = "Let time pass: lesson.run(1.0)",
-    ) -> None:
-        self.node = node
-        self.topic = topic
-        self.type_name = type_name
-        self.remedy = remedy
-        self.patience = patience
-        self.driven = driven
-        self.latched = latched
-        self._make_listener = make_listener
-        self._message_type: Any = None
-        self._subscription: Any = None
-        self._count = -1
+    node: Any
+    topic: str
+    type_name: str
+    make_listener: Callable[[Any], Listener]
+    """It is given the message class and returns the two-argument callback."""
+    remedy: str
+    """What to try where no node publishes."""
+    driven: bool = False
+    latched: bool = False
+    """Whether to ask for the last message from before, too."""
+    patience: str = "Let time pass: lesson.run(1.0)"
+    """What to try where a node publishes that has said nothing yet."""
+    _message_type: Any = None
+    _subscription: Any = None
+    _count: int = -1
 
     def __repr__(self) -> str:
         state = "listening" if self._subscription else "waiting"
@@ -194,7 +185,7 @@ class Channel:
         self.close()
         if message_type is not None:
             self._message_type = message_type
-            listener = with_time(self.node, self._make_listener(message_type))
+            listener = with_time(self.node, self.make_listener(message_type))
             self._subscription = self.node.create_subscription(message_type, self.topic, listener, self._quality())
 
     def close(self) -> None:

@@ -23,12 +23,10 @@ class Clock(Protocol):
     @property
     def playing(self) -> bool:
         """Whether robot time goes on by itself."""
-        ...
 
     @property
     def rate(self) -> float:
         """How many times as fast as life it goes on, or will when it is played; infinite for as fast as possible."""
-        ...
 
     @rate.setter
     def rate(self, rate: float) -> None: ...
@@ -36,24 +34,19 @@ class Clock(Protocol):
     @property
     def wall_seconds(self) -> float:
         """Seconds of real time for which it has played since `play`."""
-        ...
 
     @property
     def speed(self) -> float:
         """How many times as fast as life it really goes; 0 while it stands still."""
-        ...
 
     def play(self, rate: float) -> None:
         """Let robot time go on by itself."""
-        ...
 
     def pause(self) -> None:
         """Let it stand still."""
-        ...
 
     def step(self, seconds: float) -> None:
         """Let some seconds pass at once."""
-        ...
 
 
 class Backend(Protocol):
@@ -77,12 +70,10 @@ class Backend(Protocol):
     @property
     def now(self) -> float:
         """Robot time: seconds since the recorder's origin."""
-        ...
 
     @property
     def ended(self) -> bool:
         """Whether this system is gone, so that its widgets have nothing to show any more."""
-        ...
 
 
 class Link:
@@ -149,13 +140,15 @@ class Loop:
 
     def every(self, seconds: float, action: Callable[[], object]) -> asyncio.Task[None] | None:
         """Call `action` again and again; cancel the task to end that. None where there is no loop."""
-        return None if self._loop is None else self._loop.create_task(_again_and_again(seconds, action))
+        loop = self._loop
+        if loop is None:
+            return None
 
+        async def again_and_again() -> None:
+            due = loop.time()
+            while True:
+                due = max(due + seconds, loop.time())
+                await asyncio.sleep(due - loop.time())
+                action()
 
-async def _again_and_again(seconds: float, action: Callable[[], object]) -> None:
-    loop = asyncio.get_running_loop()
-    due = loop.time()
-    while True:
-        due = max(due + seconds, loop.time())
-        await asyncio.sleep(due - loop.time())
-        action()
+        return loop.create_task(again_and_again())

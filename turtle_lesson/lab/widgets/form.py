@@ -11,7 +11,7 @@ from ..words import count, did_you_mean, enumerated, is_hidden, listed
 from .backend import Backend
 from .form_fields import FieldError, Group, Rows, Single, find_part
 from .lazy_endpoints import Caller, Outlet, let_time_go_on
-from .live_widget import LiveWidget, Pace, script, styles
+from .live_widget import LiveWidget, script, styles
 from .message_types import find_class
 
 FASTEST = 100.0
@@ -62,7 +62,6 @@ class Form(LiveWidget):
         self._caller = Caller(backend, message_class, full)
         self._timer: Any = None
         self._last: Any = None
-        self._looks = Pace(3)
         super().__init__(backend, name=full, kind=kind, type_name=type_name)
         self._bring_up_to_date(fields_too=True)
         self.tick()
@@ -177,7 +176,7 @@ class Form(LiveWidget):
         self._caller.look()
         self._outlet.flush()
         self.running = self._timer is not None or self._caller.asking
-        if self._looks.due():
+        if self.due("listeners", 3):
             self.unheard = self._outlet.why_unheard() if self.kind == "topic" else self._caller.why_unheard()
 
     def closed(self) -> None:

@@ -6,17 +6,9 @@ import math
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from .message_types import (
-    FLOATS,
-    INTEGERS,
-    LARGEST_FLOAT32,
-    Kind,
-    constants_of,
-    find_class,
-    kinds_of,
-    limits_of,
-    plain,
-)
+from .message_types import FLOATS, INTEGERS, Kind, constants_of, find_class, kinds_of, limits_of, plain
+
+LARGEST_FLOAT32 = 3.402823466e38
 
 MOST_ROWS = 64
 """More rows than this are no work for a form but for a program."""
@@ -34,7 +26,7 @@ class Single:
     def __init__(self, name: str, path: str, kind: Kind, value: Any, constants: dict[str, Any]) -> None:
         self.name, self.path, self.kind = name, path, kind
         self.default = plain(value, kind)
-        self.text: str | bool = self.default if isinstance(self.default, bool) else _shown(self.default)
+        self.text: str | bool = self.default if isinstance(self.default, (bool, str)) else repr(self.default)
         self.constants = {each: found for each, found in constants.items() if self._fits(found)}
 
     def value(self) -> Any:
@@ -279,10 +271,6 @@ def _meant_for(field: str, kinds: dict[str, Kind], constants: dict[str, Any]) ->
     return {name: value for name, value in constants.items() if not name.startswith(tuple(taken))}
 
 
-def _shown(value: Any) -> str:
-    return value if isinstance(value, str) else repr(value)
-
-
 def _same(one: Any, other: Any) -> bool:
     return one == other or (one != one and other != other)  # not-a-number is none of the two, and no news
 
@@ -311,6 +299,4 @@ def _no_number(text: str, wanted: str) -> str:
     if not text:
         return f"{wanted} is missing"
     shown = text if len(text) <= 30 else f"{text[:30]}…"
-    if "," in text:
-        return f'{wanted} is wanted, got "{shown}": write a point, not a comma'
-    return f'{wanted} is wanted, got "{shown}"'
+    return f'{wanted} is wanted, got "{shown}"' + (": write a point, not a comma" if "," in text else "")

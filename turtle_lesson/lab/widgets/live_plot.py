@@ -17,7 +17,7 @@ from ..recording import NANOSECONDS, OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, T
 from ..status import label_beside, spread
 from ..words import count, did_you_mean, enumerated, is_hidden, nearest, number
 from .backend import Backend
-from .live_widget import LiveWidget, Pace, pack, script, styles
+from .live_widget import LiveWidget, pack, script, styles
 from .message_types import find_class, kinds_of
 
 KEPT = 20_000
@@ -205,7 +205,6 @@ class LivePlot(LiveWidget):
         self._curves = [Curve(asked) for asked in dict.fromkeys(_checked(backend.node, fields))]
         self._channels: dict[str, Channel] = {}
         self._timer: Any = None
-        self._looks, self._labels = Pace(2), Pace(0.5)
         if isinstance(seconds, bool) or not isinstance(seconds, (int, float)) or not 0.1 <= seconds <= 3600:
             raise ValueError(f"seconds must be a number of seconds from 0.1 to 3600, got {seconds!r}: try seconds=30.0")
         self._refuse_mistakes(backend)
@@ -293,7 +292,7 @@ class LivePlot(LiveWidget):
             times, values = thinned(*self.window(curve), self.seconds / COLUMNS)
             parts += [np.array([len(times)]), np.column_stack([times - self.anchor, values]).ravel()]
         self.points = pack(np.concatenate(parts))
-        if self._looks.due():
+        if self.due("topics", 2):
             self._look()
         self.curves = [
             {
@@ -304,7 +303,7 @@ class LivePlot(LiveWidget):
             }
             for curve in self._curves
         ]
-        if self._labels.due():
+        if self.due("label", 0.5):
             self.label = self.text()
 
     def _note(self, curve: Curve) -> str:

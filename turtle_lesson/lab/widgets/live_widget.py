@@ -81,6 +81,7 @@ class LiveWidget(anywidget.AnyWidget):
         """`backend` is a `Link` to it."""
         self.backend = backend
         self._seen: dict[str, float] = {}
+        self._paces: dict[str, Pace] = {}
         super().__init__(**traits)
         self._views = Views(backend.loop, 1 / self.RATE, self._tick, self.opened, self.closed)
         self.on_msg(backend.loop.hopping(self._order))
@@ -88,6 +89,12 @@ class LiveWidget(anywidget.AnyWidget):
 
     def tick(self) -> None:
         """Bring the traits up to date."""
+
+    def due(self, what: str, hertz: float) -> bool:
+        """Whether it is time again for what is done so many times a second of real time at most."""
+        if what not in self._paces:
+            self._paces[what] = Pace(hertz)
+        return self._paces[what].due()
 
     def opened(self) -> None:
         """The first view was opened: begin to listen."""
@@ -140,12 +147,11 @@ class LiveWidget(anywidget.AnyWidget):
             self._carry_out(name, order)
 
     def _carry_out(self, name: object, order: dict[str, Any]) -> None:
-        method: Callable[..., None] | None = getattr(self, f"do_{name}", None) if isinstance(name, str) else None
-        if method is None:
+        if not isinstance(name, str) or not hasattr(self, f"do_{name}"):
             self.words = f"This widget cannot {name!r}."
             return
         try:
-            method(**order)
+            getattr(self, f"do_{name}")(**order)
         except Exception as error:
             self.words = f"{error}"
         self._tick()
@@ -237,7 +243,7 @@ class Views:
     def heard(self, view: str) -> None:
         """A view says that it is there."""
         first = not self._heard
-        self._heard[str(view)] = real_monotonic()
+        self._heard[view] = real_monotonic()
         if first:
             self._opened()
             self._task = self._loop.every(self._seconds, self._again)
@@ -245,7 +251,7 @@ class Views:
 
     def gone(self, view: str) -> None:
         """A view says good-bye."""
-        if self._heard.pop(str(view), None) is not None and not self._heard:
+        if self._heard.pop(view, None) is not None and not self._heard:
             self._stop()
 
     def clear(self) -> None:

@@ -19,8 +19,6 @@ NUMBERS = INTEGERS | FLOATS | {"octet", "char"}
 NAMES = {"float": "float32", "double": "float64", "boolean": "bool", "octet": "byte"}
 """How a .msg file calls what a Python class calls by its IDL name."""
 
-LARGEST_FLOAT32 = 3.402823466e38
-
 _SEQUENCE = re.compile(r"sequence<(.+?)(?:, (\d+))?>$")
 _FIXED = re.compile(r"(.+)\[(\d+)\]$")
 _BOUNDED_TEXT = re.compile(r"(w?string)<(\d+)>$")
@@ -96,10 +94,6 @@ def limits_of(base: str) -> tuple[int, int]:
         return 0, 255
     bits = int(base.lstrip("uint"))
     return (0, 2**bits - 1) if base.startswith("u") else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
-
-
-ACTION_PARTS = {"_FeedbackMessage": "FeedbackMessage", "_SendGoal": "SendGoalService", "_GetResult": "GetResultService"}
-"""What an action's topics and services carry: the end of the type's name, and where its class is (in `Impl`)."""
 
 
 def find_class(type_name: str) -> Any:

@@ -16,7 +16,7 @@ from ..scan import Beams, read_beams
 from ..words import is_hidden, listed, number
 from .backend import Backend
 from .lazy_endpoints import Ear, servers
-from .live_widget import LiveWidget, Pace, pack
+from .live_widget import LiveWidget, pack
 
 
 def why_silent(backend: Backend, topic: str) -> str:
@@ -46,15 +46,12 @@ class StatusPanel(LiveWidget):
     status_note = traitlets.Unicode().tag(sync=True)
     """Why there is no status, if there is none."""
 
-    def __init__(self, *arguments: Any, **traits: Any) -> None:
-        self._status_pace, self._status_note_pace = Pace(10), Pace(1)
-        self._status_seen: tuple[float, int] | None = None
-        super().__init__(*arguments, **traits)
+    _status_seen: tuple[float, int] | None = None
 
     def tick(self) -> None:
         """Read the newest statuses."""
         super().tick()
-        if not self._status_pace.due():
+        if not self.due("status", 10):
             return
         recorder, now = self.backend.recorder, self.backend.now
         newest = recorder.statuses.newest(1)
@@ -65,7 +62,7 @@ class StatusPanel(LiveWidget):
         if len(newest):
             age = now - float(recorder.seconds(stamp))
             self.status_note = f"No status for {age:.0f} s." if age > STATUS_IS_LATE else ""
-        elif self._status_note_pace.due():
+        elif self.due("status note", 1):
             self.status_note = why_silent(self.backend, STATUS_TOPIC)
 
 
@@ -93,14 +90,10 @@ class LightsPanel(LiveWidget):
     lights = traitlets.List(traitlets.Dict()).tag(sync=True)
     """"name", "kind" ("node" or "service"), "state" ("present", "missing", "several", "extra") and "words" for each."""
 
-    def __init__(self, *arguments: Any, **traits: Any) -> None:
-        self._lights_pace = Pace(2)
-        super().__init__(*arguments, **traits)
-
     def tick(self) -> None:
         """Look at the graph, now and then."""
         super().tick()
-        if self._lights_pace.due():
+        if self.due("lights", 2):
             self.lights = look(self.backend.node)
 
 
@@ -153,7 +146,6 @@ class LogPanel(LiveWidget):
     """Lines below this level are not shown."""
 
     def __init__(self, *arguments: Any, **traits: Any) -> None:
-        self._log_pace = Pace(5)
         self._log_waiting: list[tuple[int, str, str, str]] = []
         self._log_count = 0
         self._log_newest = self._log_read_until = 0
@@ -183,7 +175,7 @@ class LogPanel(LiveWidget):
     def tick(self) -> None:
         """Take over the lines that have come."""
         super().tick()
-        if self._log_waiting and self._log_pace.due():
+        if self._log_waiting and self.due("log", 5):
             waiting, self._log_waiting = self._log_waiting, []
             self._add_lines(sorted(waiting, key=itemgetter(0)))
 
@@ -271,10 +263,7 @@ class RatesPanel(LiveWidget):
     rates_more = traitlets.Int(0).tag(sync=True)
     """How many topics are not shown."""
 
-    def __init__(self, *arguments: Any, **traits: Any) -> None:
-        self._rates_pace, self._topics_pace = Pace(4), Pace(1)
-        self._ears: dict[str, Ear] | None = None
-        super().__init__(*arguments, **traits)
+    _ears: dict[str, Ear] | None = None
 
     def opened(self) -> None:
         """Listen to the topics that nobody hears yet, from the next look at the graph on."""
@@ -291,9 +280,9 @@ class RatesPanel(LiveWidget):
     def tick(self) -> None:
         """Look which topics there are, now and then, and measure."""
         super().tick()
-        if self._ears is not None and self._topics_pace.due():
+        if self._ears is not None and self.due("topics", 1):
             self._follow_topics(self._ears)
-        if self._rates_pace.due():
+        if self.due("rates", 4):
             self.rates = [*self._expected_rows(), *self._other_rows()]
 
     def _now(self) -> int:
@@ -367,20 +356,17 @@ class ScanPanel(LiveWidget):
     scan_words = traitlets.Dict().tag(sync=True)
     """"nearest" and "count" in words, the index of the nearest "beam" (-1: none), and a "note" on silence."""
 
-    def __init__(self, *arguments: Any, **traits: Any) -> None:
-        self._scan_pace, self._scan_note_pace = Pace(10), Pace(1)
-        self._scan_read: Any = None
-        super().__init__(*arguments, **traits)
+    _scan_read: Any = None
 
     def tick(self) -> None:
         """Read the newest scan."""
         super().tick()
-        if not self._scan_pace.due():
+        if not self.due("scan", 10):
             return
         recorder = self.backend.recorder
         scan = recorder.last_scan
         if scan is None:
-            if self._scan_note_pace.due():
+            if self.due("scan note", 1):
                 note = why_silent(self.backend, SCAN_TOPIC)
                 self.scan_words = {"beam": -1, "nearest": "", "count": "", "note": note}
             return

@@ -17,7 +17,7 @@ from ..recording import UNDER_WAY, Table
 from ..words import angle, count, listed, point
 from .goal_client import Goal, GoalDesk
 from .lazy_endpoints import let_time_go_on
-from .live_widget import LiveWidget, Pace, pack
+from .live_widget import LiveWidget, pack
 
 # -- map ------------------------------------------------------------------------------------------------------------
 
@@ -105,8 +105,6 @@ class ClockPanel(LiveWidget):
     wall = traitlets.Dict().tag(sync=True)
     """The "seconds" of wall time since it was played, and the "speed" that it really reaches; 0 while it stands still."""
 
-    _wall_pace: Pace | None = None
-
     def tick(self) -> None:
         """Read the clock."""
         super().tick()
@@ -117,8 +115,7 @@ class ClockPanel(LiveWidget):
             return
         rate = clock.rate if math.isfinite(clock.rate) else FASTEST
         state = {"turns": True, "playing": clock.playing, "rate": rate}
-        self._wall_pace = self._wall_pace or Pace(5)
-        if self._wall_pace.due() or state != self.clock:
+        if self.due("wall", 5) or state != self.clock:
             self.wall = {"seconds": round(clock.wall_seconds, 1), "speed": float(f"{clock.speed:.2g}")}
         self.clock = state
 
@@ -214,7 +211,10 @@ class EditorPanel(LiveWidget):
 
     def _free_place(self) -> tuple[float, float]:
         """A place away from the turtle and the obstacles, as near to the middle as can be."""
-        taken = [(each.x, each.y, _reach(each)) for each in self.backend.board.obstacles]
+        taken = [
+            (each.x, each.y, each.radius if isinstance(each, Circle) else math.hypot(each.width, each.height) / 2)
+            for each in self.backend.board.obstacles
+        ]
         taken += [(float(x), float(y), ROOM) for _, x, y, *_ in self.backend.recorder.poses.newest(1)]
         steps = [0.5 + 0.5 * step for step in range(21)]
         places = sorted(product(steps, steps), key=lambda place: math.dist(place, (MIDDLE, MIDDLE)))
@@ -222,11 +222,6 @@ class EditorPanel(LiveWidget):
             if all(math.dist(place, (x, y)) > reach + ROOM for x, y, reach in taken):
                 return place
         return MIDDLE, MIDDLE
-
-
-def _reach(obstacle: Any) -> float:
-    """How far an obstacle reaches from its middle at most, m."""
-    return obstacle.radius if isinstance(obstacle, Circle) else math.hypot(obstacle.width, obstacle.height) / 2
 
 
 # -- goals ----------------------------------------------------------------------------------------------------------
@@ -331,8 +326,13 @@ class Trail:
         places = zip(rows["x"].tolist(), rows["y"].tolist(), strict=True)
         for number, (x, y) in enumerate(islice(places, 1, None), start=1):
             self._add(x, y, number in jumps)
-        if len(self._new) != before:
-            self._pack()
+        if len(self._new) == before:
+            return
+        if len(self._new) > TAIL or not self.whole:
+            self._points = [*self._points, *self._new][-POINTS:]
+            self._new = []
+            self.whole = pack(self._points)
+        self.tail = pack(self._new)
 
     def _fresh_rows(self) -> np.ndarray:
         """The last row that was used, and those after it; all rows when there was none."""
@@ -352,10 +352,3 @@ class Trail:
             self._new += [GAP, (x, y)]
         elif not points or math.hypot(x - points[-1][0], y - points[-1][1]) >= SPACING:
             self._new.append((x, y))
-
-    def _pack(self) -> None:
-        if len(self._new) > TAIL or not self.whole:
-            self._points = [*self._points, *self._new][-POINTS:]
-            self._new = []
-            self.whole = pack(self._points)
-        self.tail = pack(self._new)

@@ -8,7 +8,7 @@ import traitlets
 
 from ..words import count, did_you_mean, enumerated, is_hidden
 from .backend import Backend
-from .live_widget import LiveWidget, Pace, script, styles
+from .live_widget import LiveWidget, script, styles
 from .parameter_client import BOOL, DOUBLE, INTEGER, TYPES, Found, ParameterDesk, node_names, read, shown
 
 
@@ -32,7 +32,6 @@ class ParametersPanel(LiveWidget):
         self._answers: dict[str, int] = {}
         self._pending: set[str] = set()
         self._there = True
-        self._looks = Pace(3)
         super().__init__(backend, node_name=name)
         self._desk.listen()
         self._show()
@@ -72,7 +71,7 @@ class ParametersPanel(LiveWidget):
 
     def tick(self) -> None:
         """See whether the node is still there, and ask again when it has come back."""
-        if not self._looks.due():
+        if not self.due("node", 3):
             return
         there = self._desk.is_there
         if there and (not self._there or (self._desk.problem and not self._desk.known)):

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 import traitlets
 
-from ...ros.stdlib.clocks import real_monotonic
 from ..recording import UNDER_WAY
 from ..words import point
 from . import scene_commands as parts
@@ -21,10 +20,8 @@ if TYPE_CHECKING:
     from .scene_page import ScenePage
 
 SCRIPTS = ("dom", "scene_theme", "scene_quality", "scene_stage", "scene_camera", "scene_view")
-TRAIL_PERIOD = 0.1
-"""The trail is sent again at most so often, in seconds; what the turtle stands on, nobody sees."""
-DESCRIPTION_PERIOD = 1.0
-"""So often at most, a screen reader's description of the scene changes, in seconds."""
+TRAIL_RATE, DESCRIPTION_RATE = 10.0, 1.0
+"""So many times a second at most, the trail and a screen reader's description of the scene are sent again."""
 
 
 def _commands() -> Any:
@@ -59,7 +56,6 @@ class Scene(LiveWidget):
         self._css = styles("base", "scene")
         self._trail = Trail(backend.recorder.poses)
         self._drawn: dict[str, Any] = {}
-        self._due: dict[str, float] = {}
         super().__init__(backend, bundle=viewer_bundle(), stage=parts.stage())
         self.tick()
 
@@ -91,7 +87,7 @@ class Scene(LiveWidget):
 
     def redraw(self) -> None:
         """Bring everything up to date, also what usually waits a little; of an ended world, nothing changes."""
-        self._due.clear()
+        self._paces.clear()
         if not self.ended:
             self.tick()
 
@@ -103,25 +99,21 @@ class Scene(LiveWidget):
     def tick(self) -> None:
         """Send the parts that have changed."""
         super().tick()
-        self._draw_turtle()
-        self._draw_trail()
-        self._draw_scan()
-        self._draw_obstacles()
-        self._draw_goal()
-        if self._is_due("description", DESCRIPTION_PERIOD):
-            self.description = brief(self.backend.recorder, self._current_goal())
-
-    def _draw_turtle(self) -> None:
-        pose = newest_pose(self.backend.recorder)
+        recorder = self.backend.recorder
+        pose = newest_pose(recorder)
         if pose is not None and self._is_new("turtle", pose):
             self.turtle = parts.turtle_at(*pose)
-
-    def _draw_trail(self) -> None:
-        if not self._is_due("trail", TRAIL_PERIOD) or not self._trail.follow():
-            return
-        if self._is_new("trail", self._trail.changes):
-            self.trail = parts.trail("lab/trail", self._trail.old)
-        self.tip = parts.trail("lab/tip", [self._trail.tip])
+        if self.due("trail", TRAIL_RATE) and self._trail.follow():
+            if self._is_new("trail", self._trail.changes):
+                self.trail = parts.trail("lab/trail", self._trail.old)
+            self.tip = parts.trail("lab/tip", [self._trail.tip])
+        self._draw_scan()
+        standing = list(recorder.obstacles.values())
+        if self._is_new("obstacles", standing):
+            self.obstacles = parts.obstacles(standing)
+        self._draw_goal()
+        if self.due("description", DESCRIPTION_RATE):
+            self.description = brief(recorder, self._current_goal())
 
     def _draw_scan(self) -> None:
         recorder = self.backend.recorder
@@ -132,11 +124,6 @@ class Scene(LiveWidget):
         if pose is not None:
             self._drawn["scan"] = scan
             self.scan = parts.scan(scan, *pose)
-
-    def _draw_obstacles(self) -> None:
-        standing = list(self.backend.recorder.obstacles.values())
-        if self._is_new("obstacles", standing):
-            self.obstacles = parts.obstacles(standing)
 
     def _draw_goal(self) -> None:
         goal = self._current_goal()
@@ -155,11 +142,4 @@ class Scene(LiveWidget):
         if name in self._drawn and self._drawn[name] == value:
             return False
         self._drawn[name] = value
-        return True
-
-    def _is_due(self, name: str, period: float) -> bool:
-        now = real_monotonic()
-        if now < self._due.get(name, 0.0):
-            return False
-        self._due[name] = now + period
         return True

@@ -63,17 +63,6 @@ def show(path: str, mesh: Mesh, lit: bool = True, **look: Any) -> bytes:
     return _show(path, shape, material(vertexColors=colours is not None, **look))
 
 
-def show_shape(path: str, shape: Any, **look: Any) -> bytes:
-    """Show one of meshcat's own shapes."""
-    return _show(path, shape, geometry.MeshLambertMaterial(**look))
-
-
-def show_line(path: str, points: np.ndarray, colour: int) -> bytes:
-    """Show a closed line through points (n by 3)."""
-    corners = np.round(points, 4).astype(np.float32).T
-    return _show(path, geometry.PointsGeometry(corners), geometry.LineBasicMaterial(color=colour), geometry.LineLoop)
-
-
 def _show(path: str, shape: Any, material: Any, kind: Any = geometry.Mesh) -> bytes:
     thing = kind(shape, material)
     # meshcat's own names are made of the time: with these, the same scene is the same bytes
@@ -187,26 +176,27 @@ def obstacles(these: Iterable[Obstacle]) -> list[bytes]:
     commands = [remove("lab/obstacles")]
     for number, each in enumerate(these):
         path = f"lab/obstacles/{number}"
-        commands += [show_shape(f"{path}/block", _block(each), color=_number(world.OBSTACLE))]
-        commands += [put(f"{path}/block", _stand(each))]
+        block, place = _block(each)
         rim = np.column_stack([world.outline(each), np.full(len(world.outline(each)), world.OBSTACLE_HEIGHT + 0.003)])
-        commands += [show_line(f"{path}/edge", rim, _number(world.OBSTACLE_EDGE)), cast_no_shadow(f"{path}/edge")]
+        edge = geometry.PointsGeometry(np.round(rim, 4).astype(np.float32).T)
+        line = geometry.LineBasicMaterial(color=_number(world.OBSTACLE_EDGE))
+        commands += [
+            _show(f"{path}/block", block, geometry.MeshLambertMaterial(color=_number(world.OBSTACLE))),
+            put(f"{path}/block", place),
+            _show(f"{path}/edge", edge, line, geometry.LineLoop),
+            cast_no_shadow(f"{path}/edge"),
+        ]
     return commands
 
 
-def _block(obstacle: Obstacle) -> geometry.Geometry:
+def _block(obstacle: Obstacle) -> tuple[geometry.Geometry, np.ndarray]:
+    """Its shape and place; a cylinder, whose axis is y in three.js, is put upright, and stretched if it is no circle."""
+    wide, deep, high = obstacle.width, obstacle.height, world.OBSTACLE_HEIGHT
+    there = placed(obstacle.x, obstacle.y, high / 2, obstacle.angle)
     if obstacle.shape == "box":
-        return geometry.Box([obstacle.width, obstacle.height, world.OBSTACLE_HEIGHT])
-    return geometry.Cylinder(world.OBSTACLE_HEIGHT, obstacle.width / 2)
-
-
-def _stand(obstacle: Obstacle) -> np.ndarray:
-    """Its place; a cylinder, whose axis is y in three.js, is put upright, and stretched if it is no circle."""
-    there = placed(obstacle.x, obstacle.y, world.OBSTACLE_HEIGHT / 2, obstacle.angle)
-    if obstacle.shape == "box":
-        return there
+        return geometry.Box([wide, deep, high]), there
     upright = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1.0]])
-    return there @ np.diag([1, obstacle.height / obstacle.width if obstacle.width else 1, 1, 1]) @ upright
+    return geometry.Cylinder(high, wide / 2), there @ np.diag([1, deep / wide if wide else 1, 1, 1]) @ upright
 
 
 def goal(current: Goal | None) -> list[bytes]:

@@ -125,8 +125,10 @@ def body() -> Mesh:
 def legs() -> dict[str, tuple[tuple[float, float], Mesh]]:
     """By name, the point (m) about which each leg swings, and the leg as seen from there."""
     made = {}
-    for name, hip, shape in zip(("front", "hind"), HIPS, LEGS, strict=True):
-        left = _leg(shape, hip)
+    for name, hip, (foot_x, foot_y, width, height, turn) in zip(("front", "hind"), HIPS, LEGS, strict=True):
+        foot = ellipsoid((width / 2, height / 2, 0.06), SKIN, sides=8, levels=4)
+        there = placed(foot_x - hip[0], foot_y - hip[1], 0.062, math.radians(turn))
+        left = foot.moved(there).moved(placed(size=LENGTH))
         x, y = (LENGTH * each for each in hip)
         made[f"{name}_left"] = ((x, y), left)
         made[f"{name}_right"] = ((x, -y), left.mirrored())
@@ -139,12 +141,6 @@ def layers(head_in_front: bool) -> list[Mesh]:
     order = [_rim(), _seams(), _plates()]
     pieces = [standing, *order, _head()] if head_in_front else [standing, _head(), *order]
     return [piece.moved(placed(size=LENGTH)) for piece in pieces]
-
-
-def _leg(shape: tuple[float, ...], hip: tuple[float, float]) -> Mesh:
-    x, y, width, height, turn = shape
-    foot = ellipsoid((width / 2, height / 2, 0.06), SKIN, sides=8, levels=4)
-    return foot.moved(placed(x - hip[0], y - hip[1], 0.062, math.radians(turn))).moved(placed(size=LENGTH))
 
 
 def _rim() -> Mesh:
@@ -312,12 +308,11 @@ def fan(beams: Beams, x: float, y: float, theta: float) -> tuple[Mesh, Mesh]:
 
 def _to_edge(x: float, y: float, turns: np.ndarray, ends: np.ndarray) -> np.ndarray:
     """How far each beam goes before it ends, or leaves the world."""
+    along, up = np.cos(turns), np.sin(turns)
     with np.errstate(divide="ignore", invalid="ignore"):
-        ways = [
-            np.maximum(-place / along, (WORLD - place) / along)
-            for place, along in ((x, np.cos(turns)), (y, np.sin(turns)))
-        ]
-    return np.maximum(np.fmin(np.fmin(*ways), ends), 0.0)
+        to_side = np.maximum(-x / along, (WORLD - x) / along)
+        to_end = np.maximum(-y / up, (WORLD - y) / up)
+    return np.maximum(np.fmin(np.fmin(to_side, to_end), ends), 0.0)
 
 
 def _marks(beams: Beams, ends: np.ndarray, low: float = 0.03, high: float = 0.2) -> Mesh:
@@ -354,12 +349,8 @@ def goal_mark(x: float, y: float, theta: float) -> Mesh:
 def goal_flag(x: float, y: float, reached: bool) -> Mesh:
     """The flag in the middle of the ring; beside it when the turtle stands there."""
     aside = (0.6 if y < WORLD - 0.8 else -0.6) if reached else 0.0
-    return joined([_pole(), _pennant()]).moved(placed(x, y + aside))
-
-
-def _pole() -> Mesh:
     foot, top = ring((0, 0, 0), 0.022, 0.022, 8), ring((0, 0, 1.12), 0.018, 0.018, 8)
-    return joined([loft([foot, top], POLE), polygon(top, POLE)])
+    return joined([loft([foot, top], POLE), polygon(top, POLE), _pennant()]).moved(placed(x, y + aside))
 
 
 def _pennant() -> Mesh:

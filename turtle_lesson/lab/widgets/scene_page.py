@@ -84,11 +84,8 @@ class ScenePage:
 
     def _repr_html_(self) -> str:
         """The page in a frame of its own, which the notebook's styles do not reach."""
-        frame = 'style="width: 100%; max-width: 1100px; border: 0"'
-        return (
-            f'<iframe title="{html.escape(self.text)}" {frame} height="{HEIGHT}" allow="fullscreen" '
-            f'srcdoc="{html.escape(self.html)}"></iframe>'
-        )
+        look = f'style="width: 100%; max-width: 1100px; border: 0" height="{HEIGHT}" allow="fullscreen"'
+        return f'<iframe title="{html.escape(self.text)}" {look} srcdoc="{html.escape(self.html)}"></iframe>'
 
 
 def snapshot_page(scene: Scene) -> ScenePage:
@@ -143,10 +140,9 @@ def replay_page(scene: Scene, since: float | None, until: float | None) -> Scene
     trail, growth = _trail(poses, times, jumps, driven)
     flags, appear = _flags(goals, begin, end)
     tracks = {parts.TURTLE: _drive(poses, times, jumps), **appear}
-    first = poses[0]
     state = {
         **state_of(scene),
-        "turtle": parts.turtle_at(float(first["x"]), float(first["y"]), float(first["theta"])),
+        "turtle": parts.turtle_at(*(float(poses[0][name]) for name in ("x", "y", "theta"))),
         "trail": trail,
         "tip": [],
         "scan": [],
@@ -182,9 +178,8 @@ def _trail(poses: np.ndarray, times: np.ndarray, jumps: np.ndarray, driven: floa
     """
     chosen = thinned(poses, jumps, spacing=max(0.1, driven / MOST))
     places = np.column_stack([poses["x"], poses["y"]])
-    steps = [
-        (begin, end) for begin, end in pairwise(chosen) if end not in jumps and (places[begin] != places[end]).any()
-    ]
+    drives = ((begin, end) for begin, end in pairwise(chosen) if end not in jumps)
+    steps = [(begin, end) for begin, end in drives if (places[begin] != places[end]).any()]
     if not steps:
         return [], b""
     when, corners = [0.0], [0.0]

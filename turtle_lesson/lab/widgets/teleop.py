@@ -12,7 +12,7 @@ from ...ros.stdlib.clocks import real_monotonic
 from ..words import number
 from .backend import Backend
 from .lazy_endpoints import Outlet, let_time_go_on
-from .live_widget import LiveWidget, Pace, script, styles
+from .live_widget import LiveWidget, script, styles
 
 TYPE = "geometry_msgs/msg/Twist"
 PERIOD = 0.1
@@ -58,7 +58,6 @@ class Teleop(LiveWidget):
         self._outlet = Outlet(backend, name, Twist, TYPE)
         self._timer: Any = None
         self._last_sign = -math.inf
-        self._looks = Pace(2)
         super().__init__(backend, topic=name, unheard=self._outlet.why_unheard())
         if backend.keyboard is not None:
             backend.keyboard.has_keys = True
@@ -112,7 +111,7 @@ class Teleop(LiveWidget):
         self._watch()
         self._look_for_program()
         self._outlet.flush()
-        if self._looks.due():
+        if self.due("listeners", 2):
             self.unheard = self._outlet.why_unheard()
 
     def _look_for_program(self) -> None:
