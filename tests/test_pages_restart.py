@@ -7,8 +7,6 @@ from answers.client import PageServer
 from answers.restart import sections
 from test_pages import PAGES
 
-FORGETFUL = {"10_test_and_validate": {"## A test that never ends"}}
-"""Sections that use what only an earlier one imports: here `rclpy`."""
 LESSONS = [page.stem for page in PAGES if page.stem[0].isdigit()]
 
 
@@ -20,4 +18,4 @@ def test_each_section_runs_after_a_restart(page_server: PageServer, page: str) -
     running = page_server.page(page, restart=True)
     found = running.reply()
     running.close()
-    assert found.keys() == FORGETFUL.get(page, set()), found
+    assert not found, found
