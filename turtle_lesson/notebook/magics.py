@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 from IPython.core.magic import Magics, line_cell_magic, line_magic, magics_class, no_var_expand
@@ -56,13 +55,10 @@ def install(shell: Any) -> None:
     shell.register_magics(TerminalMagics)
     transformers = shell.input_transformer_manager.line_transforms  # before IPython takes the cell for Python
     transformers[:] = [each for each in transformers if not getattr(each, "is_turtle_lesson", False)]
-    transformers.append(_transformer(shell))
-    completion.install(shell)
 
-
-def _transformer(shell: Any) -> Callable[[list[str]], list[str]]:
     def transform(lines: list[str]) -> list[str]:
         return cells.translate(lines, shell.user_ns)
 
     transform.is_turtle_lesson = True  # type: ignore[attr-defined]
-    return transform
+    transformers.append(transform)
+    completion.install(shell)

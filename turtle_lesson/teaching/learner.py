@@ -12,6 +12,7 @@ import socket
 import subprocess
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -42,17 +43,12 @@ class LearnersFolder:
             if not is_learners(path) and path.is_dir() and any(path.glob("[!.]*")):
                 raise PageError(f"{path} already holds other files, and they are left alone. {elsewhere}")
             path.mkdir(parents=True, exist_ok=True)
-            self._versions = self._recall()
+            self._versions: dict[str, str] = {}
+            with suppress(FileNotFoundError, TypeError, ValueError):
+                self._versions |= json.loads(self._memory.read_text(encoding="utf-8"))
             self._remember()
         except OSError as error:
             raise PageError(f"pages cannot be kept in {path}: {error.strerror}. {elsewhere}") from None
-
-    def _recall(self) -> dict[str, str]:
-        try:
-            content = json.loads(self._memory.read_text(encoding="utf-8"))
-        except (FileNotFoundError, ValueError):
-            return {}
-        return content if isinstance(content, dict) else {}
 
     def _remember(self) -> None:
         files.write(self._memory, json.dumps(self._versions, indent=1) + "\n")
@@ -65,17 +61,21 @@ class LearnersFolder:
         said = []
         for name in NAMES:
             content = pages.find_published(name, source)
-            if content is not None:
-                newer = pages.clear(pages.parse(content, Path(name)))
-                newest = version(newer)
-                if not self._put(name, newer, newest) and self._versions.get(name) != newest:
-                    beside = pages.unused(self.path / name, "new")
-                    nbformat.write(newer, beside)
-                    self._versions[name] = newest
-                    said.append(
-                        f"{name} holds your work, and the lesson has a newer version of the page: it is beside yours, "
-                        f"as {beside.name}."
-                    )
+            if content is None:
+                continue
+            newer, path = pages.clear(pages.parse(content, Path(name))), self.path / name
+            newest, mine, made_from = version(newer), version_of(path), self._versions.get(name)
+            if not path.exists() or mine in (newest, made_from):
+                if mine != newest:
+                    nbformat.write(newer, path)
+            elif made_from != newest:
+                beside = pages.unused(path, "new")
+                nbformat.write(newer, beside)
+                said.append(
+                    f"{name} holds your work, and the lesson has a newer version of the page: it is beside yours, "
+                    f"as {beside.name}."
+                )
+            self._versions[name] = newest
         self._remember()
         if not any((self.path / name).is_file() for name in NAMES):
             raise PageError(
@@ -83,17 +83,6 @@ class LearnersFolder:
                 "published pages: --from FOLDER"
             )
         return said
-
-    def _put(self, name: str, page: Any, made_from: str) -> bool:
-        """Write a page, unless the learner's copy was worked on and differs; whether the page is there now."""
-        path = self.path / name
-        mine = version_of(path)
-        if mine != version(page):
-            if path.exists() and mine != self._versions.get(name):
-                return False
-            nbformat.write(page, path)
-        self._versions[name] = made_from
-        return True
 
     def reset(self, path: Path, published: bytes) -> Path | None:
         """Put a page back as it was published, without outputs; returns where the learner's copy is kept, if it differs."""
