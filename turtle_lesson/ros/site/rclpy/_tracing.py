@@ -26,20 +26,25 @@ KINDS = {TIMER: "timer", SUBSCRIPTION: "subscription", SERVICE: "service"}
 
 
 def trace_entity(entity: Any, node: Node, trace: Trace) -> None:
-    """Give what a node waits for its place in the trace, unless it is ROS's own."""
-    kind, source, name = KINDS.get(entity._kind), _source(entity), name_of(entity.callback)
-    if kind is None or node._ros_entry.hidden or source in PLUMBING or _is_ours(entity.callback):
+    """Give a callback of the program's its place in the trace, unless it has one from another executor."""
+    kind, callback, entry = KINDS.get(entity._kind), entity.callback, node._ros_entry
+    owner = getattr(callback, "__self__", None)
+    if kind is None or callback is None or entry.hidden or isinstance(owner, (Rate, TimeSource)):
         return
-    if entity._traced is not None:
-        return  # it has been traced in another executor
-    if type(getattr(entity.callback, "__self__", None)).__module__.startswith("rclpy."):
+    end = entity._reader if kind == "subscription" else entity._server if kind == "service" else None
+    source = "" if end is None else end.topic.name if kind == "subscription" else end.name
+    if source in PLUMBING or entity._traced is not None:
+        return
+    name = name_of(callback)
+    if type(owner).__module__.startswith("rclpy."):
         name = source.rpartition("/")[2]  # a service of rclpy's own, such as get_parameters
-    entry = node._ros_entry
     period = entity._period if kind == "timer" else 0
     entity._traced = Callback(entry.full_name, name, kind, source, period, entry.process.pid, entity._is_async)
     trace.callbacks.append(entity._traced)
-    if kind != "timer":
-        _note_arrivals(entity, trace)
+    if end is not None:  # note beside each message or request that waits when it came
+        arrivals = deque([trace.simulation.now] * len(end.queue), maxlen=end.queue.maxlen)
+        end.arrivals = entity._traced.arrivals = arrivals
+        getattr(end, "beside", []).append(arrivals)  # or what expires in the queue would leave its time behind
 
 
 def begin_task(entity: Any, traced: Callback, now: int) -> tuple[int, int]:
@@ -61,25 +66,6 @@ def note_end(task: Task, traced: Callback, begun: tuple[int, int], simulation: S
             free()
 
     task._finally = end
-
-
-def _source(entity: Any) -> str:
-    if entity._kind == SUBSCRIPTION:
-        return entity._reader.topic.name
-    return entity._server.name if entity._kind == SERVICE else ""
-
-
-def _note_arrivals(entity: Any, trace: Trace) -> None:
-    """Keep beside each message or request that waits when it came."""
-    end = entity._reader if entity._kind == SUBSCRIPTION else entity._server
-    queue = end.queue
-    end.arrivals = entity._traced.arrivals = deque([trace.simulation.now] * len(queue), maxlen=queue.maxlen)
-    getattr(end, "beside", []).append(end.arrivals)  # or what expires in the queue would leave its time behind
-
-
-def _is_ours(callback: Any) -> bool:
-    """Whether this is no callback of the program's: none at all, or that of a rate or of the node's time source."""
-    return callback is None or isinstance(getattr(callback, "__self__", None), (Rate, TimeSource))
 
 
 def name_of(function: Callable[..., Any] | None) -> str:
