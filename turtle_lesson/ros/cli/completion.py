@@ -172,22 +172,6 @@ FEEDBACK = "/_action/feedback"
 """What an action's topic of feedback is called behind the action's own name."""
 
 
-def _nodes(world: World, given: Sequence[str], begun: str) -> list[str]:
-    return [node.full_name for node in world.graph.nodes if not node.hidden]
-
-
-def _topics(world: World, given: Sequence[str], begun: str) -> list[str]:
-    return [name for name in world.graph.topics() if not is_hidden(name)]
-
-
-def _services(world: World, given: Sequence[str], begun: str) -> list[str]:
-    return [name for name in world.graph.services() if not is_hidden(name)]
-
-
-def _actions(world: World, given: Sequence[str], begun: str) -> list[str]:
-    return [name.removesuffix(FEEDBACK) for name in world.graph.topics() if name.endswith(FEEDBACK)]
-
-
 def _types(*folders: str) -> Finder:
     def find(world: World, given: Sequence[str], begun: str) -> list[str]:
         own = _own_type(world, given[0]) if given else []
@@ -206,10 +190,6 @@ def _own_type(world: World, name: str) -> list[str]:
     if feedback is not None:
         return [each.removesuffix("_FeedbackMessage") for each in feedback.types]
     return world.graph.services().get(name, [])
-
-
-def _packages(world: World, given: Sequence[str], begun: str) -> list[str]:
-    return package_names()
 
 
 def _executables(world: World, given: Sequence[str], begun: str) -> list[str]:
@@ -266,14 +246,6 @@ def _node_of(world: World, name: str) -> Any:
     return None
 
 
-def _files(world: World, given: Sequence[str], begun: str) -> list[str]:
-    return paths(begun)
-
-
-def _folders(world: World, given: Sequence[str], begun: str) -> list[str]:
-    return paths(begun, folders_only=True)
-
-
 def _values_of(world: World, given: Sequence[str], begun: str) -> list[str]:
     """The type that was named, with its default values, to be changed."""
     from rosidl_runtime_py.convert import message_to_yaml
@@ -288,35 +260,30 @@ def _values_of(world: World, given: Sequence[str], begun: str) -> list[str]:
     return [f'"{text.strip()}"']
 
 
-_MESSAGES, _SERVICES, _ACTIONS = _types("msg"), _types("srv"), _types("action")
-_ALL = _types("msg", "srv", "action")
-
-BY_NAME: dict[str, Finder] = {
-    "action_name": _actions,
-    "action_type": _ACTIONS,
-    "bag_path": _files,
-    "dependencies": _packages,
-    "destination_directory": _folders,
+_FINDERS: dict[str, Finder] = {
+    "action_name": lambda world, given, begun: [
+        name.removesuffix(FEEDBACK) for name in world.graph.topics() if name.endswith(FEEDBACK)
+    ],
+    "action_type": _types("action"),
+    "bag_path output parameter_file": lambda world, given, begun: paths(begun),
+    "dependencies package_name": lambda world, given, begun: package_names(),
+    "destination_directory output_dir": lambda world, given, begun: paths(begun, folders_only=True),
     "executable_name": _executables,
     "launch_arguments": _launch_arguments,
     "launch_file_name": _launch_files,
-    "message_type": _MESSAGES,
-    "node": _nodes,
-    "node_name": _nodes,
-    "output": _files,
-    "output_dir": _folders,
-    "package_name": _packages,
-    "parameter_file": _files,
-    "parameter_name": _parameters,
-    "parameter_names": _parameters,
-    "service_name": _services,
-    "service_type": _SERVICES,
-    "topic": _topics,
-    "topic_name": _topics,
-    "topic_type": _MESSAGES,
-    "topics": _topics,
+    "message_type topic_type": _types("msg"),
+    "node node_name": lambda world, given, begun: [node.full_name for node in world.graph.nodes if not node.hidden],
+    "parameter_name parameter_names": _parameters,
+    "service_name": lambda world, given, begun: [name for name in world.graph.services() if not is_hidden(name)],
+    "service_type": _types("srv"),
+    "topic topic_name topics": lambda world, given, begun: [
+        name for name in world.graph.topics() if not is_hidden(name)
+    ],
     "transition": _transitions,
-    "type": _ALL,
+    "type": _types("msg", "srv", "action"),
     "value": _value_now,
     "values": _values_of,
 }
+"""What finds the values of an argument, by the names that such arguments have."""
+
+BY_NAME = {name: find for names, find in _FINDERS.items() for name in names.split()}

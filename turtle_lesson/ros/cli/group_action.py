@@ -14,12 +14,12 @@ from .verb import (
     Command,
     CommandError,
     Interrupted,
+    add_duration,
     direct_node,
     expanded,
     flag,
     now,
     spin_for,
-    stretch,
     suggest,
 )
 
@@ -44,12 +44,8 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("action_type", help="Its type, such as turtlesim/action/RotateAbsolute")
     parser.add_argument("values", metavar="goal", help="Values for the goal's fields, in YAML")
     flag(parser, "-f --feedback", "Print the feedback messages, too")
-    parser.add_argument(
-        "--for",
-        dest="seconds",
-        type=stretch,
-        metavar="SECONDS",
-        help=f"Cancel the goal after this many seconds of robot time (default: {LONGEST_GOAL:g}; only here)",
+    add_duration(
+        parser, f"Cancel the goal after this many seconds of robot time (default: {LONGEST_GOAL:g}; only here)"
     )
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from ..idl.names import is_hidden
 from ..runtime.world import current_world
 from .jobs import jobs
-from .verb import CellCommand, Command, direct_node, flag, node_names, services, topics
+from .verb import CellCommand, Command, direct_node, flag, no_arguments, node_names, services, topics
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -96,10 +96,6 @@ COMMANDS = {"doctor": Command("Describe this simulation, what is running, and wh
 STATE = "ros2 daemon"
 
 
-def _nothing(parser: ArgumentParser) -> None:
-    """No arguments."""
-
-
 def _running() -> bool:
     return bool(current_world().notebook.locals.get(STATE, True))
 
@@ -119,7 +115,7 @@ def _stop(args: Namespace) -> None:
 
 
 VERBS = {
-    "start": CellCommand("Start the daemon", _nothing, _start),
-    "status": CellCommand("Show whether the daemon is running", _nothing, _status),
-    "stop": CellCommand("Stop the daemon", _nothing, _stop),
+    "start": CellCommand("Start the daemon", no_arguments, _start),
+    "status": CellCommand("Show whether the daemon is running", no_arguments, _status),
+    "stop": CellCommand("Stop the daemon", no_arguments, _stop),
 }

@@ -14,7 +14,7 @@ from ..idl.names import did_you_mean
 from ..idl.registry import registry
 from ..sim.errors import shown_path
 from .parser import cut
-from .verb import CellCommand, CommandError, flag
+from .verb import CellCommand, CommandError, flag, no_arguments
 
 SITE = Path(__file__).resolve().parents[1] / "site"
 
@@ -48,10 +48,6 @@ def not_found(name: str) -> CommandError:
 def hint_for_package(name: str) -> str:
     """What to try if there is no package of a name."""
     return package_hint(name[:100], package_names()) or "Is it built (colcon build), and is its setup file sourced?"
-
-
-def _nothing(parser: ArgumentParser) -> None:
-    """No arguments."""
 
 
 def _package(parser: ArgumentParser) -> None:
@@ -143,7 +139,7 @@ def _create(args: Namespace) -> int:
 VERBS = {
     "create": CellCommand("Create a new package", add_create_arguments, _create),
     "executables": CellCommand("List the programs of a package", _executables_arguments, _executables),
-    "list": CellCommand("List the packages that can be found", _nothing, _list),
+    "list": CellCommand("List the packages that can be found", no_arguments, _list),
     "prefix": CellCommand("Print the folder in which a package is installed", _prefix_arguments, _prefix),
     "xml": CellCommand("Print the package.xml of a package", _xml_arguments, _xml),
 }

@@ -24,23 +24,14 @@ from ..sim.process import Process
 from .group_pkg import not_found, path_of
 from .jobs import Job, jobs, lasting
 from .parser import cut
-from .verb import CellCommand, CommandError, flag, positive_float
+from .verb import CellCommand, CommandError, add_duration, flag, positive_float
 
 if TYPE_CHECKING:
     from ..launching.start import LaunchHandle
 
 
+LET_PASS = "let this much robot time pass before {} returns (only here)"
 SIGNAL_TEXTS = {-2: "Interrupt", -9: "Killed", -15: "Terminated"}
-
-
-def _add_for(parser: ArgumentParser, what: str) -> None:
-    parser.add_argument(
-        "--for",
-        dest="seconds",
-        type=positive_float,
-        metavar="SECONDS",
-        help=f"let this much robot time pass before {what} returns (only here)",
-    )
 
 
 # -- run -----------------------------------------------------------------------------------------------------------------
@@ -48,7 +39,7 @@ def _add_for(parser: ArgumentParser, what: str) -> None:
 
 def _run_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("--prefix", help="a program to run it with: accepted, but without effect here")
-    _add_for(parser, "ros2 run")
+    add_duration(parser, LET_PASS.format("ros2 run"), positive_float)
     parser.set_defaults(stdin=None)
     parser.add_argument("package_name", help="package that the program belongs to")
     parser.add_argument("executable_name", help="name of the program")
@@ -120,7 +111,7 @@ def _launch_arguments(parser: ArgumentParser) -> None:
     flag(parser, "-a --show-all-subprocesses-output", shown_all, dest="all")
     parser.add_argument("--launch-prefix", help=nothing)
     parser.add_argument("--launch-prefix-filter", help=nothing)
-    _add_for(parser, "ros2 launch")
+    add_duration(parser, LET_PASS.format("ros2 launch"), positive_float)
     parser.add_argument("package_name", help="package that the launch file belongs to, or the path of a launch file")
     parser.add_argument("launch_file_name", nargs="?", help="name of the launch file")
     words = parser.add_argument("launch_arguments", nargs="*", help="values for its arguments, as name:=value")

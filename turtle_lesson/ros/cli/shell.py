@@ -162,7 +162,10 @@ class Shell:
             with contextlib.nullcontext() if name in {"source", "."} else contextlib.chdir("."):
                 return self._script(script, out, error)
         if name in {"colcon", "source", "."}:
-            return _workspace(self.world, words, out, error)
+            from ..ament import colcon, source
+
+            run = colcon.run if name == "colcon" else source.source
+            return run(self.world, list(words[1:]), stdout=out, stderr=error, cwd=Path.cwd())
         if "/" in name and (program := self.world.packages.program_at(name)):
             words = ["ros2", "run", *program, *words[1:]]
             return run_ros2(self.world, words, stdin=given, stdout=out, stderr=error, background=background)
@@ -178,14 +181,6 @@ class Shell:
             return BUILTINS[name](Terminal(self.world, out, error, given), list(words[1:]))
         print(_not_found(words), file=error)
         return NOT_FOUND
-
-
-def _workspace(world: World, words: Sequence[str], out: Any, error: Any) -> int:
-    """`colcon …` and `source …`: the workspace does them."""
-    from ..ament import colcon, source
-
-    program = colcon.run if words[0] == "colcon" else source.source
-    return program(world, list(words[1:]), stdout=out, stderr=error, cwd=Path.cwd())
 
 
 def _not_found(words: Sequence[str]) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..runtime.run_world import run_for
 from .jobs import SIGNALS, Job, jobs, send
@@ -173,28 +173,8 @@ def _kill_one(terminal: Terminal, word: str, name: str) -> int:
     return 0
 
 
-BUILTINS: dict[str, Builtin] = {
-    "cat": cat,
-    "cd": cd,
-    "chmod": chmod,
-    "cp": cp,
-    "echo": echo,
-    "export": export,
-    "grep": grep,
-    "head": head,
-    "jobs": list_jobs,
-    "kill": kill,
-    "ls": ls,
-    "mkdir": mkdir,
-    "mv": mv,
-    "printenv": printenv,
-    "printf": printf,
-    "pwd": pwd,
-    "rm": rm,
-    "sleep": sleep,
-    "sort": sort,
-    "tail": tail,
-    "touch": touch,
-    "unset": unset,
-    "wc": wc,
-}
+_NAMED: tuple[Any, ...] = (
+    cat, cd, chmod, cp, echo, export, grep, head, kill, ls, mkdir, mv, printenv, printf, pwd, rm, sleep, sort, tail, touch,
+    unset, wc,
+)  # fmt: skip
+BUILTINS: dict[str, Builtin] = {"jobs": list_jobs, **{each.__name__: each for each in _NAMED}}

@@ -26,31 +26,29 @@ def message_class(name: str) -> Any:
     """The class of a message. Raises CommandError with the real tool's sentence, and what was meant perhaps."""
     from rosidl_runtime_py.utilities import get_message
 
-    found = _find(get_message, name)
-    if found is None:
-        raise CommandError("The passed message type is invalid", suggest_type(name, "msg"))
-    return found
+    return _found(get_message, name, "The passed message type is invalid", "msg")
 
 
 def service_class(name: str) -> Any:
     """The class of a service. Raises CommandError with the real tool's sentence, and what was meant perhaps."""
     from rosidl_runtime_py.utilities import get_interface, get_service
 
-    found = _find(get_service, name)
-    if found is None:
-        is_other = name.count("/") == 2 and _find(get_interface, name) is not None
-        sentence = "The passed type is not a service" if is_other else "The passed service type is invalid"
-        raise CommandError(sentence, suggest_type(name, "srv"))
-    return found
+    is_other = name.count("/") == 2 and _find(get_interface, name) is not None
+    sentence = "The passed type is not a service" if is_other else "The passed service type is invalid"
+    return _found(get_service, name, sentence, "srv")
 
 
 def action_class(name: str) -> Any:
     """The class of an action. Raises CommandError with the real tool's sentence, and what was meant perhaps."""
     from rosidl_runtime_py.utilities import get_action
 
-    found = _find(get_action, name)
+    return _found(get_action, name, "The passed action type is invalid", "action")
+
+
+def _found(get: Callable[[str], Any], name: str, sentence: str, folder: str) -> Any:
+    found = _find(get, name)
     if found is None:
-        raise CommandError("The passed action type is invalid", suggest_type(name, "action"))
+        raise CommandError(sentence, suggest_type(name, folder))
     return found
 
 

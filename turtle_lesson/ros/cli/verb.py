@@ -151,6 +151,10 @@ class Command:
 # -- arguments that several verbs have ---------------------------------------------------------------------------
 
 
+def no_arguments(parser: ArgumentParser) -> None:
+    """For a verb that takes none."""
+
+
 def flag(parser: Any, options: str, text: str, **more: Any) -> None:
     """Add an option without a value, which is false unless it is given; `options` are its spellings."""
     parser.add_argument(*options.split(), action="store_true", help=text, **more)
@@ -168,15 +172,10 @@ def add_node_arguments(parser: ArgumentParser, *, daemon: bool = True) -> None:
         flag(parser, "--no-daemon", "Accepted; no daemon is needed here")
 
 
-def add_duration(parser: ArgumentParser) -> None:
+def add_duration(parser: ArgumentParser, text: str = "", kind: Callable[[str], float] = stretch) -> None:
     """`--for SECONDS`, for a verb that never ends in a terminal. The real tool has no such option."""
-    parser.add_argument(
-        "--for",
-        dest="seconds",
-        type=stretch,
-        metavar="SECONDS",
-        help=f"End after this many seconds of robot time (default: {STRETCH:g}; only here)",
-    )
+    usual = f"End after this many seconds of robot time (default: {STRETCH:g}; only here)"
+    parser.add_argument("--for", dest="seconds", type=kind, metavar="SECONDS", help=text or usual)
 
 
 # -- robot time --------------------------------------------------------------------------------------------------
