@@ -214,7 +214,7 @@ def draw_graph(nodes: list[NodeView], title: str, description: str) -> str:
 
 
 def _boxes(nodes: list[NodeView]) -> tuple[dict[str, list[Box]], list[Arrow]]:
-    """The columns that have boxes, and all arrows. Services of a node that nobody calls share one box."""
+    """The columns that have boxes, and all arrows. The services of a node that no node calls share one box."""
     topics = {name: Box([name], types) for name, types in topics_of(nodes).items()}
     called = {service for node in nodes for service in node.calls}
     services = {name: Box([name], types) for name, types in services_of(nodes).items() if name in called}
@@ -344,7 +344,7 @@ def flowchart(nodes: list[NodeView], title: str, description: str) -> str:
 
 
 def _services(nodes: list[NodeView]) -> list[str]:
-    """Services that somebody calls have a box each; those of a node that nobody calls share one."""
+    """Services that a node calls have a box each; the others of a node share one."""
     lines: list[str] = []
     services = services_of(nodes)
     called = {service for node in nodes for service in node.calls}

@@ -19,7 +19,7 @@ Obstacle = Circle | Box
 class ObstacleBoard:
     """Knows which obstacles there are, and puts others there.
 
-    The topic is the truth, since somebody else may publish there, too. But a message takes time to arrive, and while
+    The topic is the truth, since other nodes may publish there, too. But a message takes time to arrive, and while
     the clock is paused it takes forever: until it is heard, what was put up last counts.
     """
 
@@ -81,7 +81,7 @@ def _checked(obstacles: Iterable[Obstacle] | str) -> tuple[Obstacle, ...]:
 
 
 def _heard(obstacle: recording.Obstacle) -> Obstacle:
-    """An obstacle that somebody else has published. An oval becomes the circle of the same mean radius."""
+    """An obstacle that another node has published. An oval becomes the circle of the same mean radius."""
     x, y, width, height = obstacle.x, obstacle.y, obstacle.width, obstacle.height
     if obstacle.shape == "box":
         return Box(x, y, width, height, obstacle.angle)

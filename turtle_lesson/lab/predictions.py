@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 NO_GUESS = "no guess yet"
 
 TYPED = re.compile(r"\s*([+-]?(?:\d+[.,]?\d*|[.,]\d+)(?:e[+-]?\d+)?)\s*(.*?)\s*", re.I)
-"""A number and its unit, as somebody types them."""
+"""A number and its unit, as they are typed."""
 
 
 @dataclass(frozen=True)

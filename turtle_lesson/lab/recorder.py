@@ -1,7 +1,7 @@
 """The recorder hears a turtle's topics: what the lab knows, it knows from there and from the graph.
 
 It must not be seen: a subscription makes a topic appear in `ros2 topic list`, and lets a waiting publisher
-start. So it follows others, and only subscribes to a topic while somebody else publishes it (to `cmd_vel`:
+start. So it follows others, and only subscribes to a topic while another node publishes it (to `cmd_vel`:
 while a simulator listens to it).
 """
 
@@ -46,7 +46,7 @@ ON_A_ROBOT = Advice(
 
 
 class Recorder(Recording):
-    """Fills itself with what `node` (an rclpy Node, spun by somebody else) hears.
+    """Fills itself with what `node` (an rclpy Node, spun by its owner) hears.
 
     `origin` (ns) is the moment that plots call 0 s; without it, that is now on the node's clock. `advice` is what to try
     where nothing was heard.
@@ -144,9 +144,9 @@ DEPTH = 1000
 
 @dataclass(eq=False)
 class Channel:
-    """Follows one topic of one type: subscribed to as long as somebody is at its other end.
+    """Follows one topic of one type: subscribed to as long as another node is at its other end.
 
-    A topic that drives a machine (`driven`) is followed while somebody else subscribes to it, any other while somebody
+    A topic that drives a machine (`driven`) is followed while another node subscribes to it, any other while a node
     publishes it.
     """
 
@@ -211,7 +211,7 @@ class Channel:
         return f"{names} can publish {self.topic}, but no message has come yet. {self.patience}"
 
     def _wanted(self) -> bool:
-        """Whether somebody else is there at the other end (or, of a driven topic, at this end)."""
+        """Whether another node is there at the other end (or, of a driven topic, at this end)."""
         if not self.driven:
             ends = self.node.get_publishers_info_by_topic(self.topic)
             return any(end.topic_type == self.type_name for end in ends)

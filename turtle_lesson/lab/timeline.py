@@ -297,7 +297,7 @@ def _callback_lanes(trace: Any, node: str, function: str, window: Window, alive:
         runs = np.concatenate([callback.runs(trace.now) for callback in callbacks])
         shown = runs[(runs["ended"] >= window.begin) & (runs["ready"] <= window.end)]
         waiting = _waiting(callbacks, trace.now, window) if alive else NOTHING
-        # a node has many services that nobody calls
+        # a node has many services that no node calls
         if len(shown) or len(waiting) or function or callbacks[0].kind != "service":
             lanes.append(_callback_lane(name, called_by, callbacks, shown, waiting, window))
     return lanes

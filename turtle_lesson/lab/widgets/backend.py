@@ -53,7 +53,7 @@ class Backend(Protocol):
     """What every widget needs of the system that it shows."""
 
     node: Any
-    """An rclpy Node with a hidden name, spun by somebody else; its callbacks happen in the notebook's loop."""
+    """An rclpy Node with a hidden name, spun by its owner; its callbacks happen in the notebook's loop."""
     recorder: Recorder
     """What was heard so far."""
     board: ObstacleBoard
@@ -61,7 +61,7 @@ class Backend(Protocol):
     loop: Loop
     """The notebook's event loop."""
     clock: Clock | None
-    """None where nobody can turn the clock, as on a real robot."""
+    """None where the clock cannot be turned, as on a real robot."""
     keyboard: Keyboard | None
     """What the programs of a simulated world read keys from; None on a real robot, whose programs have terminals."""
     at_close: list[Callable[[], object]]

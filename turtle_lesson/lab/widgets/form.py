@@ -10,7 +10,7 @@ import traitlets
 from ..words import count, did_you_mean, enumerated, is_hidden, listed
 from .backend import Backend
 from .form_fields import FieldError, Group, Rows, Single, find_part
-from .lazy_endpoints import Caller, Outlet, let_time_go_on
+from .lazy_endpoints import LazyClient, LazyPublisher, let_time_go_on
 from .live_widget import LiveWidget, script, styles
 from .message_types import find_class
 
@@ -58,8 +58,8 @@ class Form(LiveWidget):
         full, kind, type_name = _look_up(backend.node, name)
         message_class = find_class(type_name)
         self._whole = Group("", "", message_class if kind == "topic" else message_class.Request)
-        self._outlet = Outlet(backend, full, message_class, type_name)
-        self._caller = Caller(backend, message_class, full)
+        self._publisher = LazyPublisher(backend, full, message_class, type_name)
+        self._client = LazyClient(backend, message_class, full)
         self._timer: Any = None
         self._last: Any = None
         super().__init__(backend, name=full, kind=kind, type_name=type_name)
@@ -131,8 +131,8 @@ class Form(LiveWidget):
             self._drop_timer()
             self._bring_up_to_date()
             self.words = f"Stopped after {count(self.published, 'message')} on {self.name}."
-        elif self._caller.asking:
-            self._caller.give_up()
+        elif self._client.asking:
+            self._client.give_up()
             self.words = f"No longer waiting for {self.name}; whether it does what was asked is unknown."
 
     def do_call(self) -> None:
@@ -140,8 +140,8 @@ class Form(LiveWidget):
         request = self._sound().build(self._time)
         self.answer = ""
         self.words = f"Asked {self.name}; waiting for its answer."
-        self._caller.ask(request, self.timeout, self._answered)
-        if self._caller.asking:
+        self._client.ask(request, self.timeout, self._answered)
+        if self._client.asking:
             let_time_go_on(self.backend)
 
     def _publish_again_and_again(self) -> None:
@@ -156,7 +156,7 @@ class Form(LiveWidget):
 
     def _publish(self, message: Any) -> None:
         self._last = message
-        self._outlet.publish(message)
+        self._publisher.publish(message)
         self.published += 1
 
     def _answered(self, words: str, answer: str) -> None:
@@ -173,11 +173,11 @@ class Form(LiveWidget):
 
     def tick(self) -> None:
         """Look which nodes listen, and whether an answer is overdue."""
-        self._caller.look()
-        self._outlet.flush()
-        self.running = self._timer is not None or self._caller.asking
+        self._client.look()
+        self._publisher.flush()
+        self.running = self._timer is not None or self._client.asking
         if self.due("listeners", 3):
-            self.unheard = self._outlet.why_unheard() if self.kind == "topic" else self._caller.why_unheard()
+            self.unheard = self._publisher.why_unheard() if self.kind == "topic" else self._client.why_unheard()
 
     def closed(self) -> None:
         """The last view is gone: publish no more, ask no more."""
@@ -187,8 +187,8 @@ class Form(LiveWidget):
     def left(self) -> None:
         """Publish no more, ask no more."""
         self._drop_timer()
-        self._outlet.close()
-        self._caller.close()
+        self._publisher.close()
+        self._client.close()
 
     def _drop_timer(self) -> None:
         if self._timer is not None:

@@ -10,7 +10,7 @@ from weakref import WeakSet
 
 from ...ros.stdlib.clocks import real_monotonic
 from .backend import Backend
-from .lazy_endpoints import DISCOVERY, Server
+from .lazy_endpoints import DISCOVERY, ServerWatcher
 from .live_widget import Pace
 
 SERVICE = "/navigate_to"
@@ -54,7 +54,7 @@ class Goal:
         return self.state in WAITING
 
 
-_desks: WeakSet[GoalDesk] = WeakSet()
+_desks: WeakSet[GoalClient] = WeakSet()
 
 
 def goals_from(backend: Backend) -> list[Goal]:
@@ -63,7 +63,7 @@ def goals_from(backend: Backend) -> list[Goal]:
     return sorted((goal for desk in here for goal in desk.goals), key=lambda goal: goal.sent)
 
 
-class GoalDesk:
+class GoalClient:
     """Sends goals and keeps their list; `changed(goal)` is called with each news of one."""
 
     def __init__(self, backend: Backend, changed: Callable[[Goal], None]) -> None:
@@ -74,7 +74,7 @@ class GoalDesk:
         self._unexplained: dict[int, Goal] = {}
         self._look_pace = Pace(2)
         self._wanted = False
-        self.server = Server(backend, SERVICE, self._explain)
+        self.server = ServerWatcher(backend, SERVICE, self._explain)
         self.goals: list[Goal] = []
         _desks.add(self)
 

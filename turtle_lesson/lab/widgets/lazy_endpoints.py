@@ -19,8 +19,8 @@ PATIENCE = 1.0
 """Robot time, s, for which a message waits until a publisher that was just made has found its listeners."""
 
 
-class Outlet:
-    """One topic of one message class. Until the first message nothing of it is to be seen in the graph."""
+class LazyPublisher:
+    """Publishes messages of one class on one topic. Until the first message the graph shows nothing of it."""
 
     def __init__(self, backend: Backend, topic: str, message_class: Any, type_name: str) -> None:
         self._backend = backend
@@ -88,7 +88,7 @@ class Outlet:
 
 
 def let_time_go_on(backend: Backend) -> None:
-    """Start robot time if it stands still and can be turned: who acts wants to see what comes of it."""
+    """Start robot time if it stands still and can be turned, so that what was just asked for is seen to happen."""
     if backend.clock is not None and not backend.clock.playing:
         with suppress(RuntimeError):  # a plain script has no event loop; there time is run by hand
             backend.clock.play(backend.clock.rate)
@@ -106,8 +106,8 @@ KEPT = 1000
 """Times that are kept: five seconds of a topic with 200 messages a second."""
 
 
-class Ear:
-    """Listens to one topic until it is closed. `trouble` says why it cannot, if it cannot."""
+class LazySubscriber:
+    """Notes when messages were sent on a topic, until it is closed. `trouble` says why it cannot, if it cannot."""
 
     def __init__(self, backend: Backend, topic: str, type_name: str) -> None:
         self._backend = backend
@@ -150,14 +150,14 @@ Answered = Callable[[str, str], object]
 """Called with what became of a question: in words, and the answer in YAML ("" where none came)."""
 
 DISCOVERY = 2.0
-"""Seconds for which a question is held back on a real network, until a new client has found who answers it."""
+"""Seconds for which a question is held back on a real network, until a new client has found its server."""
 
 LONGEST_LIST = 50
 """How many elements of an array are shown of an answer."""
 
 
-class Caller:
-    """Calls one service, as any client would. Until the first question nothing of it is to be seen in the graph."""
+class LazyClient:
+    """Calls one service, one request at a time. Until the first request the graph shows nothing of it."""
 
     def __init__(self, backend: Backend, service_class: Any, name: str) -> None:
         self._backend, self._class, self._name = backend, service_class, name
@@ -273,8 +273,8 @@ SLACK = 0.1
 """Robot time, s, by which a warning may be older than its call, or newer than the answer to it."""
 
 
-class Server:
-    """The node that offers one service. `said()` is called with each of its warnings."""
+class ServerWatcher:
+    """Watches the node that offers one service: whether it is still there, and its warnings; `said()` is called at each."""
 
     def __init__(self, backend: Backend, service: str, said: Callable[[], None]) -> None:
         self._backend, self._service, self._said = backend, service, said

@@ -15,7 +15,7 @@ from ..recording import NANOSECONDS, OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, T
 from ..scan import Beams, read_beams
 from ..words import is_hidden, listed, number
 from .backend import Backend
-from .lazy_endpoints import Ear, servers
+from .lazy_endpoints import LazySubscriber, servers
 from .live_widget import LiveWidget, pack
 
 
@@ -263,25 +263,25 @@ class RatesPanel(LiveWidget):
     rates_more = traitlets.Int(0).tag(sync=True)
     """How many topics are not shown."""
 
-    _ears: dict[str, Ear] | None = None
+    _subscribers: dict[str, LazySubscriber] | None = None
 
     def opened(self) -> None:
-        """Listen to the topics that nobody hears yet, from the next look at the graph on."""
+        """Listen to the topics that the recorder does not hear, from the next look at the graph on."""
         super().opened()
-        self._ears = {}
+        self._subscribers = {}
 
     def closed(self) -> None:
         """Listen no more."""
         super().closed()
-        for ear in (self._ears or {}).values():
-            ear.close()
-        self._ears = None
+        for subscriber in (self._subscribers or {}).values():
+            subscriber.close()
+        self._subscribers = None
 
     def tick(self) -> None:
         """Look which topics there are, now and then, and measure."""
         super().tick()
-        if self._ears is not None and self.due("topics", 1):
-            self._follow_topics(self._ears)
+        if self._subscribers is not None and self.due("topics", 1):
+            self._follow_topics(self._subscribers)
         if self.due("rates", 4):
             self.rates = [*self._expected_rows(), *self._other_rows()]
 
@@ -302,27 +302,27 @@ class RatesPanel(LiveWidget):
             hertz = frequency(table.newest(MOST_MESSAGES)["stamp"], now, PAUSE)
             state = verdict(hertz, expected)
             if topic == recorder.command_topic and state == "silent":
-                state = "at rest"  # nobody drives: no command is due
+                state = "at rest"  # no goal is driven to, so no command is due
             elif state == "silent" and self.backend.now < PAUSE:
                 state = "just begun"
             rows.append(_row(topic, hertz, expected, state))
         return rows
 
     def _other_rows(self) -> list[dict[str, Any]]:
-        now, rows = self._now(), []
-        worlds = self.backend.recorder.worlds
-        stamps = {topic: ear.stamps for topic, ear in (self._ears or {}).items()}
+        now, worlds = self._now(), self.backend.recorder.worlds
+        subscribers = self._subscribers or {}
+        stamps = {topic: subscriber.stamps for topic, subscriber in subscribers.items()}
         if len(worlds):
             stamps[OBSTACLE_TOPIC] = worlds.newest(MOST_MESSAGES)["stamp"]
+        rows = []
         for topic in sorted(stamps):
             hertz = frequency(stamps[topic], now)
-            ear = (self._ears or {}).get(topic)
-            state = "not heard" if ear is not None and ear.trouble else "quiet" if hertz == 0 else "heard"
-            rows.append(_row(topic, hertz, 0.0, state, ear.trouble if ear is not None else ""))
+            trouble = subscribers[topic].trouble if topic in subscribers else ""
+            rows.append(_row(topic, hertz, 0.0, "not heard" if trouble else "heard" if hertz else "quiet", trouble))
         return rows
 
-    def _follow_topics(self, ears: dict[str, Ear]) -> None:
-        """Have an ear at each topic that somebody publishes and the recorder does not hear."""
+    def _follow_topics(self, subscribers: dict[str, LazySubscriber]) -> None:
+        """Subscribe to each topic that a node publishes and the recorder does not hear."""
         node, recorder = self.backend.node, self.backend.recorder
         heard = {recorder.pose_topic, recorder.command_topic, STATUS_TOPIC, SCAN_TOPIC, OBSTACLE_TOPIC}
         found = {
@@ -332,11 +332,11 @@ class RatesPanel(LiveWidget):
         }
         shown = dict(list(found.items())[: MOST_ROWS - len(heard)])
         self.rates_more = len(found) - len(shown)
-        for topic in [topic for topic in ears if topic not in shown]:
-            ears.pop(topic).close()
+        for topic in [topic for topic in subscribers if topic not in shown]:
+            subscribers.pop(topic).close()
         for topic, kind in shown.items():
-            if topic not in ears:
-                ears[topic] = Ear(self.backend, topic, kind)
+            if topic not in subscribers:
+                subscribers[topic] = LazySubscriber(self.backend, topic, kind)
 
 
 def _row(topic: str, hertz: float, expected: float, state: str, note: str = "") -> dict[str, Any]:

@@ -15,7 +15,7 @@ from ..obstacle_board import Obstacle
 from ..path import find_jumps
 from ..recording import UNDER_WAY, Table
 from ..words import angle, count, listed, point
-from .goal_client import Goal, GoalDesk
+from .goal_client import Goal, GoalClient
 from .lazy_endpoints import let_time_go_on
 from .live_widget import LiveWidget, pack
 
@@ -240,7 +240,7 @@ class GoalsPanel(LiveWidget):
 
     def __init__(self, *arguments: Any, **traits: Any) -> None:
         super().__init__(*arguments, **traits)
-        self.desk = GoalDesk(self.backend, self._goal_changed)
+        self.desk = GoalClient(self.backend, self._goal_changed)
         self._goal_news = False
 
     def opened(self) -> None:

@@ -9,7 +9,7 @@ import traitlets
 from ..words import count, did_you_mean, enumerated, is_hidden
 from .backend import Backend
 from .live_widget import LiveWidget, script, styles
-from .parameter_client import BOOL, DOUBLE, INTEGER, TYPES, Found, ParameterDesk, node_names, read, shown
+from .parameter_client import BOOL, DOUBLE, INTEGER, TYPES, Found, ParameterClient, node_names, read, shown
 
 
 class ParametersPanel(LiveWidget):
@@ -27,7 +27,7 @@ class ParametersPanel(LiveWidget):
         self._esm = script("dom", "small", "parameter_controls", "parameters")
         self._css = styles("base", "small", "parameters")
         name = _look_up(backend.node, node)
-        self._desk = ParameterDesk(backend, name, self._show)
+        self._desk = ParameterClient(backend, name, self._show)
         self._errors: dict[str, str] = {}
         self._answers: dict[str, int] = {}
         self._pending: set[str] = set()

@@ -11,7 +11,7 @@ import traitlets
 from ...ros.stdlib.clocks import real_monotonic
 from ..words import number
 from .backend import Backend
-from .lazy_endpoints import Outlet, let_time_go_on
+from .lazy_endpoints import LazyPublisher, let_time_go_on
 from .live_widget import LiveWidget, script, styles
 
 TYPE = "geometry_msgs/msg/Twist"
@@ -55,10 +55,10 @@ class Teleop(LiveWidget):
             raise ValueError(f'the topic to drive on must be a name such as "/turtle1/cmd_vel", got {topic!r}')
         name = backend.node.resolve_topic_name(topic)
         self._message = Twist
-        self._outlet = Outlet(backend, name, Twist, TYPE)
+        self._publisher = LazyPublisher(backend, name, Twist, TYPE)
         self._timer: Any = None
         self._last_sign = -math.inf
-        super().__init__(backend, topic=name, unheard=self._outlet.why_unheard())
+        super().__init__(backend, topic=name, unheard=self._publisher.why_unheard())
         if backend.keyboard is not None:
             backend.keyboard.has_keys = True
         self._look_for_program()
@@ -110,9 +110,9 @@ class Teleop(LiveWidget):
         """Stop if the page no longer says that the stick is held, and look which nodes listen."""
         self._watch()
         self._look_for_program()
-        self._outlet.flush()
+        self._publisher.flush()
         if self.due("listeners", 2):
-            self.unheard = self._outlet.why_unheard()
+            self.unheard = self._publisher.why_unheard()
 
     def _look_for_program(self) -> None:
         if self.backend.keyboard is not None:
@@ -126,7 +126,7 @@ class Teleop(LiveWidget):
     def left(self) -> None:
         """Stop, and leave the topic."""
         self.do_release()
-        self._outlet.close()
+        self._publisher.close()
 
     def _beat(self) -> None:
         self._watch()
@@ -149,7 +149,7 @@ class Teleop(LiveWidget):
         message = self._message()
         message.linear.x = self.stick["forward"] * self.limits["forward"]
         message.angular.z = self.stick["turn"] * self.limits["turn"]
-        self._outlet.publish(message)
+        self._publisher.publish(message)
         self.sent = {"linear": message.linear.x, "angular": message.angular.z, "count": self.sent["count"] + 1}
 
     def text(self) -> str:
@@ -159,7 +159,7 @@ class Teleop(LiveWidget):
         if self.sent["count"]:
             last = f"last sent {in_words(self.sent['linear'], self.sent['angular'])}"
         keys = f"Keys go to {self.program}. " if self.program else ""
-        return f"Teleop on {self.topic}, {most}: {last}. {keys}{self._outlet.why_unheard()}".strip()
+        return f"Teleop on {self.topic}, {most}: {last}. {keys}{self._publisher.why_unheard()}".strip()
 
 
 def in_words(linear: float, angular: float) -> str:
