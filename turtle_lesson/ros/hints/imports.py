@@ -216,7 +216,4 @@ def _left_to_its_sources(package: str, name: str) -> str:
 
 
 def _like(name: str, known: list[str]) -> str:
-    by_lower = {each.lower(): each for each in known}
-    if name.lower() in by_lower:
-        return f"Did you mean '{by_lower[name.lower()]}'?"
     return did_you_mean(name, [each for each in known if not each.startswith("__")])
