@@ -29,7 +29,7 @@ class Found:
     descriptor: Any
 
 
-class ParameterDesk:
+class ParameterClient:
     """Asks a node. `changed()` is called with all news; nothing here waits."""
 
     def __init__(self, backend: Backend, node_name: str, changed: Callable[[], object]) -> None:
@@ -275,13 +275,11 @@ def _array(value: Any, element: type) -> list[Any]:
 def _guessed(typed: Any) -> tuple[Any, int]:
     """A value of any type, and which: as `ros2 param set` reads it."""
     value = typed if isinstance(typed, bool) else _yaml(str(typed))
-    singles: list[tuple[type, int]] = [(bool, BOOL), (int, INTEGER), (float, DOUBLE)]
-    for element, kind in singles:
+    for element, kind in ((bool, BOOL), (int, INTEGER), (float, DOUBLE)):
         if type(value) is element:
             return value, kind
-    lists: list[tuple[type, int]] = [(bool, BOOLS), (int, INTEGERS), (float, DOUBLES), (str, STRINGS)]
-    for element, kind in lists:
-        if isinstance(value, list) and all(type(each) is element for each in value):
+    for kind in (BOOLS, INTEGERS, DOUBLES, STRINGS):
+        if isinstance(value, list) and all(type(each) is _ELEMENTS[kind] for each in value):
             return value, kind
     return str(typed), STRING
 
