@@ -78,7 +78,7 @@ def _sentence(step: Step) -> str:
         parts.append(f"answered after {after(call.asked, call.answered)} ({fields(call.response)})")
     elif call.received is not None:
         parts.append("has not answered yet")
-    meanwhile = [f"{name} {times}, at most {after(0, longest)}" for name, (times, longest) in waits_of(step)]
+    meanwhile = [f"{name} {times}, at most {after(0, longest)}" for name, (times, longest) in step.waited.items()]
     if meanwhile:
         parts.append(f"had to wait meanwhile: {listed(meanwhile)}")
     return f"{'; '.join(filter(None, parts))}."
@@ -91,16 +91,15 @@ class Step:
     Attributes:
         call: the call itself.
         callback: the function that served it, if it has begun.
-        began, ended: when that ran; None for what has not happened.
-        waited: of the same program's other callbacks those that were ready meanwhile and had to wait: how many runs, and
-            the longest wait.
+        began: when that began; None if it has not.
+        waited: of the same program's other callbacks those that were ready meanwhile and had to wait: how often, in words,
+            and the longest wait.
     """
 
     call: Any
     callback: str
     began: int | None
-    ended: int | None
-    waited: dict[str, tuple[int, int]]
+    waited: dict[str, tuple[str, int]]
 
 
 def step_of(trace: Any, call: Any) -> Step:
@@ -115,13 +114,13 @@ def step_of(trace: Any, call: Any) -> Step:
         mine.sort(key=lambda run: run[0])
         if place < len(mine):
             began, ended = mine[place]
-            return Step(call, callback.name, began, ended, _waited(trace, callback, began, ended or trace.now))
-    return Step(call, "", None, None, {})
+            return Step(call, callback.name, began, _waited(trace, callback, began, ended or trace.now))
+    return Step(call, "", None, {})
 
 
-def _waited(trace: Any, server: Any, began: int, ended: int) -> dict[str, tuple[int, int]]:
+def _waited(trace: Any, server: Any, began: int, ended: int) -> dict[str, tuple[str, int]]:
     """The callbacks of the same program that became ready while this one ran, and had to wait for a while."""
-    found: dict[str, tuple[int, int]] = {}
+    found: dict[str, tuple[str, int]] = {}
     for callback in trace.callbacks:
         if callback.process != server.process:
             continue
@@ -129,13 +128,8 @@ def _waited(trace: Any, server: Any, began: int, ended: int) -> dict[str, tuple[
         waits += [trace.now - ready for ready in callback.arrivals or () if began <= ready <= ended]
         if late := [wait for wait in waits if wait >= SHORT]:
             source = callback.source or f"every {callback.period / NANOSECONDS:g} s"
-            found[f"{callback.name} ({source})"] = (len(late), max(late))
+            found[f"{callback.name} ({source})"] = (count(len(late), "time"), max(late))
     return found
-
-
-def waits_of(step: Step) -> list[tuple[str, tuple[str, int]]]:
-    """What had to wait meanwhile: a callback, how often in words, and the longest wait in ns."""
-    return [(name, (count(runs, "time"), longest)) for name, (runs, longest) in step.waited.items()]
 
 
 def clock(time: int) -> str:
@@ -315,7 +309,7 @@ def _end(step: Step) -> list[tuple[int, Event]]:
     end = call.answered if call.answered is not None else 2**62
     events = [
         Event("note", call.server, text=f"{name} waits {times}, at most {after(0, longest)}")
-        for name, (times, longest) in waits_of(step)
+        for name, (times, longest) in step.waited.items()
     ]
     if call.answered is None:
         events.append(Event("note", call.server, text="no answer yet"))
