@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, redirect_stdout
 from typing import TYPE_CHECKING, Any
 
@@ -31,7 +31,7 @@ class CheckTarget:
         self._world = world
         self.recording = recording
         self.node = recording.node
-        self._board = board
+        self.board = board
         self._errors: list[tuple[str, Exception]] = []
         self._cells = CellNodes(world)
 
@@ -56,15 +56,6 @@ class CheckTarget:
         """The strands of all processes that wait somewhere."""
         processes = [*self._world.processes, self._world.notebook]
         return [each for process in processes if process.alive for each in process.strands if each.parked]
-
-    @property
-    def obstacles(self) -> tuple[Any, ...]:
-        """The obstacles in the world."""
-        return self._board.obstacles
-
-    def put(self, obstacles: Iterable[Any]) -> None:
-        """Replace them."""
-        self._board.put(obstacles)
 
     def limit_work(self, seconds: float | None) -> None:
         """Stop the learner's code once it has used this much more CPU time (s); None lifts that limit."""

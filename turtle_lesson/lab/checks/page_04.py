@@ -43,8 +43,8 @@ def battery() -> list[Expectation]:
         publishes(STATUS, STATUS_TYPE, by="/status_monitor"),
         rate(STATUS, STATUS_TYPE, hz=10),
         battery_starts_full,
-        battery_falls(until_it_is_empty, "Hint 1"),
-        battery_ends_at_zero("Hint 2"),
+        battery_falls(until_it_is_empty, 1),
+        battery_ends_at_zero,
         no_errors(),
     ]
 
@@ -143,22 +143,18 @@ def velocity_follows(axis: str, part: Callable[[float], float]) -> Expectation:
 
     def look(probe: Probe) -> Seen:
         it = ride(probe)
-        driving = [
-            (float(field(status.message, f"vel_{axis}")), pose.message)
-            for status, pose in it.pairs()
-            if it.began + 0.3 < status.at < it.ended
-        ]
+        driving = [(status, pose.message) for status, pose in it.pairs() if it.began + 0.3 < status.at < it.ended]
         if not driving:
             raise CannotLook(f"no message came on {STATUS} while the turtle drove")
-        wanted = [pose.linear_velocity * part(pose.theta) for _, pose in driving]
-        worst = max(range(len(driving)), key=lambda i: _off(driving[i][0], wanted[i]))
-        said, pose = driving[worst]
-        good = _off(said, wanted[worst]) <= LATE
-        seen = (
-            f"{number(said)} m/s where {number(wanted[worst])} m/s is right: {number(SPEED)} m/s at {angle(pose.theta)}"
-        )
+        told = [
+            (float(field(status.message, f"vel_{axis}")), pose.linear_velocity * part(pose.theta), pose.theta)
+            for status, pose in driving
+        ]
+        said, right, heading = max(told, key=lambda each: _off(each[0], each[1]))
+        good = _off(said, right) <= LATE
+        seen = f"{number(said)} m/s where {number(right)} m/s is right: {number(SPEED)} m/s at {angle(heading)}"
         if good:
-            seen = f"right in all {count(len(driving), 'message')} of a circle"
+            seen = f"right in all {count(len(told), 'message')} of a circle"
         other = "y" if axis == "x" else "x"
         advice = hinted(
             f"How much of the speed goes along {axis}, and how much along {other}? Try 0, π/2 and π in your head.", 2
@@ -201,8 +197,8 @@ def battery_starts_full(probe: Probe) -> Seen:
     return Seen(by_then - 1e-3 <= charge <= 100.0 + 1e-3, seen, advice)
 
 
-def battery_falls(heard: Callable[[Probe], list[Heard]], hint: str = "") -> Expectation:
-    """Each message has 0.1 less than the one before, or 0."""
+def battery_falls(heard: Callable[[Probe], list[Heard]], hint: int | str = "") -> Expectation:
+    """Each message has 0.1 less than the one before, or 0; `hint` is the number of one under the exercise."""
 
     def look(probe: Probe) -> Seen:
         charges = [float(field(each.message, "battery")) for each in heard(probe)]
@@ -218,7 +214,7 @@ def battery_falls(heard: Callable[[Probe], list[Heard]], hint: str = "") -> Expe
         before, after = wrong[0]
         advice = hinted(
             "Once for each message that is published, the battery becomes 0.1 less than it was, but not less than 0.",
-            f"Open {hint} under the exercise." if hint else "",
+            hint,
         )
         return Seen(False, f"{number(before)} %, and in the next message {number(after)} %", advice)
 
@@ -241,18 +237,15 @@ def until_it_is_empty(probe: Probe) -> list[Heard]:
     return heard
 
 
-def battery_ends_at_zero(hint: str) -> Expectation:
+@expectation("battery ends at 0, never below")
+def battery_ends_at_zero(probe: Probe) -> Seen:
     """However much time passes, the battery stays from 0 to 100, and at the end it is 0."""
-
-    def look(probe: Probe) -> Seen:
-        charges = [float(field(each.message, "battery")) for each in until_it_is_empty(probe)]
-        seen = f"from {number(max(charges), 1)} to {number(min(charges), 1)}, at the end {number(charges[-1], 1)}"
-        good = min(charges) >= 0.0 and max(charges) <= 100.0 and charges[-1] < DROP / 2
-        becomes = "What should 0.0 minus 0.1 become?"
-        direction = becomes if min(charges) < 0 else "It should run down to 0.0, and stay there."
-        return Seen(good, seen, hinted(direction, f"Open {hint} under the exercise."))
-
-    return Expectation("battery ends at 0, never below", look)
+    charges = [float(field(each.message, "battery")) for each in until_it_is_empty(probe)]
+    seen = f"from {number(max(charges), 1)} to {number(min(charges), 1)}, at the end {number(charges[-1], 1)}"
+    good = min(charges) >= 0.0 and max(charges) <= 100.0 and charges[-1] < DROP / 2
+    below = min(charges) < 0
+    advice = "What should 0.0 minus 0.1 become?" if below else "It should run down to 0.0, and stay there."
+    return Seen(good, seen, hinted(advice, 2))
 
 
 # -- the watch -------------------------------------------------------------------------------------------------------------

@@ -7,7 +7,7 @@ several expectations can be about the same drive.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager, suppress
 from dataclasses import dataclass
 from functools import wraps
@@ -15,6 +15,7 @@ from types import TracebackType
 from typing import Any, Protocol, TypeVar
 
 from ...ros.sim.interrupts import work_done
+from ..obstacle_board import ObstacleBoard
 from ..recorder import with_time
 from ..recording import NANOSECONDS, Recording
 from ..words import listed, number
@@ -45,6 +46,8 @@ class Target(Protocol):
 
     node: Any
     """A node with a hidden name, spun while time passes."""
+    board: ObstacleBoard
+    """The obstacles in the world, and their publisher."""
 
     @property
     def recording(self) -> Recording:
@@ -89,13 +92,6 @@ class Target(Protocol):
 
     def step(self, seconds: float) -> None:
         """Let robot time pass."""
-
-    @property
-    def obstacles(self) -> tuple[Any, ...]:
-        """The obstacles in the world."""
-
-    def put(self, obstacles: Iterable[Any]) -> None:
-        """Replace them, by a message on /world/obstacles."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -316,12 +312,13 @@ class Probe(GraphView):
     @contextmanager
     def obstacles(self, *added: Any) -> Iterator[None]:
         """Within this block these obstacles stand in the world, too; after it, what stood there before."""
-        before = self.target.obstacles
-        self.target.put([*before, *added])
+        board = self.target.board
+        before = board.obstacles
+        board.put([*before, *added])
         try:
             yield
         finally:
-            self.target.put(before)
+            board.put(before)
 
     def ask(self, service: str, type_name: str, timeout: float, **fields: Any) -> Answer:
         """Call a service, and let robot time pass until it answers or the timeout (s) is over.
