@@ -10,11 +10,13 @@ from __future__ import annotations
 import math
 import sys
 from argparse import REMAINDER, SUPPRESS, Action, ArgumentError, ArgumentParser, ArgumentTypeError, Namespace
+from contextlib import suppress
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 from ..bags import BagError
+from ..idl.names import did_you_mean
 from ..runtime import files
 from ..runtime.world import current_process
 from .verb import Command, add_duration, end_of_stretch, flag, frequency, now, remark, stretch_of
@@ -30,22 +32,14 @@ LONGEST = 1e9
 
 def existing_path(text: str) -> str:
     """An argument that names a file or folder which is there."""
-    if not _exists(Path(text)):
-        raise ArgumentTypeError(f"Bag path '{text}' does not exist!{_bags_here(text)}")
-    return text
-
-
-def _exists(path: Path) -> bool:
-    try:
-        return path.expanduser().exists()
-    except (OSError, ValueError, RuntimeError):
-        return False  # no path at all: far too long, or with a zero byte in it
+    with suppress(OSError, ValueError, RuntimeError):  # no path at all: far too long, or with a zero byte in it
+        if Path(text).expanduser().exists():
+            return text
+    raise ArgumentTypeError(f"Bag path '{text}' does not exist!{_bags_here(text)}")
 
 
 def _bags_here(text: str) -> str:
     """What perhaps was meant: the bags beside the one that is not there."""
-    from ..idl.names import did_you_mean
-
     try:
         folder = Path(text).expanduser().parent
         bags = [path.parent.name for path in folder.glob("*/metadata.yaml")]
@@ -298,20 +292,19 @@ def _reindex(args: Namespace) -> int:
     return _error(bag.damage) if bag.damage else 0
 
 
-def _everything(parser: ArgumentParser) -> None:
-    """Take all words as they are, also those that look like options."""
-    parser.prefix_chars = ""
-    parser.add_argument("words", nargs=REMAINDER, help=SUPPRESS)
-
-
 def _not_here(verb: str, reason: str) -> Command:
     """A verb of the real tool that is not here."""
+
+    def everything(parser: ArgumentParser) -> None:
+        """Take all words as they are, also those that look like options."""
+        parser.prefix_chars = ""
+        parser.add_argument("words", nargs=REMAINDER, help=SUPPRESS)
 
     def work(args: Namespace) -> int:
         print(f"ros2 bag {verb}: not available in this simulation: {reason}. A real ROS 2 has it.", file=sys.stderr)
         return 2
 
-    return Command(f"Not available in this simulation: {reason}", _everything, work)
+    return Command(f"Not available in this simulation: {reason}", everything, work)
 
 
 def _logger(name: str) -> Any:

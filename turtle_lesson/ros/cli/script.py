@@ -350,16 +350,13 @@ exec(__loader__.get_code(__spec__.name))
 at a time when those of the notebook are in it.)"""
 
 
-def names_a_script(words: Sequence[str]) -> bool:
-    """Whether a command is Python with a file or module that is there; all else the computer would have to do."""
-    return len(words) > 1 and _PYTHON.fullmatch(words[0]) is not None and _script(words[1:]) is not None
-
-
-def _script(arguments: Sequence[str]) -> Path | None:
-    """The file that Python would run."""
-    name = arguments[0]
+def script_of(words: Sequence[str]) -> Path | None:
+    """The file that a command runs, if it is Python with a file or module that is there; all else the computer has to do."""
+    if len(words) < 2 or not _PYTHON.fullmatch(words[0]):
+        return None
+    name = words[1]
     if name == "-m":
-        return _module(arguments[1]) if len(arguments) > 1 else None
+        return _module(words[2]) if len(words) > 2 else None
     return Path(name) if not name.startswith("-") and len(name) < 1000 and Path(name).is_file() else None
 
 
@@ -374,15 +371,13 @@ def _module(name: str) -> Path | None:
     return next((place for place in places if place.is_file()), None)
 
 
-def run_script(world: World, words: Sequence[str], stdin: str | None, stdout: Any, stderr: Any) -> int:
-    """Start the program, let it begin, and leave it running; the exit code of one that has ended at once.
+def run_script(world: World, words: Sequence[str], path: Path, stdin: str | None, stdout: Any, stderr: Any) -> int:
+    """Start the program at `path`, let it begin, and leave it running; the exit code of one that has ended at once.
 
     It reads `stdin` as its input, or the keyboard if there is none, and prints into the cell, or into files behind `>`.
     """
     from .group_run_launch import leave, reader_of
 
-    path = _script(words[1:])
-    assert path is not None
     target: Path | PythonProgram = path
     name, arguments = path.stem, list(words[1:])
     if arguments[0] == "-m":

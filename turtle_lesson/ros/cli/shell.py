@@ -34,9 +34,9 @@ from .script import (
     Word,
     commands_in,
     expand,
-    names_a_script,
     pipelines,
     run_script,
+    script_of,
     tokens,
     with_its_program,
 )
@@ -175,8 +175,8 @@ class Shell:
         except PermissionError as mistake:
             print(mistake, file=error)
             return NOT_EXECUTABLE
-        if names_a_script(words):
-            return run_script(self.world, words, given, out, error)
+        if (path := script_of(words)) is not None:
+            return run_script(self.world, words, path, given, out, error)
         if name in BUILTINS:
             return BUILTINS[name](Terminal(self.world, out, error, given), list(words[1:]))
         print(_not_found(words), file=error)

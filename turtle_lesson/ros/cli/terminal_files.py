@@ -64,7 +64,9 @@ def mkdir(terminal: Terminal, words: list[str]) -> int:
     code = 0
     for name in names:
         try:
-            _make(Path(name), parents)
+            if not parents and os.path.lexists(name):
+                raise FileExistsError
+            files.check(Path(name)).mkdir(parents=parents, exist_ok=parents)  # not by way of other folders: new/../../x
         except FileExistsError:
             code = terminal.fail(f"mkdir: cannot create directory '{name}': File exists")
         except FileNotFoundError:
@@ -72,12 +74,6 @@ def mkdir(terminal: Terminal, words: list[str]) -> int:
                 f"mkdir: cannot create directory '{name}': No such file or directory. mkdir -p also makes the folders above"
             )
     return code
-
-
-def _make(path: Path, parents: bool) -> None:
-    if not parents and os.path.lexists(path):
-        raise FileExistsError
-    files.check(path).mkdir(parents=parents, exist_ok=parents)  # not by way of other folders, as in new/../../x
 
 
 # -- files -------------------------------------------------------------------------------------------------------------
