@@ -233,7 +233,8 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
         with self.lock:
             self._keep(msg, stamp, my_queue)
             for stamps in product(*self._candidates(stamp.nanoseconds, my_queue_index)):
-                if self._fit(stamps):
+                present = all(each in queue for each, queue in zip(stamps, self.queues, strict=True))
+                if present and max(stamps) - min(stamps) < self.slop.nanoseconds:
                     self._hand_out(stamps)
                     return
 
@@ -246,8 +247,3 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
             else sorted((each for each in queue if abs(each - mine) <= slop), key=lambda each: abs(each - mine))
             for index, queue in enumerate(self.queues)
         ]
-
-    def _fit(self, stamps: Sequence[int]) -> bool:
-        apart = max(stamps) - min(stamps)
-        present = all(stamp in queue for stamp, queue in zip(stamps, self.queues, strict=True))
-        return apart < self.slop.nanoseconds and present

@@ -117,7 +117,7 @@ class ExecutorBase:
         if not comes_again:
             self._nodes_seen += 1
             node._ros_place = (self, self._nodes_seen)
-        for entity in list(node._ros_waiting_entities):
+        for entity in node._ros_waiting_entities:
             if comes_again and entity._turn is not NO_TURN:
                 entity._executor = self  # type: ignore[assignment]
                 if entity._has_work():
@@ -139,7 +139,7 @@ class ExecutorBase:
         if node in self._nodes:
             self._nodes.remove(node)
             node._ros_executor = None
-            for entity in list(node._ros_waiting_entities):
+            for entity in node._ros_waiting_entities:
                 entity._executor = None
 
     def get_nodes(self) -> list[Node]:

@@ -41,7 +41,7 @@ class _Handlers:
         return unchanged and self.options in (SignalHandlerOptions.ALL, SignalHandlerOptions.__members__.get(name))
 
     def takes(self, number: int) -> bool:
-        """Whether a signal is dealt with here alone."""
+        """Whether a signal is handled here alone."""
         return number == signal.SIGTERM and self._is_set(number)
 
     def hear(self, number: int) -> bool:

@@ -40,11 +40,8 @@ class StaticTransformBroadcaster:
             if old is new:
                 self.net_message.transforms.append(new)
             elif old.transform != new.transform or old.header.frame_id != new.header.frame_id:
-                self._say_ignored(new.child_frame_id)
+                self._logger.warning(
+                    f"'{new.child_frame_id}' was sent before, and on /tf_static the first transform of a frame counts: "
+                    "this one is ignored. Use a TransformBroadcaster for a frame that moves."
+                )
         self.pub_tf.publish(self.net_message)
-
-    def _say_ignored(self, child: str) -> None:
-        self._logger.warning(
-            f"'{child}' was sent before, and on /tf_static the first transform of a frame counts: this one is ignored. "
-            "Use a TransformBroadcaster for a frame that moves."
-        )
