@@ -67,22 +67,20 @@ class Single:
 
     def state(self) -> dict[str, Any]:
         """What the browser needs to draw the field."""
-        control = {"boolean": "checkbox", "string": "text", "wstring": "text"}.get(self.kind.base, "number")
+        base = self.kind.base
+        hint = f"at most {self.kind.longest} characters" if self.kind.longest else ""
+        if base in INTEGERS | {"octet", "char"}:
+            low, high = limits_of(base)
+            hint = f"from {low} to {high}".replace("-", "−")
+        control = {"boolean": "checkbox", "string": "text", "wstring": "text"}.get(base, "number")
         return {
             "control": control,
             "path": self.path,
             "name": self.name,
             "type": str(self.kind),
-            "help": self._help(),
+            "help": hint,
             "options": [[name, str(value)] for name, value in self.constants.items()],
         }
-
-    def _help(self) -> str:
-        base = self.kind.base
-        if base in INTEGERS | {"octet", "char"}:
-            low, high = limits_of(base)
-            return f"from {low} to {high}".replace("-", "−")
-        return f"at most {self.kind.longest} characters" if self.kind.longest else ""
 
     def _fits(self, constant: Any) -> bool:
         if isinstance(constant, bool) or self.kind.base == "boolean":

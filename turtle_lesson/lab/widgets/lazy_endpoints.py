@@ -18,6 +18,21 @@ from .message_types import plain
 PATIENCE = 1.0
 """Robot time, s, for which a message waits until a publisher that was just made has found its listeners."""
 
+KEPT = 1000
+"""Times that are kept: five seconds of a topic with 200 messages a second."""
+
+DISCOVERY = 2.0
+"""Seconds for which a question is held back on a real network, until a new client has found its server."""
+
+LONGEST_LIST = 50
+"""How many elements of an array are shown of an answer."""
+
+WARNING = 30
+"""rcl_interfaces/msg/Log: this level and those above it."""
+
+SLACK = 0.1
+"""Robot time, s, by which a warning may be older than its call, or newer than the answer to it."""
+
 
 class LazyPublisher:
     """Publishes messages of one class on one topic. Until the first message the graph shows nothing of it."""
@@ -102,10 +117,6 @@ def in_a_moment(backend: Backend, has_come: Callable[[], bool]) -> None:
         backend.clock.step(0.005)
 
 
-KEPT = 1000
-"""Times that are kept: five seconds of a topic with 200 messages a second."""
-
-
 class LazySubscriber:
     """Notes when messages were sent on a topic, until it is closed. `trouble` says why it cannot, if it cannot."""
 
@@ -148,12 +159,6 @@ class LazySubscriber:
 
 Answered = Callable[[str, str], object]
 """Called with what became of a question: in words, and the answer in YAML ("" where none came)."""
-
-DISCOVERY = 2.0
-"""Seconds for which a question is held back on a real network, until a new client has found its server."""
-
-LONGEST_LIST = 50
-"""How many elements of an array are shown of an answer."""
 
 
 class LazyClient:
@@ -264,13 +269,6 @@ def _shortened(value: Any) -> Any:
         rest = [f"… and {len(value) - LONGEST_LIST} more"] if len(value) > LONGEST_LIST else []
         return [*map(_shortened, value[:LONGEST_LIST]), *rest]
     return value
-
-
-WARNING = 30
-"""rcl_interfaces/msg/Log: this level and those above it."""
-
-SLACK = 0.1
-"""Robot time, s, by which a warning may be older than its call, or newer than the answer to it."""
 
 
 class ServerWatcher:

@@ -1,4 +1,4 @@
-"""Curves that go on: numbers from any topics, drawn as they come."""
+"""A live plot: numbers from any topics, drawn as they come, and how each is found in its messages."""
 
 from __future__ import annotations
 

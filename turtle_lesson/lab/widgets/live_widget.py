@@ -1,4 +1,4 @@
-"""What all widgets that draw have in common: the views that show them, their ticks, their text and their picture."""
+"""What all widgets have in common: their files, their views and ticks, their orders, their text and their picture."""
 
 from __future__ import annotations
 

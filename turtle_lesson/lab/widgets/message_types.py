@@ -107,22 +107,18 @@ def find_class(type_name: str) -> Any:
     folder, _, name = rest.rpartition("/")
     try:
         if "_" in name and folder in ("", "action"):
-            return _part_of_an_action(package, name)
+            action_name, _, part = name.partition("_")
+            action = getattr(importlib.import_module(f"{package}.action"), action_name)
+            if hasattr(action, part):  # X.Goal for "X_Goal"
+                return getattr(action, part)
+            # what carries it, such as X_FeedbackMessage or X_SendGoal, is in X.Impl
+            return getattr(action.Impl, part if hasattr(action.Impl, part) else f"{part}Service")
         return getattr(importlib.import_module(f"{package}.{folder or 'msg'}"), name)
     except (ImportError, AttributeError):
         raise ValueError(
             f"the type {type_name} cannot be imported here: is its package built and sourced? Try "
             f"colcon build --packages-select {package}, then source install/setup.bash"
         ) from None
-
-
-def _part_of_an_action(package: str, name: str) -> Any:
-    """X.Goal for "X_Goal"; what carries it, such as X_FeedbackMessage or X_SendGoal, is in X.Impl."""
-    action_name, _, part = name.partition("_")
-    action = getattr(importlib.import_module(f"{package}.action"), action_name)
-    if hasattr(action, part):
-        return getattr(action, part)
-    return getattr(action.Impl, part if hasattr(action.Impl, part) else f"{part}Service")
 
 
 def plain(value: Any, kind: Kind | None = None) -> Any:

@@ -1,4 +1,4 @@
-"""The parameters of another node, asked for and set through its services, and followed as others change them."""
+"""The parameters of another node: asked for and set through its services, followed, and their values as they are typed."""
 
 from __future__ import annotations
 

@@ -27,18 +27,18 @@ class ParametersPanel(LiveWidget):
         self._esm = script("dom", "small", "parameter_controls", "parameters")
         self._css = styles("base", "small", "parameters")
         name = _look_up(backend.node, node)
-        self._desk = ParameterClient(backend, name, self._show)
+        self._client = ParameterClient(backend, name, self._show)
         self._errors: dict[str, str] = {}
         self._answers: dict[str, int] = {}
         self._pending: set[str] = set()
         self._there = True
         super().__init__(backend, node_name=name)
-        self._desk.listen()
+        self._client.listen()
         self._show()
 
     def do_set(self, name: str, value: Any) -> None:
         """Have the node set a parameter to what was typed (true or false, for a checkbox)."""
-        found = self._desk.found.get(name)
+        found = self._client.found.get(name)
         if found is None:
             raise ValueError(f"{self.node_name} has no parameter {name!r}.")
         try:
@@ -47,21 +47,21 @@ class ParametersPanel(LiveWidget):
             self._told(name, f"Not asked: {error}")
             return
         self._pending.add(name)
-        self._desk.set(name, wanted, lambda reason: self._told(name, reason and f"Refused: {reason}"))
+        self._client.set(name, wanted, lambda reason: self._told(name, reason and f"Refused: {reason}"))
         if name in self._pending:
             self.words = f"Asked {self.node_name} to set {name}; its answer comes once robot time passes."
         self._show()
 
     def do_ask(self) -> None:
         """Ask the node for all its parameters anew."""
-        self._desk.ask_in_a_moment()
+        self._client.ask_in_a_moment()
         self._show()
 
     def _told(self, name: str, trouble: str) -> None:
         """The node has answered, or was not asked: `trouble` says why nothing changed, "" if it did."""
         self._pending.discard(name)
         self._answers[name] = self._answers.get(name, 0) + 1
-        found = self._desk.found.get(name)
+        found = self._client.found.get(name)
         now = shown(found.value) if found is not None else "gone"
         self._errors.pop(name, None)
         if trouble:
@@ -73,15 +73,15 @@ class ParametersPanel(LiveWidget):
         """See whether the node is still there, and ask again when it has come back."""
         if not self.due("node", 3):
             return
-        there = self._desk.is_there
-        if there and (not self._there or (self._desk.problem and not self._desk.known)):
-            self._desk.ask()
+        there = self._client.is_there
+        if there and (not self._there or (self._client.problem and not self._client.known)):
+            self._client.ask()
         self._there = there
         self._show()
 
     def opened(self) -> None:
         """Listen and ask, if that has ended."""
-        self._desk.listen()
+        self._client.listen()
 
     def closed(self) -> None:
         """The last view is gone: listen no more."""
@@ -90,12 +90,12 @@ class ParametersPanel(LiveWidget):
 
     def left(self) -> None:
         """Listen no more."""
-        self._desk.close()
+        self._client.close()
 
     def _show(self) -> None:
         clock = self.backend.clock
         with self.hold_sync():
-            self.items = [self._item(found) for found in self._desk.found.values()]
+            self.items = [self._item(found) for found in self._client.found.values()]
             self.problem = self._why_nothing()
             self.standing = bool(self.problem) and self._there and clock is not None and not clock.playing
 
@@ -103,11 +103,11 @@ class ParametersPanel(LiveWidget):
         if not self._there:
             others = [each for each in node_names(self.backend.node) if not is_hidden(each)]
             return f"{self.node_name} is gone. The nodes now: {enumerated(others)}."
-        if self._desk.problem:
-            return self._desk.problem
-        if not self._desk.known:
+        if self._client.problem:
+            return self._client.problem
+        if not self._client.known:
             return f"Asked {self.node_name}; it answers once robot time passes."
-        return "" if self._desk.found else f"{self.node_name} has no parameters."
+        return "" if self._client.found else f"{self.node_name} has no parameters."
 
     def _item(self, found: Found) -> dict[str, Any]:
         descriptor = found.descriptor
@@ -130,7 +130,7 @@ class ParametersPanel(LiveWidget):
         problem = self._why_nothing()
         if problem:
             return f"Parameters of {self.node_name}: {problem}"
-        found = [f"{each.name} = {shown(each.value)}" for each in self._desk.found.values()]
+        found = [f"{each.name} = {shown(each.value)}" for each in self._client.found.values()]
         return f"{self.node_name} has {count(len(found), 'parameter')}: {', '.join(found)}."
 
 
