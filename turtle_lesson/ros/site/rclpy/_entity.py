@@ -75,7 +75,7 @@ class Entity:
         """The callback has returned `result`."""
 
     def _check_alive(self, doing: str = "") -> None:
-        """Raise what the use of something destroyed deserves. After rclpy.shutdown() only `doing` something is refused."""
+        """Raise InvalidHandle if it was destroyed, and after rclpy.shutdown() RCLError for `doing` something."""
         if not self._destroyed or self._node is None:
             return
         if not self._outlived:

@@ -49,14 +49,14 @@ class NodeEntities(NodeGraph):
     # -- making things ---------------------------------------------------------------------------------------------
 
     def _ros_check_alive(self, doing: str = "") -> None:
-        """Raise what the use of a destroyed node deserves. After rclpy.shutdown() only `doing` something is refused."""
+        """Raise InvalidHandle if the node was destroyed, and after rclpy.shutdown() RCLError for `doing` something."""
         if self._ros_destroyed and not self._ros_shut_down:
             refuse_destroyed(self._ros_simulation)
         if self._ros_shut_down and doing:
             refuse_ended(doing)
 
     def _ros_check_context(self, what: str) -> None:
-        """As that, for what needs a context, but no place in the graph."""
+        """Raise RCLError after rclpy.shutdown(), for what needs a context, but no place in the graph."""
         if self._ros_shut_down:
             raise not_valid(what)
 

@@ -134,7 +134,7 @@ class ParameterUninitializedException(ParameterException):
 
 
 def refuse_destroyed(simulation: Simulation) -> NoReturn:
-    """Raise what the use of something destroyed deserves; what went with its world says that instead."""
+    """Raise InvalidHandle for the use of something destroyed, or WorldClosed if its world was closed."""
     if simulation.closed:
         raise WorldClosed(
             "this belongs to a world that a later start() has closed: make the node, and what belongs to it, again"
@@ -148,7 +148,7 @@ def refuse_destroyed(simulation: Simulation) -> NoReturn:
 
 
 def refuse_ended(doing: str) -> NoReturn:
-    """Raise what is deserved by somebody `doing` with the graph what is over since rclpy.shutdown()."""
+    """Raise RCLError for `doing` something with the graph after rclpy.shutdown()."""
     error = RCLError(f"{doing} context is invalid")
     error.add_note(
         "rclpy.shutdown(), or Ctrl-C, has ended ROS in this program. Do this before that; or call rclpy.init() again, and "
