@@ -17,7 +17,7 @@ DOCUMENTS = sorted([*ROOT.glob("*.md"), *PACKAGE.rglob("*.md"), *ROOT.glob("test
 LINK = re.compile(r"\]\((?!https?:)([^)#]*)(?:#([^)]*))?\)")
 FILE = re.compile(r"`((?:[\w.]+/)+(?:[\w.]+)?|\w+\.py)`")
 PLACEHOLDER = re.compile(r"NN|NAME|COMMAND")
-OF_A_LEARNER = ("robot_ws", "install", "src", "build", "setup.py")
+OF_A_LEARNER = ("robot_ws", "install", "src", "build", "setup.py", ".venv")
 
 
 def name_of(document: Path) -> str:
