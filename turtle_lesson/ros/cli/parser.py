@@ -7,7 +7,7 @@ import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import cache, cached_property, partial
 from importlib import import_module
 from typing import Any, NoReturn, Protocol
 
@@ -292,7 +292,7 @@ class Group:
     help: str
     flag: tuple[str, str] | None = None
 
-    @property
+    @cached_property
     def module(self) -> Any:
         """Its module."""
         return import_module(f"{__package__}.group_{_MODULES.get(self.name, self.name)}")

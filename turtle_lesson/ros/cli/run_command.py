@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import contextlib
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -101,23 +102,19 @@ def _guarded(call: Call) -> int:
         return 1
 
 
-def _program(call: Call) -> Callable[[], None]:
-    """The verb as the main program of a process."""
-
-    def main() -> None:
-        try:
-            code = _guarded(call)
-        except KeyboardInterrupt:
-            code = INTERRUPTED
-        sys.exit(code)
-
-    return main
+def _main(call: Call) -> None:
+    """The main program of the process that a verb runs as."""
+    try:
+        code = _guarded(call)
+    except KeyboardInterrupt:
+        code = INTERRUPTED
+    sys.exit(code)
 
 
 def _run_as_process(world: World, call: Call, words: Sequence[str], stdout: Any, stderr: Any, shown: bool) -> int:
     waiter = Waiter(world, call.prog)
     process = world.spawn(
-        _program(call), name="ros2", argv=words, stdout=stdout, stderr=stderr, on_exit=waiter.ended
+        partial(_main, call), name="ros2", argv=words, stdout=stdout, stderr=stderr, on_exit=waiter.ended
     )  # fmt: skip
     process.locals.update({"cwd": Path.cwd(), SHOWN: shown})
     reason = waiter.wait(process)
@@ -130,7 +127,7 @@ def _start_in_background(world: World, call: Call, words: Sequence[str], stdout:
     from .jobs import Job, jobs
 
     out, error = lasting(stdout, world.sim), lasting(stderr, world.sim)
-    process: Process = world.spawn(_program(call), name="ros2", argv=words, stdout=out, stderr=error)
+    process: Process = world.spawn(partial(_main, call), name="ros2", argv=words, stdout=out, stderr=error)
     process.locals.update({"cwd": Path.cwd(), BACKGROUND: True})
     job = jobs(world).add(Job(" ".join(words), process))
     print(f"[{job.number}] {process.pid}")

@@ -120,8 +120,9 @@ class Shell:
         try:
             if command.stdin is not None:
                 given = Path(self._file_name(command.stdin)).read_text(encoding="utf-8")
-            to, error_to = self._redirected(command, out, error)
-            error = error_to
+            to = out
+            if command.stdout is not None or command.stderr is not None:
+                to, error = self._redirected(command, out, error)
             return self._call(words, given, to, error, command.background) if words else 0
         except (OSError, ValueError, re.error) as mistake:
             return _said(words[0] if words else "bash", mistake, error)
