@@ -48,7 +48,9 @@ class ObstacleBoard:
 
         Raises ValueError for a world that there is not, TypeError for what is no obstacle.
         """
+        from rclpy.qos import DurabilityPolicy, QoSProfile
         from rclpy.time import Time
+        from visualization_msgs.msg import MarkerArray
 
         self._put = _checked(obstacles)
         now = self._now()
@@ -56,13 +58,7 @@ class ObstacleBoard:
         self._expected = {}
         apply(message, self._expected)
         self._deadline = now + PATIENCE
-        self._publish(message)
-
-    def _publish(self, message: Any) -> None:
         if self._publisher is None:
-            from rclpy.qos import DurabilityPolicy, QoSProfile
-            from visualization_msgs.msg import MarkerArray
-
             latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
             self._publisher = self._recorder.node.create_publisher(MarkerArray, OBSTACLE_TOPIC, latched)
         self._publisher.publish(message)

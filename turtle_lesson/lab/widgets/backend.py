@@ -130,14 +130,6 @@ class Loop:
         else:
             self.soon(action, *arguments)
 
-    def hopping(self, action: Callable[..., object]) -> Callable[..., None]:
-        """`action` as a callback that may be called from any thread."""
-
-        def hop(*arguments: Any) -> None:
-            self.soon(action, *arguments)
-
-        return hop
-
     def every(self, seconds: float, action: Callable[[], object]) -> asyncio.Task[None] | None:
         """Call `action` again and again; cancel the task to end that. None where there is no loop."""
         loop = self._loop

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable
 from contextlib import suppress
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any, ClassVar, cast
 
@@ -84,7 +84,7 @@ class LiveWidget(anywidget.AnyWidget):
         self._paces: dict[str, Pace] = {}
         super().__init__(**traits)
         self._views = Views(backend.loop, 1 / self.RATE, self._tick, self.opened, self.closed)
-        self.on_msg(backend.loop.hopping(self._order))
+        self.on_msg(partial(backend.loop.soon, self._order))
         self.is_made = True
 
     def tick(self) -> None:
