@@ -67,7 +67,7 @@ ELSEWHERE = frozenset({*_ROS_1, *_HERE, *_ON_THE_COMPUTER})
 """All these words."""
 
 NEVER_PYTHON = frozenset({*_ROS_1, *_HERE} - {"bash", "catkin", "code", "make", "python", "sudo", "vi"})
-"""Those that nobody would call a variable, so that one alone on a line is meant for a terminal."""
+"""Those that no program would use as a variable, so that one alone on a line is meant for a terminal."""
 
 
 def advice(words: Sequence[str]) -> str:

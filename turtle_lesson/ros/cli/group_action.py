@@ -129,7 +129,7 @@ def _outcome(node: Node, client: ActionClient, future: Future, until: float, han
             if now() >= until - 1e-9:
                 raise _too_long(node, handle)
     except KeyboardInterrupt:
-        if handle is not None:  # nobody can wait for the answer any more
+        if handle is not None:  # nothing can wait for the answer any more
             print("Canceling goal...")
             handle.cancel_goal_async()
         raise
@@ -174,7 +174,7 @@ def _info_arguments(parser: ArgumentParser) -> None:
 
 
 def info(args: Namespace) -> None:
-    """`ros2 action info`. Of an action that does not exist the real one says that nobody offers or uses it."""
+    """`ros2 action info`. Of an action that does not exist the real one says that no node offers or uses it."""
     with direct_node(args) as node:
         name = expanded(node, args.action_name)
         known = actions(node)

@@ -19,7 +19,7 @@ from .verb import (
     expanded,
     frequency,
     now,
-    of_the_classroom,
+    of_the_simulator,
     services,
     spin_for,
     stretch_of,
@@ -48,12 +48,12 @@ def info(args: Namespace) -> None:
         name = args.service_name
         types = SERVICES.types_of(name, known)
         print(f"Type: {types[0] if len(types) == 1 else types}")
-        print(f"Clients count: {node.count_clients(name) - _clients_of_the_classroom(node, name)}")
+        print(f"Clients count: {node.count_clients(name) - _clients_of_the_simulator(node, name)}")
         print(f"Services count: {node.count_services(name)}")
 
 
-def _clients_of_the_classroom(node: Node, service: str) -> int:
-    known = [where for where in node.get_node_names_and_namespaces() if of_the_classroom(where[0])]
+def _clients_of_the_simulator(node: Node, service: str) -> int:
+    known = [where for where in node.get_node_names_and_namespaces() if of_the_simulator(where[0])]
     return sum(service in dict(node.get_client_names_and_types_by_node(*where)) for where in known)
 
 

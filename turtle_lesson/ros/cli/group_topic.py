@@ -31,7 +31,7 @@ from .verb import (
     flag,
     frequency,
     now,
-    of_the_classroom,
+    of_the_simulator,
     publishers,
     seconds,
     spin_for,
@@ -109,7 +109,7 @@ def _wait_for_subscriptions(node: Node, publisher: Publisher, needed: int) -> No
     begun, looks = now(), 0
     while _matched(node, publisher) < needed:
         if now() - begun > PATIENCE - 0.05:
-            raise CommandError(*_why_nobody(node, publisher, needed))
+            raise CommandError(*_why_too_few(node, publisher, needed))
         if looks % 10 == 0:
             print(f"Waiting for at least {needed} matching subscription(s)...")
         looks += 1
@@ -121,12 +121,12 @@ def _matched(node: Node, publisher: Publisher) -> int:
     ears = [
         each
         for each in node.get_subscriptions_info_by_topic(publisher.topic_name)
-        if of_the_classroom(each.node_name) and each.topic_type == publisher.msg_type._TYPE_NAME  # type: ignore[attr-defined]
+        if of_the_simulator(each.node_name) and each.topic_type == publisher.msg_type._TYPE_NAME  # type: ignore[attr-defined]
     ]
     return max(0, publisher.get_subscription_count() - len(ears))
 
 
-def _why_nobody(node: Node, publisher: Publisher, needed: int) -> tuple[str, str]:
+def _why_too_few(node: Node, publisher: Publisher, needed: int) -> tuple[str, str]:
     """Why there are too few subscriptions, and a hint. The real tool waits forever."""
     name, kind = publisher.topic_name, publisher.msg_type._TYPE_NAME  # type: ignore[attr-defined]
     there = subscriptions(node, name)

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 # between double quotes stay as they are typed, so that `"{x: 5.0}"` needs no care.
 
 _CONTINUED = re.compile(r"\\[ \t]*\n")
-"""A backslash at a line's end. Blanks behind it, which nobody sees, do no harm here."""
+"""A backslash at a line's end. Blanks behind it, which cannot be seen, do no harm here."""
 
 _LAST = re.compile(r"\\[ \t]*\Z")
 """A backslash at the text's end."""

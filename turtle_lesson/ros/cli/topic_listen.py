@@ -183,7 +183,7 @@ LOOK_AGAIN = 0.1
 
 
 def class_of_topic(node: Node, topic: str) -> Any:
-    """The class of a topic's messages, or None if nobody uses the topic. Raises CommandError for two types."""
+    """The class of a topic's messages, or None if no node uses the topic. Raises CommandError for two types."""
     types = topics(node, include_hidden=True).get(expanded(node, topic))
     if types is None:
         return None
@@ -199,7 +199,7 @@ def not_published(topic: str) -> str:
 
 
 def wait_for_class(node: Node, topic: str, seconds: float | None) -> Any:
-    """The class of a topic's messages; if nobody uses the topic, waits so long for somebody who does."""
+    """The class of a topic's messages; if no node uses the topic, waits so long for one that does."""
     kind = class_of_topic(node, topic)
     if kind is not None:
         return kind

@@ -287,15 +287,15 @@ def publishers(node: Node, topic: str) -> list[TopicEndpointInfo]:
     """The publishers of a topic, without those that every node has, of the simulation's own nodes."""
     found = node.get_publishers_info_by_topic(topic)
     every_node_has = topic in ("/rosout", "/parameter_events")
-    return [each for each in found if not (every_node_has and of_the_classroom(each.node_name))]
+    return [each for each in found if not (every_node_has and of_the_simulator(each.node_name))]
 
 
 def subscriptions(node: Node, topic: str) -> list[TopicEndpointInfo]:
     """The subscriptions of a topic, without the ears of the simulation's own nodes, which draw what they hear."""
-    return [each for each in node.get_subscriptions_info_by_topic(topic) if not of_the_classroom(each.node_name)]
+    return [each for each in node.get_subscriptions_info_by_topic(topic) if not of_the_simulator(each.node_name)]
 
 
-def of_the_classroom(node_name: str) -> bool:
+def of_the_simulator(node_name: str) -> bool:
     """Whether a node of this name belongs to the simulation: a hidden one that no command line on a robot has."""
     return node_name.startswith("_") and not node_name.startswith(HIDDEN_PREFIX)
 
