@@ -149,18 +149,10 @@ def _code_cells(page: str) -> list[tuple[str, list[str], str]]:
     file = PUBLISHED / f"{page}.ipynb"
     if not file.is_file():
         raise FileNotFoundError(f"the published page {file.name} is missing: it would be in {PUBLISHED}")
-    cells = json.loads(file.read_text(encoding="utf-8"))["cells"]
-    return [
-        (_exercise(cell), cell["metadata"].get("tags", []), _source(cell))
-        for cell in cells
-        if cell["cell_type"] == "code"
-    ]
-
-
-def _exercise(cell: dict) -> str:
-    return cell["metadata"].get("turtle_lesson", {}).get("exercise", "")
-
-
-def _source(cell: dict) -> str:
-    source = cell["source"]
-    return source if isinstance(source, str) else "".join(source)
+    found = []
+    for cell in json.loads(file.read_text(encoding="utf-8"))["cells"]:
+        if cell["cell_type"] == "code":
+            metadata = cell["metadata"]
+            exercise = metadata.get("turtle_lesson", {}).get("exercise", "")
+            found.append((exercise, metadata.get("tags", []), "".join(cell["source"])))
+    return found

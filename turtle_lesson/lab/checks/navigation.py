@@ -25,6 +25,9 @@ TICK = 0.016
 NEAR = 0.2
 """A goal is reached within this distance, m."""
 
+ALIGNED = 0.2
+"""Its heading is reached within this angle, rad."""
+
 STILL = 1e-3
 """A turtle slower than this, m/s and rad/s, stands."""
 
@@ -217,15 +220,15 @@ def arrived(way: Way, at_rest: bool = False) -> Expectation:
     return Expectation(f"{way.name}: the turtle within {NEAR:g} m of it", look)
 
 
-def facing(way: Way, at_rest: bool = False, near: float = 0.2) -> Expectation:
-    """The turtle has the goal's heading, within an angle (rad), when the answer comes or when it has come to rest."""
+def facing(way: Way, at_rest: bool = False) -> Expectation:
+    """The turtle has the goal's heading when the answer comes or when it has come to rest."""
 
     def look(probe: Probe) -> Seen:
         it = driven(probe, way)
         error = turned(it.goal[2] - it.end(at_rest).theta)
-        return Seen(abs(error) <= near, f"{angle(error)} off", "At the goal the turtle turns to the goal's theta.")
+        return Seen(abs(error) <= ALIGNED, f"{angle(error)} off", "At the goal the turtle turns to the goal's theta.")
 
-    return Expectation(f"{way.name}: heading within {near:g} rad", look)
+    return Expectation(f"{way.name}: heading within {ALIGNED:g} rad", look)
 
 
 def turns_little(way: Way, most: float) -> Expectation:
