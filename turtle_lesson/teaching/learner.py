@@ -8,6 +8,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import shutil
 import socket
 import subprocess
 import sys
@@ -18,6 +19,7 @@ from typing import Any
 
 import nbformat
 
+from ..lab import progress
 from ..learner.story import PAGES
 from ..ros.runtime import files
 from ..ros.runtime.files import OPENED
@@ -29,6 +31,9 @@ MEMORY = ".turtle_lesson_pages.json"
 NAMES = tuple(f"{page}.ipynb" for page in (*PAGES, "lab"))
 """The files that a learner gets."""
 
+NOT_TAKEN = ("build", "install", "log")
+"""What a build makes anew in a workspace."""
+
 
 class LearnersFolder:
     """A folder of a learner's pages, made if it is not there. Raises PageError where that cannot be."""
@@ -38,17 +43,17 @@ class LearnersFolder:
         self._memory = path / MEMORY
         elsewhere = f"Name another folder: turtle-lesson open {Path.home() / FOLDER}"
         if path.exists() and not path.is_dir():
-            raise PageError(f"{path} is a file, but a folder is needed. {elsewhere}")
+            raise pages.PageError(f"{path} is a file, but a folder is needed. {elsewhere}")
         try:
             if not is_learners(path) and path.is_dir() and any(path.glob("[!.]*")):
-                raise PageError(f"{path} already holds other files, and they are left alone. {elsewhere}")
+                raise pages.PageError(f"{path} already holds other files, and they are left alone. {elsewhere}")
             path.mkdir(parents=True, exist_ok=True)
             self._versions: dict[str, str] = {}
             with suppress(FileNotFoundError, TypeError, ValueError):
                 self._versions |= json.loads(self._memory.read_text(encoding="utf-8"))
             self._remember()
         except OSError as error:
-            raise PageError(f"pages cannot be kept in {path}: {error.strerror}. {elsewhere}") from None
+            raise pages.PageError(f"pages cannot be kept in {path}: {error.strerror}. {elsewhere}") from None
 
     def _remember(self) -> None:
         files.write(self._memory, json.dumps(self._versions, indent=1) + "\n")
@@ -78,7 +83,7 @@ class LearnersFolder:
             self._versions[name] = newest
         self._remember()
         if not any((self.path / name).is_file() for name in NAMES):
-            raise PageError(
+            raise pages.PageError(
                 f"the lesson's pages are not here (they would be in {source or pages.PUBLISHED}). Name a folder of "
                 "published pages: --from FOLDER"
             )
@@ -91,10 +96,50 @@ class LearnersFolder:
         self._remember()
         return pages.reset(path, nbformat.writes(page) + "\n")
 
+    # -- from the checkout's notebooks -------------------------------------------------------------------------------
+
+    def take_along(self) -> list[str]:
+        """Take what was begun in the checkout's `notebooks`: changed pages, the workspace, and points.
+
+        What is here already stays. Returns sentences about what was done.
+        """
+        said = []
+        for name in begun():
+            page, path = pages.clear(pages.read(pages.PUBLISHED / name)), self.path / name
+            if not self._put(name, page, self._versions.get(name, "")):
+                path = pages.unused(path, "mine")
+                nbformat.write(page, path)
+            said.append(f"{name} was copied" + (f", as {path.name}." if path.name != name else "."))
+        self._remember()
+        theirs, mine = pages.PUBLISHED / "workspace", self.path / "workspace"
+        if theirs.is_dir() and mine.exists():
+            said.append(f"There is a workspace in {self.path} already: {theirs} was not copied.")
+        elif theirs.is_dir():
+            shutil.copytree(theirs, mine, ignore=shutil.ignore_patterns(*NOT_TAKEN))
+            said.append("The workspace was copied without its build: build it again.")
+        points = progress.ProgressFile(pages.PUBLISHED / progress.FILE).points()
+        if points:
+            progress.ProgressFile(self.path / progress.FILE).keep(points)
+            said.append(f"{sum(points.values())} points were copied.")
+        return said or [f"No page was begun in {pages.PUBLISHED}."]
+
 
 def is_learners(path: Path) -> bool:
     """Whether this is a learner's folder already."""
     return (path / MEMORY).is_file()
+
+
+def begun() -> list[str]:
+    """The pages in the checkout's `notebooks` that differ from what its version control holds."""
+    found = []
+    for name in NAMES:
+        committed = pages.find_published(name)
+        mine = pages.PUBLISHED / name
+        if committed is not None and mine.is_file() and mine.read_bytes() != committed:
+            original = pages.clear(pages.parse(committed, mine))
+            if version(pages.clear(pages.read(mine))) != version(original):
+                found.append(name)
+    return found
 
 
 def version(notebook: Any) -> str:
@@ -107,11 +152,12 @@ def version_of(path: Path) -> str:
     """The version of a file; "" if there is no such file, or no notebook in it."""
     try:
         return version(pages.read(path))
-    except PageError:
+    except pages.PageError:
         return ""
 
 
-# -- JupyterLab, on this machine only ------------------------------------------------------------------------------------
+# -- server -------------------------------------------------------------------------------------------------------
+# JupyterLab for a learner's folder, on this machine only.
 
 JUPYTER = Path(__file__).resolve().parent / "jupyter"
 """Holds the kernel that says which cell to run after a restart, and settings: no news, and no look for updates."""

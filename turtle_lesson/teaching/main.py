@@ -9,7 +9,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from . import learner, pages
+from . import learner, pages, report
 from .grade import MEMORY, TIMEOUT, Graded, grade
 from .learner import serve
 from .report import as_csv, as_json, in_a_line, in_words
@@ -77,6 +77,8 @@ def _add_open(commands: argparse._SubParsersAction) -> None:
     opening.add_argument(
         "--port", type=int, metavar="N", help="port of this machine (default: 8888 or the next free one)"
     )
+    begun = "copy the pages, the workspace and the points that you began in the checkout's notebooks"
+    opening.add_argument("--take-along", action="store_true", help=begun)
     _add_from(opening)
     opening.set_defaults(act=_open)
 
@@ -91,6 +93,7 @@ def _add_grade(commands: argparse._SubParsersAction) -> None:
     grading.formatter_class = argparse.RawDescriptionHelpFormatter
     grading.add_argument("paths", nargs="+", type=Path, metavar="PATH", help="a notebook, or a folder of notebooks")
     grading.add_argument("--json", action="store_true", help="print JSON, with every row of every check")
+    grading.add_argument("--junit", type=Path, metavar="FILE", help="also write a JUnit report")
     grading.add_argument("--csv", type=Path, metavar="FILE", help="also write a table with a line for each copy")
     how_long = f"computing time that one copy may take, s (default: {TIMEOUT:g}); waiting, {PATIENCE} times as long"
     grading.add_argument("--timeout", type=_seconds, default=TIMEOUT, metavar="SECONDS", help=how_long)
@@ -152,18 +155,24 @@ def _grade(options: argparse.Namespace) -> int:
 
     graded = grade(copies, options.timeout, options.jobs, tell, options.memory)
     print(json.dumps(as_json(graded), indent=1, ensure_ascii=False) if options.json else in_words(graded))
-    if options.csv is not None:
-        try:
-            options.csv.write_text(as_csv(graded), encoding="utf-8")
-        except OSError as error:
-            raise pages.PageError(f"{options.csv} cannot be written: {error.strerror}") from None
+    for file, text in ((options.junit, report.report), (options.csv, as_csv)):
+        if file is not None:
+            try:
+                file.write_text(text(graded), encoding="utf-8")
+            except OSError as error:
+                raise pages.PageError(f"{file} cannot be written: {error.strerror}") from None
     return 1 if any(copy.problem for copy in graded) else 0
 
 
 def _open(options: argparse.Namespace) -> int:
     path = options.folder or Path("." if learner.is_learners(Path(".")) else learner.FOLDER)
+    new = not learner.is_learners(path)
     folder = learner.LearnersFolder(path)
     said = folder.update(options.source)
+    if options.take_along:
+        said += folder.take_along()
+    elif new and (begun := learner.begun()):
+        said.append(f"You began {', '.join(begun)} in {pages.PUBLISHED}. Add --take-along to bring your work here.")
     print(
         "\n".join([*said, f"Your pages are in {folder.path.resolve()}. Ctrl-C, pressed twice here, ends JupyterLab."])
     )
