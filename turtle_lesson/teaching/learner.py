@@ -68,19 +68,16 @@ class LearnersFolder:
             content = pages.find_published(name, source)
             if content is None:
                 continue
-            newer, path = pages.clear(pages.parse(content, Path(name))), self.path / name
-            newest, mine, made_from = version(newer), version_of(path), self._versions.get(name)
-            if not path.exists() or mine in (newest, made_from):
-                if mine != newest:
-                    nbformat.write(newer, path)
-            elif made_from != newest:
-                beside = pages.unused(path, "new")
+            newer = pages.clear(pages.parse(content, Path(name)))
+            newest = version(newer)
+            if not self._put(name, newer, newest) and self._versions.get(name) != newest:
+                beside = pages.unused(self.path / name, "new")
                 nbformat.write(newer, beside)
+                self._versions[name] = newest
                 said.append(
                     f"{name} holds your work, and the lesson has a newer version of the page: it is beside yours, "
                     f"as {beside.name}."
                 )
-            self._versions[name] = newest
         self._remember()
         if not any((self.path / name).is_file() for name in NAMES):
             raise pages.PageError(
@@ -88,6 +85,17 @@ class LearnersFolder:
                 "published pages: --from FOLDER"
             )
         return said
+
+    def _put(self, name: str, page: Any, made_from: str) -> bool:
+        """Write a page, unless the learner's copy was worked on and differs; whether the page is there now."""
+        path = self.path / name
+        mine = version_of(path)
+        if mine != version(page):
+            if path.exists() and mine != self._versions.get(name):
+                return False
+            nbformat.write(page, path)
+        self._versions[name] = made_from
+        return True
 
     def reset(self, path: Path, published: bytes) -> Path | None:
         """Put a page back as it was published, without outputs; returns where the learner's copy is kept, if it differs."""
