@@ -80,7 +80,7 @@ def state():
                 seen.update({(module.__name__, f"{name}.{key}"): each for key, each in vars(value).items()})
     return seen
 
-OF_ITS_OWN = {"__annotations__", "last_exc", "last_value"}
+OF_ITS_OWN = {"__annotations__", "_sha512", "last_exc", "last_value"}
 before = state()
 copies = list(sys.meta_path), list(sys.path_hooks), dict(os.environ), type(os.environ), threading.enumerate()
 handlers = [signal.getsignal(each) for each in signal.valid_signals()]
@@ -110,8 +110,9 @@ current_world().close()
 patches.uninstall()
 
 after = state()
+# A module gets further names when its submodules are imported; a class gets none.
 changed = sorted({
-    key for key in before.keys() | after.keys()
+    key for key in before.keys() | {key for key in after if "." in key[1]}
     if before.get(key, "none") is not after.get(key, "none") and key[1].rpartition(".")[2] not in OF_ITS_OWN
 })
 say([key for key in changed if before.get(key, 0) != after.get(key, 0)])
