@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextvars
+import gc
 import os
 import random
 import signal
@@ -537,3 +538,26 @@ def test_an_interrupt_while_a_process_cleans_up_comes_when_that_is_done(world: W
     assert cleaned == ["all"]
     assert not process.alive
     assert sys.argv is arguments
+
+
+def test_a_library_that_measures_garbage_collections_lets_no_time_pass(world: World) -> None:
+    """A collection comes at any time: did reading the clock in it take virtual time, no run would repeat another."""
+    seen: list[int] = []
+
+    def measure(phase: str, info: dict[str, int]) -> None:
+        time.perf_counter()
+
+    def collecting() -> None:
+        before = world.now
+        gc.callbacks.append(measure)
+        try:
+            gc.collect()
+        finally:
+            gc.callbacks.remove(measure)
+        seen.append(world.now - before)
+        time.perf_counter()
+        seen.append(world.now - before)
+
+    world.spawn(collecting, name="collecting")
+    world.sim.run_until(SECOND)
+    assert seen == [0, 1_000]

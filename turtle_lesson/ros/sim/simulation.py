@@ -7,6 +7,8 @@ after the other, in the order in which they were woken.
 
 from __future__ import annotations
 
+import gc
+import sys
 import weakref
 from _thread import get_ident
 from collections import deque
@@ -131,6 +133,8 @@ class Simulation(Face):
         """The virtual time in ns, for a caller that reads a clock: reading costs time itself (ns)."""
         if self._raising:
             return self.now  # somebody who was interrupted cleans up, all in this instant
+        if gc.callbacks and _collects_garbage():
+            return self.now  # a library measures a collection, which comes at any time and takes no virtual time
         if running_strand() is not None:
             self.sleep_until(self.now + cost)
         elif not self.running and not self.closed:
@@ -327,3 +331,12 @@ class Simulation(Face):
         _undead.extend(strand for strand in self._strands if strand and not strand.dead)
         self._heap.clear()
         self._ready.clear()
+
+
+def _collects_garbage() -> bool:
+    """Whether the caller is one of the functions that Python calls at each garbage collection (`gc.callbacks`)."""
+    codes = {getattr(callback, "__code__", None) for callback in gc.callbacks}
+    frame = sys._getframe(2)
+    while frame is not None and frame.f_code not in codes:
+        frame = frame.f_back  # type: ignore[assignment]
+    return frame is not None
