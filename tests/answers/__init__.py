@@ -12,7 +12,7 @@
 An answer is the source of the exercise's cell (several sources are several cells), or an `Answer`, which replaces earlier
 cells, too. With a wrong one stands a text that a row which is not ✓ must say. `test_answers.py` runs them all:
 
-    pytest tests/test_answers.py -k "page_03 and short_way"
+    pytest tests/checks/test_answers.py -k "page_03 and short_way"
 """
 
 from __future__ import annotations

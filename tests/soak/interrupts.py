@@ -22,6 +22,7 @@ from pathlib import Path
 from random import Random
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "pages"))
 
 import kernels
 from jupyter_client.manager import start_new_kernel

@@ -345,7 +345,7 @@ NESTED = ("a:=[[1]]", "a:=[1,[2]]")
 def test_every_recorded_rule_is_taken_or_refused_as_recorded(world: World, capsys: Capture) -> None:
     """data/rcl_rules.jsonl: words, and what a real rcl (Jazzy) left of them, or the beginning of its complaint."""
     different = []
-    for line in (Path(__file__).parent / "data" / "rcl_rules.jsonl").read_text(encoding="utf-8").splitlines():
+    for line in (Path(__file__).parents[1] / "data" / "rcl_rules.jsonl").read_text(encoding="utf-8").splitlines():
         words, expected = json.loads(line)
         try:
             found: Any = remove_ros_args(["p", *words])

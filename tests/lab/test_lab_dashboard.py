@@ -29,7 +29,7 @@ from lab_fakes import scan
 
 SECOND = 1_000_000_000
 STATUS_COLUMNS = 6
-PAGE = Path(__file__).resolve().parents[1] / "notebooks" / "lab.ipynb"
+PAGE = Path(__file__).resolve().parents[2] / "notebooks" / "lab.ipynb"
 
 
 @pytest.fixture(autouse=True)

@@ -24,7 +24,7 @@ SET_UP = "%load_ext turtle_lesson\nfrom turtle_lesson import start\nlesson = sta
 def ask(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Ask]:
     """Runs a cell in a fresh kernel; returns what it printed or showed, and its error."""
     monkeypatch.setenv("JUPYTER_PATH", str(JUPYTER))
-    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).resolve().parents[1]), prepend=os.pathsep)
+    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).resolve().parents[2]), prepend=os.pathsep)
     manager, client = start_new_kernel(cwd=str(tmp_path), kernel_name="python3")
 
     def ask(cell: str) -> tuple[str, str]:

@@ -17,7 +17,7 @@ from turtle_lesson.ros.idl.registry import forget_modules, registry
 from turtle_lesson.ros.runtime.world import World
 from turtle_lesson.ros.sim.errors import format_error
 
-FILE = Path(__file__).parent / "data" / "mistakes.txt"
+FILE = Path(__file__).parents[1] / "data" / "mistakes.txt"
 HEAD = """\
 import rclpy
 from rclpy.node import Node

@@ -11,7 +11,7 @@ from workspace_cases import XML, Answer, change, colcon, make_package, timeless
 
 from turtle_lesson.ros.runtime.world import World
 
-RECORDED = json.loads((Path(__file__).with_name("data") / "cmake_mistakes.json").read_text(encoding="utf-8"))
+RECORDED = json.loads((Path(__file__).parents[1] / "data" / "cmake_mistakes.json").read_text(encoding="utf-8"))
 
 
 @pytest.fixture

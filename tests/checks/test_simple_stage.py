@@ -18,7 +18,7 @@ import pytest
 from turtle_lesson import Lesson, start
 from turtle_lesson.session.lesson import FINISHED
 
-OWN = Path(__file__).parent / "data" / "simple_stage"
+OWN = Path(__file__).parents[1] / "data" / "simple_stage"
 NODES = {
     "navigator_node.py": ("robot_controller/navigator_node.py:", "Key Points:"),
     "status_monitor_node.py": ("robot_controller/status_monitor_node.py:", "Key Points:"),

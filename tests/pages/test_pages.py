@@ -11,7 +11,7 @@ import pytest
 from nbclient import NotebookClient
 from pages_report import row
 
-PAGES = sorted((Path(__file__).resolve().parents[1] / "notebooks").glob("*.ipynb"))
+PAGES = sorted((Path(__file__).resolve().parents[2] / "notebooks").glob("*.ipynb"))
 HALF_PAGES = ("03b_answer_on_arrival",)
 
 

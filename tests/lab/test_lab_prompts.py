@@ -70,7 +70,9 @@ def test_the_learners_own_package_is_taken_unless_told(tmp_path: Path, monkeypat
     from turtle_lesson.session.lesson import FINISHED
 
     shutil.copytree(FINISHED, tmp_path / "robot_controller")
-    shutil.copytree(Path(__file__).parent / "data" / "simple_stage", tmp_path / "robot_controller", dirs_exist_ok=True)
+    shutil.copytree(
+        Path(__file__).parents[1] / "data" / "simple_stage", tmp_path / "robot_controller", dirs_exist_ok=True
+    )
     lesson = start(package=tmp_path / "robot_controller")
     text = lesson.prompt_for("code review").text
     assert "robot_controller/navigator_node.py:\n\n```python" in text

@@ -22,7 +22,7 @@ from turtlesim.srv import Kill, Spawn
 from turtle_lesson.turtlesim.turtle import PI, TICK, Rotation, float32, normalized
 from turtle_lesson.turtlesim.world import TurtleWorld
 
-RECORDED = Path(__file__).parents[2] / "shared" / "golden" / "turtlesim_cli.txt"
+RECORDED = Path(__file__).parents[3] / "shared" / "golden" / "turtlesim_cli.txt"
 STARTED = 2  # lines of the log
 
 

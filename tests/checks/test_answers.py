@@ -1,6 +1,6 @@
 """Every published stub fails its check, every solution passes it, and so does each wrong and each right answer in `answers`.
 
-One page, or one check: pytest tests/test_answers.py -k "page_03 and short_way"
+One page, or one check: pytest tests/checks/test_answers.py -k "page_03 and short_way"
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from turtle_lesson.lab.checks import all_checks
 from turtle_lesson.learner.story import PAGES
 
 LEAST_WRONG, LEAST_RIGHT = 6, 4
-TESTS = Path(__file__).resolve().parent
+TESTS = Path(__file__).resolve().parents[1]
 PUBLISHED = [page for page in PAGES if (NOTEBOOKS / f"{page}.ipynb").is_file()]
 EXERCISES = [(page, cell["exercise"]) for page in PUBLISHED for cell in code_cells(page) if "exercise" in cell["tags"]]
 NAMES = [f"page_{page.partition('_')[0]}-{name}" for page, name in EXERCISES]

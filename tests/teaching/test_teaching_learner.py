@@ -18,7 +18,7 @@ from turtle_lesson.teaching.learner import MEMORY, NAMES, LearnersFolder
 from turtle_lesson.teaching.main import main
 
 NAME = f"{copies.PAGE}.ipynb"
-REAL = Path(__file__).resolve().parents[1] / "notebooks"
+REAL = Path(__file__).resolve().parents[2] / "notebooks"
 
 
 @pytest.fixture

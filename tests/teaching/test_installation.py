@@ -19,7 +19,7 @@ from packaging.utils import canonicalize_name
 
 from turtle_lesson.teaching.learner import NAMES
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 BEGIN_PAGE_04 = "from turtle_lesson import start; print(start(seed=0, page='04_status_monitor').workspace)"
 
 

@@ -19,7 +19,7 @@ Ask = Callable[..., tuple[str, str]]
 @pytest.fixture(scope="module")
 def ask(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Ask]:
     """Runs a cell in a kernel, stops it after some seconds if told so, and returns what it printed and its error."""
-    root = str(Path(__file__).resolve().parents[1])
+    root = str(Path(__file__).resolve().parents[2])
     manager, client = start_new_kernel(cwd=str(tmp_path_factory.mktemp("notebook")), kernel_name="python3")
 
     def ask(cell: str, stop_after: float | None = None) -> tuple[str, str]:

@@ -26,7 +26,7 @@ from turtlesim.srv import Kill, SetPen, Spawn, TeleportAbsolute, TeleportRelativ
 
 from turtle_lesson.turtlesim import node as turtlesim_node
 
-DATA = Path(__file__).parent / "data" / "turtlesim"
+DATA = Path(__file__).parents[1] / "data" / "turtlesim"
 SECOND = 1_000_000_000
 NAN = math.nan
 

@@ -12,7 +12,7 @@ import rclpy
 
 from turtle_lesson import Lesson, start
 
-SIMPLE = Path(__file__).parent / "data" / "simple_stage"
+SIMPLE = Path(__file__).parents[1] / "data" / "simple_stage"
 
 
 @pytest.fixture

@@ -15,7 +15,7 @@ from turtle_lesson.turtlesim.canvas import BARE, DEFAULT_PEN, Canvas
 from turtle_lesson.turtlesim.turtle import HEIGHT, WIDTH, Turtle, TurtleError, float32
 from turtle_lesson.turtlesim.world import TurtleWorld
 
-DATA = Path(__file__).parent / "data" / "turtlesim"
+DATA = Path(__file__).parents[1] / "data" / "turtlesim"
 PI_OF_TURTLESIM = 3.14159265
 START = (5.544444561004639, 5.544444561004639, 0.0)
 

@@ -13,7 +13,7 @@ from turtle_lesson.ros.cli.shell import run_line
 from turtle_lesson.ros.idl.registry import forget_modules, registry
 from turtle_lesson.ros.runtime.world import World
 
-PACKAGES = Path(__file__).parent / "data" / "action_programs"
+PACKAGES = Path(__file__).parents[1] / "data" / "action_programs"
 SECOND = 1_000_000_000
 BUILT = 10
 """When (s) the building has ended for sure, and the programs are started."""

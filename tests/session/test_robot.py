@@ -14,7 +14,7 @@ import pytest
 
 from turtle_lesson import connect
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).parents[1]
 STANDIN = HERE / "real_rclpy_standin"
 RELEASES = ("humble", "jazzy")
 

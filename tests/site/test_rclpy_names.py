@@ -420,7 +420,7 @@ def test_a_second_node_of_the_same_name_is_possible_and_warned_of(node: Node, ca
 def test_every_recorded_name_is_taken_or_refused_as_recorded(world: World) -> None:
     """data/rcl_names.jsonl: reasons; then names, and what a real rclpy (Jazzy) says of them as node, namespace, topic,
     full topic name and expanded (node /x/n): True or the name, or the number of a reason and the place of the caret."""
-    lines = (Path(__file__).parent / "data" / "rcl_names.jsonl").read_text(encoding="utf-8").splitlines()
+    lines = (Path(__file__).parents[1] / "data" / "rcl_names.jsonl").read_text(encoding="utf-8").splitlines()
     reasons, *rows = (json.loads(line) for line in lines)
     checks = (validate_node_name, validate_namespace, validate_topic_name, validate_full_topic_name)
     for name, *expected in rows:

@@ -182,7 +182,7 @@ def ask(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Ask]:
         )
         return said["out"], said["error"], prompts
 
-    root = str(Path(__file__).resolve().parents[1])
+    root = str(Path(__file__).resolve().parents[2])
     ask(f"import sys; sys.path.insert(0, {root!r})")
     ask("%load_ext turtle_lesson\nfrom turtle_lesson import start\nlesson = start(seed=0)")
     yield ask

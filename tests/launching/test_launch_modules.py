@@ -11,7 +11,7 @@ import launch
 import launch_ros
 import pytest
 
-LINES = (Path(__file__).parent / "data" / "launch_modules.txt").read_text().splitlines()
+LINES = (Path(__file__).parents[1] / "data" / "launch_modules.txt").read_text().splitlines()
 MODULES = {path: names.split() for path, _, names in (line.partition(":") for line in LINES)}
 
 
