@@ -72,7 +72,9 @@ def test_spinning_calls_the_callbacks_of_cells(lesson: Lesson) -> None:
             ticks[name] += 1
 
         rclpy.create_node(name).create_timer(0.5, tick)
-    one, other = list(lesson._world.notebook.locals["rclpy.context"]._nodes)
+    from rclpy._state import RclpyState
+
+    one, other = list(lesson._world.notebook.state(RclpyState).context._nodes)
     lesson.spin(2.2)
     assert ticks == {"one": 4, "other": 4}
     lesson.spin(1, one)

@@ -204,11 +204,12 @@ class Lesson(Views, Inspection):
 
         It is `rclpy.spin` with an end, on one thread: for the nodes that are named, or else for all that were made in cells.
         """
+        from rclpy._state import RclpyState
         from rclpy.executors import SingleThreadedExecutor
         from rclpy.task import Future
 
         _check_seconds("spin", seconds)
-        context = self._world.notebook.locals.get("rclpy.context")
+        context = self._world.notebook.state(RclpyState).context
         if context is None or not context.ok():
             self.run(seconds)  # no node lives in a cell
             return

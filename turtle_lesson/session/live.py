@@ -50,7 +50,9 @@ class CellNodes:
 
     def _spin(self, end: int) -> bool:
         """Spin the nodes until `end`; whether there are any, and time has passed."""
-        context = self._world.notebook.locals.get("rclpy.context")
+        from rclpy._state import RclpyState
+
+        context = self._world.notebook.state(RclpyState).context
         nodes = list(context._nodes) if context is not None and context.ok() else []
         if not nodes:
             return False

@@ -36,6 +36,10 @@ STAYS = frozenset({"lab", "turtlesim", "turtlesim_node"})
 MESSAGE_FILE = re.compile(r'"?\bmsg/TurtleStatus\.msg"?')
 
 
+class _SourcedBefore(list[Path]):
+    """The install folders that were sourced when a world's first case was opened."""
+
+
 class TroubleEnvironment:
     """An `Environment` (see lab/troubles/faults.py) in a world of this notebook. `install` makes the finished package findable.
 
@@ -47,7 +51,7 @@ class TroubleEnvironment:
         self._world = world
         self._install = install
         sourced = list(dict.fromkeys(each.install for each in overlays(world)))
-        self._sourced: list[Path] = world.notebook.locals.setdefault("sourced before a case", sourced)
+        self._sourced = world.notebook.state(_SourcedBefore, sourced)
         if "robot_draft" not in world.packages:
             files = {path.stem: path for path in sorted(DRAFTS.glob("*.py"))}
             world.packages.add(Package("robot_draft", DRAFTS, executables=dict(files)))

@@ -87,10 +87,13 @@ def resource(world: World, install: Path, name: str) -> None:
         importlib.invalidate_caches()
 
 
+class _Overlays(list[_Overlay]):
+    """What is sourced in a world."""
+
+
 def overlays(world: World) -> list[_Overlay]:
     """What is sourced, in its order."""
-    sourced: list[_Overlay] = world.notebook.locals.setdefault("overlays", [])
-    return sourced
+    return world.notebook.state(_Overlays)
 
 
 def _add(world: World, install: Path, name: str) -> None:

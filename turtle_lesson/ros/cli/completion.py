@@ -238,8 +238,10 @@ def _transitions(world: World, given: Sequence[str], begun: str) -> list[str]:
 
 def _node_of(world: World, name: str) -> Any:
     """The running node of a name. Tab must not let time pass, so it does not ask the node's services, as commands do."""
+    from rclpy._state import RclpyState
+
     for entry in world.graph.nodes:
-        context = entry.process.locals.get("rclpy.context")
+        context = entry.process.state(RclpyState).context
         for node in context._nodes if context is not None else ():
             if node.get_fully_qualified_name() == absolute(name):
                 return node

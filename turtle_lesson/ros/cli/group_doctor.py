@@ -6,6 +6,7 @@ import sys
 from argparse import ArgumentParser, Namespace
 from collections import Counter
 from collections.abc import Sized
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..idl.names import is_hidden
@@ -93,16 +94,19 @@ COMMANDS = {"doctor": Command("Describe this simulation, what is running, and wh
 # `ros2 daemon`: on a robot a helper that remembers the graph. No command needs it here; it only says that it is
 # there.
 
-STATE = "ros2 daemon"
+
+@dataclass
+class _Daemon:
+    running: bool = True
 
 
 def _running() -> bool:
-    return bool(current_world().notebook.locals.get(STATE, True))
+    return current_world().notebook.state(_Daemon).running
 
 
 def _start(args: Namespace) -> None:
     print("The daemon is already running" if _running() else "The daemon has been started")
-    current_world().notebook.locals[STATE] = True
+    current_world().notebook.state(_Daemon).running = True
 
 
 def _status(args: Namespace) -> None:
@@ -111,7 +115,7 @@ def _status(args: Namespace) -> None:
 
 def _stop(args: Namespace) -> None:
     print("The daemon has been stopped" if _running() else "The daemon is not running")
-    current_world().notebook.locals[STATE] = False
+    current_world().notebook.state(_Daemon).running = False
 
 
 VERBS = {

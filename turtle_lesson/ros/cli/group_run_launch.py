@@ -22,7 +22,7 @@ from ..runtime.world import current_world
 from ..sim.errors import shown_path
 from ..sim.process import Process
 from .group_pkg import not_found, path_of
-from .jobs import Job, jobs, lasting
+from .jobs import Job, LastSignal, jobs, lasting
 from .parser import cut
 from .verb import CellCommand, CommandError, add_duration, flag, positive_float
 
@@ -94,7 +94,7 @@ def _say_how_it_ended(process: Process) -> None:
 def _status(process: Process) -> int:
     """The exit code of a process that has ended, as its parent sees it."""
     code = process.exit_code or 0
-    return -15 if code == -9 and process.locals.get("signal") == "TERM" else code
+    return -15 if code == -9 and process.state(LastSignal).name == "TERM" else code
 
 
 # -- launch --------------------------------------------------------------------------------------------------------------

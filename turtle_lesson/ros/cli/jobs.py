@@ -75,19 +75,25 @@ class Job:
             self.what.stop()
 
 
+@dataclass
+class LastSignal:
+    """The signal that ended a process, if the terminal sent one."""
+
+    name: str = ""
+
+
 def send(process: Process, name: str) -> None:
     """Send a process INT (Ctrl-C), TERM or KILL."""
     if name == "INT":
         process.interrupt()
     else:
-        process.locals["signal"] = name
+        process.state(LastSignal).name = name
         process.kill()
 
 
 def jobs(world: World) -> Jobs:
     """The jobs of a world."""
-    found: Jobs = world.notebook.locals.setdefault("jobs", Jobs())
-    return found
+    return world.notebook.state(Jobs)
 
 
 # -- the streams of a cell and of a command --------------------------------------------------------------------------

@@ -22,6 +22,16 @@ OURS = ("--for",)
 WIDTH = 78
 
 
+@dataclass
+class Invocation:
+    """How the command of a process is run."""
+
+    background: bool = False
+    """Whether it goes on in the background: its verb never ends by itself."""
+    shown: bool = False
+    """Whether its output is shown in the cell: it goes to no file and to no pipe."""
+
+
 class Stop(Exception):
     """The words ask for no verb: a help text or a usage error is to be printed instead.
 

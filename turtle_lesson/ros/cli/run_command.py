@@ -14,18 +14,11 @@ from typing import TYPE_CHECKING, Any
 
 from ..runtime.run_world import Waiter
 from .jobs import Errors, cell_streams, lasting
-from .parser import Call, Stop, cut, parse
+from .parser import Call, Invocation, Stop, cut, parse
 
 if TYPE_CHECKING:
     from ..runtime.world import World
     from ..sim.process import Output, Process
-
-
-BACKGROUND = "background"
-"""The mark of a process that goes on in the background: its verb never ends by itself."""
-
-SHOWN = "shown"
-"""The mark of a command whose output is shown in the cell: it goes to no file and to no pipe."""
 
 INTERRUPTED = 2
 """The exit code of a `ros2` command that was ended by Ctrl-C."""
@@ -81,7 +74,7 @@ def run_here(words: Sequence[str]) -> int:
     except Stop as stop:
         print(stop.text, file=sys.stderr if stop.code else sys.stdout)
         return stop.code
-    current_process().locals.update({"cwd": Path.cwd(), BACKGROUND: True})
+    current_process().state(Invocation).background = True
     try:
         return _guarded(call)
     except KeyboardInterrupt:
@@ -116,7 +109,7 @@ def _run_as_process(world: World, call: Call, words: Sequence[str], stdout: Any,
     process = world.spawn(
         partial(_main, call), name="ros2", argv=words, stdout=stdout, stderr=stderr, on_exit=waiter.ended
     )  # fmt: skip
-    process.locals.update({"cwd": Path.cwd(), SHOWN: shown})
+    process.state(Invocation).shown = shown
     reason = waiter.wait(process)
     if reason:
         print(f"{call.prog}: {reason}", file=stderr)
@@ -128,7 +121,7 @@ def _start_in_background(world: World, call: Call, words: Sequence[str], stdout:
 
     out, error = lasting(stdout, world.sim), lasting(stderr, world.sim)
     process: Process = world.spawn(partial(_main, call), name="ros2", argv=words, stdout=out, stderr=error)
-    process.locals.update({"cwd": Path.cwd(), BACKGROUND: True})
+    process.state(Invocation).background = True
     job = jobs(world).add(Job(" ".join(words), process))
     print(f"[{job.number}] {process.pid}")
     world.sim.settle()

@@ -13,6 +13,7 @@ import os
 import re
 import sys
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -63,6 +64,13 @@ class CommandInterrupted(KeyboardInterrupt):
         self.code = INTERRUPTED if words[0] == "ros2" else STOPPED
 
 
+@dataclass
+class _Last:
+    """What the last command of a world's terminal came to."""
+
+    exit_code: int = 0
+
+
 class Shell:
     """Runs scripts in a world."""
 
@@ -72,11 +80,11 @@ class Shell:
     @property
     def exit_code(self) -> int:
         """The exit code of the last command of this world's terminal."""
-        return int(self.world.notebook.locals.get("exit code", 0))
+        return self.world.notebook.state(_Last).exit_code
 
     @exit_code.setter
     def exit_code(self, code: int) -> None:
-        self.world.notebook.locals["exit code"] = code
+        self.world.notebook.state(_Last).exit_code = code
 
     def run(self, script: str) -> int:
         """Run a script of one line or several; a failing command prints and does not raise.

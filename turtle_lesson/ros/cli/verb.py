@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..idl.names import did_you_mean, is_hidden
 from ..runtime.world import current_process
+from .parser import Invocation
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -188,7 +189,7 @@ def stretch_of(args: Namespace) -> float | None:
     from ..runtime.run_world import live_rate
 
     process = current_process()
-    endless = process.locals.get("background") or live_rate(process.locals["world"]) is not None
+    endless = process.state(Invocation).background or live_rate(process.world) is not None
     return None if endless else STRETCH
 
 
@@ -199,7 +200,7 @@ def end_of_stretch(seconds: float) -> Interrupted:
 
 def remark(sentence: str) -> None:
     """Print a sentence of the lesson's own, below the output; on stderr where the output goes to a file or a pipe."""
-    shown = current_process().locals.get("shown", False)
+    shown = current_process().state(Invocation).shown
     print(sentence, file=sys.stdout if shown else sys.stderr)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
 from ..sim.errors import DriveTimeout, SimulationError
@@ -34,14 +35,19 @@ class Pace(Protocol):
         """Whether robot time goes on by itself."""
 
 
+@dataclass
+class _Live:
+    player: Pace | None = None
+
+
 def set_player(world: World, player: Pace) -> None:
     """Say who plays this world in live mode."""
-    world.notebook.locals["player"] = player
+    world.notebook.state(_Live).player = player
 
 
 def live_rate(world: World) -> float | None:
     """How many times as fast as real time the world goes in live mode; None if it is not live, or unpaced."""
-    player: Pace | None = world.notebook.locals.get("player")
+    player = world.notebook.state(_Live).player
     return player.rate if player is not None and player.playing and math.isfinite(player.rate) else None
 
 

@@ -76,7 +76,7 @@ class World:
         number = self._names[name] = self._names.get(name, 0) + 1
         process = Process(self.sim, name, pid=self._pid, seed=f"{self.seed}/{name}/{number}", **details)
         self._pid += 1
-        process.locals["world"] = self
+        process.world = self
         return process
 
     def spawn(
@@ -151,7 +151,8 @@ def current_world() -> World:
     global _current
     strand = running_strand()
     if strand is not None:
-        return strand.process.locals["world"]
+        world: World = strand.process.world
+        return world
     if _current is None:
         _current = World()
     return _current

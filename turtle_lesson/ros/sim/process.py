@@ -12,7 +12,7 @@ import sys
 from collections.abc import Callable, Sequence
 from io import StringIO
 from random import Random
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeVar
 
 from .. import hooks
 from .errors import print_error
@@ -47,11 +47,15 @@ class SignalHook(Protocol):
         """A signal comes; True if that is the end of it."""
 
 
+S = TypeVar("S")
+
+
 class Process:
-    """A program in the simulation. `locals` is where libraries keep what each process has one of.
+    """A program in the simulation. With `state` libraries keep what each process has one of.
 
     Attributes:
         is_notebook: whether it stands for a notebook, whose cells drive the simulation.
+        world: what it runs in; the simulation does not look at it.
         stdin: the file or pipe that it reads as its standard input; None: the world's keyboard.
         environ: the environment variables of its own, as the system encodes them; None: Python's own.
         strands: its lines of execution, in the order of their making; dead ones may be among them.
@@ -89,7 +93,8 @@ class Process:
         self.stderr: Any = stderr
         self.stdin: Any = stdin
         self.exit_code: int | None = None
-        self.locals: dict[str, Any] = {}
+        self.world: Any = None
+        self._states: dict[type, Any] = {}
         self.followers: list[Process] = []
         self.before_exit: list[Callable[[], None]] = []
         self.exit_functions: list[Callable[[], object]] = []
@@ -106,6 +111,13 @@ class Process:
         self.strands: list[Strand] = []
         self._on_exit = on_exit
         self._idents = pid << 16
+
+    def state(self, kind: type[S], *arguments: Any) -> S:
+        """What a module keeps of this process: its one object of this class, made of the arguments when first asked for."""
+        found = self._states.get(kind)
+        if found is None:
+            found = self._states[kind] = kind(*arguments)
+        return found
 
     def __repr__(self) -> str:
         state = "alive" if self.alive else f"exited with {self.exit_code}"

@@ -7,6 +7,7 @@ import inspect
 import signal
 import threading
 from collections.abc import Callable
+from dataclasses import dataclass, field
 from typing import Any
 
 from ..sim.asyncio_context import be_careful
@@ -73,6 +74,14 @@ class Waiting:
         """Nothing is left to do."""
 
 
+@dataclass
+class _Asyncio:
+    """What asyncio keeps of a process: how many tasks were made, and the loop of each thread."""
+
+    tasks: int = 0
+    loops: dict[Strand, Any] = field(default_factory=dict)
+
+
 class VirtualEventLoop(asyncio.BaseEventLoop):
     """What `asyncio.new_event_loop()` makes in a simulated process."""
 
@@ -91,9 +100,9 @@ class VirtualEventLoop(asyncio.BaseEventLoop):
     def create_task(self, coro: Any, **keywords: Any) -> Any:
         """As in asyncio, but each process counts its tasks for itself."""
         if keywords.get("name") is None:
-            shelf = self._process.locals
-            shelf["asyncio.tasks"] = number = shelf.get("asyncio.tasks", 0) + 1
-            keywords["name"] = f"Task-{number}"
+            own = self._process.state(_Asyncio)
+            own.tasks += 1
+            keywords["name"] = f"Task-{own.tasks}"
         return super().create_task(coro, **keywords)
 
     def call_exception_handler(self, context: Any) -> None:
@@ -211,7 +220,7 @@ def get_event_loop(real: Any) -> Any:
 
 
 def _loops(strand: Strand) -> dict[Strand, Any]:
-    return strand.process.locals.setdefault("asyncio.loops", {})
+    return strand.process.state(_Asyncio).loops
 
 
 REPLACEMENTS: tuple[Callable[..., Any], ...] = (new_event_loop, set_event_loop, get_event_loop)

@@ -10,6 +10,7 @@ import queue
 from collections import deque
 from collections.abc import Iterator, MutableMapping
 from concurrent.futures import thread as pool
+from dataclasses import dataclass, field
 from threading import Semaphore
 from typing import TYPE_CHECKING, Any
 
@@ -67,6 +68,15 @@ class VirtualSimpleQueue:
         return len(self._items)
 
 
+@dataclass
+class _Pools:
+    """The pools of a process: how many were made, whether they end with it, and the queue of each worker."""
+
+    made: int = 0
+    end_with_it: bool = False
+    queues: dict[threading.Thread, Any] = field(default_factory=dict)
+
+
 def next_number(real: Any) -> int:
     """Numbers the pools, those of each simulated process by themselves."""
     process = process_here()
@@ -75,8 +85,9 @@ def next_number(real: Any) -> int:
 
 def number_of_pool(process: Process) -> int:
     """The number of one more pool of a process."""
-    process.locals["pools"] = number = process.locals.get("pools", -1) + 1
-    return number
+    own = process.state(_Pools)
+    own.made += 1
+    return own.made - 1
 
 
 class NotInStrands:
@@ -112,8 +123,9 @@ def is_worker(thread: threading.Thread) -> bool:
 
 def remember(process: Process) -> None:
     """A thread of a pool starts: before the process ends, its pools are to end."""
-    if "pools.end" not in process.locals:
-        process.locals["pools.end"] = True
+    own = process.state(_Pools)
+    if not own.end_with_it:
+        own.end_with_it = True
         process.before_exit.append(lambda: end_pools(process))
 
 
@@ -131,7 +143,7 @@ def end_pools(process: Process) -> None:
 
 
 def _workers(process: Process) -> list[tuple[threading.Thread, Any]]:
-    queues = process.locals.get("pools.queues", {})
+    queues = process.state(_Pools).queues
     return [(thread, work) for thread, work in queues.items() if thread.is_alive()]
 
 
@@ -146,7 +158,7 @@ class Queues(MutableMapping[Any, Any]):
 
     def __setitem__(self, thread: Any, work: Any) -> None:
         strand = vars(thread).get("_strand")
-        own = self._real if strand is None else strand.process.locals.setdefault("pools.queues", {})
+        own = self._real if strand is None else strand.process.state(_Pools).queues
         own[thread] = work
 
     def __getitem__(self, thread: Any) -> Any:

@@ -68,15 +68,17 @@ def _draw_one(real: Callable[[], float]) -> Callable[[], float]:
     return random
 
 
-def _numpy_state(strand: Strand) -> Any:
-    """The numpy RandomState of the process that runs, made at first use."""
-    state = strand.process.locals.get("numpy.random")
-    if state is None:
+class _NumpyState:
+    """The numpy RandomState of a process."""
+
+    def __init__(self, seed: str) -> None:
         import numpy
 
-        state = numpy.random.RandomState(zlib.crc32(strand.process.seed.encode()))
-        strand.process.locals["numpy.random"] = state
-    return state
+        self.source = numpy.random.RandomState(zlib.crc32(seed.encode()))
+
+
+def _numpy_state(strand: Strand) -> Any:
+    return strand.process.state(_NumpyState, strand.process.seed).source
 
 
 def numpy_drawing(name: str, real: Callable[..., Any]) -> Callable[..., Any]:

@@ -122,8 +122,7 @@ def alarm(real: Callable[[int], int], seconds: int, /) -> int:
     process = _process()
     if process is None:
         return real(seconds)
-    found: _Alarm = process.locals.setdefault("signal.alarm", _Alarm(process))
-    return found.set(seconds)
+    return process.state(_Alarm, process).set(seconds)
 
 
 class _Alarm:

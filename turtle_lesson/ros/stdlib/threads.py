@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import threading
 import time
+from collections import Counter
 from collections.abc import Callable
 from traceback import format_exception_only
 from typing import TYPE_CHECKING, Any
@@ -274,13 +275,17 @@ def _threads(process: Process) -> list[threading.Thread]:
     return [thread for thread in threads if "_virtual" in vars(thread) and thread.is_alive()]
 
 
+class _NameCounts(Counter[str]):
+    """How many threads of a process have got a name of each kind."""
+
+
 def newname(real: Any, name_template: str) -> str:
     """A name for a thread; those of each simulated process are numbered by themselves."""
     process = process_here()
     if process is None:
         return real(name_template)
-    counts: dict[str, int] = process.locals.setdefault("threading.names", {})
-    counts[name_template] = counts.get(name_template, 0) + 1
+    counts = process.state(_NameCounts)
+    counts[name_template] += 1
     return name_template % counts[name_template]
 
 

@@ -13,6 +13,7 @@ from turtle_lesson.ros.runtime.world import current_process
 
 from ._blocking import drives_the_simulation, in_a_plain_cell, spin_live
 from ._hints import explain_missing
+from ._state import RclpyState
 from .context import Context
 from .qos import qos_profile_rosout_default
 from .signals import SignalHandlerOptions, install_signal_handlers, uninstall_signal_handlers
@@ -93,12 +94,12 @@ def get_global_executor() -> Executor:
 
     `rclpy.shutdown()` shuts it down, too: so `rclpy.spin` in another thread returns in silence (rclpy's __init__.py).
     """
-    data = current_process().locals
-    executor = data.get("rclpy.executor")
+    own = current_process().state(RclpyState)
+    executor = own.executor
     if executor is None or not executor.context.ok():
         from .executors import SingleThreadedExecutor
 
-        executor = data["rclpy.executor"] = SingleThreadedExecutor()
+        executor = own.executor = SingleThreadedExecutor()
         if executor.context.ok():
             executor.context.on_shutdown(executor.shutdown)
     return executor

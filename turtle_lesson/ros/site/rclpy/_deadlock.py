@@ -19,6 +19,7 @@ from turtle_lesson.ros.stdlib.deadlock import hints
 
 from ._entity import CLIENT, WAITABLE
 from ._hints import did_you_mean
+from ._state import RclpyState
 
 if TYPE_CHECKING:
     from turtle_lesson.ros.rmw.service import ServerEnd
@@ -89,12 +90,12 @@ def holds_group(group: Any) -> bool:
 
 def register_worker(strand: Strand, executor: Executor) -> None:
     """Remember that a strand only runs the callbacks that an executor gives it."""
-    strand.process.locals.setdefault("rclpy.workers", {})[strand] = executor
+    strand.process.state(RclpyState).workers[strand] = executor
 
 
 def executor_of_worker(strand: Strand) -> Executor | None:
     """The executor that gives this strand its work; None for the main program."""
-    return strand.process.locals.get("rclpy.workers", {}).get(strand)
+    return strand.process.state(RclpyState).workers.get(strand)
 
 
 def others_may_act(strand: Strand) -> bool:
@@ -112,7 +113,7 @@ def others_may_act(strand: Strand) -> bool:
 
 def is_in_spin(strand: Strand) -> bool:
     """Whether a strand is in the `spin` of an executor, and so does nothing else before the shutdown."""
-    return strand in strand.process.locals.get("rclpy.spinning", ())
+    return strand in strand.process.state(RclpyState).spinning
 
 
 def why_never_answered(client: Client, strand: Strand) -> str:
@@ -236,4 +237,4 @@ def _may_act(entity: Any, taken: Callable[[Any], bool]) -> bool:
 
 def is_notebook(process: Process) -> bool:
     """Whether this process is its world's notebook, in which no program runs: its cells drive the simulation."""
-    return process is process.locals["world"].notebook
+    return process is process.world.notebook

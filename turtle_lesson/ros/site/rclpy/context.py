@@ -12,6 +12,7 @@ from turtle_lesson.ros.runtime.world import current_process
 
 from ._entity import Handle
 from ._ros_args import ArgumentError, Arguments, parse_arguments, tell_obsolete
+from ._state import RclpyState
 from .exceptions import RCLError
 from .impl.logging_severity import LoggingSeverity
 from .impl.rcutils_logger import RcutilsLogger, is_colorized, wanted_format
@@ -77,9 +78,8 @@ class Context:
             )
         for name, level in self.arguments.log_levels.items():
             RcutilsLogger(name).set_level(LoggingSeverity[level.upper()])
-        self._process.locals["rclpy.log_to"] = self.arguments.switches
-        self._process.locals["rclpy.log_format"] = wanted_format()
-        self._process.locals["rclpy.log_colorized"] = is_colorized()
+        own = self._process.state(RclpyState)
+        own.log_to, own.log_format, own.log_colorized = self.arguments.switches, wanted_format(), is_colorized()
 
     @property
     def handle(self) -> Handle | None:
@@ -123,7 +123,7 @@ class Context:
     def _forget_as_default(self) -> None:
         """Let a later init have a new default context."""
         if self.shared_default and self.ended:
-            del self._process.locals["rclpy.context"]
+            self._process.state(RclpyState).context = None
 
     def shut_down_by_signal(self) -> None:
         """A signal ends it, at once. What was given to `on_shutdown` is not called, as on a robot."""
@@ -152,7 +152,7 @@ class Context:
     @property
     def shared_default(self) -> bool:
         """Whether this is its process's default context, which a later init replaces by a new one."""
-        return self._process.locals.get("rclpy.context") is self
+        return self._process.state(RclpyState).context is self
 
     def on_shutdown(self, callback: Callable[[], Any]) -> None:
         """Have `callback()` called at the shutdown (at once if it has been). A method is only called if its object is

@@ -32,6 +32,7 @@ from ._executor_base import (
     TimeoutObject,
 )
 from ._reexports import reexported
+from ._state import RclpyState
 from .context import Context
 from .task import Future, Task, at_once
 
@@ -60,7 +61,8 @@ class Executor(ExecutorBase):
         strand = running_strand()
         assert strand is not None
         self._spinning_forever.append(strand)
-        self._process.locals["rclpy.spinning"] = [*self._process.locals.get("rclpy.spinning", ()), strand]
+        spinning = self._process.state(RclpyState).spinning
+        spinning.append(strand)
         strand.may_act, before = self._may_run_anything, strand.may_act
         try:
             if type(self).spin_once is Executor.spin_once and type(self)._execute is Executor._execute:
@@ -71,7 +73,7 @@ class Executor(ExecutorBase):
         finally:
             strand.may_act = before
             self._spinning_forever.remove(strand)
-            self._process.locals["rclpy.spinning"].remove(strand)
+            spinning.remove(strand)
 
     def _spin_fast(self, strand: Strand) -> None:
         """What a loop over `spin_once` does, written out: half of what the simulation costs is spent here.

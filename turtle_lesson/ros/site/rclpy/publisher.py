@@ -124,7 +124,7 @@ class Publisher:
         if self._writer is not None:
             for handler in self.event_handlers:
                 handler.destroy()
-            self._writer.node.process.locals["world"].graph.remove_topic_end(self._writer)
+            self._writer.node.process.world.graph.remove_topic_end(self._writer)
             self._writer = None
             self._write = self._refuse
 

@@ -78,7 +78,7 @@ class Service(Entity):
         """Stop offering the service."""
         if not self._destroyed:
             super().destroy()
-            self._server.node.process.locals["world"].graph.remove_server(self._server)
+            self._server.node.process.world.graph.remove_server(self._server)
 
 
 __getattr__ = reexported(__name__)

@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 from turtle_lesson.ros.runtime.world import current_process
 
+from ._state import RclpyState
+
 if TYPE_CHECKING:
     from turtle_lesson.ros.sim.process import Process
 
@@ -54,7 +56,7 @@ class _Handlers:
 
 def contexts_of(process: Process) -> list[Context]:
     """The contexts of a process that are up."""
-    return process.locals.setdefault("rclpy.contexts", [])
+    return process.state(RclpyState).contexts
 
 
 def install_signal_handlers(options: SignalHandlerOptions = SignalHandlerOptions.ALL) -> None:

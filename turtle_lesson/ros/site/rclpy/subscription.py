@@ -100,7 +100,7 @@ class Subscription(Entity):
             super().destroy()
             for handler in self.event_handlers:
                 handler.destroy()
-            self._reader.node.process.locals["world"].graph.remove_topic_end(self._reader)
+            self._reader.node.process.world.graph.remove_topic_end(self._reader)
 
 
 def _wants_info(callback: Callable[..., Any] | None) -> bool:

@@ -8,6 +8,7 @@ from turtle_lesson.ros.runtime.world import current_process
 from turtle_lesson.ros.stdlib.polling import looked_in_vain
 
 from ._ros_args import tell_obsolete, without_ros_arguments
+from ._state import RclpyState
 from .constants import S_TO_NS
 from .context import Context
 from .signals import uninstall_signal_handlers
@@ -15,10 +16,10 @@ from .signals import uninstall_signal_handlers
 
 def get_default_context(*, shutting_down: bool = False) -> Context:
     """The context of this process that is used where none is named."""
-    data = current_process().locals
-    if "rclpy.context" not in data:
-        data["rclpy.context"] = Context()
-    return data["rclpy.context"]
+    own = current_process().state(RclpyState)
+    if own.context is None:
+        own.context = Context()
+    return own.context
 
 
 def ok(*, context: Context | None = None) -> bool:

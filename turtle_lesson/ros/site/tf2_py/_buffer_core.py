@@ -301,13 +301,17 @@ def _refusals(parent: str, child: str, place: tuple[float, ...], turn: tuple[flo
     return found
 
 
+class _Said(dict[str, int]):
+    """When complaints of each kind were printed last, ns."""
+
+
 def say(level: str, text: str) -> None:
     """Print what tf2 prints without a logger: to the running program's stderr, in a cell to its output.
 
     A complaint of the same kind about the same frame is printed once a second at most, not for each message.
     """
     process = current_process()
-    now, said = process.simulation.now, process.locals.setdefault("tf2.said", {})
+    now, said = process.simulation.now, process.state(_Said)
     kind = re.sub(r"\d", "", text)  # the figures change from message to message
     if now - said.get(kind, -SECOND) >= SECOND:
         said[kind] = now

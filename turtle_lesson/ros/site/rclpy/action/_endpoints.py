@@ -181,12 +181,14 @@ class ActionEntity(Entity):
             self._action._end()
 
 
+class _GoalIds(Random):
+    """Where the numbers of a process's goals come from."""
+
+
 def new_goal_id() -> Any:
     """A number that no other goal has, from a source of its own, so that a program's random numbers do not shift."""
     process = current_process()
-    source = process.locals.get("rclpy.action.ids")
-    if source is None:
-        source = process.locals["rclpy.action.ids"] = Random(f"{process.seed}/goal ids")
+    source = process.state(_GoalIds, f"{process.seed}/goal ids")
     return UUID(uuid=list(Number(int=source.getrandbits(128), version=4).bytes))
 
 

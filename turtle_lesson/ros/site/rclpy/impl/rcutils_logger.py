@@ -21,12 +21,12 @@ from turtle_lesson.ros.sim.simulation import EPOCH, NANOSECONDS
 
 from .._deadlock import is_notebook
 from .._hints import did_you_mean
+from .._state import RclpyState
 from .logging_severity import LoggingSeverity
 
 if TYPE_CHECKING:
     from turtle_lesson.ros.sim.process import Process
 
-EVERYWHERE: dict[str, Any] = {}
 TWO_OF_A_NAME = (
     "Publisher already registered for provided node name. If this is due to multiple nodes with the same name then all "
     "logs for that logger name will go out over the existing publisher. As soon as any node with that name is destructed "
@@ -110,13 +110,12 @@ class RcutilsLogger:
         now = current_world().sim.now
         if site.filters and not site.lets_through():
             return False
-        data = current_process().locals
-        goes_to = data.get("rclpy.log_to", EVERYWHERE)
+        own = current_process().state(RclpyState)
+        goes_to = own.log_to
         if goes_to.get("stdout", True):
             line = Line(message, severity, name, EPOCH + now, frame)
-            print_line(line, data.get("rclpy.log_format"), colorized=data.get("rclpy.log_colorized", False))
-        on_rosout = data.get("rclpy.rosout", EVERYWHERE)
-        publish = on_rosout.get(name if self._parent is None else self._parent)
+            print_line(line, own.log_format, colorized=own.log_colorized)
+        publish = own.rosout.get(name if self._parent is None else self._parent)
         if publish is not None and goes_to.get("rosout", True):
             publish(name, message, severity, frame)
         return True
@@ -145,17 +144,17 @@ def _effective_level(name: str) -> LoggingSeverity:
 
 def levels() -> dict[str, LoggingSeverity]:
     """The levels that were set in this process, by logger name; '' is the default."""
-    return current_process().locals.setdefault("rclpy.log_levels", {})
+    return current_process().state(RclpyState).log_levels
 
 
 def publish_rosout(name: str, publish: Callable[[str, str, LoggingSeverity, FrameType], None]) -> None:
     """Have what the logger of this name prints published too, by `publish(name, message, severity, frame)`."""
-    current_process().locals.setdefault("rclpy.rosout", {})[name] = publish
+    current_process().state(RclpyState).rosout[name] = publish
 
 
 def is_on_rosout(name: str) -> bool:
     """Whether another node publishes what the logger of this name prints, of which is warned: it has to do for both."""
-    if name not in current_process().locals.get("rclpy.rosout", {}):
+    if name not in current_process().state(RclpyState).rosout:
         return False
     RcutilsLogger("rcl.logging_rosout").warning(TWO_OF_A_NAME)
     return True
@@ -163,7 +162,7 @@ def is_on_rosout(name: str) -> bool:
 
 def publish_rosout_no_more(name: str, process: Process) -> None:
     """What the logger of this name prints in a process is published no longer."""
-    process.locals.get("rclpy.rosout", {}).pop(name, None)
+    process.state(RclpyState).rosout.pop(name, None)
 
 
 # -- when a log call is held back: once, skip_first, throttle_duration_sec (the rules of rclpy's rcutils_logger.py) -----
