@@ -108,8 +108,8 @@ def _add(world: World, install: Path, name: str) -> None:
             name: PythonProgram(target, tuple(paths)) if isinstance(target, Path) else target
             for name, target in package.executables.items()
         }
-    hidden = None  # the interfaces of this name that were known before
-    if package.interfaces and package.name in registry.packages():
+    hidden = None  # the interfaces of this name that were added before; a built-in package shows again by itself
+    if package.interfaces and registry.was_added(package.name):
         before = registry.package(package.name)
         hidden = before.directory, before.files
     overlays(world).append(_Overlay(install, package, paths, hidden))

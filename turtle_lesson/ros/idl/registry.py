@@ -125,6 +125,10 @@ class Registry:
         """Whether there is a package of this name, or of one that newer releases use."""
         return package in self._added or ALIASES.get(package, package) in self._known_built_in()
 
+    def was_added(self, package: str) -> bool:
+        """Whether a package was added, and is not the built-in one of its name."""
+        return package in self._added
+
     def interface_names(self, package: str) -> list[str]:
         """Names such as `msg/Twist` of one package: messages, services, actions."""
         return self.package(package).interface_names()
