@@ -6,6 +6,7 @@ Here what lower rooms have done by higher ones (`hooks.py`) is connected. The ro
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from importlib import import_module
 from typing import Any
 
@@ -15,10 +16,12 @@ from . import hooks
 def _late(module: str, name: str) -> Callable[..., Any]:
     """A function of a module below this one, which is imported at the first call."""
 
-    def call(*arguments: Any, **keywords: Any) -> Any:
-        return getattr(import_module(f"{__name__}.{module}"), name)(*arguments, **keywords)
+    @cache
+    def function() -> Callable[..., Any]:
+        found: Callable[..., Any] = getattr(import_module(f"{__name__}.{module}"), name)
+        return found
 
-    return call
+    return lambda *arguments, **keywords: function()(*arguments, **keywords)
 
 
 hooks.wind_down = _late("stdlib.threads", "wind_down")
