@@ -125,45 +125,8 @@ def _describe(description: str | None, choices: list[str] | None) -> str:
     return f"{description}{end} Valid choices are: {choices}"
 
 
-class Setting(Action):
-    """Sets one value."""
-
-    def __init__(self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.__name = normalize_to_list_of_substitutions(name)
-        self.__value = normalize_to_list_of_substitutions(value)
-
-    @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type, dict[str, Any]]:
-        """Its arguments from `name` and `value`."""
-        _, kwargs = super().parse(entity, parser)
-        kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
-        kwargs["value"] = parser.parse_substitution(entity.get_attr("value"))
-        return cls, kwargs
-
-    @property
-    def name(self) -> list[Substitution]:
-        """The name of what is set."""
-        return self.__name
-
-    @property
-    def value(self) -> list[Substitution]:
-        """Its new value."""
-        return self.__value
-
-    def kept_in(self, context: LaunchContext) -> MutableMapping[str, str]:
-        """Where the context keeps such values."""
-        raise NotImplementedError
-
-    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Set it."""
-        name = perform_substitutions(context, self.name)
-        self.kept_in(context)[name] = perform_substitutions(context, self.value)
-        return None
-
-
-class Unsetting(Action):
-    """Forgets one value."""
+class _Named(Action):
+    """Is about one of the values that a context keeps by name."""
 
     def __init__(self, name: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -178,35 +141,69 @@ class Unsetting(Action):
 
     @property
     def name(self) -> list[Substitution]:
-        """The name of what is forgotten."""
+        """The name of the value."""
         return self.__name
 
     def kept_in(self, context: LaunchContext) -> MutableMapping[str, str]:
         """Where the context keeps such values."""
         raise NotImplementedError
 
+
+class Setting(_Named):
+    """Sets one value."""
+
+    def __init__(self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **kwargs: Any) -> None:
+        super().__init__(name, **kwargs)
+        self.__value = normalize_to_list_of_substitutions(value)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type, dict[str, Any]]:
+        """Its arguments from `name` and `value`."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["value"] = parser.parse_substitution(entity.get_attr("value"))
+        return cls, kwargs
+
+    @property
+    def value(self) -> list[Substitution]:
+        """Its new value."""
+        return self.__value
+
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Forget it."""
-        self.kept_in(context).pop(perform_substitutions(context, self.__name), None)
+        """Set it."""
+        name = perform_substitutions(context, self.name)
+        self.kept_in(context)[name] = perform_substitutions(context, self.value)
         return None
 
 
-@expose_action("let")
-class SetLaunchConfiguration(Setting):
-    """Gives a launch configuration a value."""
+class Unsetting(_Named):
+    """Forgets one value."""
 
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Forget it."""
+        self.kept_in(context).pop(perform_substitutions(context, self.name), None)
+        return None
+
+
+class _OfConfigurations(_Named):
     def kept_in(self, context: LaunchContext) -> MutableMapping[str, str]:
         """In the context's `launch_configurations`."""
         return context.launch_configurations
+
+
+class _OfEnvironment(_Named):
+    def kept_in(self, context: LaunchContext) -> MutableMapping[str, str]:
+        """In the context's `environment`."""
+        return context.environment
+
+
+@expose_action("let")
+class SetLaunchConfiguration(_OfConfigurations, Setting):
+    """Gives a launch configuration a value."""
 
 
 @expose_action("unset")
-class UnsetLaunchConfiguration(Unsetting):
+class UnsetLaunchConfiguration(_OfConfigurations, Unsetting):
     """Forgets a launch configuration."""
-
-    def kept_in(self, context: LaunchContext) -> MutableMapping[str, str]:
-        """In the context's `launch_configurations`."""
-        return context.launch_configurations
 
 
 class PushLaunchConfigurations(Action):
@@ -270,21 +267,13 @@ def kept(entity: Entity, parser: Parser) -> dict[Any, Any]:
 
 
 @expose_action("set_env")
-class SetEnvironmentVariable(Setting):
+class SetEnvironmentVariable(_OfEnvironment, Setting):
     """Gives an environment variable a value."""
-
-    def kept_in(self, context: LaunchContext) -> MutableMapping[str, str]:
-        """In the context's `environment`."""
-        return context.environment
 
 
 @expose_action("unset_env")
-class UnsetEnvironmentVariable(Unsetting):
+class UnsetEnvironmentVariable(_OfEnvironment, Unsetting):
     """Forgets an environment variable."""
-
-    def kept_in(self, context: LaunchContext) -> MutableMapping[str, str]:
-        """In the context's `environment`."""
-        return context.environment
 
 
 @expose_action("append_env")
