@@ -10,8 +10,9 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
+from ..ros.idl.names import is_hidden
 from . import drawing, style
-from .words import count, is_hidden, listed, number
+from .words import count, listed, number
 
 EVERYWHERE = frozenset({"/rosout", "/parameter_events"})
 """Topics that every node has: they say nothing about how a system is built."""

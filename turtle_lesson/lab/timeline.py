@@ -11,12 +11,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..ros.idl.names import is_hidden
 from ..ros.rmw.trace import TOPICS
 from . import style
 from .graph import EVERYWHERE, PARAMETER_SERVICES
 from .picture import Picture
 from .recording import NANOSECONDS
-from .words import count, is_hidden, listed, number, rate
+from .words import count, listed, number, rate
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -7,8 +7,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from ..ros.idl.names import is_hidden as is_hidden
-from ..ros.idl.names import nearest as nearest
+from ..ros.idl.names import nearest
 
 
 def number(value: float, decimals: int = 2) -> str:

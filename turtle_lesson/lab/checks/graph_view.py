@@ -6,7 +6,7 @@ import importlib
 from collections import Counter
 from typing import Any
 
-from ..words import is_hidden, nearest
+from ...ros.idl.names import is_hidden, nearest
 from .results import CannotLook
 
 

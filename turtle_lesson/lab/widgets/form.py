@@ -7,7 +7,8 @@ from typing import Any
 
 import traitlets
 
-from ..words import count, did_you_mean, enumerated, is_hidden, listed
+from ...ros.idl.names import is_hidden
+from ..words import count, did_you_mean, enumerated, listed
 from .backend import Backend
 from .form_fields import FieldError, Group, Rows, Single, find_part
 from .lazy_endpoints import LazyClient, LazyPublisher, let_time_go_on

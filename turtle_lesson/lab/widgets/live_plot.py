@@ -10,12 +10,13 @@ from typing import Any
 import numpy as np
 import traitlets
 
+from ...ros.idl.names import is_hidden, nearest
 from .. import style
 from ..picture import Picture
 from ..recorder import Channel
 from ..recording import NANOSECONDS, OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, Table
 from ..status import label_beside, spread
-from ..words import count, did_you_mean, enumerated, is_hidden, nearest, number
+from ..words import count, did_you_mean, enumerated, number
 from .backend import Backend
 from .live_widget import LiveWidget, pack, script, styles
 from .message_types import find_class, kinds_of

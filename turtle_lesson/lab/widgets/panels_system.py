@@ -10,10 +10,11 @@ from typing import Any
 import numpy as np
 import traitlets
 
+from ...ros.idl.names import is_hidden
 from ..graph import EVERYWHERE
 from ..recording import NANOSECONDS, OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, Table
 from ..scan import Beams, read_beams
-from ..words import is_hidden, listed, number
+from ..words import listed, number
 from .backend import Backend
 from .lazy_endpoints import LazySubscriber, servers
 from .live_widget import LiveWidget, pack

@@ -6,7 +6,8 @@ from typing import Any
 
 import traitlets
 
-from ..words import count, did_you_mean, enumerated, is_hidden
+from ...ros.idl.names import is_hidden
+from ..words import count, did_you_mean, enumerated
 from .backend import Backend
 from .live_widget import LiveWidget, script, styles
 from .parameter_client import BOOL, DOUBLE, INTEGER, TYPES, Found, ParameterClient, node_names, read, shown

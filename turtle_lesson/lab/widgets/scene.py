@@ -8,7 +8,7 @@ import traitlets
 
 from ..recording import UNDER_WAY
 from ..words import point
-from . import scene_commands as parts
+from . import scene_commands
 from .goal_client import Goal, goals_from
 from .live_widget import LiveWidget, script, styles
 from .scene_commands import viewer_bundle
@@ -56,7 +56,7 @@ class Scene(LiveWidget):
         self._css = styles("base", "scene")
         self._trail = Trail(backend.recorder.poses)
         self._drawn: dict[str, Any] = {}
-        super().__init__(backend, bundle=viewer_bundle(), stage=parts.stage())
+        super().__init__(backend, bundle=viewer_bundle(), stage=scene_commands.stage())
         self.tick()
 
     def snapshot(self) -> ScenePage:
@@ -102,15 +102,15 @@ class Scene(LiveWidget):
         recorder = self.backend.recorder
         pose = newest_pose(recorder)
         if pose is not None and self._is_new("turtle", pose):
-            self.turtle = parts.turtle_at(*pose)
+            self.turtle = scene_commands.turtle_at(*pose)
         if self.due("trail", TRAIL_RATE) and self._trail.follow():
             if self._is_new("trail", self._trail.changes):
-                self.trail = parts.trail("lab/trail", self._trail.old)
-            self.tip = parts.trail("lab/tip", [self._trail.tip])
+                self.trail = scene_commands.trail("lab/trail", self._trail.old)
+            self.tip = scene_commands.trail("lab/tip", [self._trail.tip])
         self._draw_scan()
         standing = list(recorder.obstacles.values())
         if self._is_new("obstacles", standing):
-            self.obstacles = parts.obstacles(standing)
+            self.obstacles = scene_commands.obstacles(standing)
         self._draw_goal()
         if self.due("description", DESCRIPTION_RATE):
             self.description = brief(recorder, self._current_goal())
@@ -123,12 +123,12 @@ class Scene(LiveWidget):
         pose = newest_pose(recorder, until=int(recorder.scans.newest(1)["stamp"][0]) - UNDER_WAY)
         if pose is not None:
             self._drawn["scan"] = scan
-            self.scan = parts.scan(scan, *pose)
+            self.scan = scene_commands.scan(scan, *pose)
 
     def _draw_goal(self) -> None:
         goal = self._current_goal()
         if self._is_new("goal", None if goal is None else (goal.x, goal.y, goal.theta, goal.state)):
-            self.goal = parts.goal(goal)
+            self.goal = scene_commands.goal(goal)
         if goal is not None and self._is_new("news", (goal.sent, goal.state)):
             self.words = f"Goal {point(goal.x, goal.y)} m: {goal.state}."
 

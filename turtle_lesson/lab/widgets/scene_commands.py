@@ -20,8 +20,7 @@ from ...ros.sim.defer_sigint import defer_sigint
 from ..path import WORLD
 from ..recording import Obstacle
 from ..scan import read_beams
-from . import scene_mesh as turtle
-from . import scene_mesh as world
+from . import scene_mesh
 from .goal_client import Goal
 from .scene_mesh import Mesh, placed, rgb
 
@@ -129,12 +128,12 @@ SUN = (-5.0, -7.0, 14.0)
 def stage() -> list[bytes]:
     """What never changes, in any scene: lights, floor, walls and the turtle itself."""
     ours = [put("lab", placed(-WORLD / 2, -WORLD / 2)), *_lights(), remove("Grid"), remove("Axes")]
-    ours.append(show("lab/floor", world.floor(), color=_number(world.FLOOR)))
-    ours += [show("lab/grid", world.grid(), color=_number(world.GRID)), cast_no_shadow("lab/grid")]
-    for number, wall in enumerate(world.walls()):
-        ours.append(show(f"lab/walls/{number}", wall, color=_number(world.WALL)))
-    ours.append(show(f"{TURTLE}/body", turtle.body()))
-    for name, ((x, y), leg) in turtle.legs().items():
+    ours.append(show("lab/floor", scene_mesh.floor(), color=_number(scene_mesh.FLOOR)))
+    ours += [show("lab/grid", scene_mesh.grid(), color=_number(scene_mesh.GRID)), cast_no_shadow("lab/grid")]
+    for number, wall in enumerate(scene_mesh.walls()):
+        ours.append(show(f"lab/walls/{number}", wall, color=_number(scene_mesh.WALL)))
+    ours.append(show(f"{TURTLE}/body", scene_mesh.body()))
+    for name, ((x, y), leg) in scene_mesh.legs().items():
         ours += [put(f"{TURTLE}/{name}", placed(x, y)), show(f"{TURTLE}/{name}/swing", leg)]
     return ours
 
@@ -151,17 +150,20 @@ def turtle_at(x: float, y: float, theta: float) -> bytes:
 
 def trail(path: str, pieces: Sequence[np.ndarray]) -> list[bytes]:
     """A part of the trail, as a ribbon on the floor; nothing of it if there are no pieces."""
-    mesh = world.ribbon(pieces)
+    mesh = scene_mesh.ribbon(pieces)
     if not len(mesh):
         return [remove(path)]
-    return [show(path, mesh, lit=False, color=_number(world.TRAIL)), cast_no_shadow(path)]
+    return [show(path, mesh, lit=False, color=_number(scene_mesh.TRAIL)), cast_no_shadow(path)]
 
 
 def scan(message: object, x: float, y: float, theta: float) -> list[bytes]:
     """What the laser saw, from where the turtle was just then."""
-    free, marks = world.fan(read_beams(message), x, y, theta)
+    free, marks = scene_mesh.fan(read_beams(message), x, y, theta)
     look = {"opacity": 0.2, "depthWrite": False}
-    drawn = [("lab/scan/free", free, world.FREE, look), ("lab/scan/hits", marks, world.HIT, {"opacity": 0.85})]
+    drawn = [
+        ("lab/scan/free", free, scene_mesh.FREE, look),
+        ("lab/scan/hits", marks, scene_mesh.HIT, {"opacity": 0.85}),
+    ]
     commands = []
     for path, mesh, colour, material in drawn:
         if len(mesh):
@@ -177,11 +179,13 @@ def obstacles(these: Iterable[Obstacle]) -> list[bytes]:
     for number, each in enumerate(these):
         path = f"lab/obstacles/{number}"
         block, place = _block(each)
-        rim = np.column_stack([world.outline(each), np.full(len(world.outline(each)), world.OBSTACLE_HEIGHT + 0.003)])
+        rim = np.column_stack(
+            [scene_mesh.outline(each), np.full(len(scene_mesh.outline(each)), scene_mesh.OBSTACLE_HEIGHT + 0.003)]
+        )
         edge = geometry.PointsGeometry(np.round(rim, 4).astype(np.float32).T)
-        line = geometry.LineBasicMaterial(color=_number(world.OBSTACLE_EDGE))
+        line = geometry.LineBasicMaterial(color=_number(scene_mesh.OBSTACLE_EDGE))
         commands += [
-            _show(f"{path}/block", block, geometry.MeshLambertMaterial(color=_number(world.OBSTACLE))),
+            _show(f"{path}/block", block, geometry.MeshLambertMaterial(color=_number(scene_mesh.OBSTACLE))),
             put(f"{path}/block", place),
             _show(f"{path}/edge", edge, line, geometry.LineLoop),
             cast_no_shadow(f"{path}/edge"),
@@ -191,7 +195,7 @@ def obstacles(these: Iterable[Obstacle]) -> list[bytes]:
 
 def _block(obstacle: Obstacle) -> tuple[geometry.Geometry, np.ndarray]:
     """Its shape and place; a cylinder, whose axis is y in three.js, is put upright, and stretched if it is no circle."""
-    wide, deep, high = obstacle.width, obstacle.height, world.OBSTACLE_HEIGHT
+    wide, deep, high = obstacle.width, obstacle.height, scene_mesh.OBSTACLE_HEIGHT
     there = placed(obstacle.x, obstacle.y, high / 2, obstacle.angle)
     if obstacle.shape == "box":
         return geometry.Box([wide, deep, high]), there
@@ -204,9 +208,9 @@ def goal(current: Goal | None) -> list[bytes]:
     if current is None:
         return [remove("lab/goal")]
     return [
-        show("lab/goal/mark", world.goal_mark(current.x, current.y, current.theta)),
+        show("lab/goal/mark", scene_mesh.goal_mark(current.x, current.y, current.theta)),
         cast_no_shadow("lab/goal/mark"),
-        show("lab/goal/flag", world.goal_flag(current.x, current.y, current.state == "reached")),
+        show("lab/goal/flag", scene_mesh.goal_flag(current.x, current.y, current.state == "reached")),
     ]
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..path import distance_driven, find_jumps, thinned
 from ..words import number, point
-from . import scene_commands as parts
+from . import scene_commands
 from .goal_client import goals_from
 from .live_widget import pack, script, styles
 from .scene_commands import ScenePath, cast_no_shadow, packed, show
@@ -139,10 +139,10 @@ def replay_page(scene: Scene, since: float | None, until: float | None) -> Scene
     goals = [goal for goal in goals_from(scene.backend) if goal.was_taken]
     trail, growth = _trail(poses, times, jumps, driven)
     flags, appear = _flags(goals, begin, end)
-    tracks = {parts.TURTLE: _drive(poses, times, jumps), **appear}
+    tracks = {scene_commands.TURTLE: _drive(poses, times, jumps), **appear}
     state = {
         **state_of(scene),
-        "turtle": parts.turtle_at(*(float(poses[0][name]) for name in ("x", "y", "theta"))),
+        "turtle": scene_commands.turtle_at(*(float(poses[0][name]) for name in ("x", "y", "theta"))),
         "trail": trail,
         "tip": [],
         "scan": [],

@@ -13,8 +13,7 @@ from ..picture import Picture
 from ..recording import UNDER_WAY, Table
 from ..scan import read_beams
 from ..words import angle, count, listed, number, point
-from . import scene_mesh as turtle
-from . import scene_mesh as world
+from . import scene_mesh
 from .scene_mesh import Mesh, joined, placed
 
 if TYPE_CHECKING:
@@ -49,29 +48,29 @@ def draw_scene(recording: Recording, goal: Goal | None) -> Picture:
 
 def _draw_floor(axes: Axes, recording: Recording) -> None:
     """What lies on the floor: nothing of it hides anything."""
-    _draw(axes, world.floor(), layer=1, alpha=0.08)
-    _draw(axes, world.grid(), layer=2, alpha=0.5)
+    _draw(axes, scene_mesh.floor(), layer=1, alpha=0.08)
+    _draw(axes, scene_mesh.grid(), layer=2, alpha=0.5)
     trail = Trail(recording.poses)
     trail.follow()
-    _draw(axes, world.ribbon([*trail.old, trail.tip]), layer=3, lit=False)
+    _draw(axes, scene_mesh.ribbon([*trail.old, trail.tip]), layer=3, lit=False)
 
 
 def _draw_things(axes: Axes, recording: Recording, goal: Goal | None, pose: tuple[float, float, float]) -> None:
     """What stands there, the farthest first."""
-    things = [[each] for each in (*world.walls(), *map(world.obstacle_mesh, recording.obstacles.values()))]
+    things = [[each] for each in (*scene_mesh.walls(), *map(scene_mesh.obstacle_mesh, recording.obstacles.values()))]
     there = placed(pose[0], pose[1], 0.0, pose[2])
     facing_us = math.cos(pose[2] - AROUND) > 0
-    things.append([piece.moved(there) for piece in turtle.layers(head_in_front=facing_us)])
+    things.append([piece.moved(there) for piece in scene_mesh.layers(head_in_front=facing_us)])
     if goal is not None:
-        _draw(axes, world.goal_mark(goal.x, goal.y, goal.theta), layer=6, lit=False)
-        things.append([world.goal_flag(goal.x, goal.y, goal.state == "reached")])
+        _draw(axes, scene_mesh.goal_mark(goal.x, goal.y, goal.theta), layer=6, lit=False)
+        things.append([scene_mesh.goal_flag(goal.x, goal.y, goal.state == "reached")])
     things.sort(key=lambda pieces: float(_seen(joined(pieces).corners)[2].mean()))
     for layer, piece in enumerate(piece for pieces in things for piece in pieces):
         _draw(axes, piece, layer=10 + layer)
     if recording.last_scan is not None:
         place = newest_pose(recording, until=int(recording.scans.newest(1)["stamp"][0]) - UNDER_WAY)
         if place is not None:
-            free, marks = world.fan(read_beams(recording.last_scan), *place)
+            free, marks = scene_mesh.fan(read_beams(recording.last_scan), *place)
             _draw(axes, free, layer=4, lit=False, alpha=0.22)
             _draw(axes, marks, layer=5, lit=False, alpha=0.8)
 
