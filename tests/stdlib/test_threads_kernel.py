@@ -2,46 +2,24 @@
 
 from __future__ import annotations
 
-import os
-import signal
-import threading
-from collections.abc import Callable, Iterator
-from pathlib import Path
-from typing import Any
+from collections.abc import Iterator
 
 import kernels
 import pytest
-from jupyter_client.manager import start_new_kernel
+from kernels import Ask
 
-Ask = Callable[..., tuple[str, str]]
+SET_UP = (
+    "from turtle_lesson import start\nlesson = start(seed=0)",
+    "import asyncio, queue, threading, time\nimport rclpy",
+)
 
 
 @pytest.fixture(scope="module")
 def ask(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Ask]:
     """Runs a cell in a kernel, stops it after some seconds if told so, and returns what it printed and its error."""
-    root = str(Path(__file__).resolve().parents[2])
-    manager, client = start_new_kernel(cwd=str(tmp_path_factory.mktemp("notebook")), kernel_name="python3")
-
-    def ask(cell: str, stop_after: float | None = None) -> tuple[str, str]:
-        said: dict[str, str] = {"out": "", "error": ""}
-
-        def hear(message: dict[str, Any]) -> None:
-            content = message["content"]
-            said["out"] += content.get("text", "")
-            said["error"] += content.get("ename", "")
-
-        timer = threading.Timer(stop_after or 0.0, os.kill, [manager.provisioner.pid, signal.SIGINT])
-        if stop_after is not None:
-            timer.start()
-        client.execute_interactive(cell, output_hook=hear, timeout=120, allow_stdin=False)
-        timer.cancel()
-        return said["out"], said["error"]
-
-    ask(f"import sys; sys.path.insert(0, {root!r})")
-    ask("from turtle_lesson import start\nlesson = start(seed=0)")
-    ask("import asyncio, queue, threading, time\nimport rclpy")
-    yield ask
-    kernels.end(manager, client)
+    folder = tmp_path_factory.mktemp("notebook")
+    with kernels.running(folder, SET_UP, lambda content: content.get("ename", "")) as ask:
+        yield ask
 
 
 def test_a_node_spins_in_a_thread_and_prints_to_the_cell_that_runs_it(ask: Ask) -> None:
