@@ -1,4 +1,4 @@
-"""Recordings filled by hand, and a node that answers for a graph: what the lab's tests draw."""
+"""Recordings filled by hand, a node that answers for a graph, and orders to widgets: what the lab's tests share."""
 
 from __future__ import annotations
 
@@ -103,3 +103,8 @@ class GraphNode:
 def _split(full_name: str) -> tuple[str, str]:
     namespace, name = full_name.rsplit("/", 1)
     return name, namespace or "/"
+
+
+def order(widget: Any, name: str, /, **content: Any) -> None:
+    """Give a widget the order that a view in a browser sends."""
+    widget._order(widget, {"do": name, "view": "v", **content}, [])

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from lab_fakes import order
 
 from turtle_lesson import Lesson, start
 from turtle_lesson.lab.widgets.form import publish_line
@@ -21,18 +22,6 @@ from turtle_lesson.lab.widgets.message_types import (
     plain,
     read_kind,
 )
-
-
-@pytest.fixture
-def lesson() -> Lesson:
-    lesson = start()
-    lesson.launch("robot_controller", "start_system.launch.py")
-    lesson.run(1)
-    return lesson
-
-
-def order(widget: Any, name: str, /, **content: Any) -> None:
-    widget._order(widget, {"do": name, "view": "v", **content}, [])
 
 
 def group(type_name: str) -> Group:

@@ -7,21 +7,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from lab_fakes import order
 
 from turtle_lesson import Lesson, start
 from turtle_lesson.lab.widgets.live_plot import figure, mistyped, split, steps_of, thinned
-
-
-@pytest.fixture
-def lesson() -> Lesson:
-    lesson = start()
-    lesson.launch("robot_controller", "start_system.launch.py")
-    lesson.run(1)
-    return lesson
-
-
-def order(widget: Any, name: str, /, **content: Any) -> None:
-    widget._order(widget, {"do": name, "view": "v", **content}, [])
 
 
 def drawn(widget: Any) -> list[np.ndarray]:

@@ -6,6 +6,7 @@ import asyncio
 from typing import Any
 
 import pytest
+from lab_fakes import order
 
 from turtle_lesson import Lesson, start
 from turtle_lesson.lab.widgets.parameter_client import (
@@ -19,18 +20,6 @@ from turtle_lesson.lab.widgets.parameter_client import (
     read,
     shown,
 )
-
-
-@pytest.fixture
-def lesson() -> Lesson:
-    lesson = start()
-    lesson.launch("robot_controller", "start_system.launch.py")
-    lesson.run(1)
-    return lesson
-
-
-def order(widget: Any, name: str, /, **content: Any) -> None:
-    widget._order(widget, {"do": name, "view": "v", **content}, [])
 
 
 def item(widget: Any, name: str) -> dict[str, Any]:

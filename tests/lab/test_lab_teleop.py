@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from lab_fakes import order
 
 from turtle_lesson import Lesson, start
 from turtle_lesson.lab.widgets import teleop as module
@@ -25,10 +26,6 @@ def hand(monkeypatch: pytest.MonkeyPatch) -> dict[str, float]:
     clock = {"now": 0.0}
     monkeypatch.setattr(module, "real_monotonic", lambda: clock["now"])
     return clock
-
-
-def order(widget: Any, name: str, /, **content: Any) -> None:
-    widget._order(widget, {"do": name, "view": "v", **content}, [])
 
 
 def listen(lesson: Lesson, topic: str = "/turtle1/cmd_vel") -> list[tuple[float, float, float]]:

@@ -179,9 +179,8 @@ def obstacles(these: Iterable[Obstacle]) -> list[bytes]:
     for number, each in enumerate(these):
         path = f"lab/obstacles/{number}"
         block, place = _block(each)
-        rim = np.column_stack(
-            [scene_mesh.outline(each), np.full(len(scene_mesh.outline(each)), scene_mesh.OBSTACLE_HEIGHT + 0.003)]
-        )
+        outline = scene_mesh.outline(each)
+        rim = np.column_stack([outline, np.full(len(outline), scene_mesh.OBSTACLE_HEIGHT + 0.003)])
         edge = geometry.PointsGeometry(np.round(rim, 4).astype(np.float32).T)
         line = geometry.LineBasicMaterial(color=_number(scene_mesh.OBSTACLE_EDGE))
         commands += [
