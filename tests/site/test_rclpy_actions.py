@@ -731,7 +731,7 @@ def test_an_action_is_one_thing_of_its_node_and_goes_with_it(run: Run) -> None:
         found.append([repr(server), repr(client), server.action_type is Fibonacci])
         server.destroy()
         server.destroy()
-        found.append((client.server_is_ready(), client._entity in node._ros_waiting_entities, len(list(node.services))))
+        found.append((client.server_is_ready(), client in node._ros_waiting_entities, len(list(node.services))))
         node.destroy_node()
         other = rclpy.create_node("other")
         found.append(other.get_action_names_and_types())

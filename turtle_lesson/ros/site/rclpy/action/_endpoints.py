@@ -7,8 +7,7 @@ the parts as it makes all others; then they are taken out of its hands, for an e
 from __future__ import annotations
 
 import inspect
-from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from random import Random
 from types import GenericAlias
 from typing import TYPE_CHECKING, Any
@@ -24,6 +23,7 @@ from ..exceptions import NameValidationException
 from ..type_support import check_for_type_support
 
 if TYPE_CHECKING:
+    from ..callback_groups import CallbackGroup
     from ..executors import Executor
     from ..node import Node
     from ..qos import QoSProfile
@@ -36,8 +36,6 @@ ORDER = {
     "client": "The order is ActionClient(node, action_type, action_name).",
     "server": "The order is ActionServer(node, action_type, action_name, execute_callback).",
 }
-
-Make = Callable[[Any, str, "QoSProfile"], Any]
 
 
 def check_action(role: str, node: Any, action_type: Any) -> None:
@@ -75,72 +73,67 @@ def full_names(role: str, node: Node, action_name: Any) -> dict[str, str]:
         raise ValueError(f"Failed to create action {role} due to invalid topic name '{action_name}': {error}") from None
 
 
-def make_parts(
-    node: Node,
-    action_type: Any,
-    names: dict[str, str],
-    profiles: dict[str, QoSProfile],
-    make_service: Make,
-    make_topic: Make,
-) -> dict[str, Any]:
-    """The five ends of an action; or none of them, if one cannot be made."""
-    parts: dict[str, Any] = {}
-    try:
-        for part, type_name in (SERVICES | TOPICS).items():
-            make = make_service if part in SERVICES else make_topic
-            kind = getattr(action_type.Impl, type_name)
-            parts[part] = _detached(node, make(kind, names[part], profiles[part]))
-    except Exception:
-        for made in parts.values():
-            made.destroy()
-        raise
-    return parts
+class ActionEndpoint(Entity):
+    """Base class of action clients and servers. Its parts go with it: to an executor, and out of the graph.
 
-
-def _detached(node: Node, part: Any) -> Any:
-    """What the node has just made, no longer among the things that it has."""
-    things: list[Any] = node._ros_waiting_entities if isinstance(part, Entity) else node._ros_publishers
-    place = next(place for place in reversed(range(len(things))) if things[place] is part)  # it is among the last
-    del things[place]
-    if isinstance(part, Entity):
-        part._executor = None
-    return part
-
-
-class ActionEndpoint:
-    """Base class of action clients and servers."""
+    Each `profiles` is of the part at the same place in SERVICES and TOPICS.
+    """
 
     __class_getitem__: Any = classmethod(GenericAlias)  # newer releases: ActionClient[Goal, Result, Feedback] in a hint
-    _entity: ActionEntity
-    _name: str
+    _kind = WAITABLE
+    _node: Node
 
-    def __enter__(self) -> Any:
-        return self
+    def __init__(
+        self,
+        role: str,
+        node: Node,
+        action_type: Any,
+        action_name: str,
+        callback_group: CallbackGroup | None,
+        profiles: Iterable[QoSProfile],
+    ) -> None:
+        check_action(role, node, action_type)
+        self._parts: dict[str, Any] = {}
+        super().__init__(self.execute, callback_group or node.default_callback_group)
+        self._node = node
+        self._action_type = action_type
+        self._action_name = action_name
+        names = full_names(role, node, action_name)
+        self._name = names[""]
+        try:
+            for (part, kind), profile in zip((SERVICES | TOPICS).items(), profiles, strict=True):
+                self._parts[part] = self._make_part(part, getattr(action_type.Impl, kind), names[part], profile)
+                _take_from_node(node, self._parts[part])
+        except Exception:
+            for made in self._parts.values():
+                made.destroy()
+            raise
+        self._arrived = self._queues()
+        for end in self._arrived.values():
+            end.wake = self._arrive
+        node._ros_keep(self)
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} of {self._name}>"
 
     def __exit__(self, *error: object) -> None:
         """Nothing is released: as in rclpy, the endpoint lives on."""
 
-    def _on_arrival(self) -> None:
-        """A message or request has come; it is taken when the executor gets to it."""
+    def _make_part(self, part: str, kind: Any, name: str, profile: QoSProfile) -> Any:
+        """Have the node make one of the five parts."""
+        raise NotImplementedError
 
-    def destroy(self) -> None:
-        """Leave the action: answers under way are dropped, goals that go on are not followed any more."""
-        self._entity.destroy()
+    def _queues(self) -> dict[str, Any]:
+        """Where things arrive, by what `execute` calls them."""
+        raise NotImplementedError
 
+    def take_data(self) -> dict[str, Any]:
+        """Take one thing of each kind that has arrived."""
+        return {kind: end.take() for kind, end in self._arrived.items() if end.queue}
 
-class ActionEntity(Entity):
-    """An action server or client in a node. Its parts go with it: to an executor, and out of the graph."""
-
-    _kind = WAITABLE
-
-    def __init__(self, action: Any, parts: dict[str, Any], queues: list[deque[Any]]) -> None:
-        self._action = action
-        self._parts = parts
-        self._queues = queues
-        super().__init__(action.execute, action.callback_group)
-
-    def __repr__(self) -> str:
-        return repr(self._action)
+    async def execute(self, taken_data: dict[str, Any]) -> None:
+        """Do what the things that were taken ask for."""
+        raise NotImplementedError
 
     @property
     def _executor(self) -> Executor | None:
@@ -153,32 +146,34 @@ class ActionEntity(Entity):
             if isinstance(part, Entity):
                 part._executor = executor
 
-    @property
-    def _waiting(self) -> bool:
-        """Whether it may call something of the program's."""
-        return self._action._may_call_back()
-
     def _has_work(self) -> bool:
-        return any(self._queues)
+        return any(end.queue for end in self._arrived.values())
 
     def _take(self) -> tuple[Any, ...]:
-        data = self._action.take_data()
-        if any(self._queues):
+        data = self.take_data()
+        if self._has_work():
             self._signal()
         return (data,)
 
     def _arrive(self) -> None:
-        """Something has come."""
-        self._action._on_arrival()
+        """A message or request has come; it is taken when the executor gets to it."""
         self._signal()
 
     def destroy(self) -> None:
-        """Leave the node and the graph."""
+        """Leave the action: answers under way are dropped, goals that go on are not followed any more."""
         if not self._destroyed:
             super().destroy()
             for part in self._parts.values():
                 part.destroy()
-            self._action._end()
+
+
+def _take_from_node(node: Node, part: Any) -> None:
+    """Take what the node has just made out of the things that it has."""
+    things: list[Any] = node._ros_waiting_entities if isinstance(part, Entity) else node._ros_publishers
+    place = next(place for place in reversed(range(len(things))) if things[place] is part)  # it is among the last
+    del things[place]
+    if isinstance(part, Entity):
+        part._executor = None
 
 
 class _GoalIds(Random):

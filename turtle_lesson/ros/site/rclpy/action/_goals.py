@@ -1,10 +1,9 @@
-"""The goals that an action server knows: those that go on, and for some time those that have ended."""
+"""The goals of an action server, their states, and which of them a cancel request is about."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable
 from enum import Enum
-from heapq import heappop, heappush
 from types import GenericAlias
 from typing import TYPE_CHECKING, Any
 
@@ -17,8 +16,6 @@ from .._hints import shown
 from ..exceptions import RCLError
 
 if TYPE_CHECKING:
-    from turtle_lesson.ros.sim.simulation import Simulation
-
     from .server import ActionServer
 
 
@@ -27,81 +24,6 @@ def key_of(goal_id: Any) -> bytes:
     return bytes(goal_id.uuid)
 
 
-class Goals:
-    """By their numbers, in the order in which they were accepted.
-
-    The real server forgets the ended ones with a timer (rcl_action's action_server.c). Here it looks whenever somebody
-    asks: nobody can tell the difference, and nothing keeps a world awake in which nothing happens any more.
-    """
-
-    def __init__(self, simulation: Simulation, timeout: int, *, after_their_end: bool) -> None:
-        self._simulation = simulation
-        self._timeout = timeout
-        self._after_their_end = after_their_end
-        self._accepted: dict[bytes, int] = {}
-        self._handles: dict[bytes, ServerGoalHandle] = {}
-        self._results: dict[bytes, Any] = {}
-        self._asked: dict[bytes, list[Any]] = {}
-        self._executing: set[bytes] = set()
-        self._ended: list[tuple[int, bytes]] = []  # when (ns) they expire: a heap
-
-    def __iter__(self) -> Iterator[ServerGoalHandle]:
-        return iter(list(self._handles.values()))
-
-    def get(self, goal_id: Any) -> ServerGoalHandle | None:
-        """The goal of this number."""
-        return self._handles.get(key_of(goal_id))
-
-    def add(self, handle: ServerGoalHandle) -> None:
-        """A goal was accepted."""
-        key = key_of(handle.goal_id)
-        self._handles[key] = handle
-        self._accepted[key] = self._simulation.now
-
-    def begin(self, handle: ServerGoalHandle) -> None:
-        """A goal's execute callback is to be called: it is not forgotten before that has returned."""
-        self._executing.add(key_of(handle.goal_id))
-
-    def end(self, handle: ServerGoalHandle) -> None:
-        """A goal has come to its end, and will be forgotten."""
-        key = key_of(handle.goal_id)
-        began = self._accepted.pop(key, self._simulation.now)
-        heappush(self._ended, ((self._simulation.now if self._after_their_end else began) + self._timeout, key))
-
-    def ask(self, goal_id: Any, request: Any) -> Any | None:
-        """The result of a goal; None if it is not known yet: then this request will be among those to be answered."""
-        key = key_of(goal_id)
-        if key in self._results:
-            return self._results[key]
-        self._asked.setdefault(key, []).append(request)
-        return None
-
-    def finish(self, handle: ServerGoalHandle, result: Any) -> list[Any]:
-        """A goal's execute callback has returned. Returns the requests that are to be answered now."""
-        key = key_of(handle.goal_id)
-        self._executing.discard(key)
-        if key in self._handles:
-            self._results[key] = result
-        return self._asked.pop(key, [])
-
-    def forget_expired(self) -> None:
-        """Let go of those that have ended and expired."""
-        ended, now = self._ended, self._simulation.now
-        while ended and ended[0][0] < now and ended[0][1] not in self._executing:
-            key = heappop(ended)[1]
-            self._results.pop(key, None)
-            handle = self._handles.pop(key, None)
-            if handle is not None:
-                handle.destroy()
-
-    def forget_all(self) -> None:
-        """Let go of all of them."""
-        for handle in self._handles.values():
-            handle.destroy()
-        self._handles.clear()
-
-
-# -- goal states --------------------------------------------------------------------------------------------------
 # The states of a goal, and which event leads to which (rcl_action's goal_state_machine.c).
 #
 #     accepted ──EXECUTE──▸ executing ──SUCCEED──▸ succeeded
@@ -176,18 +98,18 @@ class ServerGoalHandle:
     """
 
     __module__ = "rclpy.action.server"
-    __class_getitem__: Any = classmethod(
-        GenericAlias
-    )  # newer releases: ServerGoalHandle[Goal, Result, Feedback] in a hint
+    __class_getitem__: Any = classmethod(GenericAlias)  # newer releases: ServerGoalHandle[…] in a hint
 
     def __init__(self, action_server: ActionServer, goal_info: Any, goal_request: Any) -> None:
         self._action_server: ActionServer | None = action_server
         self._action_type = action_server.action_type
         self._goal_info = goal_info
         self._goal_request = goal_request
-        self._for_all = GoalStatus(
-            goal_info=goal_info, status=GoalStatus.STATUS_ACCEPTED
-        )  # what the status topic tells
+        self._for_all = GoalStatus(goal_info=goal_info, status=GoalStatus.STATUS_ACCEPTED)  # as the status topic has it
+        self._accepted_at = action_server._node._ros_simulation.now
+        self._is_executing = False
+        self._asked: list[Any] = []  # requests for the result, to be answered when it is known
+        self._response: Any = None
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, ServerGoalHandle) and self.goal_id == other.goal_id
@@ -235,7 +157,15 @@ class ServerGoalHandle:
         self._for_all.status = state_after(self._for_all.status, event)
         server._publish_status()
         if self._for_all.status not in ACTIVE:
-            server._goals.end(self)
+            server._goal_ends(self)
+
+    def _finish(self, response: Any) -> None:
+        """The execute callback has returned: answer all requests for the result, those to come as well."""
+        self._is_executing = False
+        self._response = response
+        for request in self._asked:
+            request.answer(response)
+        self._asked.clear()
 
     def execute(self, execute_callback: Callable[[ServerGoalHandle], Any] | None = None) -> None:
         """Have the server's execute callback, or another one, called for this goal, by the executor, soon.
@@ -274,37 +204,23 @@ class ServerGoalHandle:
         self._action_server = None
 
 
-# -- cancelling ---------------------------------------------------------------------------------------------------
-# Which goals a cancel request is about (rcl_action's action_server.c, action_msgs/srv/CancelGoal).
+def goals_to_cancel(goal_info: Any, goals: dict[bytes, ServerGoalHandle]) -> tuple[int, list[ServerGoalHandle]]:
+    """The return code for a cancel request, and the goals that it may cancel.
 
-NO_ID = bytes(16)
-
-
-def goals_to_cancel(goal_info: Any, goals: Iterable[ServerGoalHandle]) -> tuple[int, list[ServerGoalHandle]]:
-    """The return code for a request, and the goals that it may cancel.
-
-    A number alone means that goal; a time alone all goals accepted until then; both mean both; neither means all.
+    A number alone means that goal; a time alone all goals accepted until then; both mean both; neither means all
+    (rcl_action's action_server.c, action_msgs/srv/CancelGoal).
     """
     wanted, until = key_of(goal_info.goal_id), _nanoseconds(goal_info.stamp)
-    if wanted != NO_ID and not until:
-        return _one(wanted, goals)
-    everything = wanted == NO_ID and not until
+    everything = not any(wanted) and not until
     found = [
         goal
-        for goal in goals
-        if is_cancelable(goal.status)
-        and (everything or _nanoseconds(goal._goal_info.stamp) <= until or key_of(goal.goal_id) == wanted)
+        for key, goal in goals.items()
+        if (everything or key == wanted or _nanoseconds(goal._goal_info.stamp) <= until) and is_cancelable(goal.status)
     ]
-    return CancelGoal.Response.ERROR_NONE, found
-
-
-def _one(wanted: bytes, goals: Iterable[ServerGoalHandle]) -> tuple[int, list[ServerGoalHandle]]:
-    for goal in goals:
-        if key_of(goal.goal_id) == wanted:
-            if is_cancelable(goal.status):
-                return CancelGoal.Response.ERROR_NONE, [goal]
-            return CancelGoal.Response.ERROR_GOAL_TERMINATED, []
-    return CancelGoal.Response.ERROR_UNKNOWN_GOAL_ID, []
+    if found or until or everything:
+        return CancelGoal.Response.ERROR_NONE, found
+    codes = CancelGoal.Response
+    return codes.ERROR_GOAL_TERMINATED if wanted in goals else codes.ERROR_UNKNOWN_GOAL_ID, []
 
 
 def _nanoseconds(stamp: Any) -> int:

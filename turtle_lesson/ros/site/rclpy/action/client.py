@@ -22,21 +22,20 @@ from ..callback_groups import CallbackGroup
 from ..client import Client
 from ..qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
 from ..task import Future
-from ._endpoints import ActionEndpoint, ActionEntity, call_back, check_action, full_names, make_parts, new_goal_id
+from ._endpoints import SERVICES, TOPICS, ActionEndpoint, call_back, new_goal_id
 from ._goals import ACTIVE, key_of
 
 if TYPE_CHECKING:
+    from turtle_lesson.ros.rmw.reader import Reader
+
     from ..node import Node
 
-WORDS = {
-    part: Words("action client", "action server", ask, "ActionClient")
-    for part, ask in {
-        "send_goal": "action_client.send_goal_async(goal)",
-        "cancel_goal": "goal_handle.cancel_goal_async()",
-        "get_result": "goal_handle.get_result_async()",
-    }.items()
+ASK = {
+    "send_goal": "action_client.send_goal_async(goal)",
+    "cancel_goal": "goal_handle.cancel_goal_async()",
+    "get_result": "goal_handle.get_result_async()",
 }
-"""What the clients behind an action client are called in such explanations."""
+"""What to do instead of a synchronous call of each service behind an action."""
 SUFFIX = "/_action/send_goal"
 FEEDBACK = QoSProfile(depth=10)
 POLL = 0.25  # how often, in s, the real one looks whether a server has appeared (client.py)
@@ -65,59 +64,44 @@ class ActionClient(ActionEndpoint):
         feedback_sub_qos_profile: QoSProfile = FEEDBACK,
         status_sub_qos_profile: QoSProfile = qos_profile_action_status_default,
     ) -> None:
-        check_action("client", node, action_type)
-        self.callback_group = node.default_callback_group if callback_group is None else callback_group
-        self._node = node
-        self._action_type = action_type
-        self._action_name = action_name
         self._goal_ids: dict[int, Any] = {}
         self._goal_handles: WeakValueDictionary[bytes, ClientGoalHandle] = WeakValueDictionary()
         self._feedback_callbacks: dict[bytes, Callable[[Any], Any]] = {}
-        profiles = {
-            "send_goal": goal_service_qos_profile,
-            "cancel_goal": cancel_service_qos_profile,
-            "get_result": result_service_qos_profile,
-            "feedback": feedback_sub_qos_profile,
-            "status": status_sub_qos_profile,
-        }
-        self._make_parts(full_names("client", node, action_name), profiles)
+        profiles = (
+            goal_service_qos_profile,
+            cancel_service_qos_profile,
+            result_service_qos_profile,
+            feedback_sub_qos_profile,
+            status_sub_qos_profile,
+        )
+        super().__init__("client", node, action_type, action_name, callback_group, profiles)
+        self._goal_client, self._cancel_client, self._result_client = self._clients
 
-    def _make_parts(self, names: dict[str, str], profiles: dict[str, QoSProfile]) -> None:
+    def _make_part(self, part: str, kind: Any, name: str, profile: QoSProfile) -> Any:
         node, group = self._node, self.callback_group
-
-        def make_service(kind: Any, name: str, profile: QoSProfile) -> Any:
-            return node.create_client(kind, name, qos_profile=profile, callback_group=group)
-
-        def make_topic(kind: Any, name: str, profile: QoSProfile) -> Any:
+        if part in TOPICS:
             return node.create_subscription(kind, name, None, profile, callback_group=group)  # type: ignore[arg-type]
+        client = node.create_client(kind, name, qos_profile=profile, callback_group=group)
+        client._words = Words("action client", "action server", ASK[part], "ActionClient")
+        return client
 
-        self._name = names[""]
-        parts = make_parts(node, self._action_type, names, profiles, make_service, make_topic)
-        self._goal_client: Client = parts["send_goal"]
-        self._cancel_client: Client = parts["cancel_goal"]
-        self._result_client: Client = parts["get_result"]
-        self._readers = [parts["feedback"]._reader, parts["status"]._reader]
-        for client, part in zip(self._clients, WORDS, strict=True):
-            client._words = WORDS[part]
-        ends: list[Any] = [*(client._end for client in self._clients), *self._readers]
-        self._arrived = dict(zip(("goal", "cancel", "result", "feedback", "status"), ends, strict=True))
-        self._entity = ActionEntity(self, parts, [end.queue for end in ends])
-        for end in ends:
-            end.wake = self._entity._arrive
-        node._ros_keep(self._entity)
+    def _queues(self) -> dict[str, Any]:
+        ends = [*(client._end for client in self._clients), *self._readers]
+        return dict(zip(("goal", "cancel", "result", "feedback", "status"), ends, strict=True))
 
     @property
-    def _clients(self) -> tuple[Client, Client, Client]:
-        return (self._goal_client, self._cancel_client, self._result_client)
+    def _clients(self) -> list[Client]:
+        return [self._parts[part] for part in SERVICES]
 
-    def __repr__(self) -> str:
-        return f"<ActionClient of {self._name}>"
+    @property
+    def _readers(self) -> list[Reader]:
+        return [self._parts[part]._reader for part in TOPICS]
 
     # -- the server ------------------------------------------------------------------------------------------------
 
     def server_is_ready(self) -> bool:
         """Whether somebody offers the action now."""
-        self._entity._check_alive()
+        self._check_alive()
         return all(client._servers() for client in self._clients) and all(
             reader.topic.writers for reader in self._readers
         )
@@ -207,10 +191,6 @@ class ActionClient(ActionEndpoint):
 
     # -- what comes back -------------------------------------------------------------------------------------------
 
-    def take_data(self) -> dict[str, Any]:
-        """Take one thing of each kind."""
-        return {kind: end.take() for kind, end in self._arrived.items() if end.queue}
-
     async def execute(self, taken_data: dict[str, Any]) -> None:
         """Give the futures their results, and feedback to its callback, in the order of rclpy."""
         if "goal" in taken_data:
@@ -265,19 +245,21 @@ class ActionClient(ActionEndpoint):
 
     # -- as part of a node -----------------------------------------------------------------------------------------
 
-    def _may_call_back(self) -> bool:
+    @property
+    def _waiting(self) -> bool:
+        """Whether it may call something of the program's own."""
         return bool(self._feedback_callbacks) or any(client._waiting for client in self._clients)
 
-    def _end(self) -> None:
+    def destroy(self) -> None:
+        """Leave the action: answers under way are dropped, and no more feedback comes."""
+        super().destroy()
         self._feedback_callbacks.clear()
 
 
 class ClientGoalHandle:
     """A goal, as the client sees it that has sent it. Made by ActionClient."""
 
-    __class_getitem__: Any = classmethod(
-        GenericAlias
-    )  # newer releases: ClientGoalHandle[Goal, Result, Feedback] in a hint
+    __class_getitem__: Any = classmethod(GenericAlias)  # newer releases: ClientGoalHandle[…] in a hint
 
     def __init__(self, action_client: ActionClient, goal_id: Any, goal_response: Any) -> None:
         self._action_client = action_client

@@ -11,6 +11,7 @@ import inspect
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from enum import Enum
+from heapq import heappop, heappush
 from typing import TYPE_CHECKING, Any
 
 from action_msgs.msg import GoalInfo, GoalStatus, GoalStatusArray
@@ -27,8 +28,8 @@ from ..callback_groups import CallbackGroup
 from ..exceptions import RCLError
 from ..impl.logging_severity import LoggingSeverity
 from ..qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
-from ._endpoints import ActionEndpoint, ActionEntity, call_back, check_action, full_names, make_parts
-from ._goals import GoalEvent, Goals, ServerGoalHandle, goals_to_cancel
+from ._endpoints import SERVICES, TOPICS, ActionEndpoint, call_back
+from ._goals import GoalEvent, ServerGoalHandle, goals_to_cancel, key_of
 
 if TYPE_CHECKING:
     from ..node import Node
@@ -86,6 +87,8 @@ class ActionServer(ActionEndpoint):
             Iron this time begins when the goal is accepted.
     """
 
+    _waiting = True  # it may always call something of the program's own
+
     def __init__(
         self,
         node: Node,
@@ -104,45 +107,32 @@ class ActionServer(ActionEndpoint):
         status_pub_qos_profile: QoSProfile = qos_profile_action_status_default,
         result_timeout: float = 900,
     ) -> None:
-        check_action("server", node, action_type)
-        self.callback_group = node.default_callback_group if callback_group is None else callback_group
         self.register_handle_accepted_callback(handle_accepted_callback)
         self.register_goal_callback(goal_callback)
         self.register_cancel_callback(cancel_callback)
         self.register_execute_callback(execute_callback)
-        self._node = node
-        self._action_type = action_type
-        after = current_world().release.has(GOALS_EXPIRE_AFTER_THEIR_END)
-        self._goals = Goals(node._ros_simulation, round(result_timeout * NANOSECONDS), after_their_end=after)
-        self._traced: dict[str, Callback] = {}
-        profiles = {
-            "send_goal": goal_service_qos_profile,
-            "cancel_goal": cancel_service_qos_profile,
-            "get_result": result_service_qos_profile,
-            "feedback": feedback_pub_qos_profile,
-            "status": status_pub_qos_profile,
-        }
-        self._make_parts(full_names("server", node, action_name), profiles)
+        self._goals: dict[bytes, ServerGoalHandle] = {}
+        self._expiring: list[tuple[int, bytes]] = []  # when (ns) the goals that have ended are forgotten: a heap
+        self._result_timeout = round(result_timeout * NANOSECONDS)
+        self._traces: dict[str, Callback] = {}
+        profiles = (
+            goal_service_qos_profile,
+            cancel_service_qos_profile,
+            result_service_qos_profile,
+            feedback_pub_qos_profile,
+            status_pub_qos_profile,
+        )
+        super().__init__("server", node, action_type, action_name, callback_group, profiles)
 
-    def _make_parts(self, names: dict[str, str], profiles: dict[str, QoSProfile]) -> None:
+    def _make_part(self, part: str, kind: Any, name: str, profile: QoSProfile) -> Any:
         node, group = self._node, self.callback_group
+        if part in TOPICS:
+            return node.create_publisher(kind, name, profile)
+        return node.create_service(kind, name, None, qos_profile=profile, callback_group=group)  # type: ignore[arg-type]
 
-        def make_service(kind: Any, name: str, profile: QoSProfile) -> Any:
-            return node.create_service(kind, name, None, qos_profile=profile, callback_group=group)  # type: ignore[arg-type]
-
-        self._name = names[""]
-        parts = make_parts(node, self._action_type, names, profiles, make_service, node.create_publisher)
-        self._feedback, self._status = parts["feedback"], parts["status"]
-        self._services = [parts["send_goal"], parts["cancel_goal"], parts["get_result"]]
-        ends = [service._server for service in self._services]
-        self._requests = dict(zip(("goal", "cancel", "result"), ends, strict=True))
-        self._entity = ActionEntity(self, parts, [end.queue for end in ends])
-        for end in ends:
-            end.wake = self._entity._arrive
-        node._ros_keep(self._entity)
-
-    def __repr__(self) -> str:
-        return f"<ActionServer of {self._name}>"
+    def _queues(self) -> dict[str, Any]:
+        ends = [self._parts[part]._server for part in SERVICES]
+        return dict(zip(("goal", "cancel", "result"), ends, strict=True))
 
     @property
     def action_type(self) -> Any:
@@ -175,9 +165,10 @@ class ActionServer(ActionEndpoint):
 
     # -- what comes in ---------------------------------------------------------------------------------------------
 
-    def take_data(self) -> dict[str, Any]:
-        """Take one request of each kind."""
-        return {kind: end.take() for kind, end in self._requests.items() if end.queue}
+    def _arrive(self) -> None:
+        """What is known when a request comes counts, not what is when there is time for it."""
+        self._forget_expired()
+        super()._arrive()
 
     async def execute(self, taken_data: dict[str, Any]) -> None:
         """Do what the requests ask for."""
@@ -198,17 +189,17 @@ class ActionServer(ActionEndpoint):
         message = request.message
         self._debug("New goal request with ID: {}", message.goal_id)
         info = GoalInfo(goal_id=message.goal_id)
-        accepted = self._goals.get(message.goal_id) is None and await self._is_acceptable(message.goal)
+        key = key_of(message.goal_id)
+        accepted = key not in self._goals and await self._is_acceptable(message.goal)
         handle = None
         if accepted:
             info.stamp = self._node.get_clock().now().to_msg()
-            accepted = self._goals.get(message.goal_id) is None
+            accepted = key not in self._goals
             if not accepted:  # another one of the same number was accepted while the goal callback decided
                 text = f"Failed to accept new goal with ID {message.goal_id.uuid}: goal ID already exists"
                 self._node.get_logger().error(text)
         if accepted:
-            handle = ServerGoalHandle(self, info, message.goal)
-            self._goals.add(handle)
+            handle = self._goals[key] = ServerGoalHandle(self, info, message.goal)
         response = self._action_type.Impl.SendGoalService.Response(accepted=accepted, stamp=info.stamp)
         request.answer(response)
         if handle is None:
@@ -249,14 +240,14 @@ class ActionServer(ActionEndpoint):
     def _execute_result_request(self, request: Any) -> None:
         goal_id = request.message.goal_id
         self._debug("Result request received for goal with ID: {}", goal_id)
-        if self._goals.get(goal_id) is None:
+        handle = self._goals.get(key_of(goal_id))
+        if handle is None:
             self._debug("Sending result response for unknown goal ID: {}", goal_id)
-            unknown = self._action_type.Impl.GetResultService.Response(status=GoalStatus.STATUS_UNKNOWN)
-            request.answer(unknown)
-            return
-        response = self._goals.ask(goal_id, request)
-        if response is not None:
-            request.answer(response)
+            request.answer(self._action_type.Impl.GetResultService.Response(status=GoalStatus.STATUS_UNKNOWN))
+        elif handle._response is None:
+            handle._asked.append(request)
+        else:
+            request.answer(handle._response)
 
     # -- executing goals -------------------------------------------------------------------------------------------
 
@@ -273,7 +264,7 @@ class ActionServer(ActionEndpoint):
                 f"no executor spins {self._node!r}, so nothing can call the execute callback of {self._name}: add the "
                 "node to an executor first, with executor.add_node(node)"
             )
-        self._goals.begin(goal_handle)
+        goal_handle._is_executing = True
         executor.create_task(self._execute_goal, callback, goal_handle, self._node._ros_simulation.now)
 
     async def _execute_goal(
@@ -293,9 +284,7 @@ class ActionServer(ActionEndpoint):
             logger.warning(f"Goal state not set, assuming aborted. Goal ID: {goal_handle.goal_id.uuid}")
             goal_handle.abort()
         self._debug(f"Goal with ID {{}} finished with state {goal_handle.status}", goal_handle.goal_id)
-        response = self._result_response(goal_handle.status, result)
-        for request in self._goals.finish(goal_handle, response):
-            request.answer(response)
+        goal_handle._finish(self._result_response(goal_handle.status, result))
 
     @contextmanager
     def _traced_run(self, callback: Callable[..., Any], ready: int) -> Iterator[None]:
@@ -305,11 +294,11 @@ class ActionServer(ActionEndpoint):
             yield
             return
         name = name_of(callback)
-        if name not in self._traced:
+        if name not in self._traces:
             awaits = inspect.iscoroutinefunction(callback)
-            self._traced[name] = Callback(entry.full_name, name, "action", self._name, 0, entry.process.pid, awaits)
-            trace.callbacks.append(self._traced[name])
-        record, begun = self._traced[name], (ready, trace.now)
+            self._traces[name] = Callback(entry.full_name, name, "action", self._name, 0, entry.process.pid, awaits)
+            trace.callbacks.append(self._traces[name])
+        record, begun = self._traces[name], (ready, trace.now)
         record.open.append(begun)
         try:
             yield
@@ -336,25 +325,37 @@ class ActionServer(ActionEndpoint):
 
     def _publish_status(self) -> None:
         self._forget_expired()
-        self._status.publish(GoalStatusArray(status_list=[goal._for_all for goal in self._goals]))
+        goals = [goal._for_all for goal in self._goals.values()]
+        self._parts["status"].publish(GoalStatusArray(status_list=goals))
 
     def _publish_feedback(self, goal_id: Any, feedback: Any) -> None:
-        self._feedback.publish(self._action_type.Impl.FeedbackMessage(goal_id=goal_id, feedback=feedback))
+        self._parts["feedback"].publish(self._action_type.Impl.FeedbackMessage(goal_id=goal_id, feedback=feedback))
+
+    # -- forgetting goals ------------------------------------------------------------------------------------------
+
+    def _goal_ends(self, handle: ServerGoalHandle) -> None:
+        """A goal has come to its end, and will be forgotten."""
+        now = self._node._ros_simulation.now
+        since = now if current_world().release.has(GOALS_EXPIRE_AFTER_THEIR_END) else handle._accepted_at
+        heappush(self._expiring, (since + self._result_timeout, key_of(handle.goal_id)))
 
     def _forget_expired(self) -> None:
-        self._goals.forget_expired()
+        """Forget the goals whose time is over, unless their execute callback still runs.
 
-    def _on_arrival(self) -> None:
-        """What is known when a request comes counts, not what is when there is time for it."""
-        self._forget_expired()
+        The real server does that with a timer (rcl_action's action_server.c). Here it looks whenever something is asked:
+        nobody can tell the difference, and nothing keeps a world awake in which nothing happens any more.
+        """
+        expiring, now = self._expiring, self._node._ros_simulation.now
+        while expiring and expiring[0][0] < now and not self._goals[expiring[0][1]]._is_executing:
+            self._goals.pop(heappop(expiring)[1]).destroy()
 
-    # -- as part of a node -----------------------------------------------------------------------------------------
-
-    def _may_call_back(self) -> bool:
-        return True
-
-    def _end(self) -> None:
-        self._goals.forget_all()
+    def destroy(self) -> None:
+        """Leave the action: goals that go on are not followed any more."""
+        super().destroy()
+        for handle in self._goals.values():
+            handle.destroy()
+        self._goals.clear()
+        self._expiring.clear()
 
 
 __getattr__ = reexported(__name__)
