@@ -17,7 +17,7 @@ from bag_help import write_bag
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from turtle_lesson.ros.bags import BagError, unpack
+from turtle_lesson.ros.bags import BagError, scan
 from turtle_lesson.ros.bags.bag import Bag, info_text, open_bag
 
 COUNT = 100
@@ -68,7 +68,7 @@ def test_a_sound_bag_is_read_as_written(sound: Sound) -> None:
 def test_half_a_bag_is_half_read_and_the_rest_is_counted(sound: Sound, tmp_path: Path) -> None:
     """MCAP only: SQLite reads no file that is cut short, and a recorder that is killed leaves a whole one."""
     if data_file(sound[0]).suffix != ".mcap":
-        with pytest.raises(BagError, match="it is cut short, and SQLite cannot read it"):
+        with pytest.raises(BagError, match=r"the database is damaged \(it is cut short"):
             open_bag(spoil(sound, tmp_path, lambda data: data[:-1]))
         return
     bag = open_bag(spoil(sound, tmp_path, lambda data: data[: len(data) // 2]))
@@ -174,26 +174,6 @@ def test_a_database_whose_index_is_spoiled_is_read_without_it(tmp_path: Path) ->
     bag = open_bag(tmp_path / "run")
     assert "the database is damaged" in bag.damage
     assert sorted(read(bag)) == sorted(written)
-
-
-def test_an_index_that_leads_nowhere(tmp_path: Path) -> None:
-    """A chunk's length is spoiled, and of the others' places, which the summary knows, one is behind the file's end."""
-    from mcap.reader import make_reader
-
-    written = write_bag(tmp_path / "run", COUNT, size=2000)
-    file = tmp_path / "run" / "run_0.mcap"
-    with file.open("rb") as stream:
-        summary = make_reader(stream).get_summary()
-    assert summary is not None
-    places = [index.chunk_start_offset for index in summary.chunk_indexes]
-    data = bytearray(file.read_bytes())
-    last = data.rindex(places[-1].to_bytes(8, "little"))
-    data[last : last + 8] = b"\xff" * 8
-    data[places[1] + 1 : places[1] + 9] = b"\xff" * 8
-    file.write_bytes(data)
-    bag = open_bag(tmp_path / "run")
-    assert 0 < (bag.lost or 0) < 2 * COUNT
-    assert set(read(bag)) < set(written)
 
 
 @settings(max_examples=25)
@@ -380,7 +360,7 @@ def test_a_database_of_humble_is_read(tmp_path: Path) -> None:
 @pytest.fixture(autouse=True)
 def _nothing_is_unpacked_beyond_the_limit(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """A limit of 1 MiB, so that these tests need little memory; real recordings of this file stay far below it."""
-    monkeypatch.setattr(unpack, "ALWAYS", 1 << 20)
+    monkeypatch.setattr(scan, "ALWAYS", 1 << 20)
     yield
 
 
@@ -435,25 +415,6 @@ def test_many_small_chunks_are_one_large_one(tmp_path: Path) -> None:
         open_bag(path)
 
 
-def test_a_chunk_that_only_the_summary_names_is_no_part_of_a_sound_bag(tmp_path: Path) -> None:
-    """Readers that go by the summary would unpack what nobody looked at."""
-    folder = tmp_path / "run"
-    write_bag(folder, 10)
-    file = data_file(folder)
-    data = bytearray(file.read_bytes())
-    opcode, length, summary = struct.unpack_from("<BQQ", data, len(data) - 37)
-    assert (opcode, length) == (0x02, 20)
-    at = summary
-    while data[at] != 0x08:  # the index of a chunk: two times, and then its place
-        at += 9 + struct.unpack_from("<Q", data, at + 1)[0]
-    place = struct.unpack_from("<Q", data, at + 9 + 16)[0]
-    struct.pack_into("<Q", data, at + 9 + 16, place + 1)
-    file.write_bytes(data)
-    bag = open_bag(folder)
-    assert "its summary names a chunk that is not there" in bag.damage
-    assert len(read(bag)) == 20
-
-
 @pytest.mark.parametrize("mode", ["FILE", "MESSAGE"])
 def test_a_file_or_a_message_that_holds_gigabytes_is_not_unpacked(tmp_path: Path, mode: str) -> None:
     from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
@@ -486,12 +447,12 @@ def test_a_file_or_a_message_that_holds_gigabytes_is_not_unpacked(tmp_path: Path
         (
             "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER DEFAULT 1, timestamp INTEGER DEFAULT 1, "
             "data BLOB AS (zeroblob(100000)))",
-            "they are larger than the file",
+            "its messages are larger than the file",
         ),
         (
             "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER DEFAULT 1, timestamp INTEGER DEFAULT 1, "
             "data BLOB AS (zeroblob(1000000000)))",
-            "the database is damaged in the middle",
+            "the database is damaged",
         ),
     ],
 )

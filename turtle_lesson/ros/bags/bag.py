@@ -5,27 +5,23 @@ Facts: rosbag2_py's format_bag_meta_data.cpp (info) and rosbag2_storage's yaml.h
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path, PurePath
-from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import yaml
 
 from ..sim.simulation import NANOSECONDS
 from . import BagError
-from .scan import Contents, Message, scan_mcap, scan_sqlite
-from .unpack import TooLargeError, unpack_file, unpack_message
+from .scan import Contents, TooLargeError, scanned, unpack_message
 
 if TYPE_CHECKING:
     from rosbags.interfaces import Qos
 
-SCANNERS = {".mcap": ("mcap", scan_mcap), ".db3": ("sqlite3", scan_sqlite)}
+STORAGES = {".mcap": "mcap", ".db3": "sqlite3"}
 METADATA = "metadata.yaml"
-LISTS = ("relative_file_paths", "files", "topics_with_message_count")
-"""What is a list in metadata.yaml."""
 
 LONGEST = 10_000_000
 DEEPEST = 20
@@ -39,10 +35,17 @@ NEVER = (1 << 63) - 1
 
 LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
-
 INDENT = 19
 UNITS = ("B", "KiB", "MiB", "GiB", "TiB")
-MONTHS = ("Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec")
+
+
+class Message(NamedTuple):
+    """One recorded message: its topic, its time (ns since 1970), its type, and its CDR bytes."""
+
+    topic: str
+    time: int
+    type_name: str
+    data: bytes
 
 
 @dataclass(frozen=True)
@@ -68,16 +71,17 @@ class BagTopic:
 
 
 class Bag:
-    """A recording on disk; made by `open_bag`. Times are in ns since 1970."""
+    """A recording on disk; made by `open_bag`. Times are in ns since 1970, and None where there is no message."""
 
-    def __init__(self, path: Path, files: Sequence[Path], contents: Contents, metadata: dict[str, Any]) -> None:
+    def __init__(self, path: Path, files: list[Path], contents: Contents, metadata: dict[str, Any]) -> None:
+        times = [entry[0] for entry in contents.entries]
         self.path = path
-        self.files = list(files)
-        self.start = contents.start
-        self.end = contents.end
-        self.message_count = contents.count
+        self.files = files
+        self.start: int | None = times[0] if times else None
+        self.end: int | None = times[-1] if times else None
+        self.message_count = len(times)
         self.size = sum(file.stat().st_size for file in files)
-        self.storage = SCANNERS[_kind(files[0])][0]
+        self.storage = STORAGES[_kind(files[0])]
         self.topics = [
             BagTopic(key.name, key.type_name, each.count, each.serialization, each.definition, each.offered)
             for key, each in contents.topics.items()
@@ -114,45 +118,16 @@ class Bag:
             left = f"{self.message_count} messages can be read; how many there were is not known"
         return f"the bag is damaged: {reasons}{more}. {left}"
 
-    def messages(self, topics: Sequence[str] | None = None) -> Iterator[Message]:
-        """The messages in the order of their times; only those of some topics, if any are named."""
-        every = iter(_scan_all(self.files, keep=True).messages) if self.damage else self._read()
-        for message in every:
-            if topics is not None and message.topic not in topics:
-                continue
-            yield message._replace(data=self._unpacked(message.data)) if self.compression == "message" else message
-
-    def _unpacked(self, data: bytes) -> bytes:
-        """A message that was compressed on its own; of a damaged bag, nothing if it is spoiled."""
-        try:
-            return unpack_message(data)
-        except TooLargeError as error:
-            reason = str(error)
-        except ValueError as error:
-            if self.damage:
-                return b""
-            reason = str(error)
-        raise BagError(f"the bag '{self.path}' cannot be read to its end: {reason}")
-
-    def _read(self) -> Iterator[Message]:
-        """Read a sound bag message by message, without holding it in memory; rosbags is strict about what is sound."""
-        from rosbags.rosbag2 import Reader
-
-        try:
-            reader = Reader(self.path)
-            reader.open()
-            # Messages that are compressed one by one are unpacked here, up to a limit that rosbags does not have.
-            reader.storage.metadata = reader.storage.metadata._replace(compression_mode=None)
-        except Exception:
-            yield from _scan_all(self.files, keep=True).messages
-            return
-        try:
-            for connection, time, data in reader.messages(reader.connections):
-                yield Message(connection.topic, time, connection.msgtype, bytes(data))
-        except Exception as error:
-            raise BagError(f"the bag '{self.path}' cannot be read to its end: {error}") from error
-        finally:
-            reader.close()
+    def messages(self) -> Iterator[Message]:
+        """The messages in the order of their times, each read when it is asked for."""
+        with scanned(self.files) as contents:
+            for time, key, file, where in contents.entries:
+                try:
+                    data = file.read(where)
+                    data = unpack_message(data) if self.compression == "message" else data
+                except Exception as error:
+                    raise BagError(f"the bag '{self.path}' cannot be read to its end: {error}") from error
+                yield Message(key.name, time, key.type_name, data)
 
 
 def open_bag(path: str | Path, *, listed_only: bool = True) -> Bag:
@@ -166,11 +141,11 @@ def open_bag(path: str | Path, *, listed_only: bool = True) -> Bag:
         raise BagError(f"Bag path '{path}' does not exist!")
     metadata, flaws = _read_metadata(path)
     files, missing = _files_of(path, metadata if listed_only else {})
-    contents = _scan_all(files, keep=False)
-    contents.flaws = [*flaws, *missing, *contents.flaws]
-    if not contents.topics and contents.flaws:
-        raise BagError(f"nothing of the bag '{path}' can be read: {'; '.join(contents.flaws[:3])}")
-    return Bag(path, files, contents, metadata)
+    with scanned(files) as contents:
+        contents.flaws = [*flaws, *missing, *contents.flaws]
+        if not contents.topics and contents.flaws:
+            raise BagError(f"nothing of the bag '{path}' can be read: {'; '.join(contents.flaws[:3])}")
+        return Bag(path, files, contents, metadata)
 
 
 def _kind(file: Path) -> str:
@@ -179,16 +154,20 @@ def _kind(file: Path) -> str:
 
 
 def _read_metadata(path: Path) -> tuple[dict[str, Any], list[str]]:
-    """What metadata.yaml says, and what is wrong with it."""
+    """What metadata.yaml says, and what is wrong with it: it is not read if it could grow far beyond what recorders write."""
+    file = path / METADATA
     if path.is_file():
         return {}, []
     try:
-        text = _plain_yaml(path / METADATA)
+        if file.is_file() and file.stat().st_size > LONGEST:
+            raise TooLargeError(f"it has more than {LONGEST:,} bytes")
+        text, depth = file.read_text("utf-8"), 0
+        for event in yaml.parse(text, LOADER):
+            depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
+            if depth > DEEPEST or isinstance(event, yaml.AliasEvent):
+                raise TooLargeError("it has aliases, or is nested more deeply than any recorder writes it")
         found = yaml.load(text, LOADER)["rosbag2_bagfile_information"]
-        if not isinstance(found, dict):
-            raise ValueError("it is not a mapping")
-        wrong = [key for key in LISTS if not isinstance(found.get(key, []), list)]
-        return found, [f"{METADATA} is not valid: its {key} is not a list" for key in wrong]
+        return dict(found.items()), []
     except TooLargeError as error:
         return {}, [f"{METADATA} cannot be read: {error}"]
     except FileNotFoundError:
@@ -197,62 +176,19 @@ def _read_metadata(path: Path) -> tuple[dict[str, Any], list[str]]:
         return {}, [f"{METADATA} cannot be read ({type(error).__name__})"]
 
 
-def _plain_yaml(file: Path) -> str:
-    """The text of metadata.yaml. Raises TooLargeError if it could become far larger than what a recorder writes."""
-    if file.is_file() and file.stat().st_size > LONGEST:
-        raise TooLargeError(f"it has more than {LONGEST:,} bytes")
-    text = file.read_text("utf-8")
-    depth = 0
-    for event in yaml.parse(text, LOADER):
-        depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
-        if depth > DEEPEST or isinstance(event, yaml.AliasEvent):
-            raise TooLargeError("it has aliases, or is nested more deeply than any recorder writes it")
-    return text
-
-
 def _files_of(path: Path, metadata: dict[str, Any]) -> tuple[list[Path], list[str]]:
     """The data files of a bag, and a sentence for each one that is missing."""
     if path.is_file():
-        if _kind(path) not in SCANNERS:
+        if _kind(path) not in STORAGES:
             raise BagError(f"'{path}' is not a bag: a bag is a folder with {METADATA}, or an .mcap or .db3 file")
         return [path], []
     named = metadata.get("relative_file_paths")
     named = [path / PurePath(str(name)).name for name in named] if isinstance(named, list) else []
     missing = [f"the file {file.name} is missing" for file in named if not file.is_file()]
-    files = [file for file in named if file.is_file() and _kind(file) in SCANNERS]
-    files = files or sorted(file for file in path.iterdir() if file.is_file() and _kind(file) in SCANNERS)
-    if not files:
-        raise BagError(f"'{path}' is not a bag: there is no .mcap or .db3 file in it")
-    return files, missing
-
-
-def _scan_all(files: Sequence[Path], *, keep: bool) -> Contents:
-    """Scan all files of a bag."""
-    total: Contents | None = None
-    for file in files:
-        try:
-            contents = _scan_one(file, keep=keep)
-        except OSError as error:
-            contents = Contents(flaws=[f"{file.name}: it cannot be read ({error.strerror or error})"])
-        except TooLargeError as error:
-            contents = Contents(flaws=[str(error)])
-        if total is None:
-            total = contents
-        else:
-            total.add(contents)
-    assert total is not None
-    return total
-
-
-def _scan_one(file: Path, *, keep: bool) -> Contents:
-    """Scan a file; one that is compressed as a whole is unpacked first."""
-    scan = SCANNERS[_kind(file)][1]
-    if file.suffix != ".zstd":
-        return scan(file, keep=keep)
-    with TemporaryDirectory() as folder:
-        unpacked = Path(folder) / file.stem
-        unpack_file(file, unpacked)
-        return scan(unpacked, keep=keep)
+    for files in (named, sorted(path.iterdir())):
+        if found := [file for file in files if file.is_file() and _kind(file) in STORAGES]:
+            return found, missing
+    raise BagError(f"'{path}' is not a bag: there is no .mcap or .db3 file in it")
 
 
 def reindex(folder: Path) -> Bag:
@@ -332,5 +268,5 @@ def seconds_text(nanoseconds: int) -> str:
 def moment_text(nanoseconds: int) -> str:
     """A moment since 1970: `Jan 15 2027 08:00:00.000000000 (1800000000.000000000)`."""
     moment = datetime.fromtimestamp(nanoseconds // NANOSECONDS, UTC)
-    day = f"{MONTHS[moment.month - 1]} {moment.day:2d} {moment.year}"
+    day = f"{moment.ctime()[4:10]} {moment.year}"  # English, whatever the locale
     return f"{day} {moment:%H:%M:%S}.{nanoseconds % NANOSECONDS:09d} ({seconds_text(nanoseconds)})"

@@ -15,14 +15,13 @@ from ..rmw.transport import LATENCY, LATENCY_SPREAD
 from ..sim.simulation import NANOSECONDS
 from ..sim.strand import running_strand
 from . import BagError
-from .scan import Message
 from .writer import schema_text, type_hash
 
 if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
     from rosbags.interfaces import Qos
 
-    from .bag import Bag, BagTopic
+    from .bag import Bag, BagTopic, Message
 
 NODE = "rosbag2_player"
 

@@ -1,46 +1,42 @@
-"""Reading the files of a bag as far as they can be read, also one that is cut short or damaged.
+"""The data files of a bag, read as far as they can be read: a damaged one up to the damage, and no further.
 
-Facts: https://mcap.dev/spec, and rosbag2_storage_sqlite3's sqlite_storage.cpp (tables `topics` and `messages`, and newer ones
-for definitions). Healthy files are played by `rosbags`; what is found here says whether a file is healthy, and how large it
-becomes. A damaged MCAP file is read up to a damaged record, without the chunks whose checksum is wrong; a damaged database up
-to a damaged row, and one that is cut short not at all (a recorder that is killed leaves a whole one).
+Facts: https://mcap.dev/spec, and rosbag2_storage_sqlite3's sqlite_storage.cpp (tables `topics` and `messages`, and a newer one
+for definitions). Of a damaged MCAP file, chunks whose checksum is wrong are left out. Compressed data is unpacked up to a
+limit, since a few kilobytes can stand for gigabytes: recordings of robots hardly ever shrink to a hundredth.
 """
 
 from __future__ import annotations
 
-import os
 import sqlite3
 import struct
+import sys
 import zlib
-from collections.abc import Iterator
-from contextlib import closing, suppress
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import Path
-from typing import BinaryIO, NamedTuple
-
-from .unpack import DECOMPRESSORS, limit, too_large, unpack
+from tempfile import TemporaryDirectory
+from typing import Any, NamedTuple
 
 BROKEN = (sqlite3.Error, UnicodeError)
 """What reading a spoiled database raises; also SQLite's own complaint may not be readable."""
 
 MAGIC = b"\x89MCAP0\r\n"
-FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK = 2, 3, 4, 5, 6
-CHUNK_INDEX, STATISTICS, DATA_END = 8, 11, 15
-FOOTER_SIZE = 9 + 20
-TAIL_SIZE = FOOTER_SIZE + len(MAGIC)
+FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, STATISTICS = 2, 3, 4, 5, 6, 11
 HEAD = struct.Struct("<BQ")
 MESSAGE_HEAD = struct.Struct("<HIQQ")
 CHUNK_HEAD = struct.Struct("<QQQI")
 LARGEST = 1 << 32
 
+MOST_TIMES = 100
+"""How many times its size compressed data may become."""
 
-class Message(NamedTuple):
-    """One recorded message: its topic, its time (ns since 1970), its type, and its CDR bytes."""
+ALWAYS = 64 << 20
+"""How many bytes it may become in any case."""
 
-    topic: str
-    time: int
-    type_name: str
-    data: bytes
+Where = tuple[int, ...]
+"""Where in a file a message is."""
 
 
 class TopicKey(NamedTuple):
@@ -66,101 +62,150 @@ class Contents:
 
     Attributes:
         topics: by name and type, in the order in which they were found.
-        messages: all messages in the order of their times, if they were asked for.
-        start, end: the times of the first and the last message (ns), None without messages.
-        expected: how many messages the file itself says it holds, None where it does not say.
+        entries: the time (ns) of each message, its topic, its file, and where in the file it is.
+        expected: how many messages the files themselves say they hold, None where they do not say.
         flaws: a sentence for each thing that is wrong.
     """
 
     topics: dict[TopicKey, TopicContents] = field(default_factory=dict)
-    messages: list[Message] = field(default_factory=list)
-    start: int | None = None
-    end: int | None = None
+    entries: list[tuple[int, TopicKey, DataFile, Where]] = field(default_factory=list)
     expected: int | None = None
     flaws: list[str] = field(default_factory=list)
-
-    @property
-    def count(self) -> int:
-        """How many messages can be read."""
-        return sum(topic.count for topic in self.topics.values())
-
-    def see(self, first: int, last: int) -> None:
-        """There are messages from `first` to `last` (ns)."""
-        self.start = first if self.start is None else min(first, self.start)
-        self.end = last if self.end is None else max(last, self.end)
 
     def add(self, other: Contents) -> None:
         """Take in what another file of the same bag holds."""
         for key, topic in other.topics.items():
             mine = self.topics.setdefault(key, TopicContents(0, topic.serialization, topic.offered, topic.definition))
             mine.count += topic.count
-        self.messages = sorted([*self.messages, *other.messages], key=lambda message: message.time)
-        if other.start is not None and other.end is not None:
-            self.see(other.start, other.end)
+        self.entries += other.entries
         known = self.expected is not None and other.expected is not None
         self.expected = (self.expected or 0) + (other.expected or 0) if known else None
         self.flaws += other.flaws
 
 
-# A record of MCAP is an opcode (1 byte), a length (8 bytes) and that many bytes. Messages lie in chunks, which may be
-# compressed and may have a checksum; behind the last one comes a summary that repeats what topics there are and says where
-# each chunk is.
+class TooLargeError(ValueError):
+    """Compressed data would become more than the limit."""
 
 
 class _Spoiled(Exception):
     """A part of the file makes no sense."""
 
 
-def scan_mcap(path: Path, *, keep: bool = False) -> Contents:
-    """What the file holds; with `keep` the messages themselves, too."""
-    with path.open("rb") as file:
-        return _Scan(file, path.name, os.path.getsize(path), keep).run()
-
-
-class _Scan:
-    """One reading of a file."""
-
-    def __init__(self, file: BinaryIO, name: str, size: int, keep: bool) -> None:
-        self._file = file
-        self._name = name
-        self._size = size
-        self._keep = keep
-        self._found = Contents()
-        self._schemas: dict[int, tuple[str, str]] = {}
-        self._channels: dict[int, tuple[int, str, str, str]] = {}
-        self._counts: dict[int, int] = {}
-        self._messages: list[tuple[int, int, bytes]] = []
-        self._chunks: list[int] = []
-        self._read: set[int] = set()
-        self._left = limit(size)
-        self._complete = False
-        self._ends_well = False
-
-    def run(self) -> Contents:
-        """Read everything that can be read."""
-        if self._file.read(len(MAGIC)) != MAGIC:
-            self._flaw("it does not begin like an MCAP file")
-        self._read_summary()
-        place = len(MAGIC)
-        while not self._complete:
+@contextmanager
+def scanned(files: list[Path]) -> Iterator[Contents]:
+    """What all files of a bag hold, with the messages in the order of their times; the files are open meanwhile."""
+    total = Contents(expected=0)
+    with ExitStack() as stack:
+        for file in files:
             try:
-                place = self._read_record(place)
-            except (_Spoiled, struct.error, UnicodeDecodeError) as error:
-                self._flaw(str(error) if isinstance(error, _Spoiled) else f"the record at byte {place} is damaged")
-                break
-        if self._complete and not self._ends_well:
-            self._flaw("its end is missing or damaged")
-        if not self._found.flaws and not self._read.issuperset(self._chunks):
-            self._flaw("its summary names a chunk that is not there")
-        return self._result()
+                plain = file
+                if file.suffix == ".zstd":
+                    plain = Path(stack.enter_context(TemporaryDirectory())) / file.stem
+                    unpack_file(file, plain)
+                data_file = DATA_FILES[plain.suffix](plain)
+                stack.callback(data_file.close)
+                total.add(data_file.scan())
+            except (OSError, *BROKEN) as error:
+                total.add(Contents(flaws=[f"{file.name}: it cannot be read ({_told(error)})"]))
+            except TooLargeError as error:
+                total.add(Contents(flaws=[str(error)]))
+        total.entries.sort(key=lambda entry: entry[0])
+        yield total
+
+
+# A record of MCAP is an opcode (1 byte), a length (8 bytes) and that many bytes. Messages lie in chunks, which may be
+# compressed and may have a checksum; behind the last one comes a summary that says again what topics there are.
+
+
+class McapFile:
+    """An MCAP file."""
+
+    def __init__(self, path: Path) -> None:
+        self._name = path.name
+        self._size = path.stat().st_size
+        self._left = limit(self._size)
+        self._found = Contents()
+        self._file = path.open("rb")
+        self.close = self._file.close
+        self._chunk_again = lru_cache(8)(lambda place: self._chunk(place, *self._record(place)[1:]))
+
+    def scan(self) -> Contents:
+        """What the file holds."""
+        schemas: dict[int, tuple[str, str]] = {}
+        channels: dict[int, tuple[TopicKey, TopicContents]] = {}
+        messages: list[tuple[int, int, Where]] = []
+        try:
+            for opcode, body, where in self._records():
+                if opcode == MESSAGE:
+                    number, _, time, _ = MESSAGE_HEAD.unpack_from(body)
+                    messages.append((time, number, where))
+                elif opcode == SCHEMA:
+                    name, at = _text(body, 2)
+                    _encoding, at = _text(body, at)
+                    schemas[int.from_bytes(body[:2], "little")] = name, _text(body, at)[0]
+                elif opcode == CHANNEL:
+                    number, schema = struct.unpack_from("<HH", body)
+                    type_name, definition = schemas.get(schema, ("", ""))
+                    channels.setdefault(number, _channel(body, type_name, definition))
+                elif opcode == STATISTICS:
+                    (self._found.expected,) = struct.unpack_from("<Q", body)
+        except _Spoiled as error:
+            self._flaw(str(error))
+        except (struct.error, UnicodeDecodeError):
+            self._flaw(f"the record before byte {self._file.tell()} is damaged")
+        self._left = limit(self._size)
+        for key, contents in channels.values():
+            self._found.topics.setdefault(key, contents)
+        for time, number, where in messages:
+            if number in channels:
+                key = channels[number][0]
+                self._found.topics[key].count += 1
+                self._found.entries.append((time, key, self, where))
+        if unknown := len(messages) - len(self._found.entries):
+            self._flaw(f"{unknown} messages belong to a topic whose description is lost")
+        return self._found
+
+    def read(self, where: Where) -> bytes:
+        """The bytes of a message."""
+        chunk, begin, end = where
+        if chunk:
+            return self._chunk_again(chunk)[begin:end]
+        self._file.seek(begin)
+        return self._file.read(end - begin)
 
     def _flaw(self, text: str) -> None:
         self._found.flaws.append(f"{self._name}: {text}")
 
-    # -- records -----------------------------------------------------------------------------------------------------
+    def _records(self) -> Iterator[tuple[int, memoryview, Where]]:
+        """The records of the file, with those in chunks, and where a message's bytes are. Raises _Spoiled at a damage."""
+        if self._file.read(len(MAGIC)) != MAGIC:
+            raise _Spoiled("it does not begin like an MCAP file")
+        place, has_chunks = len(MAGIC), False
+        while True:
+            opcode, length, body = self._record(place)
+            begin, whole = place + HEAD.size, len(body) == length
+            if opcode == FOOTER and whole:
+                if self._file.read() != MAGIC:
+                    raise _Spoiled("its end is missing or damaged")
+                return
+            if opcode == CHUNK:
+                has_chunks = True
+                records = memoryview(self._chunk(place, length, body))
+                self._left -= len(records)
+                at = 0
+                while at + HEAD.size <= len(records):
+                    opcode, inner = HEAD.unpack_from(records, at)
+                    at += HEAD.size + inner
+                    if at <= len(records):
+                        yield opcode, records[at - inner : at], (place, at - inner + MESSAGE_HEAD.size, at)
+            elif whole and not (opcode == MESSAGE and has_chunks):
+                yield opcode, memoryview(body), (0, begin + MESSAGE_HEAD.size, begin + length)
+            if not whole:
+                raise _Spoiled(f"it ends at byte {self._size}, in the middle of a record")
+            place = begin + length
 
-    def _read_record(self, place: int) -> int:
-        """Read the record at a place; returns the place of the next one."""
+    def _record(self, place: int) -> tuple[int, int, bytes]:
+        """Opcode, length and bytes of a record, fewer bytes where the file ends."""
         self._file.seek(place)
         head = self._file.read(HEAD.size)
         if len(head) < HEAD.size:
@@ -168,241 +213,189 @@ class _Scan:
         opcode, length = HEAD.unpack(head)
         if opcode == 0 or length > LARGEST:
             raise _Spoiled(f"there is no record at byte {place}")
-        left = self._size - place - HEAD.size
-        if opcode in {DATA_END, FOOTER} and length <= left:
-            self._complete = True
-            return place
-        body = self._file.read(min(length, left))
-        if opcode == CHUNK:
-            self._read_chunk(body, place, cut_short=length > left)
-        elif length <= left:
-            self._take(opcode, memoryview(body))
-        if length > left:
-            raise _Spoiled(f"it ends at byte {self._size}, in the middle of a record")
-        return place + HEAD.size + length
+        return opcode, length, self._file.read(length)
 
-    def _take(self, opcode: int, body: memoryview) -> None:
-        if opcode == MESSAGE:
-            channel, _, time, _ = MESSAGE_HEAD.unpack_from(body)
-            self._counts[channel] = self._counts.get(channel, 0) + 1
-            self._found.see(time, time)
-            if self._keep:
-                self._messages.append((time, channel, bytes(body[MESSAGE_HEAD.size :])))
-        elif opcode == SCHEMA:
-            number = int.from_bytes(body[:2], "little")
-            name, _encoding, text = _texts(body, 2, 3)
-            self._schemas[number] = name, text
-        elif opcode == CHANNEL:
-            number, schema = struct.unpack_from("<HH", body)
-            topic, encoding = _texts(body, 4, 2)
-            self._channels[number] = schema, topic, encoding, _offered(body)
-
-    def _read_chunk(self, body: bytes, place: int, *, cut_short: bool) -> None:
+    def _chunk(self, place: int, length: int, body: bytes) -> bytes:
+        """The records of the chunk at a place: fewer if it is cut short, none if it is damaged, which becomes a flaw."""
         _, _, size, checksum = CHUNK_HEAD.unpack_from(body)
-        (compression,) = _texts(memoryview(body), CHUNK_HEAD.size, 1)
-        begin = CHUNK_HEAD.size + 4 + len(compression) + 8
-        (packed_size,) = struct.unpack_from("<Q", body, begin - 8)
-        if not cut_short and packed_size != len(body) - begin:
-            raise _Spoiled(f"the chunk at byte {place} gives a wrong length")
-        self._read.add(place)
-        records, more = self._unpacked(compression, body[begin:], size, place)
+        compression, at = _text(memoryview(body), CHUNK_HEAD.size)
+        data, cut_short = body[at + 8 :], len(body) < length
+        if compression == "":
+            records, more = data[:size], False
+        elif compression not in DECOMPRESSORS:
+            raise _Spoiled(f"its chunks are compressed in an unknown way ({compression[:20]})")
+        elif size > self._left:
+            raise _Spoiled(str(_too_large(f"the chunk at byte {place}", self._size)))
+        else:
+            records, more = _unpack(compression, data, size)
         whole = len(records) == size
         if more or (whole and checksum and zlib.crc32(records) != checksum) or not (whole or cut_short):
             why = "it holds more than it says" if more else "its checksum is wrong"
             self._flaw(f"the chunk at byte {place} is damaged ({why}), so its messages are left out")
-            return
-        for opcode, record in _records(memoryview(records)):
-            self._take(opcode, record)
-
-    def _unpacked(self, compression: str, data: bytes, size: int, place: int) -> tuple[bytes, bool]:
-        """The records of a chunk, less if it is cut short, none if it is spoiled; and whether there are more."""
-        if compression == "":
-            return data[:size], False
-        if compression not in DECOMPRESSORS:
-            raise _Spoiled(f"its chunks are compressed in an unknown way ({compression[:20]})")
-        if size > self._left:
-            raise _Spoiled(str(too_large(f"the chunk at byte {place}", self._size)))
-        self._left -= size
-        return unpack(compression, data, size)
-
-    # -- the summary -------------------------------------------------------------------------------------------------
-
-    def _read_summary(self) -> None:
-        """Learn from the end of the file, if it is there, which topics and chunks there are."""
-        if self._size < len(MAGIC) + TAIL_SIZE:
-            return
-        self._file.seek(self._size - TAIL_SIZE)
-        tail = self._file.read()
-        opcode, length, place = struct.unpack_from("<BQQ", tail)
-        self._ends_well = tail[-len(MAGIC) :] == MAGIC and (opcode, length) == (FOOTER, 20)
-        if not self._ends_well or not 0 < place < self._size - TAIL_SIZE:
-            return
-        self._file.seek(place)
-        try:
-            for kind, body in _records(memoryview(self._file.read(self._size - TAIL_SIZE - place))):
-                if kind == CHUNK_INDEX:
-                    self._chunks.append(struct.unpack_from("<Q", body, 16)[0])
-                elif kind == STATISTICS:
-                    self._found.expected = struct.unpack_from("<Q", body)[0]
-                elif kind != MESSAGE:
-                    self._take(kind, body)
-        except (struct.error, UnicodeDecodeError):
-            self._flaw("its summary is damaged")
-
-    # -- the result --------------------------------------------------------------------------------------------------
-
-    def _result(self) -> Contents:
-        names: dict[int, TopicKey] = {}
-        for number, (schema, topic, encoding, offered) in self._channels.items():
-            type_name, text = self._schemas.get(schema, ("", ""))
-            names[number] = key = TopicKey(topic, type_name)
-            self._found.topics.setdefault(key, TopicContents(0, encoding, offered, text))
-            self._found.topics[key].count += self._counts.get(number, 0)
-        if unknown := sum(count for number, count in self._counts.items() if number not in names):
-            self._flaw(f"{unknown} messages belong to a topic whose description is lost")
-        self._messages.sort(key=lambda entry: entry[0])
-        self._found.messages = [
-            Message(names[number].name, time, names[number].type_name, data)
-            for time, number, data in self._messages
-            if number in names
-        ]
-        return self._found
+            return b""
+        return records
 
 
-def _records(view: memoryview) -> Iterator[tuple[int, memoryview]]:
-    """The whole records that follow each other in a part of the file."""
-    at = 0
-    while at + HEAD.size <= len(view):
-        opcode, length = HEAD.unpack_from(view, at)
-        at += HEAD.size + length
-        if at <= len(view):
-            yield opcode, view[at - length : at]
-
-
-def _texts(body: memoryview, at: int, count: int) -> list[str]:
-    """Texts that follow each other from byte `at` on, each with its length before it."""
-    found = []
-    for _ in range(count):
-        (length,) = struct.unpack_from("<I", body, at)
-        if at + 4 + length > len(body):
-            raise struct.error
-        found.append(bytes(body[at + 4 : at + 4 + length]).decode())
-        at += 4 + length
-    return found
-
-
-def _offered(body: memoryview) -> str:
-    """The profiles in a channel's metadata, which is a map of texts."""
-    at = 4
-    for text in _texts(body, 4, 2):
-        at += 4 + len(text.encode())
+def _channel(body: memoryview, type_name: str, definition: str) -> tuple[TopicKey, TopicContents]:
+    """What the record of a channel says, whose metadata is a map of texts."""
+    topic, at = _text(body, 4)
+    encoding, at = _text(body, at)
+    metadata = {}
     end = at + 4 + struct.unpack_from("<I", body, at)[0]
     at += 4
     while at < end:
-        key, value = _texts(body, at, 2)
-        if key == "offered_qos_profiles":
-            return value
-        at += 8 + len(key.encode()) + len(value.encode())
-    return ""
+        key, at = _text(body, at)
+        metadata[key], at = _text(body, at)
+    return TopicKey(topic, type_name), TopicContents(0, encoding, metadata.get("offered_qos_profiles", ""), definition)
 
 
-def scan_sqlite(path: Path, *, keep: bool = False) -> Contents:
-    """What the file holds; with `keep` the messages themselves, too."""
-    found = Contents()
-    if _is_cut_short(path):
-        found.flaws.append(f"{path.name}: it is cut short, and SQLite cannot read it")
-        return found
-    try:
-        database = sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro&immutable=1", uri=True)
-    except BROKEN as error:
-        found.flaws.append(f"{path.name}: it cannot be opened ({_told(error)})")
-        return found
-    with closing(database):
-        database.text_factory = lambda raw: raw.decode(errors="replace")
-        size = path.stat().st_size
-        database.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, max(size, 1_000_000))  # no value is larger than its file
-        if _has_views(database):
-            found.flaws.append(f"{path.name}: its tables are computed, not recorded, so they are not read")
-        else:
-            _scan(database, path.name, found, keep, size)
-    return found
+def _text(body: memoryview, at: int) -> tuple[str, int]:
+    """The text at a byte, where its length is, and the byte behind it."""
+    end = at + 4 + struct.unpack_from("<I", body, at)[0]
+    if end > len(body):
+        raise struct.error
+    return bytes(body[at + 4 : end]).decode(), end
 
 
-def _is_cut_short(path: Path) -> bool:
-    """Whether pages are missing, which SQLite would take for zeros (https://sqlite.org/fileformat.html, 1.3)."""
-    size = path.stat().st_size
-    with path.open("rb") as file:
-        head = file.read(100)
-    page = int.from_bytes(head[16:18], "big")
-    page = 65536 if page == 1 else page
-    if len(head) < 100 or page < 512:
-        return False  # no database at all: SQLite will say so
-    pages = int.from_bytes(head[28:32], "big") if head[24:28] == head[92:96] else 0
-    return size % page != 0 or size < page * pages
+COMPUTED = (
+    "SELECT 1 FROM sqlite_master WHERE lower(name) IN ('topics', 'messages', 'message_definitions') "
+    "AND (type = 'view' OR sql LIKE 'CREATE VIRTUAL%')"
+)
+"""Finds anything but a plain table that bears the name of a bag's table."""
 
 
-def _has_views(database: sqlite3.Connection) -> bool:
-    """Whether something else than plain tables bears the name of a bag's table: its rows could be without end."""
-    query = (
-        "SELECT 1 FROM sqlite_master WHERE lower(name) IN ('topics', 'messages', 'message_definitions') "
-        "AND (type = 'view' OR sql LIKE 'CREATE VIRTUAL%')"
-    )
-    with suppress(*BROKEN):
-        return database.execute(query).fetchone() is not None
-    return False  # the file is damaged, and _scan says how
+class SqliteFile:
+    """A database of SQLite."""
 
+    def __init__(self, path: Path) -> None:
+        self._name = path.name
+        self._size = path.stat().st_size
+        self._found = Contents()
+        self._database = sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro&immutable=1", uri=True)
+        self._database.text_factory = lambda raw: raw.decode(errors="replace")
+        self._database.setlimit(
+            sqlite3.SQLITE_LIMIT_LENGTH, max(self._size, 1_000_000)
+        )  # no value is larger than its file
+        self.close = self._database.close
 
-def _scan(database: sqlite3.Connection, name: str, found: Contents, keep: bool, size: int) -> None:
-    try:
-        verdict = database.execute("PRAGMA integrity_check(1)").fetchone()[0]
-        if verdict != "ok":
-            found.flaws.append(f"{name}: the database is damaged ({_told(verdict.splitlines()[-1])})")
-    except BROKEN as error:
-        found.flaws.append(f"{name}: the database is damaged ({_told(error)})")
-    topics = _topics(database, name, found)
-    data = "data" if keep else "NULL"
-    query = f"SELECT id, topic_id, timestamp, {data}, length(data) FROM messages"
-    last = 0
-    try:
-        for row, number, time, content, length in database.execute(f"{query} ORDER BY id"):
-            if row <= last:
-                raise sqlite3.DatabaseError("the rows form a cycle")
-            last = row
-            size -= length if isinstance(length, int) else 0
-            if size < 0:
-                found.flaws.append(f"{name}: its messages are computed, not recorded: they are larger than the file")
+    def scan(self) -> Contents:
+        """What the file holds; tables that are computed, and not recorded, could be without end, and are not read."""
+        for (verdict,) in self._rows("PRAGMA integrity_check(1)"):
+            if verdict != "ok":
+                self._flaw(verdict.splitlines()[-1])
+        for pages, size in self._rows("SELECT page_count, page_size FROM pragma_page_count, pragma_page_size"):
+            if pages * size != self._size:
+                self._flaw("it is cut short")  # SQLite would take what is missing for zeros
+                return self._found
+        if list(self._rows(COMPUTED)):
+            self._flaw("its tables are computed, not recorded")
+            return self._found
+        definitions: dict[str, str] = {}
+        with suppress(*BROKEN):  # Humble's has none
+            query = "SELECT topic_type, encoded_message_definition FROM message_definitions"
+            definitions = dict(self._database.execute(query).fetchall())
+        keys: dict[int, TopicKey] = {}
+        query = "SELECT rowid, name, type, serialization_format, offered_qos_profiles FROM topics"
+        for number, topic, type_name, serialization, offered in self._rows(query):
+            keys[number] = key = TopicKey(topic, type_name)
+            self._found.topics[key] = TopicContents(0, serialization, offered, definitions.get(type_name, ""))
+        last, left = 0, self._size
+        for row, number, time, length in self._rows("SELECT rowid, topic_id, timestamp, length(data) FROM messages"):
+            left -= 1 + (length if isinstance(length, int) else 0)
+            if row <= last or left < 0:
+                self._flaw("its messages are larger than the file, or in no order")
                 break
-            key = topics.get(number)
-            if key is None or not isinstance(time, int):
-                continue
-            found.topics[key].count += 1
-            found.see(time, time)
-            if keep:
-                found.messages.append(Message(key.name, time, key.type_name, content))
-    except BROKEN:
-        if not found.flaws:
-            found.flaws.append(f"{name}: the database is damaged in the middle")
-    found.messages.sort(key=lambda message: message.time)
-    if not found.flaws:
-        found.expected = found.count
+            last = row
+            if number in keys and isinstance(time, int):
+                self._found.topics[keys[number]].count += 1
+                self._found.entries.append((time, keys[number], self, (row,)))
+        return self._found
 
+    def read(self, where: Where) -> bytes:
+        """The bytes of a message; none if it has something else."""
+        (data,) = self._database.execute("SELECT data FROM messages WHERE rowid = ?", where).fetchone()
+        return data if isinstance(data, bytes) else b""
 
-def _topics(database: sqlite3.Connection, name: str, found: Contents) -> dict[int, TopicKey]:
-    definitions: dict[str, str] = {}
-    with suppress(*BROKEN):
-        query = "SELECT topic_type, encoded_message_definition FROM message_definitions"
-        definitions = dict(database.execute(query).fetchall())
-    topics: dict[int, TopicKey] = {}
-    try:
-        query = "SELECT id, name, type, serialization_format, offered_qos_profiles FROM topics"
-        for number, topic, type_name, serialization, offered in database.execute(query):
-            topics[number] = key = TopicKey(topic, type_name)
-            found.topics[key] = TopicContents(0, serialization, offered, definitions.get(type_name, ""))
-    except BROKEN as error:
-        found.flaws.append(f"{name}: its topics cannot be read ({_told(error)})")
-    return topics
+    def _rows(self, query: str) -> Iterator[tuple[Any, ...]]:
+        """The rows of a query, up to a damaged one."""
+        try:
+            yield from self._database.execute(query)
+        except BROKEN as error:
+            self._flaw(error)
+
+    def _flaw(self, error: object) -> None:
+        text = f"{self._name}: the database is damaged ({_told(error)})"
+        if text not in self._found.flaws:
+            self._found.flaws.append(text)
 
 
 def _told(error: object) -> str:
-    """What SQLite says, in one line that can be printed: it quotes what is spoiled."""
-    return "".join(char if char.isprintable() else "?" for char in " ".join(str(error).split()))
+    """What is wrong, in one line that can be printed: SQLite quotes what is spoiled."""
+    text = str(getattr(error, "strerror", None) or error)
+    return "".join(char if char.isprintable() else "?" for char in " ".join(text.split()))
+
+
+DataFile = McapFile | SqliteFile
+DATA_FILES: dict[str, Callable[[Path], DataFile]] = {".mcap": McapFile, ".db3": SqliteFile}
+
+
+def limit(packed: int) -> int:
+    """How many bytes may come of so many compressed ones."""
+    return max(ALWAYS, MOST_TIMES * packed)
+
+
+def _too_large(what: str, packed: int) -> TooLargeError:
+    most = f"{limit(packed) >> 20} MiB"
+    return TooLargeError(f"{what} is not unpacked: it would become more than {most}, which is no usual recording")
+
+
+def _unpack(compression: str, data: bytes, most: int) -> tuple[bytes, bool]:
+    """The first bytes of what was compressed, at most so many, and whether more follows.
+
+    They are fewer where the data is cut short, and none where it is spoiled.
+    """
+    decompressor = DECOMPRESSORS[compression]()
+    try:
+        found = bytes(decompressor.decompress(data, most + 1))
+    except Exception:
+        return b"", False
+    return found[:most], len(found) > most or bool(decompressor.unused_data)
+
+
+def unpack_message(data: bytes) -> bytes:
+    """A message that was compressed by zstd on its own. Raises ValueError if it is spoiled, or becomes too large."""
+    found, more = _unpack("zstd", data, limit(len(data)))
+    if more:
+        raise _too_large(f"a message of {len(data)} bytes", len(data))
+    if data and not found:
+        raise ValueError("a message is not compressed by zstd, as metadata.yaml says that it is")
+    return found
+
+
+def unpack_file(source: Path, target: Path) -> None:
+    """Write what was compressed by zstd, as far as it can be read, into another file. Raises TooLargeError, OSError."""
+    size = source.stat().st_size
+    left = limit(size)
+    with _zstd().open(source, "rb") as packed, target.open("wb") as unpacked, suppress(EOFError, _zstd().ZstdError):
+        while piece := packed.read(1 << 20):
+            left -= len(piece)
+            if left < 0:
+                raise _too_large(source.name, size)
+            unpacked.write(piece)
+
+
+def _zstd() -> Any:
+    if sys.version_info >= (3, 14):
+        from compression import zstd
+    else:
+        from backports import zstd
+    return zstd
+
+
+def _lz4() -> Any:
+    from lz4.frame import LZ4FrameDecompressor
+
+    return LZ4FrameDecompressor()
+
+
+DECOMPRESSORS: dict[str, Callable[[], Any]] = {"zstd": lambda: _zstd().ZstdDecompressor(), "lz4": _lz4}
