@@ -6,10 +6,9 @@ rclpy's event_handler.py of today, which in Humble is qos_event.py; `incompatibl
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from enum import IntEnum
-from typing import Any, NamedTuple
-
-from turtle_lesson.ros.rmw import endpoint
+from typing import Any, ClassVar, NamedTuple
 
 from ._entity import WAITABLE, Entity
 from ._rclpy_pybind11 import UnsupportedEventTypeError
@@ -52,25 +51,29 @@ class QoSSubscriptionEventType(IntEnum):
     RCL_SUBSCRIPTION_MATCHED = 5
 
 
-class QoSRequestedDeadlineMissedInfo(NamedTuple):
+class _Count(NamedTuple):
+    total_count: int = 0
+    total_count_change: int = 0
+
+
+class QoSRequestedDeadlineMissedInfo(_Count):
     """How often a subscription waited longer than its deadline, in all and since it was last told."""
 
-    total_count: int = 0
-    total_count_change: int = 0
 
-
-class QoSOfferedDeadlineMissedInfo(NamedTuple):
+class QoSOfferedDeadlineMissedInfo(_Count):
     """How often a publisher took longer than its deadline, in all and since it was last told."""
 
-    total_count: int = 0
-    total_count_change: int = 0
 
-
-class QoSLivelinessLostInfo(NamedTuple):
+class QoSLivelinessLostInfo(_Count):
     """How often a publisher's lease was over, in all and since it was last told."""
 
-    total_count: int = 0
-    total_count_change: int = 0
+
+class QoSMessageLostInfo(_Count):
+    """How many messages never reached a subscription, in all and since it was last told."""
+
+
+class IncompatibleTypeInfo(_Count):
+    """How many partners have another type on this topic, in all and since it was last told."""
 
 
 class QoSLivelinessChangedInfo(NamedTuple):
@@ -82,26 +85,12 @@ class QoSLivelinessChangedInfo(NamedTuple):
     not_alive_count_change: int = 0
 
 
-class QoSMessageLostInfo(NamedTuple):
-    """How many messages never reached a subscription, in all and since it was last told."""
-
-    total_count: int = 0
-    total_count_change: int = 0
-
-
 class QoSRequestedIncompatibleQoSInfo(NamedTuple):
     """With how many partners the quality of service does not go together, and which policy it was the last time."""
 
     total_count: int = 0
     total_count_change: int = 0
     last_policy_kind: int = rmw_qos_policy_kind_t.RMW_QOS_POLICY_INVALID
-
-
-class IncompatibleTypeInfo(NamedTuple):
-    """How many partners have another type on this topic, in all and since it was last told."""
-
-    total_count: int = 0
-    total_count_change: int = 0
 
 
 class QoSSubscriptionMatchedInfo(NamedTuple):
@@ -116,51 +105,25 @@ class QoSSubscriptionMatchedInfo(NamedTuple):
 QoSOfferedIncompatibleQoSInfo = QoSRequestedIncompatibleQoSInfo
 QoSPublisherMatchedInfo = QoSSubscriptionMatchedInfo
 
-_Events = dict[IntEnum, tuple[str, str, Any]]
-"""Per type of event, in rclpy's order: the callback's name, what the graph counts for it, and what it is told as."""
+_PUBLISHER = QoSPublisherEventType
+_SUBSCRIPTION = QoSSubscriptionEventType
+_Events = dict[IntEnum, tuple[str, Any]]
+"""Per type of event, in rclpy's order: what its callback and its status in the graph are called, and what it is told as."""
 
 PUBLISHER_EVENTS: _Events = {
-    QoSPublisherEventType.RCL_PUBLISHER_OFFERED_DEADLINE_MISSED: (
-        "deadline",
-        endpoint.DEADLINE,
-        QoSOfferedDeadlineMissedInfo,
-    ),
-    QoSPublisherEventType.RCL_PUBLISHER_LIVELINESS_LOST: ("liveliness", endpoint.LIVELINESS, QoSLivelinessLostInfo),
-    QoSPublisherEventType.RCL_PUBLISHER_OFFERED_INCOMPATIBLE_QOS: (
-        "incompatible_qos",
-        endpoint.INCOMPATIBLE_QOS,
-        QoSOfferedIncompatibleQoSInfo,
-    ),
-    QoSPublisherEventType.RCL_PUBLISHER_INCOMPATIBLE_TYPE: (
-        "incompatible_type",
-        endpoint.INCOMPATIBLE_TYPE,
-        IncompatibleTypeInfo,
-    ),
-    QoSPublisherEventType.RCL_PUBLISHER_MATCHED: ("matched", endpoint.MATCHED, QoSPublisherMatchedInfo),
+    _PUBLISHER.RCL_PUBLISHER_OFFERED_DEADLINE_MISSED: ("deadline", QoSOfferedDeadlineMissedInfo),
+    _PUBLISHER.RCL_PUBLISHER_LIVELINESS_LOST: ("liveliness", QoSLivelinessLostInfo),
+    _PUBLISHER.RCL_PUBLISHER_OFFERED_INCOMPATIBLE_QOS: ("incompatible_qos", QoSOfferedIncompatibleQoSInfo),
+    _PUBLISHER.RCL_PUBLISHER_INCOMPATIBLE_TYPE: ("incompatible_type", IncompatibleTypeInfo),
+    _PUBLISHER.RCL_PUBLISHER_MATCHED: ("matched", QoSPublisherMatchedInfo),
 }
 SUBSCRIPTION_EVENTS: _Events = {
-    QoSSubscriptionEventType.RCL_SUBSCRIPTION_REQUESTED_DEADLINE_MISSED: (
-        "deadline",
-        endpoint.DEADLINE,
-        QoSRequestedDeadlineMissedInfo,
-    ),
-    QoSSubscriptionEventType.RCL_SUBSCRIPTION_REQUESTED_INCOMPATIBLE_QOS: (
-        "incompatible_qos",
-        endpoint.INCOMPATIBLE_QOS,
-        QoSRequestedIncompatibleQoSInfo,
-    ),
-    QoSSubscriptionEventType.RCL_SUBSCRIPTION_LIVELINESS_CHANGED: (
-        "liveliness",
-        endpoint.LIVELINESS,
-        QoSLivelinessChangedInfo,
-    ),
-    QoSSubscriptionEventType.RCL_SUBSCRIPTION_MESSAGE_LOST: ("message_lost", endpoint.MESSAGE_LOST, QoSMessageLostInfo),
-    QoSSubscriptionEventType.RCL_SUBSCRIPTION_INCOMPATIBLE_TYPE: (
-        "incompatible_type",
-        endpoint.INCOMPATIBLE_TYPE,
-        IncompatibleTypeInfo,
-    ),
-    QoSSubscriptionEventType.RCL_SUBSCRIPTION_MATCHED: ("matched", endpoint.MATCHED, QoSSubscriptionMatchedInfo),
+    _SUBSCRIPTION.RCL_SUBSCRIPTION_REQUESTED_DEADLINE_MISSED: ("deadline", QoSRequestedDeadlineMissedInfo),
+    _SUBSCRIPTION.RCL_SUBSCRIPTION_REQUESTED_INCOMPATIBLE_QOS: ("incompatible_qos", QoSRequestedIncompatibleQoSInfo),
+    _SUBSCRIPTION.RCL_SUBSCRIPTION_LIVELINESS_CHANGED: ("liveliness", QoSLivelinessChangedInfo),
+    _SUBSCRIPTION.RCL_SUBSCRIPTION_MESSAGE_LOST: ("message_lost", QoSMessageLostInfo),
+    _SUBSCRIPTION.RCL_SUBSCRIPTION_INCOMPATIBLE_TYPE: ("incompatible_type", IncompatibleTypeInfo),
+    _SUBSCRIPTION.RCL_SUBSCRIPTION_MATCHED: ("matched", QoSSubscriptionMatchedInfo),
 }
 
 
@@ -189,7 +152,7 @@ class EventHandler(Entity):
             what = "publisher" if publishes else "subscription"
             known = ", ".join(each.name for each in sorted(events))
             raise UnsupportedEventTypeError(f"a {what} has no events of type {event_type!r}; it has {known}")
-        _, kind, self._info = events[event_type]
+        kind, self._info = events[event_type]
         self._tally = parent._end().listen(kind)
         self._tally.wake = self._signal
 
@@ -217,92 +180,66 @@ QoSEventHandler = EventHandler
 class _EventCallbacks:
     """Base class: `_events` says which attribute is called for which type of event."""
 
-    _events: _Events
-    _mismatch: str
+    _events: ClassVar[_Events]
+    _mismatch: ClassVar[str]
     use_default_callbacks: bool
-    incompatible_qos: Callable[[Any], Any] | None
 
     def create_event_handlers(self, callback_group: CallbackGroup, entity: Any, topic_name: str) -> list[EventHandler]:
         """Handlers for all callbacks that were given, and for those that stand in for one that was not."""
         entity = getattr(entity, "_entity", entity)
+
+        def warn(event: Any) -> None:
+            policy = qos_policy_name_from_kind(event.last_policy_kind)
+            get_logger(entity.logger_name).warning(self._mismatch.format(topic=topic_name, policy=policy))
+
         handlers = []
-        for event_type, (name, _, _) in self._events.items():
+        for event_type, (name, _) in self._events.items():
             callback = getattr(self, name)
             stands_in = not callback and self.use_default_callbacks and name == "incompatible_qos"
-            if stands_in:
-                callback = self._warning(entity.logger_name, topic_name)
-            if callback:
+            if callback or stands_in:
                 handler = EventHandler(
-                    callback_group=callback_group, callback=callback, event_type=event_type, parent_impl=entity
+                    callback_group=callback_group, callback=callback or warn, event_type=event_type, parent_impl=entity
                 )
                 handler._is_default = stands_in
                 handlers.append(handler)
         return handlers
 
-    def _warning(self, logger_name: str, topic_name: str) -> Callable[[Any], None]:
-        """What is said about a partner whose quality of service does not go together with this one's."""
 
-        def warn(event: Any) -> None:
-            policy = qos_policy_name_from_kind(event.last_policy_kind)
-            get_logger(logger_name).warning(self._mismatch.format(topic=topic_name, policy=policy))
-
-        return warn
-
-
+@dataclass(kw_only=True, eq=False)
 class SubscriptionEventCallbacks(_EventCallbacks):
     """What to call when something happens to a subscription. Without `incompatible_qos` a warning is logged for it."""
 
-    _events = SUBSCRIPTION_EVENTS
-    _mismatch = (
+    _events: ClassVar[_Events] = SUBSCRIPTION_EVENTS
+    _mismatch: ClassVar[str] = (
         "New publisher discovered on topic '{topic}', offering incompatible QoS. No messages will be received from it. "
         "Last incompatible policy: {policy}"
     )
 
-    def __init__(
-        self,
-        *,
-        deadline: Callable[[QoSRequestedDeadlineMissedInfo], Any] | None = None,
-        incompatible_qos: Callable[[QoSRequestedIncompatibleQoSInfo], Any] | None = None,
-        liveliness: Callable[[QoSLivelinessChangedInfo], Any] | None = None,
-        message_lost: Callable[[QoSMessageLostInfo], Any] | None = None,
-        incompatible_type: Callable[[IncompatibleTypeInfo], Any] | None = None,
-        matched: Callable[[QoSSubscriptionMatchedInfo], Any] | None = None,
-        use_default_callbacks: bool = True,
-    ) -> None:
-        self.deadline = deadline
-        self.incompatible_qos = incompatible_qos
-        self.liveliness = liveliness
-        self.message_lost = message_lost
-        self.incompatible_type = incompatible_type
-        self.matched = matched
-        self.use_default_callbacks = use_default_callbacks
+    deadline: Callable[[QoSRequestedDeadlineMissedInfo], Any] | None = None
+    incompatible_qos: Callable[[QoSRequestedIncompatibleQoSInfo], Any] | None = None
+    liveliness: Callable[[QoSLivelinessChangedInfo], Any] | None = None
+    message_lost: Callable[[QoSMessageLostInfo], Any] | None = None
+    incompatible_type: Callable[[IncompatibleTypeInfo], Any] | None = None
+    matched: Callable[[QoSSubscriptionMatchedInfo], Any] | None = None
+    use_default_callbacks: bool = True
 
 
+@dataclass(kw_only=True, eq=False)
 class PublisherEventCallbacks(_EventCallbacks):
     """What to call when something happens to a publisher. Without `incompatible_qos` a warning is logged for it."""
 
-    _events = PUBLISHER_EVENTS
-    _mismatch = (
+    _events: ClassVar[_Events] = PUBLISHER_EVENTS
+    _mismatch: ClassVar[str] = (
         "New subscription discovered on topic '{topic}', requesting incompatible QoS. No messages will be sent to it. "
         "Last incompatible policy: {policy}"
     )
 
-    def __init__(
-        self,
-        *,
-        deadline: Callable[[QoSOfferedDeadlineMissedInfo], Any] | None = None,
-        liveliness: Callable[[QoSLivelinessLostInfo], Any] | None = None,
-        incompatible_qos: Callable[[QoSRequestedIncompatibleQoSInfo], Any] | None = None,
-        incompatible_type: Callable[[IncompatibleTypeInfo], Any] | None = None,
-        matched: Callable[[QoSPublisherMatchedInfo], Any] | None = None,
-        use_default_callbacks: bool = True,
-    ) -> None:
-        self.deadline = deadline
-        self.liveliness = liveliness
-        self.incompatible_qos = incompatible_qos
-        self.incompatible_type = incompatible_type
-        self.matched = matched
-        self.use_default_callbacks = use_default_callbacks
+    deadline: Callable[[QoSOfferedDeadlineMissedInfo], Any] | None = None
+    liveliness: Callable[[QoSLivelinessLostInfo], Any] | None = None
+    incompatible_qos: Callable[[QoSOfferedIncompatibleQoSInfo], Any] | None = None
+    incompatible_type: Callable[[IncompatibleTypeInfo], Any] | None = None
+    matched: Callable[[QoSPublisherMatchedInfo], Any] | None = None
+    use_default_callbacks: bool = True
 
 
 def checked_callbacks(callbacks: Any, expected: type[_EventCallbacks]) -> Any:

@@ -87,61 +87,34 @@ TRANSITIONS = [
 
 
 class StateMachine:
-    """Which state a node is in. `notify(start, goal)` is called at each change.
-
-    It has the names of the real one's `LifecycleStateMachine`, where states are pairs of number and label.
-    """
+    """Which state a node is in. `notify(start, goal)` is called at each change."""
 
     def __init__(self, notify: Callable[[State, State], object]) -> None:
-        self.initialized = True
         self.current_state = STATES["unconfigured"]
         self._notify = notify
-
-    @property
-    def available_states(self) -> list[State]:
-        """All states."""
-        return list(STATES.values())
 
     @property
     def available_transitions(self) -> list[Transition]:
         """The transitions that lead out of the state that it is in."""
         return [each for each in TRANSITIONS if each.start == self.current_state]
 
-    @property
-    def transition_graph(self) -> list[Transition]:
-        """All transitions."""
-        return list(TRANSITIONS)
-
-    def get_transition_by_label(self, label: str) -> int:
-        """The number of the transition of a label that is possible now. Raises RCLError."""
-        found = self._find(label, lambda each: each.label == label)
-        if found is None:
-            raise RCLError("Failed to get transition from label")
-        return found.id
-
-    def trigger_transition_by_id(self, transition_id: int, publish_update: bool) -> None:
-        """Go along the transition of a number. Raises RCLError if it is not possible now."""
-        self._go(self._find(transition_id, lambda each: each.id == transition_id), publish_update)
-
-    def trigger_transition_by_label(self, label: str, publish_update: bool) -> None:
-        """Go along the transition of a label. Raises RCLError if it is not possible now."""
-        self._go(self._find(label, lambda each: each.label == label), publish_update)
-
-    def _find(self, what: object, fits: Callable[[Transition], bool]) -> Transition | None:
+    def find(self, wanted: int | str) -> Transition | None:
+        """The transition of a number or label, if it is possible now; a warning is logged if it is not."""
         for each in self.available_transitions:
-            if fits(each):
+            if wanted in (each.id, each.label):
                 return each
         RcutilsLogger("rcl_lifecycle").warning(
-            f"No transition matching {what} found for current state {self.current_state.label}"
+            f"No transition matching {wanted} found for current state {self.current_state.label}"
         )
         return None
 
-    def _go(self, transition: Transition | None, publish_update: bool) -> None:
+    def trigger(self, wanted: int | str) -> None:
+        """Go along the transition of a number or label. Raises RCLError if it is not possible now."""
+        transition = self.find(wanted)
         if transition is None:
             error = RCLError("Failed to trigger lifecycle state machine transition: Transition is not registered.")
             possible = ", ".join(f"{each.label} [{each.id}]" for each in self.available_transitions) or "nothing"
             error.add_note(f"The node is {self.current_state.label}; possible from there: {possible}.")
             raise error
         self.current_state = transition.goal
-        if publish_update:
-            self._notify(transition.start, transition.goal)
+        self._notify(transition.start, transition.goal)

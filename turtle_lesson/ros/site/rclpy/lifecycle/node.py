@@ -12,7 +12,7 @@ from turtle_lesson.ros.sim.errors import shown_path
 from ..callback_groups import CallbackGroup
 from ..exceptions import RCLError
 from ..node import Node
-from ._states import STATES, State, StateMachine, Transition
+from ._states import STATES, TRANSITIONS, State, StateMachine, Transition
 from ._states import TransitionCallbackReturnType as TransitionCallbackReturn
 from .managed_entity import ManagedEntity
 from .publisher import LifecyclePublisher
@@ -68,8 +68,7 @@ class LifecycleNodeMixin(ManagedEntity):
 
         self._state_machine = StateMachine(notify)
         if enable_communication_interface:
-            group = callback_group or self.default_callback_group
-            self._ros_lifecycle = LifecycleServices(self, self._state_machine, self._ros_change_state_asked, group)
+            self._ros_offer_services(callback_group or self.default_callback_group)
 
     # -- transitions ---------------------------------------------------------------------------------------------
 
@@ -99,11 +98,11 @@ class LifecycleNodeMixin(ManagedEntity):
     def _ros_change_state(self, transition_id: int) -> TransitionCallbackReturn:
         machine = self._state_machine
         before = LifecycleState(label=machine.current_state.label, state_id=machine.current_state.id)
-        machine.trigger_transition_by_id(transition_id, True)
+        machine.trigger(transition_id)
         outcome = self._ros_call(before)
-        machine.trigger_transition_by_label(_label_of(outcome, machine), True)
+        machine.trigger(_label_of(outcome, machine))
         if outcome == TransitionCallbackReturn.ERROR:
-            machine.trigger_transition_by_label(_label_of(self._ros_call(before), machine), True)
+            machine.trigger(_label_of(self._ros_call(before), machine))
         return outcome
 
     def _ros_call(self, before: LifecycleState) -> TransitionCallbackReturn:
@@ -115,19 +114,50 @@ class LifecycleNodeMixin(ManagedEntity):
             self.get_logger().error(_told(callback, error))
             return TransitionCallbackReturn.ERROR
 
-    def _ros_change_state_asked(self, transition_id: int) -> bool:
-        """Do what the service change_state is asked for; whether that went well.
+    def _ros_offer_services(self, group: CallbackGroup) -> None:
+        """Have others see and change the state through services, whose names are those of these functions."""
+        from lifecycle_msgs import msg, srv
 
-        Raises RCLError for a transition that is not possible now; since Kilted that is only logged.
-        """
-        current = self._state_machine.current_state
-        try:
-            return self._ros_change_state(transition_id) == TransitionCallbackReturn.SUCCESS
-        except RCLError:
-            if not current_world().release.has(FORBIDDEN_TRANSITIONS_ARE_LOGGED):
-                raise
-            self.get_logger().error(f"Unable to start transition {transition_id} from current state {tuple(current)}")
-            return False
+        machine = self._state_machine
+
+        def change_state(request: Any, response: Any) -> Any:
+            label, current = request.transition.label, machine.current_state
+            wanted = machine.find(label) if label else request.transition
+            if wanted is None:
+                return response
+            try:
+                response.success = self._ros_change_state(wanted.id) == TransitionCallbackReturn.SUCCESS
+            except RCLError:
+                if not current_world().release.has(FORBIDDEN_TRANSITIONS_ARE_LOGGED):
+                    raise
+                self.get_logger().error(f"Unable to start transition {wanted.id} from current state {tuple(current)}")
+            return response
+
+        def get_state(request: Any, response: Any) -> Any:
+            response.current_state.id, response.current_state.label = machine.current_state
+            return response
+
+        def get_available_states(request: Any, response: Any) -> Any:
+            response.available_states = [msg.State(id=each.id, label=each.label) for each in STATES.values()]
+            return response
+
+        def get_available_transitions(request: Any, response: Any) -> Any:
+            response.available_transitions = [_description(each) for each in machine.available_transitions]
+            return response
+
+        def get_transition_graph(request: Any, response: Any) -> Any:
+            response.available_transitions = [_description(each) for each in TRANSITIONS]
+            return response
+
+        for kind, callback in (
+            (srv.ChangeState, change_state),
+            (srv.GetState, get_state),
+            (srv.GetAvailableStates, get_available_states),
+            (srv.GetAvailableTransitions, get_available_transitions),
+            (srv.GetAvailableTransitions, get_transition_graph),
+        ):
+            name = f"~/{callback.__name__}"
+            Node.create_service(self, kind, name, callback, callback_group=group)  # type: ignore[arg-type]
 
     # -- what the transitions do by default ----------------------------------------------------------------------
 
@@ -213,53 +243,6 @@ def _told(callback: Callable[..., Any], error: Exception) -> str:
     return (
         f"{callback.__name__} raised {type(error).__name__}: {error}{place}. That counts as an error of the transition."
     )
-
-
-class LifecycleServices:
-    """Made by a managed node for itself. `change(transition_id)` does a transition, and returns whether it succeeded."""
-
-    def __init__(self, node: Any, machine: StateMachine, change: Callable[[int], bool], group: CallbackGroup) -> None:
-        from lifecycle_msgs.srv import ChangeState, GetAvailableStates, GetAvailableTransitions, GetState
-
-        self._machine = machine
-        self._change = change
-        for kind, name, callback in (
-            (ChangeState, "change_state", self._change_state),
-            (GetState, "get_state", self._get_state),
-            (GetAvailableStates, "get_available_states", self._get_available_states),
-            (GetAvailableTransitions, "get_available_transitions", self._get_available_transitions),
-            (GetAvailableTransitions, "get_transition_graph", self._get_transition_graph),
-        ):
-            Node.create_service(node, kind, f"~/{name}", callback, callback_group=group)
-
-    def _change_state(self, request: Any, response: Any) -> Any:
-        number = request.transition.id
-        if request.transition.label:
-            try:
-                number = self._machine.get_transition_by_label(request.transition.label)
-            except RCLError:
-                response.success = False
-                return response
-        response.success = self._change(number)
-        return response
-
-    def _get_state(self, request: Any, response: Any) -> Any:
-        response.current_state.id, response.current_state.label = self._machine.current_state
-        return response
-
-    def _get_available_states(self, request: Any, response: Any) -> Any:
-        from lifecycle_msgs.msg import State
-
-        response.available_states = [State(id=each.id, label=each.label) for each in self._machine.available_states]
-        return response
-
-    def _get_available_transitions(self, request: Any, response: Any) -> Any:
-        response.available_transitions = [_description(each) for each in self._machine.available_transitions]
-        return response
-
-    def _get_transition_graph(self, request: Any, response: Any) -> Any:
-        response.available_transitions = [_description(each) for each in self._machine.transition_graph]
-        return response
 
 
 def _description(transition: Transition) -> Any:
