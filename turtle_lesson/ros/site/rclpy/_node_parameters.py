@@ -2,16 +2,35 @@
 
 from __future__ import annotations
 
+import math
+import warnings
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from . import exceptions
 from ._hints import did_you_mean
-from ._parameter_rules import check_prefixes, is_listed, read_declaration, why_refused
+from .exceptions import (
+    InvalidParameterException,
+    InvalidParameterTypeException,
+    InvalidParameterValueException,
+    ParameterAlreadyDeclaredException,
+    ParameterImmutableException,
+    ParameterNotDeclaredException,
+    ParameterUninitializedException,
+)
 from .parameter import PARAMETER_SEPARATOR_STRING, Parameter, parameter_value_to_python
 
 if TYPE_CHECKING:
     from .context import Context
+
+
+TOLERANCE = 1e-6
+"""How far, relatively, a floating-point value may be off an end or a step of its range."""
+
+ONLY_A_NAME = (
+    "when declaring parameter named '{}', declaring a parameter only providing its name is deprecated. You have to "
+    'either:\n\t- Pass a name and a default value different to "PARAMETER NOT SET" (and optionally a descriptor).\n'
+    "\t- Pass a name and a parameter type.\n\t- Pass a name and a descriptor with `dynamic_typing=True"
+)
 
 
 class NodeParameters:
@@ -33,8 +52,8 @@ class NodeParameters:
         self._ros_after_set: list[Callable[[list[Parameter]], Any]] = []
         self._ros_overrides = {parameter.name: parameter for parameter in overrides}
 
-    def _ros_not_declared(self, name: str, names: str | list[str]) -> exceptions.ParameterNotDeclaredException:
-        error = exceptions.ParameterNotDeclaredException(names)
+    def _ros_not_declared(self, name: str, names: str | list[str]) -> ParameterNotDeclaredException:
+        error = ParameterNotDeclaredException(names)
         known = sorted(self._ros_parameters)
         error.add_note(
             f"Declare it first, with a default: declare_parameter({name!r}, …). Declared so far: "
@@ -124,7 +143,7 @@ class NodeParameters:
             if descriptor is not None and descriptor.read_only and descriptors is None:
                 return f"Trying to set a read-only parameter: {parameter.name}."
             is_known = parameter.name in self._ros_parameters
-            reason = "" if descriptor is None else why_refused(parameter, descriptor, is_known)
+            reason = "" if descriptor is None else _why_refused(parameter, descriptor, is_known)
             if reason:
                 return reason
         return ""
@@ -151,14 +170,14 @@ class NodeParameters:
         if name not in self._ros_parameters and self._ros_allow_undeclared:
             return Parameter(name).get_parameter_value()
         if self.describe_parameter(name).read_only:
-            raise exceptions.ParameterImmutableException(name)
+            raise ParameterImmutableException(name)
         choices = [self.get_parameter(name)]
         if alternative_value is not None:
             choices.append(Parameter(name, value=parameter_value_to_python(alternative_value)))
         descriptor.name = name
-        reasons = [why_refused(choice, descriptor, True) for choice in choices]
+        reasons = [_why_refused(choice, descriptor, True) for choice in choices]
         if "" not in reasons:
-            raise exceptions.InvalidParameterValueException(name, choices[-1].value, reasons[-1])
+            raise InvalidParameterValueException(name, choices[-1].value, reasons[-1])
         self._ros_parameters[name] = choices[reasons.index("")]
         self._ros_descriptors[name] = descriptor
         return self._ros_parameters[name].get_parameter_value()
@@ -212,18 +231,18 @@ class NodeParameters:
         """Declare several: tuples of name, and optionally value and descriptor."""
         declared: list[tuple[Parameter, Any]] = []
         for index, details in enumerate(parameters):
-            name, value, descriptor = read_declaration(index, namespace, details)
+            name, value, descriptor = _read_declaration(index, namespace, details)
             overridden = not ignore_override and name in self._ros_overrides
             declared.append((self._ros_overrides[name] if overridden else Parameter(name, value=value), descriptor))
         taken = [parameter.name for parameter, _ in declared if parameter.name in self._ros_parameters]
         if taken:
-            raise exceptions.ParameterAlreadyDeclaredException(taken)
+            raise ParameterAlreadyDeclaredException(taken)
         for parameter, descriptor in declared:
             reason = self._ros_set([parameter], {parameter.name: descriptor})
             if reason.startswith("Wrong parameter type"):
-                raise exceptions.InvalidParameterTypeException(parameter, Parameter.Type(descriptor.type).name)
+                raise InvalidParameterTypeException(parameter, Parameter.Type(descriptor.type).name)
             if reason:
-                raise exceptions.InvalidParameterValueException(parameter.name, parameter.value, reason)
+                raise InvalidParameterValueException(parameter.name, parameter.value, reason)
         return [self._ros_parameters[parameter.name] for parameter, _ in declared]
 
     def _ros_declare_overrides(self) -> None:
@@ -243,7 +262,7 @@ class NodeParameters:
         """Forget a parameter. Raises ParameterNotDeclaredException or ParameterImmutableException."""
         self._ros_check_declared(name)
         if self._ros_descriptors[name].read_only:
-            raise exceptions.ParameterImmutableException(name)
+            raise ParameterImmutableException(name)
         del self._ros_parameters[name], self._ros_descriptors[name]
 
     # -- reading ---------------------------------------------------------------------------------------------------
@@ -259,7 +278,7 @@ class NodeParameters:
         self._ros_check_declared(name)
         parameter = self._ros_parameters[name]
         if parameter.type_ == Parameter.Type.NOT_SET and not self._ros_descriptors[name].dynamic_typing:
-            raise exceptions.ParameterUninitializedException(name)
+            raise ParameterUninitializedException(name)
         return parameter
 
     def get_parameters(self, names: list[str]) -> list[Parameter]:
@@ -313,8 +332,8 @@ class NodeParameters:
         """
         from rcl_interfaces.msg import ListParametersResult
 
-        check_prefixes(prefixes, depth)
-        names = [name for name in self._ros_parameters if is_listed(name, prefixes, depth)]
+        _check_prefixes(prefixes, depth)
+        names = [name for name in self._ros_parameters if _is_listed(name, prefixes, depth)]
         parts = [name.rpartition(PARAMETER_SEPARATOR_STRING) for name in names]
         parents = dict.fromkeys(parent for parent, separator, _ in parts if separator)
         return ListParametersResult(names=names, prefixes=list(parents))
@@ -322,3 +341,114 @@ class NodeParameters:
     def _ros_check_declared(self, name: str) -> None:
         if name not in self._ros_parameters:
             raise self._ros_not_declared(name, name)
+
+
+# What a declaration may say, and which values a descriptor allows. Reasons are given in rclpy's words (its node.py).
+
+
+def _read_declaration(index: int, namespace: str, details: tuple[Any, ...]) -> tuple[str, Any, Any]:
+    """Full name, default value and descriptor of a declaration: a tuple of name, and perhaps value and descriptor."""
+    from rcl_interfaces.msg import ParameterDescriptor, ParameterValue
+
+    if not 1 <= len(details) <= 3:
+        raise TypeError(
+            f"Invalid parameter tuple length at index {index} in parameters list: {details}; "
+            "expecting length between 1 and 3"
+        )
+    name = _full_name(index, namespace, details[0])
+    value = details[1] if len(details) > 1 else None
+    descriptor = details[2] if len(details) > 2 else ParameterDescriptor()
+    if not isinstance(descriptor, ParameterDescriptor):
+        raise TypeError(f"Third element {descriptor} at index {index} in parameters list is not a ParameterDescriptor.")
+    descriptor.name = name
+    if len(details) == 1:
+        warnings.warn(ONLY_A_NAME.format(name), UserWarning, stacklevel=4)
+        descriptor.dynamic_typing = True
+    if isinstance(value, Parameter.Type):
+        _declare_type(name, value, descriptor)
+        return name, None, descriptor
+    if not descriptor.dynamic_typing:
+        is_unset = isinstance(value, ParameterValue) and value.type == Parameter.Type.NOT_SET.value
+        descriptor.type = Parameter.Type.from_parameter_value(None if is_unset else value).value
+        if value is None or is_unset:
+            raise ValueError("Cannot declare a statically typed parameter with default value of type PARAMETER_NOT_SET")
+    return name, value, descriptor
+
+
+def _full_name(index: int, namespace: str, name: object) -> str:
+    if not isinstance(name, str):
+        raise TypeError(f"First element {name} at index {index} in parameters list is not a str.")
+    if not name:
+        raise InvalidParameterException(name)
+    return f"{namespace}{PARAMETER_SEPARATOR_STRING}{name}" if namespace else name
+
+
+def _declare_type(name: str, kind: Parameter.Type, descriptor: Any) -> None:
+    if kind == Parameter.Type.NOT_SET:
+        raise ValueError(f"Cannot declare parameter {{{name}}} as statically typed of type NOT_SET")
+    if descriptor.dynamic_typing:
+        raise ValueError(
+            f"When declaring parameter {{{name}}} passing a descriptor with `dynamic_typing=True` is not allowed when "
+            "the parameter type is provided"
+        )
+    descriptor.type = kind.value
+
+
+def _why_refused(parameter: Parameter, descriptor: Any, is_declared: bool) -> str:
+    """Why a descriptor does not allow a value, or ''. A dynamically typed descriptor takes over the value's type."""
+    kind = parameter.type_
+    if descriptor.dynamic_typing:
+        descriptor.type = kind.value
+    elif is_declared and kind == Parameter.Type.NOT_SET:
+        return "Static parameter cannot be undeclared"
+    elif kind not in (Parameter.Type.NOT_SET, Parameter.Type(descriptor.type)):
+        return f"Wrong parameter type, expected '{Parameter.Type(descriptor.type)}' got '{kind}'"
+    if kind == Parameter.Type.DOUBLE and descriptor.floating_point_range:
+        return _range_flaw(parameter, descriptor.floating_point_range[0])
+    if kind == Parameter.Type.INTEGER and descriptor.integer_range:
+        return _range_flaw(parameter, descriptor.integer_range[0])
+    return ""
+
+
+def _range_flaw(parameter: Parameter, limits: Any) -> str:
+    """Why a number is out of its range or off its steps, or ''. Floating-point values need only be close to them."""
+    name, value, step = parameter.name, parameter.value, limits.step
+    low, high = sorted((limits.from_value, limits.to_value))
+    whole = parameter.type_ == Parameter.Type.INTEGER
+    tolerance = 0 if whole else TOLERANCE
+    if any(math.isclose(value, end, rel_tol=tolerance) for end in (low, high)):
+        return ""
+    if not low < value < high:
+        return f"Parameter {name} out of range{'.' if whole else ''} Min: {low}, Max: {high}, value: {value}"
+    if step:
+        steps = (value - low) // step if whole else round((value - low) / step)
+        if not math.isclose(low + steps * step, value, rel_tol=tolerance):
+            what = "a valid step" if whole else "close enough to a valid step"
+            return (
+                f"The parameter value for {name} is not {what}. Min: {low}, max: {high}, value: {value}, step: {step}"
+            )
+    return ""
+
+
+def _check_prefixes(prefixes: object, depth: object) -> None:
+    """Raise TypeError or ValueError for what `list_parameters` cannot go by."""
+    if not isinstance(prefixes, list):
+        raise TypeError(f"The prefixes argument must be a list, got {prefixes!r}")
+    if not all(isinstance(prefix, str) for prefix in prefixes):
+        raise TypeError("All prefixes must be instances of type str")
+    if not isinstance(depth, int):
+        raise TypeError(f"The depth must be instance of type int, got {depth!r}")
+    if depth < 0:
+        raise ValueError("The depth must be greater than or equal to zero")
+
+
+def _is_listed(name: str, prefixes: list[str], depth: int) -> bool:
+    """Whether a parameter is one that a list of what is below some prefixes, to some depth, contains."""
+    if not prefixes:
+        return depth == 0 or name.count(PARAMETER_SEPARATOR_STRING) < depth
+    for prefix in prefixes:
+        start = prefix + PARAMETER_SEPARATOR_STRING
+        is_below = name.startswith(start) and (depth == 0 or name.count(PARAMETER_SEPARATOR_STRING, len(start)) < depth)
+        if is_below or name == prefix:
+            return True
+    return False

@@ -15,8 +15,7 @@ from ._entity import Entity, Handle
 from ._hints import set_by_init
 from ._node_entities import NodeEntities
 from ._node_graph import NodeGraph
-from ._node_parameters import NodeParameters
-from ._parameter_rules import TOLERANCE
+from ._node_parameters import TOLERANCE, NodeParameters
 from ._reexports import reexported
 from ._ros_args import ArgumentError, Arguments, parse_arguments, tell_obsolete
 from .callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup
