@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from turtle_lesson.ros.idl.checks import FLOAT_BOUNDS
 from turtle_lesson.ros.idl.definition import parse_message
 from turtle_lesson.ros.idl.generator import make_module
+from turtle_lesson.ros.idl.names import integer_bounds
 from turtle_lesson.ros.idl.registry import Registry
-from turtle_lesson.ros.idl.values import integer_bounds
 
 DATA = Path(__file__).with_name("data")
 ROBOT_CONTROLLER = {

@@ -17,7 +17,7 @@ from rosidl_runtime_py import message_to_csv, message_to_yaml, set_message_field
 
 from turtle_lesson.ros.cli.typed_values import NoYaml, message_class, populate, read_yaml, service_class
 from turtle_lesson.ros.cli.verb import CommandError
-from turtle_lesson.ros.idl.errors import InvalidDefinition
+from turtle_lesson.ros.idl.model import InvalidDefinition
 from turtle_lesson.ros.idl.registry import registry
 from turtle_lesson.ros.runtime.world import World
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from interface_cases import definition_texts, message_class, recorded
 
 from turtle_lesson.ros.idl.definition import parse_action, parse_message, parse_service
-from turtle_lesson.ros.idl.errors import InvalidDefinition
+from turtle_lesson.ros.idl.model import InvalidDefinition
 from turtle_lesson.ros.idl.names import check_message, check_package, module_name
 
 CASES = recorded("interface_definitions.json")

@@ -9,7 +9,7 @@ import pytest
 from interface_cases import write_package
 
 from turtle_lesson.ros.idl import finder
-from turtle_lesson.ros.idl.errors import InvalidDefinition
+from turtle_lesson.ros.idl.model import InvalidDefinition
 from turtle_lesson.ros.idl.registry import Registry
 
 DEMO = {

@@ -22,7 +22,6 @@ from interface_cases import (
 )
 
 from turtle_lesson.ros.idl import finder
-from turtle_lesson.ros.idl.errors import InvalidDefinition
 from turtle_lesson.ros.idl.message import (
     Array,
     BasicType,
@@ -32,6 +31,7 @@ from turtle_lesson.ros.idl.message import (
     UnboundedSequence,
     UnboundedString,
 )
+from turtle_lesson.ros.idl.model import InvalidDefinition
 from turtle_lesson.ros.idl.registry import Registry, forget_modules
 
 RECORDED = recorded("interface_messages.json")

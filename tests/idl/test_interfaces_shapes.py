@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from interface_cases import PRIMITIVES, message_class, values_of, words, write_package
 
 from turtle_lesson.ros.idl.cdr import deserialize, serialize
-from turtle_lesson.ros.idl.errors import InvalidDefinition
+from turtle_lesson.ros.idl.model import InvalidDefinition
 from turtle_lesson.ros.idl.registry import Registry, registry
 
 BASICS = [base for base in PRIMITIVES if "string" not in base]

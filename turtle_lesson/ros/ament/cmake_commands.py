@@ -14,8 +14,7 @@ from fnmatch import fnmatchcase
 from pathlib import Path, PurePosixPath
 
 from ..idl import names
-from ..idl.errors import DuplicateName, InvalidDefinition, UnknownMessageType
-from ..idl.model import Definition, MessageDefinition
+from ..idl.model import Definition, DuplicateName, InvalidDefinition, MessageDefinition, UnknownMessageType
 from ..idl.names import did_you_mean
 from ..idl.registry import PARSERS, Registry
 from ..sim.errors import shown_path

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ..idl.errors import InvalidDefinition
+from ..idl.model import InvalidDefinition
 from ..idl.names import did_you_mean
 from ..idl.registry import FOLDERS, registry
 from .verb import MOST, CommandError, direct_node, expanded, flag, suggest

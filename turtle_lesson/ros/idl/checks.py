@@ -20,7 +20,7 @@ from struct import Struct
 from typing import Any
 
 from .model import FieldType
-from .values import integer_bounds
+from .names import integer_bounds
 
 Check = Callable[[Any], Any]
 

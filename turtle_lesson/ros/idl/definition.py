@@ -1,4 +1,8 @@
-"""Interface definitions: the text of `.msg`, `.srv` and `.action` files, read with ROS's rules."""
+"""Interface definitions: the text of `.msg`, `.srv` and `.action` files, read with ROS's rules.
+
+What is accepted and refused, and in which words, follows `rosidl_adapter.parser` of ROS 2 Humble. Whether the types of fields
+exist is not known here: that is the registry's part.
+"""
 
 from __future__ import annotations
 
@@ -8,8 +12,13 @@ from itertools import zip_longest
 from pathlib import Path
 
 from . import names
-from .errors import (
+from .model import (
+    ActionDefinition,
+    ArrayKind,
+    Constant,
     DuplicateName,
+    Field,
+    FieldType,
     IndentedLine,
     InvalidActionSpecification,
     InvalidDefinition,
@@ -17,14 +26,14 @@ from .errors import (
     InvalidResourceName,
     InvalidServiceSpecification,
     InvalidType,
+    InvalidValue,
+    MessageDefinition,
+    Plain,
+    ServiceDefinition,
+    UnsupportedDefault,
+    Value,
 )
-from .model import ActionDefinition, ArrayKind, Constant, Field, FieldType, MessageDefinition, ServiceDefinition
-from .values import parse_plain, parse_value
-
-# -- definition ---------------------------------------------------------------------------------------------------
-# Interface definitions: the text of `.msg`, `.srv` and `.action` files, read with ROS's rules.
-# What is accepted and refused, and in which words, follows `rosidl_adapter.parser` of ROS 2 Humble. Whether the types
-# of fields exist is not known here: that is the registry's part.
+from .names import FLOATS, STRINGS, integer_bounds
 
 Line = tuple[int, str]  # line number in the file, counted from 1, and the text
 SEPARATOR = "---"
@@ -64,62 +73,6 @@ def parse_action(package: str, name: str, text: str, file: str | None = None) ->
         for suffix, lines in zip(("_Goal", "_Result", "_Feedback"), parts, strict=True)
     )
     return ActionDefinition(package, name, goal, result, feedback, text, file)
-
-
-def parse_type(text: str, package: str) -> FieldType:
-    """Read the type of a field; a message without a package is one of the `package` given."""
-    if not text:
-        raise IndentedLine("string index out of range", hint="Begin the line with the type, without spaces")
-    if not text.endswith("]"):
-        return _parse_base(text, package)
-    if "[" not in text:
-        raise InvalidType(f"the type {text} ends with ']' but does not contain a '['")
-    base, _, count = text[:-1].rpartition("[")
-    size = _positive(count.removeprefix("<="))
-    if count and size is None:
-        # The two names stand the wrong way round in ROS's text as well.
-        raise InvalidType(
-            f"the size of array type '<=' must be a valid integer value > 0 optionally prefixed with '{text}'"
-            " if it is only an upper bound",
-            hint=f"Write {base}[3], {base}[<=3] or {base}[]",
-        )
-    element = _parse_base(base, package)
-    kind: ArrayKind = "unbounded" if not count else "bounded" if count.startswith("<=") else "fixed"
-    return FieldType(element.base, element.package, kind, size, element.string_bound)
-
-
-def _parse_base(text: str, package: str) -> FieldType:
-    if text in names.PRIMITIVES:
-        return FieldType(text)
-    if text.startswith(("string<=", "wstring<=")):
-        base, _, count = text.partition("<=")
-        bound = _positive(count)
-        if bound is None:
-            raise InvalidType(
-                f"the upper bound of the string type '{text}' must be a valid integer value > 0",
-                hint=f"Write {base}<=10",
-            )
-        return FieldType(base, string_bound=bound)
-    return _parse_message_type(text, package)
-
-
-def _parse_message_type(text: str, package: str) -> FieldType:
-    parts = text.split("/")
-    if len(parts) > 2:
-        hint = f"Write '{parts[-3]}/{parts[-1]}'" if parts[1:-1] == ["msg"] else "Write 'package/Message'"
-        raise InvalidResourceName(text, hint=hint)
-    owner = parts[0] if len(parts) == 2 else package
-    names.check_package(owner)
-    names.check_message(parts[-1])
-    return FieldType(parts[-1], owner)
-
-
-def _positive(text: str) -> int | None:
-    try:
-        value = int(text)
-    except ValueError:
-        return None
-    return value if value > 0 else None
 
 
 def _numbered(text: str) -> list[Line]:
@@ -170,28 +123,20 @@ def _parse_line(package: str, name: str, line: str, number: int) -> Field | Cons
             line, hint="A field is its type and its name", printed=f"Error with: {package} {name} {line}"
         )
     if "=" in rest:
-        return _parse_constant(type_text, rest, number)
+        member, _, value = rest.partition("=")
+        if type_text not in names.PRIMITIVES:
+            raise InvalidType(f"the constant type '{type_text}' must be a primitive type")
+        names.check_constant(member.rstrip())
+        return Constant(type_text, member.rstrip(), _parse_plain(type_text, value.lstrip()), number)
     try:
-        return _parse_field(package, type_text, rest, number)
+        type_ = _parse_type(type_text, package)
+        member, _, default = rest.partition(" ")
+        names.check_field(member)
+        default = default.lstrip()
+        return Field(type_, member, _parse_default(type_, default) if default else None, number)
     except InvalidDefinition as error:
         error.printed = f"Error processing '{line}' of '{package}/{name}': '{error.reason}'"
         raise
-
-
-def _parse_field(package: str, type_text: str, rest: str, number: int) -> Field:
-    type_ = parse_type(type_text, package)
-    name, _, default = rest.partition(" ")
-    names.check_field(name)
-    default = default.lstrip()
-    return Field(type_, name, parse_value(type_, default) if default else None, number)
-
-
-def _parse_constant(type_text: str, rest: str, number: int) -> Constant:
-    name, _, value = rest.partition("=")
-    if type_text not in names.PRIMITIVES:
-        raise InvalidType(f"the constant type '{type_text}' must be a primitive type")
-    names.check_constant(name.rstrip())
-    return Constant(type_text, name.rstrip(), parse_plain(type_text, value.lstrip()), number)
 
 
 def _check_unique(what: str, members: Iterable[Field | Constant]) -> None:
@@ -202,6 +147,154 @@ def _check_unique(what: str, members: Iterable[Field | Constant]) -> None:
             error.line, error.line_text = member.line, str(member)
             raise error
         seen.add(member.name)
+
+
+# -- types --------------------------------------------------------------------------------------------------------
+
+
+def _parse_type(text: str, package: str) -> FieldType:
+    """Read the type of a field; a message without a package is one of the `package` given."""
+    if not text:
+        raise IndentedLine("string index out of range", hint="Begin the line with the type, without spaces")
+    if not text.endswith("]"):
+        return _parse_base(text, package)
+    if "[" not in text:
+        raise InvalidType(f"the type {text} ends with ']' but does not contain a '['")
+    base, _, count = text[:-1].rpartition("[")
+    size = _positive(count.removeprefix("<="))
+    if count and size is None:
+        # The two names stand the wrong way round in ROS's text as well.
+        raise InvalidType(
+            f"the size of array type '<=' must be a valid integer value > 0 optionally prefixed with '{text}'"
+            " if it is only an upper bound",
+            hint=f"Write {base}[3], {base}[<=3] or {base}[]",
+        )
+    element = _parse_base(base, package)
+    kind: ArrayKind = "unbounded" if not count else "bounded" if count.startswith("<=") else "fixed"
+    return FieldType(element.base, element.package, kind, size, element.string_bound)
+
+
+def _parse_base(text: str, package: str) -> FieldType:
+    if text in names.PRIMITIVES:
+        return FieldType(text)
+    if text.startswith(("string<=", "wstring<=")):
+        base, _, count = text.partition("<=")
+        bound = _positive(count)
+        if bound is None:
+            raise InvalidType(
+                f"the upper bound of the string type '{text}' must be a valid integer value > 0",
+                hint=f"Write {base}<=10",
+            )
+        return FieldType(base, string_bound=bound)
+    parts = text.split("/")
+    if len(parts) > 2:
+        hint = f"Write '{parts[-3]}/{parts[-1]}'" if parts[1:-1] == ["msg"] else "Write 'package/Message'"
+        raise InvalidResourceName(text, hint=hint)
+    owner = parts[0] if len(parts) == 2 else package
+    names.check_package(owner)
+    names.check_message(parts[-1])
+    return FieldType(parts[-1], owner)
+
+
+def _positive(text: str) -> int | None:
+    try:
+        value = int(text)
+    except ValueError:
+        return None
+    return value if value > 0 else None
+
+
+# -- default values and constants ---------------------------------------------------------------------------------
+
+
+def _parse_default(type_: FieldType, text: str) -> Value:
+    """Read a field's default value, `[1, 2, 3]` for an array or sequence."""
+    if not type_.is_primitive:
+        raise UnsupportedDefault(
+            f"parsing string values into type '{type_}' is not supported",
+            hint="Only fields of primitive types can have a default value",
+        )
+    if not type_.is_array:
+        return _parse_plain(type_.base, text, type_.string_bound)
+    if not (text.startswith("[") and text.endswith("]")):
+        raise _invalid(type_, text, "array value must start with '[' and end with ']'")
+    inner = text[1:-1]
+    elements = _split_strings(inner) if type_.base in STRINGS else inner.split(",") if inner else []
+    if type_.is_fixed and len(elements) != type_.size:
+        raise _invalid(type_, text, f"array must have exactly {type_.size} elements, not {len(elements)}")
+    if type_.is_bounded and type_.size is not None and len(elements) > type_.size:
+        raise _invalid(type_, text, f"array must have not more than {type_.size} elements, not {len(elements)}")
+    values = []
+    for index, element in enumerate(elements):
+        try:
+            values.append(_parse_plain(type_.base, element.strip(), type_.string_bound))
+        except InvalidValue as error:
+            raise _invalid(type_, text, f"element {index} with {error.reason}") from None
+    return tuple(values)
+
+
+def _parse_plain(base: str, text: str, string_bound: int | None = None) -> Plain:
+    """Read one value of a primitive type."""
+    if base == "bool":
+        if text.lower() not in ("true", "1", "false", "0"):
+            raise _invalid("bool", text, "must be either 'true' / '1' or 'false' / '0'")
+        return text.lower() in ("true", "1")
+    if base in STRINGS:
+        return _parse_string(base, text, string_bound)
+    if base in FLOATS:
+        try:
+            return float(text)
+        except ValueError:
+            rule = "must be a floating point number using '.' as the separator"
+            raise _invalid(base, text, rule) from None
+    low, high = integer_bounds(base) if base not in ("time", "duration") else (0, -1)
+    for number_base in (10, 0):  # 0 also reads 0x10 and 0b11
+        try:
+            value = int(text, number_base)
+        except ValueError:
+            continue
+        if low <= value <= high:
+            return value
+        break
+    raise _invalid(base, text, f"must be a valid integer value >= {low} and <= {high}")
+
+
+def _parse_string(base: str, text: str, bound: int | None) -> str:
+    for quote in ('"', "'"):
+        if text.startswith(quote) and text.endswith(quote):
+            text = text[1:-1]
+            if re.search(rf"(?<!\\){quote}", text):
+                raise _invalid(base, text, "string inner quotes not properly escaped")
+            text = text.replace("\\" + quote, quote)
+            break
+    if bound is not None and len(text) > bound:
+        rule = f"string must not exceed the maximum length of {bound} characters"
+        raise _invalid(f"{base}<={bound}", text, rule)
+    return text
+
+
+_STRING_ELEMENT = re.compile(r"""\s*(?:"((?:\\"|[^"])*)"|'((?:\\'|[^'])*)'|([^,"'][^,]*))\s*(?:,|$)""")
+
+
+def _split_strings(text: str) -> list[str]:
+    """Split at commas that stand outside quotes, and take the quotes off."""
+    elements: list[str] = []
+    position = 0
+    while position < len(text.rstrip()):
+        match = _STRING_ELEMENT.match(text, position)
+        if match is None:
+            raise InvalidDefinition(f"string [{text[position:]}] incorrectly quoted\n{elements}")
+        double, single, bare = match.groups()
+        if double is not None:
+            elements.append(double.replace('\\"', '"'))
+        else:
+            elements.append(bare if single is None else single.replace("\\'", "'"))
+        position = match.end()
+    return elements
+
+
+def _invalid(type_: object, text: str, rule: str) -> InvalidValue:
+    return InvalidValue(f"value '{text}' can not be converted to type '{type_}': {rule}")
 
 
 # -- comments -----------------------------------------------------------------------------------------------------
@@ -223,19 +316,15 @@ def with_comments(directory: Path, interface: str, text: str) -> str:
         interface: such as `msg/Twist`.
         text: what the definition's file says.
     """
-    section = _section(directory / "comments.txt", interface)
+    file = directory / "comments.txt"
+    found = file.read_text(encoding="utf-8") if file.is_file() else ""
+    section = f"\n{found}".partition(f"\n[{interface}]\n")[2].partition("\n[")[0].strip()
     lines: list[str] = []
     none: list[str] = []
     for number, (definition, comments) in enumerate(zip_longest(_parts(text), _parts(section), fillvalue=none)):
         lines += ["---"] if number else []
         lines += _commented(definition, comments)
     return "\n".join(lines)
-
-
-def _section(file: Path, interface: str) -> str:
-    found = file.read_text(encoding="utf-8") if file.is_file() else ""
-    _, _, rest = f"\n{found}".partition(f"\n[{interface}]\n")
-    return rest.partition("\n[")[0].strip()
 
 
 def _parts(text: str) -> list[list[str]]:

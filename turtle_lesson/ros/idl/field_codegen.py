@@ -15,8 +15,7 @@ from typing import Any
 
 from . import checks, message
 from .model import Field, FieldType, MessageDefinition, Plain
-from .names import FLOATS, STRINGS
-from .values import integer_bounds
+from .names import FLOATS, STRINGS, integer_bounds
 
 ELEMENT_CLASSES: dict[str, type] = {"bool": bool, "byte": bytes, "string": str, "wstring": str}
 ZEROS: dict[str, Plain | bytes] = {"bool": False, "byte": b"\x00", "string": "", "wstring": ""}

@@ -17,7 +17,6 @@ from typing import Any
 
 from . import message
 from .checks import FLOAT_BOUNDS
-from .errors import InvalidDefinition, InvalidMemberName, InvalidResourceName, InvalidType, InvalidValue
 from .field_codegen import Kind, kind_of, weight_of
 from .message import slot_type
 from .model import (
@@ -26,6 +25,11 @@ from .model import (
     Definition,
     Field,
     FieldType,
+    InvalidDefinition,
+    InvalidMemberName,
+    InvalidResourceName,
+    InvalidType,
+    InvalidValue,
     MessageDefinition,
     Plain,
     ServiceDefinition,

@@ -1,13 +1,13 @@
-"""Interface definitions as data: messages, services and actions, and what ROS derives from services and actions."""
+"""Interface definitions as data: messages, services and actions, what ROS derives from actions, and what can be wrong.
+
+Made by the functions of `definition`; all but the errors is immutable.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import PurePath
 from typing import Literal
-
-# -- model --------------------------------------------------------------------------------------------------------
-# Interface definitions as data: messages, services and actions with their fields and constants.
-# Made by the functions of `definition`; everything here is immutable.
 
 Plain = bool | int | float | str
 Value = Plain | tuple[Plain, ...]
@@ -57,12 +57,7 @@ class FieldType:
     def __str__(self) -> str:
         base = self.base if self.package is None else f"{self.package}/{self.base}"
         bound = "" if self.string_bound is None else f"<={self.string_bound}"
-        count = {
-            "none": "",
-            "fixed": f"[{self.size}]",
-            "bounded": f"[<={self.size}]",
-            "unbounded": "[]",
-        }[self.array]
+        count = {"none": "", "fixed": f"[{self.size}]", "bounded": f"[<={self.size}]", "unbounded": "[]"}[self.array]
         return base + bound + count
 
 
@@ -76,12 +71,9 @@ class Field:
     line: int = 0
 
     def __str__(self) -> str:
-        text = f"{self.type} {self.name}"
-        if self.default is None:
-            return text
-        if isinstance(self.default, tuple):
-            return f"{text} {list(self.default)}"
-        return f"{text} '{self.default}'" if isinstance(self.default, str) else f"{text} {self.default}"
+        default = list(self.default) if isinstance(self.default, tuple) else self.default
+        default = f"'{default}'" if isinstance(default, str) else default
+        return f"{self.type} {self.name}" if default is None else f"{self.type} {self.name} {default}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -197,3 +189,108 @@ def _part(action: ActionDefinition, suffix: str, *fields: Field) -> MessageDefin
     text = "".join(f"{field}\n" for field in fields)
     name = f"{action.name}_{suffix}"
     return MessageDefinition(action.package, name, fields, (), text, "action", action.file)
+
+
+# -- what can be wrong with a definition --------------------------------------------------------------------------
+# ROS 2 refuses a wrong `.msg` or `.srv` file with a one-line reason (`rosidl_adapter.parser`). The reason is kept word for
+# word, since it is what a learner meets in a real build; around it stand the file, the line, and what to try.
+
+
+class InvalidDefinition(ValueError):
+    """An interface definition that ROS 2 refuses.
+
+    Attributes:
+        reason: ROS's own words.
+        ros_error: name of the exception that ROS raises (`InvalidResourceName`, `NameError`, ...).
+        printed: the line that ROS writes to standard error before it raises, or None.
+        interface: full name such as `robot_controller/msg/TurtleStatus`.
+        file: path of the file as text, or None where the text came from no file.
+        line: line number in that file, counted from 1, or None where no single line is to blame.
+        line_text: that line, without its comment.
+        hint: what to try, or an empty string.
+    """
+
+    ros_error = "ValueError"
+
+    def __init_subclass__(cls, ros_error: str = "") -> None:
+        cls.ros_error = ros_error or cls.__name__
+
+    def __init__(self, reason: str, *, hint: str = "", printed: str | None = None) -> None:
+        super().__init__(reason)
+        self.reason = reason
+        self.hint = hint
+        self.printed = printed
+        self.interface: str | None = None
+        self.file: str | None = None
+        self.line: int | None = None
+        self.line_text: str | None = None
+
+    def locate(
+        self, *, interface: str, file: str | None, line: int | None = None, line_text: str | None = None
+    ) -> InvalidDefinition:
+        """Note where the fault lies, unless that is known already; return the error itself."""
+        if self.interface is None:
+            self.interface, self.file = interface, file
+            if self.line is None:
+                self.line, self.line_text = line, line_text
+        return self
+
+    @property
+    def qualified_ros_error(self) -> str:
+        """The exception as a real traceback names it, e.g. `rosidl_adapter.parser.InvalidValue`."""
+        own = self.ros_error.startswith(("Invalid", "Unknown"))
+        return f"rosidl_adapter.parser.{self.ros_error}" if own else self.ros_error
+
+    def __str__(self) -> str:
+        text = self.reason
+        if self.interface is not None:
+            where = self.interface
+            if self.file is not None:  # within its package: the same text wherever the package lies
+                where = f"{where.rpartition('/')[0]}/{PurePath(self.file).name}"
+            where += "" if self.line is None else f", line {self.line}, '{self.line_text}'"
+            text = f"{where}: {text}"
+        return f"{text}. {self.hint}" if self.hint else text
+
+
+class InvalidResourceName(InvalidDefinition):
+    """A package, message or type name that breaks the naming rules."""
+
+
+class InvalidFieldDefinition(InvalidDefinition):
+    """A line that holds a type and nothing else."""
+
+
+class InvalidValue(InvalidDefinition):
+    """A default value or constant that does not suit its type."""
+
+
+class InvalidServiceSpecification(InvalidDefinition):
+    """A `.srv` file without exactly one line `---`."""
+
+
+class InvalidActionSpecification(InvalidDefinition):
+    """An `.action` file without exactly two lines `---`."""
+
+
+class UnknownMessageType(InvalidDefinition):
+    """A field whose type is no known message."""
+
+
+class InvalidMemberName(InvalidDefinition, ros_error="NameError"):
+    """A field or constant name that breaks the naming rules."""
+
+
+class InvalidType(InvalidDefinition, ros_error="TypeError"):
+    """A type that cannot be."""
+
+
+class DuplicateName(InvalidDefinition, ros_error="ValueError"):
+    """Two fields or two constants of one name."""
+
+
+class IndentedLine(InvalidDefinition, ros_error="IndexError"):
+    """A field that does not start at the beginning of its line."""
+
+
+class UnsupportedDefault(InvalidDefinition, ros_error="NotImplementedError"):
+    """A default value for a field that is itself a message."""

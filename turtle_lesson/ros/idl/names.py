@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterable
 from difflib import get_close_matches
 
-from .errors import InvalidMemberName, InvalidResourceName
+from .model import InvalidMemberName, InvalidResourceName
 
 LOWER_CASE = re.compile(r"^(?!.*__)(?!.*_$)[a-z][a-z0-9_]*$")
 MESSAGE = re.compile(r"^[A-Z][A-Za-z0-9]*$")
@@ -33,6 +33,15 @@ _FROM_OTHER_LANGUAGES = {
     "boolean": "bool",
 }
 _WORD_START = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|(?<=.)(?=[A-Z][a-z])")
+
+
+def integer_bounds(base: str) -> tuple[int, int]:
+    """Smallest and largest value of an integer type; byte and char count as uint8."""
+    if base in ("byte", "char"):
+        return 0, 255
+    unsigned = base.startswith("u")
+    bits = int(base[4 if unsigned else 3 :])
+    return (0, 2**bits - 1) if unsigned else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
 
 
 def module_name(name: str) -> str:

@@ -15,9 +15,8 @@ from typing import Any
 
 from . import names
 from .definition import parse_action, parse_message, parse_service, with_comments
-from .errors import InvalidDefinition, UnknownMessageType
 from .generator import make_module
-from .model import Definition, FieldType
+from .model import Definition, FieldType, InvalidDefinition, UnknownMessageType
 
 SHARE = Path(__file__).with_name("share")
 FOLDERS = ("msg", "srv", "action")
