@@ -49,6 +49,15 @@ class Arguments:
     unknown: list[str] = field(default_factory=list)
     obsolete: list[str] = field(default_factory=list)
     """Remapping rules that are given as ROS 2 had it before `--ros-args`."""
+    others: list[str] = field(default_factory=list)
+    """The words that are not ROS's."""
+
+    def warn_of_obsolete(self) -> None:
+        """Warn of rules that are given as ROS 2 had it before `--ros-args`."""
+        for rule in self.obsolete:
+            RcutilsLogger("rcl").warning(
+                f"Found remap rule '{rule}'. This syntax is deprecated. Use '--ros-args --remap {rule}' instead."
+            )
 
     def parameters_of(self, full_name: str) -> list[Parameter]:
         """The values for the node of this full name.
@@ -67,7 +76,7 @@ class Arguments:
 
 
 def parse_arguments(words: list[str]) -> Arguments:
-    """Read the ROS arguments among a process's arguments; what is not between `--ros-args` and `--` is skipped.
+    """Read the ROS arguments among a process's arguments, which stand between `--ros-args` and `--`.
 
     Raises ArgumentError for what cannot be read, UnknownROSArgsError for what means nothing.
     """
@@ -81,13 +90,15 @@ def parse_arguments(words: list[str]) -> Arguments:
             raise TypeError(f"arguments must be a list of str, got {word!r} in it")
         if word == "--ros-args":
             inside = True
-        elif word == "--":
+        elif word == "--" and inside:
             inside = False
         elif inside:
             _take(word, iterator, found)
         elif ":=" in word and is_remap(word):
             found.remaps.append(read_remap(word))
             found.obsolete.append(word)
+        else:
+            found.others.append(word)
     if found.unknown:
         error = UnknownROSArgsError(str(found.unknown))
         error.add_note("-r, -p, --params-file, --log-level and similar options follow --ros-args; -- ends them.")
@@ -95,34 +106,14 @@ def parse_arguments(words: list[str]) -> Arguments:
     return found
 
 
-def tell_obsolete(rules: list[str]) -> None:
-    """Warn of rules that are given as ROS 2 had it before `--ros-args`."""
-    for rule in rules:
-        RcutilsLogger("rcl").warning(
-            f"Found remap rule '{rule}'. This syntax is deprecated. Use '--ros-args --remap {rule}' instead."
-        )
-
-
-def without_ros_arguments(words: list[str]) -> tuple[list[str], list[str]]:
-    """The words that are not ROS's, and apart from them the obsolete rules, which are.
-
-    Raises RCLInvalidROSArgsError if ROS's cannot be read, UnknownROSArgsError for what means nothing.
-    """
+def own_arguments(words: list[str]) -> Arguments:
+    """As `parse_arguments`, for what is read after `rclpy.init()`: raises RCLInvalidROSArgsError for ArgumentError."""
     try:
-        parse_arguments(words)
+        found = parse_arguments(words)
     except ArgumentError as error:
         raise RCLInvalidROSArgsError(f"Failed to parse ROS arguments: {error}") from None
-    kept: list[str] = []
-    obsolete: list[str] = []
-    inside = False
-    for word in words:
-        if word == "--ros-args":
-            inside = True
-        elif word == "--" and inside:
-            inside = False
-        elif not inside:
-            (obsolete if ":=" in word and is_remap(word) else kept).append(word)
-    return kept, obsolete
+    found.warn_of_obsolete()
+    return found
 
 
 def _take(word: str, following: Iterator[str], found: Arguments) -> None:
@@ -171,10 +162,9 @@ def _explained(what: str, example: str = "") -> Iterator[None]:
     """Raise ArgumentError for a value that cannot be read: which it is, why, and for a rule what one looks like."""
     try:
         yield
-    except RuleError as error:
-        raise ArgumentError(f"Couldn't parse {what}. Error: {error}{example}") from None
-    except YamlValueError as error:
-        raise ArgumentError(f"Couldn't parse {what}. Error: {error}") from None
+    except (RuleError, YamlValueError) as error:
+        advice = example if isinstance(error, RuleError) else ""
+        raise ArgumentError(f"Couldn't parse {what}. Error: {error}{advice}") from None
 
 
 def pattern_matches(pattern: str, full_name: str) -> bool:
@@ -192,12 +182,14 @@ def pattern_matches(pattern: str, full_name: str) -> bool:
 LEVELS = ("UNSET", "DEBUG", "INFO", "WARN", "ERROR", "FATAL")
 NONE, EOF, TILDE_SLASH, SERVICE_URL, TOPIC_URL, COLON, NODE, NS, SEPARATOR, REFERENCE = range(10)
 TOKEN, SLASH, ONE, MANY, DOT = range(18, 23)  # the numbers stand in errors
+WORD = r"(?:_(?!_)|(?=[A-Za-z]))(?:[A-Za-z0-9]+_?)*"
+NODE_PREFIX = re.compile(rf"(?!ros(?:service|topic)://)({WORD}):(?!=)")
 LEXEMES = [
     (SERVICE_URL, re.compile("rosservice://")),
     (TOPIC_URL, re.compile("rostopic://")),
     (NODE, re.compile("__(node|name)")),
     (NS, re.compile("__ns")),
-    (TOKEN, re.compile(r"(_(?!_)|(?=[A-Za-z]))([A-Za-z0-9]+_?)*")),
+    (TOKEN, re.compile(WORD)),
     (TILDE_SLASH, re.compile("~/")),
     (SEPARATOR, re.compile(":=")),
     (COLON, re.compile(":")),
@@ -223,22 +215,17 @@ class Reader:
 
     def next(self) -> int:
         """The kind of the next piece."""
-        return self._look(self.at)[0]
+        return self._look()[0]
 
-    def _look(self, at: int) -> tuple[int, int]:
+    def _look(self) -> tuple[int, int]:
         for kind, pattern in LEXEMES:
-            if (match := pattern.match(self.text, at)) is not None:
+            if (match := pattern.match(self.text, self.at)) is not None:
                 return kind, match.end()
-        return NONE, at + 1
-
-    def begins(self, first: int, second: int) -> bool:
-        """Whether the next two pieces are of these kinds."""
-        kind, end = self._look(self.at)
-        return kind == first and self._look(end)[0] == second
+        return NONE, self.at + 1
 
     def take(self) -> str:
         """The next piece, which is left behind."""
-        start, self.at = self.at, self._look(self.at)[1]
+        start, self.at = self.at, self._look()[1]
         return self.text[start : self.at]
 
     def expect(self, wanted: int) -> str:
@@ -332,11 +319,11 @@ def is_remap(word: str) -> bool:
 
 
 def _node_prefix(reader: Reader) -> str | None:
-    if not reader.begins(TOKEN, COLON):
+    match = NODE_PREFIX.match(reader.text)
+    if match is None:
         return None
-    name = reader.take()
-    reader.take()
-    return name
+    reader.at = match.end()
+    return match[1]
 
 
 def _name(reader: Reader, token: Callable[[Reader], None], end: int) -> None:

@@ -11,7 +11,7 @@ from turtle_lesson.ros.rmw.names import namespace_flaw
 from turtle_lesson.ros.runtime.world import current_process
 
 from ._entity import Handle
-from ._ros_args import ArgumentError, Arguments, parse_arguments, tell_obsolete
+from ._ros_args import ArgumentError, Arguments, parse_arguments
 from ._state import RclpyState
 from .exceptions import RCLError
 from .impl.logging_severity import LoggingSeverity
@@ -63,7 +63,7 @@ class Context:
         except ArgumentError as error:
             RcutilsLogger("rcl").error("Failed to parse global arguments")
             raise RCLError(f"failed to initialize rcl: {error}") from None
-        tell_obsolete(arguments.obsolete)
+        arguments.warn_of_obsolete()
         if (flaw := namespace_flaw(arguments.enclave)) is not None:
             text = flaw.reason.replace("namespace", "context name")
             raise RCLError(

@@ -17,12 +17,12 @@ from ._node_entities import NodeEntities
 from ._node_graph import NodeGraph
 from ._node_parameters import TOLERANCE, NodeParameters
 from ._reexports import reexported
-from ._ros_args import ArgumentError, Arguments, parse_arguments, tell_obsolete
+from ._ros_args import Arguments, own_arguments
 from .callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup
 from .client import Client
 from .clock import Clock, ROSClock
 from .context import Context
-from .exceptions import NotInitializedException, RCLError, RCLInvalidROSArgsError
+from .exceptions import NotInitializedException, RCLError
 from .guard_condition import GuardCondition
 from .impl.logging_severity import LoggingSeverity
 from .impl.rcutils_logger import RcutilsLogger, is_on_rosout, publish_rosout, publish_rosout_no_more
@@ -79,7 +79,7 @@ class Node(NodeEntities, NodeParameters):
         self._ros_context = get_default_context() if context is None else context
         if not self._ros_context.ok():
             raise NotInitializedException("cannot create node")
-        own = _own_arguments(cli_args)
+        own = own_arguments([] if cli_args is None else cli_args)
         common = self._ros_context.arguments if use_global_arguments else Arguments()
         self._ros_remaps = own.remaps + common.remaps
         name, full_namespace = self._ros_names(node_name, namespace)
@@ -319,16 +319,6 @@ for _part in (NodeEntities, NodeGraph, NodeParameters):
     for _name, _method in vars(_part).items():
         if not _name.startswith("_"):
             _method.__qualname__ = f"Node.{_name}"  # Python's own errors name it: nobody knows of parts
-
-
-def _own_arguments(cli_args: list[str] | None) -> Arguments:
-    """What the arguments say that are a node's alone."""
-    try:
-        own = parse_arguments([] if cli_args is None else cli_args)
-    except ArgumentError as error:
-        raise RCLInvalidROSArgsError(f"Failed to parse ROS arguments: {error}") from None
-    tell_obsolete(own.obsolete)
-    return own
 
 
 __getattr__ = reexported(__name__)

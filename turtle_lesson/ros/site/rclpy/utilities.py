@@ -7,7 +7,7 @@ import sys
 from turtle_lesson.ros.runtime.world import current_process
 from turtle_lesson.ros.stdlib.polling import looked_in_vain
 
-from ._ros_args import tell_obsolete, without_ros_arguments
+from ._ros_args import own_arguments
 from ._state import RclpyState
 from .constants import S_TO_NS
 from .context import Context
@@ -56,9 +56,7 @@ def remove_ros_args(args: list[str] | None = None) -> list[str]:
 
     Raises RCLInvalidROSArgsError or UnknownROSArgsError if those cannot be read.
     """
-    kept, obsolete = without_ros_arguments(sys.argv if args is None else list(args))
-    tell_obsolete(obsolete)
-    return kept
+    return own_arguments(sys.argv if args is None else list(args)).others
 
 
 def timeout_sec_to_nsec(timeout_sec: float | None) -> int:
