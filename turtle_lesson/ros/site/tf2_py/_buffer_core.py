@@ -17,12 +17,10 @@ from rclpy.time import Time
 from turtle_lesson.ros.runtime.world import current_process
 
 from ._frames import (
-    Cache,
     Frames,
     InvalidArgumentException,
     Kept,
     LookupException,
-    StaticCache,
     TimeCache,
     TransformException,
     Way,
@@ -51,29 +49,28 @@ class BufferCore:
 
     def __init__(self, cache_time: Any = None) -> None:
         self._cache_time = CACHE_TIME if cache_time is None else nanoseconds(cache_time, "duration")
-        self._frames: dict[str, Cache | None] = {}
+        self._frames: dict[str, TimeCache | None] = {}
         self._authorities: dict[str, str] = {}
 
     # -- telling -------------------------------------------------------------------------------------------
 
     def set_transform(self, transform: TransformStamped, authority: str) -> None:
         """Keep the transform of a frame that moves. One that cannot be right is ignored, with a line on stderr."""
-        self._set(transform, authority, TimeCache)
+        self._set(transform, authority, self._cache_time)
 
     def set_transform_static(self, transform: TransformStamped, authority: str) -> None:
         """Keep the transform of a frame that never moves: it holds for all times."""
-        self._set(transform, authority, StaticCache)
+        self._set(transform, authority, None)
 
-    def _set(self, transform: TransformStamped, authority: str, kind: type) -> None:
+    def _set(self, transform: TransformStamped, authority: str, span: int | None) -> None:
         read = read_transform(transform, authority)
         if read is None:
             return
         child, kept = read
         cache = self._frames.get(child)
-        if type(cache) is not kind:
-            cache = self._frames[child] = TimeCache(self._cache_time) if kind is TimeCache else StaticCache()
+        if cache is None or cache.span != span:
+            cache = self._frames[child] = TimeCache(span)
         self._frames.setdefault(kept.parent, None)
-        assert cache is not None
         if cache.insert(kept):
             self._authorities[child] = authority
             return
@@ -121,34 +118,35 @@ class BufferCore:
 
     def can_transform_core(self, target_frame: str, source_frame: str, time: Any) -> tuple[bool, str]:
         """Whether there is such a transform, and if not, why."""
-        moment = nanoseconds(time)
-        if target_frame == source_frame:
-            return True, ""
-        why_not = self._why_not(target_frame, "target") or self._why_not(source_frame, "source")
-        why_not = why_not or self._no_way(target_frame, source_frame, moment)
-        return not why_not, why_not
+        way = (target_frame, source_frame, nanoseconds(time))
+        return (
+            (True, "")
+            if target_frame == source_frame
+            else self._can({"target": target_frame, "source": source_frame}, way)
+        )
 
     def can_transform_full_core(
         self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
     ) -> tuple[bool, str]:
         """Whether there is such a transform between two times, and if not, why."""
-        moments = nanoseconds(target_time), nanoseconds(source_time)
-        frames = (target_frame, "target"), (source_frame, "source"), (fixed_frame, "fixed")
-        why_not = next(filter(None, (self._why_not(frame, name) for frame, name in frames)), "")
-        why_not = why_not or self._no_way(target_frame, fixed_frame, moments[0])
-        why_not = why_not or self._no_way(fixed_frame, source_frame, moments[1])
-        return not why_not, why_not
+        ways = (
+            (target_frame, fixed_frame, nanoseconds(target_time)),
+            (fixed_frame, source_frame, nanoseconds(source_time)),
+        )
+        return self._can({"target": target_frame, "source": source_frame, "fixed": fixed_frame}, *ways)
 
-    def _why_not(self, frame: str, name: str) -> str:
-        wrong = wrong_name(frame) or ("" if frame in self._frames else "frame does not exist")
-        return wrong and f'Invalid frame ID "{frame}" passed to canTransform argument {name}_frame - {wrong}'
-
-    def _no_way(self, target: str, source: str, time: int) -> str:
+    def _can(self, frames: dict[str, str], *ways: tuple[str, str, int]) -> tuple[bool, str]:
+        """Whether there are such frames, by the names of their arguments, and ways between them; and if not, why."""
+        for name, frame in frames.items():
+            wrong = wrong_name(frame) or ("" if frame in self._frames else "frame does not exist")
+            if wrong:
+                return False, f'Invalid frame ID "{frame}" passed to canTransform argument {name}_frame - {wrong}'
         try:
-            Way(self._frames, target, source, time)
+            for way in ways:
+                Way(self._frames, *way)
         except TransformException as error:
-            return str(error)
-        return ""
+            return False, str(error)
+        return True, ""
 
     def get_latest_common_time(self, target_frame: str, source_frame: str) -> Time:
         """The latest time for which the whole way between two frames is known.
@@ -267,21 +265,10 @@ def read_transform(transform: Any, authority: str) -> tuple[str, Kept] | None:
     place, turn = transform.transform.translation, transform.transform.rotation
     where = (place.x, place.y, place.z)
     how = canonical((turn.x, turn.y, turn.z, turn.w))
-    if not (parent and child and parent != child and _is_sound(where, how)):
-        for refusal in _refusals(parent, child, where, how, authority):
-            say("Error:  ", refusal)
-        return None
-    return child, Kept(nanoseconds(transform.header.stamp), parent, how, where)
-
-
-def _is_sound(place: tuple[float, ...], turn: tuple[float, ...]) -> bool:
-    """Whether these are numbers, and the quaternion has a length of about 1."""
-    x, y, z, w = turn
+    x, y, z, w = how
     length_is_one = abs(x * x + y * y + z * z + w * w - 1.0) < TOLERANCE
-    return length_is_one and not any(map(math.isnan, place))
-
-
-def _refusals(parent: str, child: str, place: tuple[float, ...], turn: tuple[float, ...], authority: str) -> list[str]:
+    if parent and child and parent != child and length_is_one and not any(map(math.isnan, where)):
+        return child, Kept(nanoseconds(transform.header.stamp), parent, how, where)
     by = f'from authority "{authority}"'
     found = []
     if child == parent:
@@ -291,14 +278,16 @@ def _refusals(parent: str, child: str, place: tuple[float, ...], turn: tuple[flo
         found.append(f"TF_NO_CHILD_FRAME_ID: Ignoring transform {by} because child_frame_id not set ")
     if not parent:
         found.append(f'TF_NO_FRAME_ID: Ignoring transform with child_frame_id "{child}"  {by} because frame_id not set')
-    quaternion = f"({' '.join(f'{each:f}' for each in turn)})"
-    if any(map(math.isnan, (*place, *turn))):
-        values = f"because of a nan value in the transform ({' '.join(f'{each:f}' for each in place)}) {quaternion}"
+    quaternion = f"({' '.join(f'{each:f}' for each in how)})"
+    if any(map(math.isnan, (*where, *how))):
+        values = f"because of a nan value in the transform ({' '.join(f'{each:f}' for each in where)}) {quaternion}"
         found.append(f'TF_NAN_INPUT: Ignoring transform for child_frame_id "{child}" {by} {values}')
-    if not abs(sum(each * each for each in turn) - 1.0) < TOLERANCE:
+    if not length_is_one:
         values = f"because of an invalid quaternion in the transform {quaternion}"
         found.append(f'TF_DENORMALIZED_QUATERNION: Ignoring transform for child_frame_id "{child}" {by} {values}')
-    return found
+    for refusal in found:
+        say("Error:  ", refusal)
+    return None
 
 
 class _Said(dict[str, int]):
