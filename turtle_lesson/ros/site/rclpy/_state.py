@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from turtle_lesson.ros.sim.strand import Strand
@@ -30,7 +30,7 @@ class RclpyState:
     """The threads that only run the callbacks that an executor gives them."""
     log_to: Mapping[str, bool] = field(default_factory=dict)
     """Whether log lines go to "stdout" and "rosout"; they do where nothing is said."""
-    log_format: Any = None
+    log_format: str | None = None
     log_colorized: bool = False
     log_levels: dict[str, LoggingSeverity] = field(default_factory=dict)
     """The levels that were set, by logger name; "" is the default."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import os
 import weakref
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
@@ -15,7 +16,7 @@ from ._ros_args import ArgumentError, Arguments, parse_arguments
 from ._state import RclpyState
 from .exceptions import RCLError
 from .impl.logging_severity import LoggingSeverity
-from .impl.rcutils_logger import RcutilsLogger, is_colorized, wanted_format
+from .impl.rcutils_logger import RcutilsLogger
 from .signals import contexts_of
 
 if TYPE_CHECKING:
@@ -79,7 +80,9 @@ class Context:
         for name, level in self.arguments.log_levels.items():
             RcutilsLogger(name).set_level(LoggingSeverity[level.upper()])
         own = self._process.state(RclpyState)
-        own.log_to, own.log_format, own.log_colorized = self.arguments.switches, wanted_format(), is_colorized()
+        own.log_to = self.arguments.switches
+        own.log_format = os.environ.get("RCUTILS_CONSOLE_OUTPUT_FORMAT")
+        own.log_colorized = os.environ.get("RCUTILS_COLORIZED_OUTPUT") == "1"
 
     @property
     def handle(self) -> Handle | None:

@@ -18,6 +18,7 @@ from ._node_graph import NodeGraph
 from ._node_parameters import TOLERANCE, NodeParameters
 from ._reexports import reexported
 from ._ros_args import Arguments, own_arguments
+from ._state import RclpyState
 from .callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup
 from .client import Client
 from .clock import Clock, ROSClock
@@ -25,7 +26,7 @@ from .context import Context
 from .exceptions import NotInitializedException, RCLError
 from .guard_condition import GuardCondition
 from .impl.logging_severity import LoggingSeverity
-from .impl.rcutils_logger import RcutilsLogger, is_on_rosout, publish_rosout, publish_rosout_no_more
+from .impl.rcutils_logger import RcutilsLogger
 from .logging_service import LoggingService
 from .parameter import PARAMETER_SEPARATOR_STRING as PARAMETER_SEPARATOR_STRING
 from .parameter import Parameter
@@ -45,6 +46,12 @@ if TYPE_CHECKING:
 
 HIDDEN_NODE_PREFIX = "_"
 """What the name of a node begins with that tools leave out of their lists."""
+
+TWO_OF_A_NAME = (
+    "Publisher already registered for provided node name. If this is due to multiple nodes with the same name then all "
+    "logs for that logger name will go out over the existing publisher. As soon as any node with that name is destructed "
+    "it will unregister the publisher, preventing any further logs for that name from being published on the rosout topic."
+)
 
 
 class Node(NodeEntities, NodeParameters):
@@ -251,9 +258,10 @@ class Node(NodeEntities, NodeParameters):
         """Publish on /rosout what the logger prints."""
         from rcl_interfaces.msg import Log
 
-        if is_on_rosout(self._ros_logger.name):
+        own = current_process().state(RclpyState)
+        if self._ros_logger.name in own.rosout:
+            RcutilsLogger("rcl.logging_rosout").warning(TWO_OF_A_NAME)
             return
-
         publisher = self.create_publisher(Log, "/rosout", profile)
         trace = self._ros_graph.trace
 
@@ -266,7 +274,7 @@ class Node(NodeEntities, NodeParameters):
             if trace is not None:
                 trace.log.append((self._ros_simulation.now, int(severity), log.name, message))
 
-        publish_rosout(self._ros_logger.name, publish)
+        own.rosout[self._ros_logger.name] = publish
 
     def _ros_tell_parameter_events(self, news: dict[str, list[Any]]) -> None:
         """Publish on /parameter_events what was new, changed or deleted."""
@@ -305,7 +313,7 @@ class Node(NodeEntities, NodeParameters):
         for entity in list(self._ros_waiting_entities):
             self._ros_destroy(entity)
         if self._ros_logs_on_rosout:
-            publish_rosout_no_more(self._ros_logger.name, self._ros_entry.process)
+            self._ros_entry.process.state(RclpyState).rosout.pop(self._ros_logger.name, None)
         self._ros_destroyed = True
         self._ros_context.untrack_node(self)
         self._ros_graph.remove_node(self._ros_entry)

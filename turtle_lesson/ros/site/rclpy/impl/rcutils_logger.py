@@ -6,13 +6,11 @@ RCUTILS_LOGGING_USE_STDOUT=1 on a robot, because Jupyter shows stderr as if it w
 
 from __future__ import annotations
 
-import os
 import re
 import sys
-from collections.abc import Callable
 from datetime import UTC, datetime
 from types import CodeType, FrameType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any
 
 from turtle_lesson.ros.distro import CHILD_LOGGERS_ON_ROSOUT
 from turtle_lesson.ros.runtime.world import current_process, current_world
@@ -23,15 +21,6 @@ from .._deadlock import is_notebook
 from .._hints import did_you_mean
 from .._state import RclpyState
 from .logging_severity import LoggingSeverity
-
-if TYPE_CHECKING:
-    from turtle_lesson.ros.sim.process import Process
-
-TWO_OF_A_NAME = (
-    "Publisher already registered for provided node name. If this is due to multiple nodes with the same name then all "
-    "logs for that logger name will go out over the existing publisher. As soon as any node with that name is destructed "
-    "it will unregister the publisher, preventing any further logs for that name from being published on the rosout topic."
-)
 
 
 class RcutilsLogger:
@@ -113,8 +102,10 @@ class RcutilsLogger:
         own = current_process().state(RclpyState)
         goes_to = own.log_to
         if goes_to.get("stdout", True):
-            line = Line(message, severity, name, EPOCH + now, frame)
-            print_line(line, own.log_format, colorized=own.log_colorized)
+            text = _line(message, severity, name, EPOCH + now, frame, own.log_format)
+            if own.log_colorized:
+                text = f"{COLORS.get(severity.name, NORMAL)}{text}{NORMAL}"
+            print(text, file=sys.stdout if is_notebook(current_process()) else sys.stderr)
         publish = own.rosout.get(name if self._parent is None else self._parent)
         if publish is not None and goes_to.get("rosout", True):
             publish(name, message, severity, frame)
@@ -147,24 +138,6 @@ def levels() -> dict[str, LoggingSeverity]:
     return current_process().state(RclpyState).log_levels
 
 
-def publish_rosout(name: str, publish: Callable[[str, str, LoggingSeverity, FrameType], None]) -> None:
-    """Have what the logger of this name prints published too, by `publish(name, message, severity, frame)`."""
-    current_process().state(RclpyState).rosout[name] = publish
-
-
-def is_on_rosout(name: str) -> bool:
-    """Whether another node publishes what the logger of this name prints, of which is warned: it has to do for both."""
-    if name not in current_process().state(RclpyState).rosout:
-        return False
-    RcutilsLogger("rcl.logging_rosout").warning(TWO_OF_A_NAME)
-    return True
-
-
-def publish_rosout_no_more(name: str, process: Process) -> None:
-    """What the logger of this name prints in a process is published no longer."""
-    process.state(RclpyState).rosout.pop(name, None)
-
-
 # -- when a log call is held back: once, skip_first, throttle_duration_sec (the rules of rclpy's rcutils_logger.py) -----
 
 
@@ -183,15 +156,20 @@ OPTIONS: dict[str, dict[str, Any]] = {
 """The filters in the order in which they are asked, each with its options; None is the default of one that must be given."""
 
 
-def filters_of(options: dict[str, Any]) -> list[str]:
-    """The filters that the options of a log call ask for. Raises TypeError for an option that is missing or unknown."""
-    found = [name for name, params in OPTIONS.items() if any(options.get(param) for param in params)]
-    for name in found:
-        for param, default in OPTIONS[name].items():
-            if default is None and param not in options:
-                raise TypeError(
-                    f'required parameter "{param}" not specified but is required for the the logging filter "{name}"'
-                )
+def _filters_of(options: dict[str, Any]) -> dict[str, dict[str, Any]]:
+    """The filters that the options of a log call ask for, with the values of their options.
+
+    Raises TypeError for an option that is missing or unknown.
+    """
+    found: dict[str, dict[str, Any]] = {}
+    for name, params in OPTIONS.items():
+        if any(options.get(param) for param in params):
+            found[name] = params | {param: options[param] for param in params if param in options}
+            for param, default in params.items():
+                if default is None and param not in options:
+                    raise TypeError(
+                        f'required parameter "{param}" not specified but is required for the the logging filter "{name}"'
+                    )
     known = [param for params in OPTIONS.values() for param in params]
     for param in options:
         if param not in known:
@@ -203,20 +181,17 @@ def filters_of(options: dict[str, Any]) -> list[str]:
 class CallSite:
     """What a logger remembers of one place in a program: the options of its call, and what its filters need to know."""
 
-    __slots__ = ("filters", "has_printed", "has_skipped", "last_printed", "name", "options", "severity", "values")
+    __slots__ = ("filters", "has_printed", "has_skipped", "last_printed", "name", "options", "severity")
 
     def __init__(self, severity: LoggingSeverity, name: str, options: dict[str, Any]) -> None:
         self.severity = severity
         self.name = name
         self.options = options
-        self.filters = filters_of(options) if options else []
-        self.values = {
-            param: options.get(param, default) for each in self.filters for param, default in OPTIONS[each].items()
-        }
+        self.filters = _filters_of(options) if options else {}
         self.has_printed = self.has_skipped = False
         self.last_printed: int | None = None
         if "throttle" in self.filters:
-            pause, clock = self.values["throttle_duration_sec"], self.values["throttle_time_source_type"]
+            pause, clock = self.filters["throttle"].values()
             if not isinstance(pause, (int, float)):
                 raise TypeError(f"throttle_duration_sec is a number of seconds, got {pause!r}")
             if not hasattr(clock, "_now"):
@@ -226,24 +201,23 @@ class CallSite:
 
     def check(self, severity: LoggingSeverity, name: str, options: dict[str, Any]) -> None:
         """Raise ValueError if the same line of a program is used in another way than before."""
-        filters = filters_of(options)
+        filters = _filters_of(options)
         if severity != self.severity:
             raise ValueError("Logger severity cannot be changed between calls.")
         if name != self.name:
             raise ValueError("Logger name cannot be changed between calls.")
-        if filters != self.filters:
+        if list(filters) != list(self.filters):
             raise ValueError("Requested logging filters cannot be changed between calls.")
-        defaults = {param: default for each in filters for param, default in OPTIONS[each].items()}
-        if any(self.values[param] != options.get(param, default) for param, default in defaults.items()):
+        if filters != self.filters:
             raise ValueError("Logging filter parameters cannot be changed between calls.")
 
     def lets_through(self) -> bool:
         """Whether this call is to be printed: the first filter that holds it back ends the question."""
         for each in self.filters:
             if each == "throttle":
-                now = self.values["throttle_time_source_type"]._now()
-                pause = self.values["throttle_duration_sec"] * NANOSECONDS
-                if self.last_printed is not None and now < self.last_printed + pause:
+                pause, clock = self.filters["throttle"].values()
+                now = clock._now()
+                if self.last_printed is not None and now < self.last_printed + pause * NANOSECONDS:
                     return False
                 self.last_printed = now
             elif each == "skip_first":
@@ -257,64 +231,31 @@ class CallSite:
         return True
 
 
-# -- how a log line is printed ------------------------------------------------------------------------------------
-# Facts: https://docs.ros.org/en/humble/Concepts/Intermediate/About-Logging.html.
-
-VARIABLE = "RCUTILS_CONSOLE_OUTPUT_FORMAT"
-COLORIZED = "RCUTILS_COLORIZED_OUTPUT"
 NORMAL = "\033[0m"
 COLORS = {"DEBUG": "\033[32m", "WARN": "\033[33m", "ERROR": "\033[31m", "FATAL": "\033[31m"}
 """Of lines that are not printed in the normal colour (rcutils' logging.c)."""
 
 
-class Line(NamedTuple):
-    """What is to be printed."""
+def _line(message: str, severity: LoggingSeverity, name: str, time: int, frame: FrameType, wanted: str | None) -> str:
+    """A line of a time (ns since 1970) in the usual format, or in a wanted one such as `{severity} {name}: {message}`.
 
-    message: str
-    severity: LoggingSeverity
-    name: str
-    time: int
-    """In ns since 1970."""
-    frame: FrameType
-
-
-def wanted_format() -> str | None:
-    """The format that the environment asks for; None for the usual one. A process looks once, when it begins."""
-    return os.environ.get(VARIABLE)
-
-
-def is_colorized() -> bool:
-    """Whether the environment asks for colours, which a real program also uses on a terminal. A process looks once."""
-    return os.environ.get(COLORIZED) == "1"
-
-
-def print_line(line: Line, wanted: str | None, *, colorized: bool = False) -> None:
-    """Print a line where the running process's logs go."""
-    stream = sys.stdout if is_notebook(current_process()) else sys.stderr
+    What is no known word in braces stays as it is (https://docs.ros.org/en/humble/Concepts/Intermediate/About-Logging.html).
+    """
+    seconds, nanoseconds = divmod(time, NANOSECONDS)
+    stamp = f"{seconds}.{nanoseconds:09d}"
     if wanted is None:
-        seconds, nanoseconds = divmod(line.time, NANOSECONDS)
-        text = f"[{line.severity.name}] [{seconds}.{nanoseconds:09d}] [{line.name}]: {line.message}"
-    else:
-        text = formatted(line, wanted)
-    if colorized:
-        text = f"{COLORS.get(line.severity.name, NORMAL)}{text}{NORMAL}"
-    print(text, file=stream)
-
-
-def formatted(line: Line, wanted: str) -> str:
-    """A line in a format such as `{severity} {name}: {message}`; what is no known word in braces stays as it is."""
-    seconds, nanoseconds = divmod(line.time, NANOSECONDS)
-    path = shown_path(line.frame.f_code.co_filename)
+        return f"[{severity.name}] [{stamp}] [{name}]: {message}"
+    path = shown_path(frame.f_code.co_filename)
     words = {
-        "severity": line.severity.name,
-        "name": line.name,
-        "message": line.message,
-        "function_name": line.frame.f_code.co_name,
+        "severity": severity.name,
+        "name": name,
+        "message": message,
+        "function_name": frame.f_code.co_name,
         "file_name": path,
         "short_file_name": path.rpartition("/")[2],
-        "line_number": line.frame.f_lineno,
-        "time": f"{seconds}.{nanoseconds:09d}",
-        "time_as_nanoseconds": line.time,
+        "line_number": frame.f_lineno,
+        "time": stamp,
+        "time_as_nanoseconds": time,
         "date_time_with_ms": f"{datetime.fromtimestamp(seconds, UTC):%Y-%m-%d %H:%M:%S}.{nanoseconds // 1_000_000:03d}",
     }
     text = re.sub(r"\{(\w+)\}", lambda found: str(words.get(found[1], found[0])), wanted)
