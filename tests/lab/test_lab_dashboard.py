@@ -16,10 +16,9 @@ from hypothesis import strategies as st
 
 from turtle_lesson import Lesson, start
 from turtle_lesson.lab.scan import read_beams
-from turtle_lesson.lab.widgets import panels_system
-from turtle_lesson.lab.widgets.dashboard import Dashboard
-from turtle_lesson.lab.widgets.live_widget import Pace
-from turtle_lesson.lab.widgets.panels_system import direction, frequency, in_words, verdict
+from turtle_lesson.lab.widgets import dashboard as module
+from turtle_lesson.lab.widgets.dashboard import Dashboard, frequency, in_words, verdict
+from turtle_lesson.lab.widgets.live_widget import LiveWidget
 from turtle_lesson.ros.cli.shell import run_line
 
 # isort: split
@@ -35,7 +34,7 @@ PAGE = Path(__file__).resolve().parents[2] / "notebooks" / "lab.ipynb"
 @pytest.fixture(autouse=True)
 def always_due(monkeypatch: pytest.MonkeyPatch) -> None:
     """Every tick brings everything up to date, however fast the test is."""
-    monkeypatch.setattr(Pace, "due", lambda self: True)
+    monkeypatch.setattr(LiveWidget, "due", lambda *_: True)
 
 
 @pytest.fixture
@@ -183,24 +182,21 @@ def test_a_monitor_that_ends_is_told(lesson: Lesson, dashboard: Dashboard) -> No
 
 
 @pytest.mark.parametrize(
-    ("degrees", "words"),
+    ("degrees", "beam", "place"),
     [
-        (0, "straight ahead"),
-        (0.3, "straight ahead"),
-        (-90, "90° to the right"),
-        (45, "45° to the left"),
-        (180, "straight behind"),
+        ((-90, 90), 120, "30° to the left"),
+        ((-90, 90), 0, "90° to the right"),
+        ((-90, 90), 90, "straight ahead"),
+        ((-90.3, 90), 90, "straight ahead"),
+        ((-180, 0), 0, "straight behind"),
+        ((0, 180), 180, "straight behind"),
     ],
 )
-def test_directions_are_told_as_people_say_them(degrees: float, words: str) -> None:
-    assert direction(np.radians(degrees)) == words
-
-
-def test_the_nearest_thing_is_told() -> None:
+def test_the_nearest_thing_is_told(degrees: tuple[float, float], beam: int, place: str) -> None:
     ranges = [10.0] * 181
-    ranges[120] = 2.5
-    words = in_words(read_beams(scan(ranges)))
-    assert words == {"beam": 120, "nearest": "2.50 m, 30° to the left", "count": "1 of 181 beams see something"}
+    ranges[beam] = 2.5
+    words = in_words(read_beams(scan(ranges, degrees=degrees)))
+    assert words == {"beam": beam, "nearest": f"2.50 m, {place}", "count": "1 of 181 beams see something"}
 
 
 def test_nothing_within_reach_is_told() -> None:
@@ -397,9 +393,9 @@ def test_a_log_that_was_closed_goes_on_without_a_line_twice(lesson: Lesson, dash
 def test_the_log_keeps_the_newest_lines_and_sends_few_again(dashboard: Dashboard) -> None:
     for number in range(1200):
         dashboard._add_lines([(number * SECOND, "INFO", "chatter", f"line {number}")])
-        assert len(dashboard.log_new) <= panels_system.BLOCK
+        assert len(dashboard.log_new) <= module.BLOCK
     texts = log_texts(dashboard)
-    assert panels_system.KEPT <= len(texts) <= panels_system.KEPT + panels_system.BLOCK
+    assert module.KEPT <= len(texts) <= module.KEPT + module.BLOCK
     assert texts[-1] == "line 1199"
 
 
@@ -413,7 +409,7 @@ def test_the_level_is_the_same_in_all_windows(dashboard: Dashboard) -> None:
 
 @pytest.mark.parametrize(("level", "name"), [(10, "DEBUG"), (20, "INFO"), (25, "INFO"), (b"(", "ERROR"), (50, "FATAL")])
 def test_levels_have_names(level: Any, name: str) -> None:
-    assert panels_system.level_name(level) == name
+    assert module.level_name(level) == name
 
 
 # -- the page ----------------------------------------------------------------------------------------------------------

@@ -12,8 +12,8 @@ import pytest
 
 from turtle_lesson import start
 from turtle_lesson.lab.path import WORLD
-from turtle_lesson.lab.recording import Table
-from turtle_lesson.lab.widgets.panels_world import POINTS, SPACING, TAIL, Trail
+from turtle_lesson.lab.widgets.goal_pad import KEPT, SPACING, TAIL
+from turtle_lesson.ros.sim.simulation import EPOCH
 from turtle_lesson.session.lesson import Lesson
 from turtle_lesson.session.live import Stopwatch
 from turtle_lesson.turtlesim.obstacles import WORLDS, Box, Circle
@@ -152,7 +152,7 @@ def test_a_navigator_that_is_stopped_on_the_way_leaves_no_goal_waiting(lesson: L
     handle.stop()
     if restart:
         lesson.launch("robot_controller", "start_system.launch.py")
-    pad.desk._look_pace._next = 0.0
+    pad._paces.clear()
     [goal] = after(lesson, pad, 1.0)
     assert (goal["state"], goal["answer"].split(";")[0]) == ("no answer", "The navigator was stopped on the way")
 
@@ -347,61 +347,32 @@ def test_while_it_turns_the_hits_of_every_scan_lie_on_the_walls(lesson: Lesson) 
         assert np.abs(hits).min(axis=0)[seen].max() < 0.001
 
 
-def driven(places: list[tuple[float, float]], speed: float = 3.0) -> Table:
-    poses = Table("x", "y", "theta", "speed")
-    for number, (x, y) in enumerate(places):
-        poses.append(number * 16_000_000, x, y, 0.0, speed)
-    return poses
-
-
-def way(trail: Trail) -> np.ndarray:
-    return np.concatenate([numbers(trail.whole), numbers(trail.tail)]).reshape(-1, 2)
-
-
-def test_the_trail_grows_in_even_steps_and_sends_little() -> None:
-    poses = driven([])
-    trail = Trail(poses)
-    trail.grow()
-    assert (trail.whole, trail.tail) == (b"", b"")
-    for tick in range(4000):
-        poses.append(tick * 16_000_000, 0.02 * tick, 5.0, 0.0, 1.5)
+def test_the_trail_grows_in_even_steps_and_sends_little(lesson: Lesson) -> None:
+    pad, poses = shown(lesson), lesson._recording.poses
+    resent = 0
+    for tick in range(1, 4000):
+        poses.append(int(2e9) + EPOCH + tick * 16_000_000, 5.5 + 0.02 * tick, 5.5, 0.0, 1.5)
         if tick % 3 == 0:
-            before = trail.whole
-            trail.grow()
-            assert len(trail.tail) <= 8 * (TAIL + 2)
-            assert trail.whole is before or len(numbers(trail.tail)) == 0
-    points = way(trail)
+            before = pad.trail
+            pad.tick()
+            assert len(pad.tail) <= 8 * (TAIL + 2)
+            resent += pad.trail is not before
+    points = np.concatenate([numbers(pad.trail), numbers(pad.tail)]).reshape(-1, 2)
+    points = points[np.isfinite(points[:, 0])]
     steps = np.hypot(*np.diff(points, axis=0).T)
+    steps = steps[steps > 0]
     assert (steps >= SPACING - 1e-4).all() and steps.max() < SPACING + 0.02
-    assert POINTS <= len(points) <= POINTS + TAIL
+    assert KEPT - TAIL <= len(points) <= KEPT + TAIL and resent < 30
 
 
-def test_the_trail_is_broken_where_the_turtle_was_put_elsewhere() -> None:
-    trail = Trail(driven([(1.0, 1.0), (1.04, 1.0), (1.08, 1.0), (9.0, 9.0), (9.04, 9.0)]))
-    trail.grow()
-    points = way(trail)
-    gap = np.flatnonzero(np.isnan(points[:, 0]))
-    assert len(gap) == 1
-    assert points[gap[0] + 1] == pytest.approx([9.0, 9.0])
-
-
-def test_a_trail_that_catches_up_is_the_one_that_was_grown_step_by_step() -> None:
-    places = [(5 + 3 * math.cos(tick / 50), 5 + 3 * math.sin(tick / 50)) for tick in range(900)]
-    poses, late = driven([]), Trail(driven(places))
-    steady = Trail(poses)
-    for number, (x, y) in enumerate(places):
-        poses.append(number * 16_000_000, x, y, 0.0, 4.0)
-        if number % 7 == 0:
-            steady.grow()
-    steady.grow()
-    late.grow()
-    assert way(late)[-POINTS:] == pytest.approx(way(steady)[-POINTS:])
-
-
-def test_poses_that_are_no_numbers_leave_no_mark_on_the_trail() -> None:
-    trail = Trail(driven([(math.nan, 1.0), (1.0, 1.0), (math.nan, math.nan), (1.06, 1.0)]))
-    trail.grow()
-    assert not np.isnan(way(trail)).any()
+def test_the_trail_is_broken_where_the_turtle_was_put_elsewhere(lesson: Lesson) -> None:
+    pad, poses = shown(lesson), lesson._recording.poses
+    poses.append(int(2e9) + EPOCH, 9.0, 9.0, 0.0, 0.0)
+    pad.tick()
+    points = np.concatenate([numbers(pad.trail), numbers(pad.tail), numbers(pad.pose)[:2]]).reshape(-1, 2)
+    assert points[-1] == pytest.approx([9.0, 9.0])
+    gap = np.flatnonzero(np.isnan(points[:, 0]))[-1]
+    assert (points[gap + 1 :] == 9.0).all()
 
 
 # -- the editor ------------------------------------------------------------------------------------------------------

@@ -1,4 +1,4 @@
-"""What widgets do happens in the notebook's thread, be it asked for there, in a robot process or elsewhere."""
+"""What views ask for happens in the notebook's thread, wherever the message arrives."""
 
 from __future__ import annotations
 
@@ -6,18 +6,14 @@ import asyncio
 import threading
 
 from turtle_lesson.lab.widgets.backend import Loop
-from turtle_lesson.ros.runtime.world import World
 
 
-def test_a_callback_in_a_robot_process_is_in_the_notebooks_thread(world: World) -> None:
-    async def cell() -> list[str]:
+def test_an_order_that_arrives_in_another_thread_is_carried_out_in_the_notebooks() -> None:
+    async def cell() -> list[int]:
         loop, done = Loop(), []
-        world.spawn(lambda: loop.now_or_soon(done.append, "from a process"), name="node")
-        world.sim.run_until(world.now + 1)
-        assert done == ["from a process"]
-        threading.Thread(target=loop.now_or_soon, args=(done.append, "from a thread")).start()
-        while len(done) < 2:
+        threading.Thread(target=loop.soon, args=(lambda: done.append(threading.get_ident()),)).start()
+        while not done:
             await asyncio.sleep(0.001)
         return done
 
-    assert asyncio.run(cell()) == ["from a process", "from a thread"]
+    assert asyncio.run(cell()) == [threading.get_ident()]

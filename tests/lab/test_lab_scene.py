@@ -21,13 +21,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from turtle_lesson import Lesson, start
+from turtle_lesson.lab.path import MOST_POINTS, Trail
 from turtle_lesson.lab.recording import Table
 from turtle_lesson.lab.scan import read_beams
 from turtle_lesson.lab.widgets import scene_mesh
 from turtle_lesson.lab.widgets.scene import Scene
 from turtle_lesson.lab.widgets.scene_commands import viewer_bundle
 from turtle_lesson.lab.widgets.scene_mesh import fan, ribbon
-from turtle_lesson.lab.widgets.scene_picture import MOST, Trail
 from turtle_lesson.turtlesim.obstacles import Box, Circle
 
 # isort: split
@@ -239,14 +239,14 @@ steps = st.lists(st.tuples(st.floats(-0.03, 0.03), st.floats(-0.03, 0.03)), min_
 @given(steps)
 def test_a_trail_in_few_points_is_never_far_from_the_poses(moves: list[tuple[float, float]]) -> None:
     table, (x, y) = Table("x", "y", "theta", "speed"), (5.0, 5.0)
-    trail, places = Trail(table), []
+    trail, places = Trail(), []
     for number, (across, up) in enumerate(moves):
         x, y = x + across, y + up
         places.append((x, y))
         table.append(number * 16_000_000, x, y, 0.0, 3.0)
         if number % 7 == 0:
-            trail.follow()
-    trail.follow()
+            trail.follow(table)
+    trail.follow(table)
     mesh = ribbon([*trail.old, trail.tip], width=0.001)
     assert tuple(trail.tip[-1]) == places[-1]
     kept = np.concatenate([*trail.old, trail.tip])
@@ -270,16 +270,16 @@ def _distance(place: np.ndarray, pieces: list[np.ndarray]) -> float:
 
 def test_a_long_trail_forgets_its_beginning_and_a_teleport_breaks_it() -> None:
     table = Table("x", "y", "theta", "speed")
-    trail = Trail(table)
+    trail = Trail()
     angles = np.linspace(0, 600, 20000)
     for number, angle in enumerate(angles):
         table.append(number * 16_000_000, 5 + 4 * np.cos(angle), 5 + 4 * np.sin(angle), 0.0, 8.0)
-    trail.follow()
-    assert sum(map(len, trail.old)) <= MOST
+    trail.follow(table)
+    assert sum(map(len, trail.old)) <= MOST_POINTS
     here = trail.tip[-1]
     table.append(20001 * 16_000_000, 1.0, 1.0, 0.0, 0.0)
     table.append(20002 * 16_000_000, 1.06, 1.0, 0.0, 4.0)
-    trail.follow()
+    trail.follow(table)
     assert tuple(trail.old[-1][-1]) == tuple(here)
     assert tuple(trail.tip[0]) == (1.0, 1.0)
 

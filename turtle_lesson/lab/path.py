@@ -11,7 +11,7 @@ import numpy as np
 from . import style
 from .drawing import draw_obstacles, draw_turtle, turtle_points
 from .picture import Picture
-from .recording import Obstacle, Recording
+from .recording import Obstacle, Recording, Table
 from .words import angle, count, number, point, turned
 
 if TYPE_CHECKING:
@@ -33,6 +33,11 @@ SLACK = 0.05
 
 TOLERANCE = 0.2
 """Metres within which a goal counts as reached: the radius of the ring around it."""
+
+BEND = 0.06
+"""A trail of few points has one where the way has turned by so much, rad."""
+MOST_POINTS = 900
+"""Points that it has in all."""
 
 BANDS = 12
 """The trail is drawn in so many parts, the older the paler."""
@@ -71,6 +76,86 @@ def thinned(poses: np.ndarray, jumps: np.ndarray, spacing: float = 0.03) -> np.n
 
 def _steps(poses: np.ndarray) -> np.ndarray:
     return np.hypot(np.diff(poses["x"]), np.diff(poses["y"]))
+
+
+class Trail:
+    """The turtle's way in few points, from a table of poses. `old` changes now and then, `tip` all the time.
+
+    Points are at least `step` and at most `stretch` metres apart; between the two, there is one where the way has turned by
+    BEND. The newest piece has at most `tip` points, all pieces together `most`: the oldest go.
+    """
+
+    def __init__(self, step: float = 0.04, stretch: float = 1.0, tip: int = 24, most: int = MOST_POINTS) -> None:
+        self._step, self._stretch, self._longest, self._most = step, stretch, tip, most
+        self._seen: np.ndarray | None = None
+        self._here: np.ndarray | None = None
+        self._turn = 0.0
+        self._tip: list[np.ndarray] = []
+        self.old: list[np.ndarray] = []
+        """The pieces that change no more: each n by 2, m."""
+        self.changes = 0
+        """How often `old` has changed."""
+
+    @property
+    def tip(self) -> np.ndarray:
+        """The newest piece, to where the turtle is now: n by 2, m."""
+        ahead = [] if self._here is None else [self._here]
+        return np.array([*self._tip, *ahead]).reshape(-1, 2)
+
+    def follow(self, poses: Table) -> bool:
+        """Take in what was heard since the last time; returns whether there was anything new to draw."""
+        rows = poses.array() if self._seen is None else poses.after(int(self._seen["stamp"][-1]))
+        rows = rows[np.isfinite(rows["x"]) & np.isfinite(rows["y"])]
+        if not len(rows):
+            return False
+        joined = rows if self._seen is None else np.concatenate([self._seen, rows])
+        known = len(joined) - len(rows)
+        jumps = set(find_jumps(joined).tolist())
+        places = np.column_stack([joined["x"], joined["y"]])
+        moved = self._here is None or bool((places[known:] != self._here).any())
+        for index in range(known, len(places)):
+            self._add(places[index], index in jumps)
+        self._seen = joined[-1:]
+        return moved
+
+    def _add(self, place: np.ndarray, jumped: bool) -> None:
+        if jumped:
+            self._finish([])
+        if not self._tip:
+            self._tip.append(place)
+        far, turn = _way(self._tip[-1], place)
+        if far >= self._step:
+            bent = abs(math.remainder(turn - self._turn, math.tau)) > BEND
+            if len(self._tip) == 1 or far >= self._stretch:
+                self._keep(place)
+            elif bent:
+                self._keep(place if self._here is None else self._here)
+        self._here = place
+
+    def _keep(self, place: np.ndarray) -> None:
+        far, turn = _way(self._tip[-1], place)
+        if far:
+            self._tip.append(place)
+            self._turn = turn
+            if len(self._tip) >= self._longest:
+                self._finish([place])
+
+    def _finish(self, begin: list[np.ndarray]) -> None:
+        """The newest piece is done; another one begins."""
+        if self._here is not None and not begin:
+            self._tip.append(self._here)
+        if len(self._tip) > 1:
+            self.old.append(np.array(self._tip))
+        while sum(map(len, self.old)) > self._most:
+            del self.old[0]
+        self._tip = begin
+        self.changes += 1
+
+
+def _way(begin: np.ndarray, end: np.ndarray) -> tuple[float, float]:
+    """How far it is (m), and in which direction (rad)."""
+    x, y = end - begin
+    return math.hypot(x, y), math.atan2(y, x)
 
 
 def plot_path(

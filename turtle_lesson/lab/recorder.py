@@ -162,13 +162,16 @@ class Channel:
     """Whether to ask for the last message from before, too."""
     patience: str = "Let time pass: lesson.run(1.0)"
     """What to try where a node publishes that has said nothing yet."""
+    raw: bool = False
+    """Whether messages stay bytes, which the listener does not read."""
     _message_type: Any = None
     _subscription: Any = None
     _count: int = -1
 
-    def __repr__(self) -> str:
-        state = "listening" if self._subscription else "waiting"
-        return f"<Channel {self.topic} [{self.type_name}], {state}>"
+    @property
+    def listens(self) -> bool:
+        """Whether it is subscribed."""
+        return self._subscription is not None
 
     def glance(self) -> None:
         """Follow, if the number of ends has changed since the last time: a cheap look, made often."""
@@ -186,7 +189,10 @@ class Channel:
         if message_type is not None:
             self._message_type = message_type
             listener = with_time(self.node, self.make_listener(message_type))
-            self._subscription = self.node.create_subscription(message_type, self.topic, listener, self._quality())
+            quality = self._quality()
+            self._subscription = self.node.create_subscription(
+                message_type, self.topic, listener, quality, raw=self.raw
+            )
 
     def close(self) -> None:
         """Unsubscribe."""

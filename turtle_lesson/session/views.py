@@ -14,8 +14,9 @@ if TYPE_CHECKING:
     from ..lab.picture import Picture
     from ..lab.recorder import Recorder
     from ..lab.widgets.backend import Backend
-    from ..lab.widgets.dashboard import Dashboard, LabView
+    from ..lab.widgets.dashboard import Dashboard
     from ..lab.widgets.form import Form
+    from ..lab.widgets.goal_pad import GoalPad
     from ..lab.widgets.live_plot import LivePlot
     from ..lab.widgets.parameters import ParametersPanel
     from ..lab.widgets.scene import Scene
@@ -56,11 +57,11 @@ class Views:
         for widget in self._widgets.values():
             widget.end()
 
-    def goal_pad(self) -> LabView:
+    def goal_pad(self) -> GoalPad:
         """A map that is alive: click on it, and the turtle goes there; drag to say how it shall face."""
-        from ..lab.widgets.dashboard import GOAL_PAD, LabView
+        from ..lab.widgets.goal_pad import GoalPad
 
-        return self._widget("goal pad", lambda backend: LabView(backend, GOAL_PAD))
+        return self._widget("goal pad", GoalPad)
 
     def dashboard(self) -> Dashboard:
         """Everything at once: map, clock, status, scan, rates, nodes, services and log."""

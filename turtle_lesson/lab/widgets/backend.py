@@ -7,7 +7,6 @@ robot it is a node of the real rclpy (see session/robot_backend.py).
 from __future__ import annotations
 
 import asyncio
-from _thread import get_ident
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -101,16 +100,14 @@ class Link:
         return getattr(self._backend, name)
 
 
-# -- loop -----------------------------------------------------------------------------------------------------------
-# A message from the browser may arrive in another thread with a loop of its own (ipykernel 7 with JupyterLab 4.6 does so
-# now and then), and a greenlet cannot change its thread. So the callbacks of widgets run in the loop in which cells run.
-
-
 class Loop:
-    """The event loop of the cell in which this is made; without one (a plain script) calls happen at once."""
+    """The event loop of the cell in which this is made; without one (a plain script) calls happen at once.
+
+    A message from the browser may arrive in another thread with a loop of its own (ipykernel 7 with JupyterLab 4.6 does so
+    now and then), and a greenlet cannot change its thread. So what views ask for is done in the loop in which cells run.
+    """
 
     def __init__(self) -> None:
-        self.thread = get_ident()
         try:
             self._loop: asyncio.AbstractEventLoop | None = asyncio.get_running_loop()
         except RuntimeError:
@@ -122,13 +119,6 @@ class Loop:
             action(*arguments)
         else:
             self._loop.call_soon_threadsafe(action, *arguments)
-
-    def now_or_soon(self, action: Callable[..., object], *arguments: Any) -> None:
-        """Call `action` at once if this is the loop's thread, otherwise have the loop call it."""
-        if get_ident() == self.thread:
-            action(*arguments)
-        else:
-            self.soon(action, *arguments)
 
     def every(self, seconds: float, action: Callable[[], object]) -> asyncio.Task[None] | None:
         """Call `action` again and again; cancel the task to end that. None where there is no loop."""

@@ -1,97 +1,138 @@
-"""The dashboard, which shows everything about a running system at once, and the goal pad, which is a part of it."""
+"""The dashboard: the goal pad, and beside it status, scan, nodes and services, rates of topics, and the log."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import math
+from collections import Counter
+from operator import itemgetter
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import traitlets
 
+from ...ros.idl.names import is_hidden
 from .. import style
+from ..graph import EVERYWHERE
 from ..path import plot_path
 from ..picture import SHARPNESS, Picture
-from ..scan import read_beams
+from ..recorder import Channel
+from ..recording import NANOSECONDS, OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, Table
+from ..scan import Beams, read_beams
 from ..status import plot_status
-from ..words import angle, count, listed, number, point
-from .live_widget import script, styles
-from .panels_system import LightsPanel, LogPanel, RatesPanel, ScanPanel, StatusPanel, in_words, look, missing
-from .panels_world import ClockPanel, EditorPanel, GoalsPanel, MapPanel
+from ..words import count, listed, number
+from .goal_pad import GoalPad
+from .lazy_endpoints import servers
+from .live_widget import pack
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from .backend import Backend
 
+LATE = 1.5
+"""Seconds of robot time without a status, or without a scan, after which the panel says so."""
 
-def _side_by_side(cards: list[np.ndarray]) -> Figure:
-    """A figure on which pictures (rows of pixels) stand side by side, pixel for pixel, their tops in line."""
-    from matplotlib.figure import Figure
+WINDOW = 30.0
+"""Seconds of robot time that the curves show."""
+MOST_STATUSES = 3000
+"""Statuses that are looked at: those of the window at a hundred a second."""
+POINTS = 300
+"""About so many of them are drawn at most: one every 0.1 s."""
 
-    gap = 12 * SHARPNESS
-    width = sum(card.shape[1] + gap for card in cards) - gap
-    height = max(len(card) for card in cards)
-    figure = Figure(
-        figsize=(width / style.DPI / SHARPNESS, height / style.DPI / SHARPNESS), dpi=style.DPI, facecolor="none"
-    )
-    left = 0
-    for card in cards:
-        figure.figimage(card, left, height - len(card), origin="upper")
-        left += card.shape[1] + gap
-    return figure
+NODES = ("/turtlesim", "/navigator", "/status_monitor", "/obstacle_detector")
+SERVICES = ("/navigate_to",)
+"""What the system needs."""
 
+KEPT = 500
+"""Lines of the log that are kept, about."""
+BLOCK = 50
+"""New lines are sent again with each newer one until there are so many; the older ones only once a block."""
+LEVELS = ("DEBUG", "INFO", "WARN", "ERROR", "FATAL")
 
-GOAL_PAD = ["clock", "map", "goals", "editor"]
-SCRIPTS = ("clock", "map", "goals", "editor", "signs", "status", "log", "scan", "rates", "lights")
-LAYOUTS = ("dashboard", "goal_pad", "lab_view")
-STYLES = ("base", "dashboard", "lab_view", "map", "clock", "goals", "editor")
-
-
-class LabView(GoalsPanel, EditorPanel, MapPanel, ClockPanel):
-    """Panels on one running system, all drawn from the same state.
-
-    Each kind of panel is a class of its own, with its traits, its `tick` and its orders, and a file of its own in `js`.
-    """
-
-    title = traitlets.Unicode("Goal pad").tag(sync=True)
-    panels = traitlets.List(traitlets.Unicode()).tag(sync=True)
-
-    def __init__(self, backend: Backend, panels: list[str]) -> None:
-        self._esm = script("dom", *SCRIPTS, *LAYOUTS)
-        self._css = styles(*STYLES)
-        super().__init__(backend, panels=panels)
-        self.tick()
-
-    def text(self) -> str:
-        """Where the turtle is, what became of the goals, and how many obstacles there are."""
-        here = f"{self.title} at {number(self.backend.now)} s of robot time: {self._place()}."
-        return f"{here} {self.goals_in_words()} {self.obstacles_in_words()}"
-
-    def picture(self) -> Picture | None:
-        """The map with the path so far."""
-        goals = [(goal.x, goal.y, goal.theta) for goal in self.desk.goals if goal.state in ("on its way", "reached")]
-        return plot_path(self.backend.recorder, goal=goals[-1:] or None)
-
-    def _place(self) -> str:
-        poses = self.backend.recorder.poses.newest(1)
-        if not len(poses):
-            return "no pose heard yet"
-        x, y, theta = (poses[0][name] for name in ("x", "y", "theta"))
-        return f"the turtle is at {point(x, y)} m facing {angle(theta)}"
+RATE_WINDOW = 5.0
+"""Seconds of robot time over which a rate is measured."""
+PAUSE = 1.0
+"""Seconds without a message after which a topic that should go on counts as silent."""
+TOLERANCE = 0.15
+"""By this share a rate may be off and still be as expected."""
+MOST_ROWS = 12
+"""Topics that are shown; each of those without an expected rate costs a subscription while the panel is seen."""
+MOST_MESSAGES = 1000
+"""Messages of a topic whose times are kept: five seconds of 200 a second."""
 
 
-DASHBOARD = ["clock", "map", "goals", "editor", "status", "log", "scan", "rates", "lights"]
+class Dashboard(GoalPad):
+    """Everything about a running system at once. While a page shows it, it also hears /rosout and every topic."""
 
+    PANELS = (*GoalPad.PANELS, "status", "log", "scan", "rates", "lights")
 
-class Dashboard(LogPanel, LightsPanel, RatesPanel, ScanPanel, StatusPanel, LabView):
-    """The goal pad, and beside it status, scan, topics, nodes, services and log."""
+    status = traitlets.Bytes().tag(sync=True)
+    """A row for each status: its age (s), x, y (m), heading (rad), speed (m/s), battery (%)."""
+    status_note = traitlets.Unicode().tag(sync=True)
+    """Why there is no status, if there is none."""
+    scan_words = traitlets.Dict().tag(sync=True)
+    """"nearest" and "count" in words, the index of the nearest "beam" (-1: none), and a "note" on silence."""
+    lights = traitlets.List(traitlets.Dict()).tag(sync=True)
+    """"name", "kind" ("node" or "service"), "state" ("present", "missing", "several", "extra") and "words" for each."""
+    rates = traitlets.List(traitlets.Dict()).tag(sync=True)
+    """A row a topic: "topic", "hertz", "expected" (0: none), a "state" in words, and a "note"."""
+    rates_more = traitlets.Int(0).tag(sync=True)
+    """How many topics are not shown."""
+    log_old: Any = traitlets.List().tag(sync=True)
+    """The newest lines of the log: number, robot time (s), level, name of the logger and text. They are sent in two pieces,
+    so that a new line does not cost the whole log."""
+    log_new: Any = traitlets.List().tag(sync=True)
+    log_least = traitlets.Unicode("INFO").tag(sync=True)
+    """Lines below this level are not shown."""
 
     def __init__(self, backend: Backend) -> None:
-        super().__init__(backend, DASHBOARD)
-        self.title = "Dashboard"
+        self._status_seen: tuple[float, int] | None = None
+        self._scan_read: Any = None
+        self._heard: dict[str, tuple[Channel, Table, str]] = {}  # with the reason why a topic cannot be heard
+        self._rosout: Any = None
+        self._log_waiting: list[tuple[int, str, str, str]] = []
+        self._log_count = self._log_newest = self._log_read_until = 0
+        super().__init__(backend, title="Dashboard")
+
+    def opened(self) -> None:
+        super().opened()
+        from rcl_interfaces.msg import Log
+        from rclpy.qos import DurabilityPolicy, QoSProfile
+
+        self._log_read_until = self._log_newest
+        latched = QoSProfile(
+            depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL
+        )  # what was said before comes first
+        self._rosout = self.backend.node.create_subscription(Log, "/rosout", self._hear_log, latched)
+
+    def closed(self) -> None:
+        super().closed()
+        if self._rosout is not None:
+            self.backend.node.destroy_subscription(self._rosout)
+            self._rosout = None
+        while self._heard:
+            self._heard.popitem()[1][0].close()
+
+    def tick(self) -> None:
+        super().tick()
+        if self.due("status", 10):
+            self._show_status()
+        if self.due("scan", 10):
+            self._show_scan_in_words()
+        if self.due("lights", 2):
+            self.lights = look(self.backend.node)
+        if self._rosout is not None and self.due("topics", 1):
+            self._follow_topics()
+        if self.due("rates", 4):
+            self.rates = [*self._expected_rates(), *self._other_rates()]
+        if self._log_waiting and self.due("log", 5):
+            waiting, self._log_waiting = self._log_waiting, []
+            self._add_lines(sorted(waiting, key=itemgetter(0)))
 
     def text(self) -> str:
         """Time, place, battery, the nearest thing, what is missing, and how many goals were sent."""
-        scan, lost = self.backend.recorder.last_scan, missing(look(self.backend.node))
+        scan = self.backend.recorder.last_scan
+        lost = [light["name"] for light in look(self.backend.node) if light["state"] == "missing"]
         facts = [
             self._place(),
             "no scan heard yet" if scan is None else f"nearest in the scan: {in_words(read_beams(scan))['nearest']}",
@@ -113,3 +154,231 @@ class Dashboard(LogPanel, LightsPanel, RatesPanel, ScanPanel, StatusPanel, LabVi
         statuses = recorder.statuses.newest(1)
         battery = f", battery {number(statuses[0]['battery'], 1)} %" if len(statuses) and len(recorder.poses) else ""
         return super()._place() + battery
+
+    def _why_silent(self, topic: str) -> str:
+        """A sentence on why nothing came on a topic that the recorder hears, and what to try."""
+        if self.backend.node.count_publishers(topic):
+            return f"No message has come on {topic} yet: messages come while robot time passes."
+        return self.backend.recorder.why_silent(topic)
+
+    # -- status and scan -----------------------------------------------------------------------------------------------
+
+    def _show_status(self) -> None:
+        recorder, now = self.backend.recorder, self.backend.now
+        newest = recorder.statuses.newest(1)
+        stamp = int(newest["stamp"][0]) if len(newest) else 0
+        if self._status_seen != (now, stamp):
+            self._status_seen = (now, stamp)
+            self.status = pack(_thinned(recorder.statuses.newest(MOST_STATUSES), self._now()))
+        if len(newest):
+            age = now - float(recorder.seconds(stamp))
+            self.status_note = f"No status for {age:.0f} s." if age > LATE else ""
+        elif self.due("status note", 1):
+            self.status_note = self._why_silent(STATUS_TOPIC)
+
+    def _show_scan_in_words(self) -> None:
+        recorder = self.backend.recorder
+        scan = recorder.last_scan
+        if scan is None:
+            if self.due("scan note", 1):
+                self.scan_words = {"beam": -1, "nearest": "", "count": "", "note": self._why_silent(SCAN_TOPIC)}
+            return
+        age = self.backend.now - float(recorder.seconds(recorder.scans.newest(1)["stamp"][0]))
+        note = f"No scan for {age:.0f} s." if age > LATE else ""
+        if scan is not self._scan_read:
+            self._scan_read = scan
+            self.scan_words = {**in_words(read_beams(scan)), "note": note}
+        elif note != self.scan_words["note"]:
+            self.scan_words = {**self.scan_words, "note": note}
+
+    # -- rates ---------------------------------------------------------------------------------------------------------
+
+    def _now(self) -> int:
+        """Robot time as the recorder's tables have it, ns."""
+        return self.backend.recorder.origin + round(self.backend.now * NANOSECONDS)
+
+    def _expected_rates(self) -> list[dict[str, Any]]:
+        recorder = self.backend.recorder
+        known: list[tuple[str, Table, float]] = [
+            (recorder.pose_topic, recorder.poses, 62.5),
+            (STATUS_TOPIC, recorder.statuses, 10.0),
+            (SCAN_TOPIC, recorder.scans, 5.0),
+            (recorder.command_topic, recorder.commands, 10.0),
+        ]
+        rows = []
+        for topic, table, expected in known:
+            hertz = frequency(table.newest(MOST_MESSAGES)["stamp"], self._now(), PAUSE)
+            state = verdict(hertz, expected)
+            if topic == recorder.command_topic and state == "silent":
+                state = "at rest"  # no goal is driven to, so no command is due
+            elif state == "silent" and self.backend.now < PAUSE:
+                state = "just begun"
+            rows.append(_rate(topic, hertz, expected, state))
+        return rows
+
+    def _other_rates(self) -> list[dict[str, Any]]:
+        tables = {topic: (table, trouble) for topic, (_, table, trouble) in self._heard.items()}
+        if len(self.backend.recorder.worlds):
+            tables[OBSTACLE_TOPIC] = self.backend.recorder.worlds, ""
+        rows = []
+        for topic, (table, trouble) in sorted(tables.items()):
+            hertz = frequency(table.newest(MOST_MESSAGES)["stamp"], self._now())
+            rows.append(_rate(topic, hertz, 0.0, "not heard" if trouble else "heard" if hertz else "quiet", trouble))
+        return rows
+
+    def _follow_topics(self) -> None:
+        """Listen to each topic that a node publishes and the recorder does not hear."""
+        node, recorder = self.backend.node, self.backend.recorder
+        known = {recorder.pose_topic, recorder.command_topic, STATUS_TOPIC, SCAN_TOPIC, OBSTACLE_TOPIC}
+        found = {
+            topic: types[0]
+            for topic, types in sorted(node.get_topic_names_and_types())
+            if topic not in known | EVERYWHERE and not is_hidden(topic) and node.count_publishers(topic)
+        }
+        shown = dict(list(found.items())[: MOST_ROWS - len(known)])
+        self.rates_more = len(found) - len(shown)
+        for topic in [topic for topic in self._heard if topic not in shown]:
+            self._heard.pop(topic)[0].close()
+        for topic, type_name in shown.items():
+            if topic not in self._heard:
+                self._heard[topic] = self._listen(topic, type_name)
+
+    def _listen(self, topic: str, type_name: str) -> tuple[Channel, Table, str]:
+        table = Table(limit=MOST_MESSAGES)
+        raw = self.backend.clock is None  # on a robot, where it may be images: never made into Python objects
+        channel = Channel(self.backend.node, topic, type_name, lambda _: table.listener(), "", raw=raw)
+        try:
+            channel.follow()
+        except Exception as error:  # a type that is another one in this very program
+            return channel, table, f"{type_name} cannot be heard here: {error}"
+        return channel, table, "" if channel.listens else channel.why_silent()
+
+    # -- log -----------------------------------------------------------------------------------------------------------
+
+    def do_log_least(self, level: str) -> None:
+        """Show only lines of this level and above."""
+        if level not in LEVELS:
+            raise ValueError(f"There is no level {level!r}; there are {', '.join(LEVELS)}.")
+        self.log_least = level
+
+    def _hear_log(self, message: Any) -> None:
+        stamp = message.stamp.sec * NANOSECONDS + message.stamp.nanosec
+        if stamp <= self._log_read_until:
+            return  # heard before the panel was last closed
+        self._log_newest = max(self._log_newest, stamp)
+        self._log_waiting.append((stamp, level_name(message.level), message.name, message.msg))
+        del self._log_waiting[:-KEPT]
+
+    def _add_lines(self, heard: list[tuple[int, str, str, str]]) -> None:
+        new = list(self.log_new)
+        for stamp, *what in heard:
+            self._log_count += 1
+            new.append([self._log_count, round(float(self.backend.recorder.seconds(stamp)), 3), *what])
+        if len(new) > BLOCK:
+            self.log_old = [*self.log_old, *new][-KEPT:]
+            new = []
+        self.log_new = new
+
+
+def level_name(level: Any) -> str:
+    """The name of a level of rcl_interfaces/msg/Log: 20 is "INFO", and so is what lies between 20 and 30."""
+    number = level[0] if isinstance(level, bytes) else int(level)
+    return LEVELS[min(max(number // 10 - 1, 0), len(LEVELS) - 1)]
+
+
+def look(node: Any) -> list[dict[str, Any]]:
+    """What the system needs, and the other nodes, from the graph that `node` (an rclpy Node) sees."""
+    places = node.get_node_names_and_namespaces()
+    names = [f"{namespace.rstrip('/')}/{name}" for name, namespace in places]
+    found = Counter(name for name in names if not is_hidden(name))
+    nodes = [_light(name, "node", found[name]) for name in NODES]
+    extra = [{**_light(name, "node", found[name]), "state": "extra"} for name in sorted(found) if name not in NODES]
+    offering = {service: servers(node, service) for service in SERVICES}
+    services = [_light(name, "service", len(nodes), listed(nodes)) for name, nodes in offering.items()]
+    return [*nodes, *services, *extra]
+
+
+def _light(name: str, kind: str, amount: int, by: str = "") -> dict[str, Any]:
+    if not amount:
+        state, words = "missing", "missing"
+    elif amount == 1:
+        state, words = "present", f"from {by}" if by else "present"
+    else:
+        state = "several"
+        words = f"offered {amount} times" if by else f"{amount} nodes of this name"
+    return {"name": name, "kind": kind, "state": state, "words": words}
+
+
+def _thinned(rows: np.ndarray, now: int) -> np.ndarray:
+    """The statuses of the window, thinned so that a point that stays does not move while time goes on."""
+    ages = (now - rows["stamp"]) / NANOSECONDS
+    rows, ages = rows[ages <= WINDOW], ages[ages <= WINDOW]
+    if len(rows) > POINTS:
+        slots = rows["stamp"] // round(WINDOW / POINTS * NANOSECONDS)
+        kept = np.append(slots[1:] != slots[:-1], True)
+        rows, ages = rows[kept], ages[kept]
+    speed = np.hypot(rows["vel_x"], rows["vel_y"])
+    return np.column_stack([ages, rows["x"], rows["y"], rows["theta"], speed, rows["battery"]])
+
+
+def frequency(stamps: np.ndarray, now: int, pause: float = RATE_WINDOW) -> float:
+    """Messages a second since the last `pause` (s); 0 in silence, not-a-number for a first message that is alone.
+
+    `stamps` and `now` are in ns, `stamps` ascending.
+    """
+    recent = stamps[stamps > now - round(RATE_WINDOW * NANOSECONDS)]
+    if not len(recent):
+        return 0.0
+    gaps = np.diff(recent, append=max(now, int(recent[-1]))) / NANOSECONDS
+    if gaps[-1] > pause:
+        return 0.0
+    breaks = np.flatnonzero(gaps[:-1] > pause)
+    steps = gaps[breaks[-1] + 1 if len(breaks) else 0 : -1]
+    if not len(steps):
+        return math.nan
+    span = float(steps.sum())
+    overdue = max(0.0, float(gaps[-1]) - 2 * span / len(steps))
+    return len(steps) / (span + overdue) if span + overdue > 0 else math.nan
+
+
+def verdict(hertz: float, expected: float) -> str:
+    """ "as expected", "too slow", "too fast", "silent", or "just begun" """
+    if math.isnan(hertz):
+        return "just begun"
+    if hertz == 0:
+        return "silent"
+    if hertz < (1 - TOLERANCE) * expected:
+        return "too slow"
+    return "too fast" if hertz > (1 + TOLERANCE) * expected else "as expected"
+
+
+def _rate(topic: str, hertz: float, expected: float, state: str, note: str = "") -> dict[str, Any]:
+    shown = None if math.isnan(hertz) else float(np.round(hertz, 1))
+    return {"topic": topic, "hertz": shown, "expected": expected, "state": state, "note": note}
+
+
+def in_words(beams: Beams) -> dict[str, Any]:
+    """The nearest thing and how many beams see anything: {"beam": …, "nearest": …, "count": …}."""
+    beam = beams.nearest()
+    counted = f"{int(beams.sees.sum())} of {len(beams)} beams see something"
+    if beam is None:
+        return {"beam": -1, "nearest": f"nothing within {number(beams.most, 1)} m", "count": counted}
+    degrees = round(math.degrees(math.remainder(beams.angles[beam], math.tau)))
+    there = f"{abs(degrees)}° to the {'left' if degrees > 0 else 'right'}"
+    there = {0: "straight ahead", 180: "straight behind", -180: "straight behind"}.get(degrees, there)
+    return {"beam": beam, "nearest": f"{number(beams.ranges[beam])} m, {there}", "count": counted}
+
+
+def _side_by_side(cards: list[np.ndarray]) -> Figure:
+    """A figure on which pictures (rows of pixels) stand side by side, pixel for pixel, their tops in line."""
+    from matplotlib.figure import Figure
+
+    gap = 12 * SHARPNESS
+    sharp = style.DPI * SHARPNESS
+    width, height = sum(card.shape[1] + gap for card in cards) - gap, max(map(len, cards))
+    figure = Figure((width / sharp, height / sharp), dpi=style.DPI, facecolor="none")
+    left = 0
+    for card in cards:
+        figure.figimage(card, left, height - len(card), origin="upper")
+        left += card.shape[1] + gap
+    return figure

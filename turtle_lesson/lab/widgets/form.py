@@ -12,7 +12,7 @@ from ..words import count, did_you_mean, enumerated, listed
 from .backend import Backend
 from .form_fields import FieldError, Group, Rows, Single, find_part
 from .lazy_endpoints import LazyClient, LazyPublisher, let_time_go_on
-from .live_widget import LiveWidget, script, styles
+from .live_widget import LiveWidget
 from .message_types import find_class
 
 FASTEST = 100.0
@@ -27,6 +27,9 @@ class Form(LiveWidget):
 
     What stands in the fields is kept here as text, so that all views show the same, and an error stays beside its field.
     """
+
+    SCRIPTS = ("dom", "small", "form_fields", "form")
+    STYLES = ("base", "small", "form")
 
     name = traitlets.Unicode().tag(sync=True)
     kind = traitlets.Unicode().tag(sync=True)
@@ -54,8 +57,6 @@ class Form(LiveWidget):
     unheard = traitlets.Unicode().tag(sync=True)
 
     def __init__(self, backend: Backend, name: str) -> None:
-        self._esm = script("dom", "small", "form_fields", "form")
-        self._css = styles("base", "small", "form")
         full, kind, type_name = _look_up(backend.node, name)
         message_class = find_class(type_name)
         self._whole = Group("", "", message_class if kind == "topic" else message_class.Request)
@@ -147,13 +148,12 @@ class Form(LiveWidget):
 
     def _publish_again_and_again(self) -> None:
         self._drop_timer()
-        self._timer = self.backend.node.create_timer(1 / self.rate, lambda: self.backend.loop.now_or_soon(self._repeat))
+        self._timer = self.backend.node.create_timer(1 / self.rate, self._repeat)
         self.words = f"Publishing on {self.name}, {self.rate:g} times a second of robot time."
         self._bring_up_to_date()
 
     def _repeat(self) -> None:
-        if self._timer is not None and not self.backend.ended:  # or it was stopped while this was on its way
-            self._publish(self._last if self.errors else self._whole.build(self._time))
+        self._publish(self._last if self.errors else self._whole.build(self._time))
 
     def _publish(self, message: Any) -> None:
         self._last = message
@@ -173,20 +173,13 @@ class Form(LiveWidget):
         return self.backend.node.get_clock().now().to_msg()
 
     def tick(self) -> None:
-        """Look which nodes listen, and whether an answer is overdue."""
         self._client.look()
         self._publisher.flush()
         self.running = self._timer is not None or self._client.asking
         if self.due("listeners", 3):
             self.unheard = self._publisher.why_unheard() if self.kind == "topic" else self._client.why_unheard()
 
-    def closed(self) -> None:
-        """The last view is gone: publish no more, ask no more."""
-        if not self.backend.ended:
-            self.left()
-
     def left(self) -> None:
-        """Publish no more, ask no more."""
         self._drop_timer()
         self._publisher.close()
         self._client.close()

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 from weakref import WeakSet
 
 from ...ros.stdlib.clocks import real_monotonic
 from .backend import Backend
 from .lazy_endpoints import DISCOVERY, ServerWatcher
-from .live_widget import Pace
 
 SERVICE = "/navigate_to"
 AT_ONCE = 0.5
@@ -72,7 +72,6 @@ class GoalClient:
         self._found_by = 0.0
         self._asked: dict[int, Any] = {}
         self._unexplained: dict[int, Goal] = {}
-        self._look_pace = Pace(2)
         self._wanted = False
         self.server = ServerWatcher(backend, SERVICE, self._explain)
         self.goals: list[Goal] = []
@@ -98,8 +97,8 @@ class GoalClient:
         return goal
 
     def look(self) -> None:
-        """Look whether the navigator is there for the goals that wait. Call it often."""
-        if not any(goal.waits for goal in self.goals) or not self._look_pace.due():
+        """Look whether the navigator is there for the goals that wait. Call it now and then."""
+        if not any(goal.waits for goal in self.goals):
             return
         gone = not self.server.is_there()
         for goal in [goal for goal in self.goals if goal.waits]:
@@ -154,7 +153,7 @@ class GoalClient:
         goal.state = "on its way"
         self._asked[goal.number] = future = self._client.call_async(request)
         self.server.listen()  # after the request, which need not wait for it: nothing is heard within this turn of the loop
-        future.add_done_callback(lambda done: self._backend.loop.now_or_soon(self._answered, goal, done))
+        future.add_done_callback(partial(self._answered, goal))
 
     def _how_to_start(self) -> str:
         by_hand = "ros2 run robot_controller navigator"

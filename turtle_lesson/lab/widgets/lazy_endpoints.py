@@ -1,25 +1,18 @@
-"""Endpoints of widgets, made when they are first used: publisher, subscription, client, and a view of a server."""
+"""Endpoints of widgets, made when they are first used: publisher, client, and a view of a server."""
 
 from __future__ import annotations
 
-import importlib
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
-import numpy as np
-
-from ..recorder import with_time
 from ..words import enumerated, listed, number
 from .backend import Backend
 from .message_types import plain
 
 PATIENCE = 1.0
 """Robot time, s, for which a message waits until a publisher that was just made has found its listeners."""
-
-KEPT = 1000
-"""Times that are kept: five seconds of a topic with 200 messages a second."""
 
 DISCOVERY = 2.0
 """Seconds for which a question is held back on a real network, until a new client has found its server."""
@@ -117,46 +110,6 @@ def in_a_moment(backend: Backend, has_come: Callable[[], bool]) -> None:
         backend.clock.step(0.005)
 
 
-class LazySubscriber:
-    """Notes when messages were sent on a topic, until it is closed. `trouble` says why it cannot, if it cannot."""
-
-    def __init__(self, backend: Backend, topic: str, type_name: str) -> None:
-        self._backend = backend
-        self._stamps: deque[int] = deque(maxlen=KEPT)
-        self._subscription: Any = None
-        self.trouble = ""
-        try:
-            self._subscribe(topic, type_name)
-        except Exception as error:  # a type that is not built here, or that is another one in this very program
-            self.trouble = f"{type_name} cannot be heard here: {error}"
-
-    @property
-    def stamps(self) -> np.ndarray:
-        """When the newest messages were sent, ns."""
-        return np.fromiter(self._stamps, np.int64)
-
-    def close(self) -> None:
-        """Listen no more."""
-        if self._subscription is not None:
-            self._backend.node.destroy_subscription(self._subscription)
-            self._subscription = None
-
-    def _subscribe(self, topic: str, type_name: str) -> None:
-        from rclpy.qos import QoSProfile, ReliabilityPolicy
-
-        package, kind, name = type_name.split("/")
-        message_type = getattr(importlib.import_module(f"{package}.{kind}"), name)
-        loop, add = self._backend.loop, self._stamps.append
-
-        def hear(message: Any, info: Mapping[str, Any]) -> None:
-            loop.now_or_soon(add, info["source_timestamp"])
-
-        node = self._backend.node
-        quality = QoSProfile(depth=KEPT, reliability=ReliabilityPolicy.BEST_EFFORT)
-        bare = self._backend.clock is None  # on a robot, where it may be images: never made into Python objects
-        self._subscription = node.create_subscription(message_type, topic, with_time(node, hear), quality, raw=bare)
-
-
 Answered = Callable[[str, str], object]
 """Called with what became of a question: in words, and the answer in YAML ("" where none came)."""
 
@@ -234,7 +187,7 @@ class LazyClient:
 
     def _send(self, request: Any) -> None:
         self._future = future = self._client.call_async(request)
-        future.add_done_callback(lambda done: self._backend.loop.now_or_soon(self._done, done))
+        future.add_done_callback(self._done)
 
     def _done(self, future: Any) -> None:
         if future is not self._future:
@@ -288,10 +241,7 @@ class ServerWatcher:
         if self._subscription is None:
             from rcl_interfaces.msg import Log
 
-            node, loop = self._backend.node, self._backend.loop
-            self._subscription = node.create_subscription(
-                Log, "/rosout", lambda message: loop.now_or_soon(self._hear, message), 1000
-            )
+            self._subscription = self._backend.node.create_subscription(Log, "/rosout", self._hear, 1000)
 
     def close(self) -> None:
         """Listen no more."""

@@ -18,7 +18,7 @@ from ..recording import NANOSECONDS, OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, T
 from ..status import label_beside, spread
 from ..words import count, did_you_mean, enumerated, number
 from .backend import Backend
-from .live_widget import LiveWidget, pack, script, styles
+from .live_widget import LiveWidget, pack
 from .message_types import find_class, kinds_of
 
 KEPT = 20_000
@@ -187,6 +187,9 @@ ANCHOR = 1000.0
 class LivePlot(LiveWidget):
     """Draws numbers over the last seconds of robot time. It listens from its making until its last view closes."""
 
+    SCRIPTS = ("dom", "small", "live_plot")
+    STYLES = ("base", "small", "live_plot")
+
     curves = traitlets.List(traitlets.Dict()).tag(sync=True)
     """Of each curve: its "name", its "topic", the "last" number in words, and a "note" if there is nothing to hear."""
     points = traitlets.Bytes().tag(sync=True)
@@ -201,8 +204,6 @@ class LivePlot(LiveWidget):
     RATE = 20.0
 
     def __init__(self, backend: Backend, fields: Iterable[str], seconds: float) -> None:
-        self._esm = script("dom", "small", "live_plot")
-        self._css = styles("base", "small", "live_plot")
         self._curves = [Curve(asked) for asked in dict.fromkeys(_checked(backend.node, fields))]
         self._channels: dict[str, Channel] = {}
         self._timer: Any = None
@@ -226,7 +227,7 @@ class LivePlot(LiveWidget):
 
     def _listen(self) -> None:
         if self._timer is None:
-            self._timer = self.backend.node.create_timer(1.0, lambda: self.backend.loop.now_or_soon(self._look))
+            self._timer = self.backend.node.create_timer(1.0, self._look)
             self._look()
 
     def _look(self) -> None:
@@ -255,16 +256,9 @@ class LivePlot(LiveWidget):
         return Channel(self.backend.node, topic, type_name, lambda _: hear, "It waits until a node does.")
 
     def opened(self) -> None:
-        """Listen, if it does not yet."""
         self._listen()
 
-    def closed(self) -> None:
-        """The last view is gone: listen no more; what was heard stays."""
-        if not self.backend.ended:
-            self.left()
-
     def left(self) -> None:
-        """Listen no more."""
         if self._timer is not None:
             self.backend.node.destroy_timer(self._timer)
         for channel in self._channels.values():

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
 from contextlib import suppress
 from functools import cache, partial
 from pathlib import Path
@@ -16,31 +15,21 @@ from numpy.typing import ArrayLike
 
 from ...ros.stdlib.clocks import real_monotonic
 from ..picture import Picture
-from .backend import Backend, Link, Loop
+from .backend import Backend, Link
 
 KEPT = 20
 """Of the widgets whose system has ended and that no page shows, so many can still be shown: a page that is run as a whole
 shows all of its widgets only after its last cell. Older ones are closed."""
 
-_ended: list[LiveWidget] = []
+PATIENCE = 150.0
+"""Seconds without a sign of life after which a view counts as gone: its window was closed, or its network broke.
+
+A view gives one every 20 s, and a browser may hold up those of a hidden window for a minute.
+"""
 
 FOLDER = Path(__file__).with_name("js")
 
-
-class Pace:
-    """Says when something is due again, so many times a second of real time at most."""
-
-    def __init__(self, hertz: float) -> None:
-        self._period = 1 / hertz
-        self._next = -1.0
-
-    def due(self) -> bool:
-        """Whether it is time again; if so, the next time is a period from now."""
-        now = real_monotonic()
-        if now < self._next:
-            return False
-        self._next = now + self._period
-        return True
+_ended: list[LiveWidget] = []
 
 
 def pack(numbers: ArrayLike) -> bytes:
@@ -74,36 +63,38 @@ class LiveWidget(anywidget.AnyWidget):
     ended = traitlets.Bool(False).tag(sync=True)
     """The world that it showed is gone."""
 
+    SCRIPTS: ClassVar[tuple[str, ...]]
+    STYLES: ClassVar[tuple[str, ...]]
+    """Its files in `js`."""
     RATE: ClassVar[float] = 30.0
     is_made = False
 
     def __init__(self, backend: Backend, **traits: Any) -> None:
         """`backend` is a `Link` to it."""
         self.backend = backend
-        self._seen: dict[str, float] = {}
-        self._paces: dict[str, Pace] = {}
+        self._esm, self._css = script(*self.SCRIPTS), styles(*self.STYLES)
+        self._paces: dict[str, float] = {}
+        self._views: dict[str, float] = {}  # when each gave its last sign of life
+        self._is_open = False
+        self._task: asyncio.Task[None] | None = None
         super().__init__(**traits)
-        self._views = Views(backend.loop, 1 / self.RATE, self._tick, self.opened, self.closed)
         self.on_msg(partial(backend.loop.soon, self._order))
         self.is_made = True
 
+    # -- for subclasses to override ------------------------------------------------------------------------------------
+
     def tick(self) -> None:
         """Bring the traits up to date."""
-
-    def due(self, what: str, hertz: float) -> bool:
-        """Whether it is time again for what is done so many times a second of real time at most."""
-        if what not in self._paces:
-            self._paces[what] = Pace(hertz)
-        return self._paces[what].due()
 
     def opened(self) -> None:
         """The first view was opened: begin to listen."""
 
     def closed(self) -> None:
         """The last view was closed: stop listening."""
+        self.left()
 
     def left(self) -> None:
-        """The widget is taken away for good, while its world goes on: let go of publishers, clients and the like."""
+        """Let go of publishers, clients and the like: the widget, or its system, is taken away. May be called again."""
 
     def text(self) -> str:
         """The state in one exact sentence or two: what print shows and nbval compares."""
@@ -112,6 +103,22 @@ class LiveWidget(anywidget.AnyWidget):
     def picture(self) -> Picture | None:
         """What to show where there is no kernel."""
         return None
+
+    # -- ticks and views -----------------------------------------------------------------------------------------------
+
+    def due(self, what: str, hertz: float) -> bool:
+        """Whether it is time again for what is done so many times a second of real time at most."""
+        now = real_monotonic()
+        if now < self._paces.get(what, -1.0):
+            return False
+        self._paces[what] = now + 1 / hertz
+        return True
+
+    @property
+    def is_seen(self) -> bool:
+        """Whether a page shows the widget."""
+        limit = real_monotonic() - PATIENCE
+        return any(time > limit for time in self._views.values())
 
     def _tick(self) -> None:
         if self.backend.ended:
@@ -123,6 +130,22 @@ class LiveWidget(anywidget.AnyWidget):
         except Exception as error:  # or the widget would stand still without a word
             self.words = f"This widget could not be updated: {error}"
 
+    def _beat(self) -> None:
+        """Tick while a view gives signs of life."""
+        if not self.is_seen and not self.backend.ended:
+            self._views.clear()
+            self._rest()
+        else:
+            self._tick()
+
+    def _rest(self) -> None:
+        """No view is there any more."""
+        if self._is_open:
+            self._is_open = False
+            if self._task is not None:
+                self._task.cancel()
+            self.closed()
+
     def set_state(self, sync_data: dict[str, Any]) -> None:
         """Take no state from a page: what a widget shows is Python's alone to say, and a page sends orders."""
 
@@ -131,20 +154,25 @@ class LiveWidget(anywidget.AnyWidget):
         if not isinstance(content, dict):
             return
         order = dict(content)
-        name = order.pop("do", None)
-        view = str(order.pop("view", ""))
+        name, view = order.pop("do", None), str(order.pop("view", ""))
         if self.backend.ended:
             self.end()
-            if name in ("open", "alive"):
-                self._seen[view] = real_monotonic()
-            elif name == "close":
-                self._seen.pop(view, None)
-        elif name in ("open", "alive"):
-            self._views.heard(view)
+        if name in ("open", "alive"):
+            self._views[view] = real_monotonic()
+            if not self.backend.ended:
+                self._open()
         elif name == "close":
-            self._views.gone(view)
-        else:
+            if self._views.pop(view, None) is not None and not self._views:
+                self._rest()
+        elif not self.backend.ended:
             self._carry_out(name, order)
+
+    def _open(self) -> None:
+        if not self._is_open:
+            self._is_open = True
+            self.opened()
+            self._task = self.backend.loop.every(1 / self.RATE, self._beat)
+        self._tick()
 
     def _carry_out(self, name: object, order: dict[str, Any]) -> None:
         if not isinstance(name, str) or not hasattr(self, f"do_{name}"):
@@ -155,6 +183,8 @@ class LiveWidget(anywidget.AnyWidget):
         except Exception as error:
             self.words = f"{error}"
         self._tick()
+
+    # -- its end -------------------------------------------------------------------------------------------------------
 
     def end(self) -> None:
         """The system ends now: show its last state from now on."""
@@ -175,7 +205,7 @@ class LiveWidget(anywidget.AnyWidget):
 
     def _let_go(self) -> None:
         """Keep the last words, and nothing of the system."""
-        for step in (self._views.clear, self.left):
+        for step in (self._rest, self.left):
             with suppress(Exception):  # what has broken down must not keep the next system from starting
                 step()
         last = "This widget has ended."
@@ -184,11 +214,6 @@ class LiveWidget(anywidget.AnyWidget):
         cast(Link, self.backend).cut()
         self.text = lambda: last  # type: ignore[method-assign]
         self.picture = lambda: None  # type: ignore[method-assign]
-
-    @property
-    def is_seen(self) -> bool:
-        """Whether a page shows the widget."""
-        return len(self._views) > 0 or any(real_monotonic() - time < PATIENCE for time in self._seen.values())
 
     def __repr__(self) -> str:
         return self.text()
@@ -212,63 +237,3 @@ def put_aside(widget: LiveWidget) -> None:
     for each in unseen[:-KEPT]:
         _ended.remove(each)
         each.close()
-
-
-PATIENCE = 150.0
-"""Seconds without a sign of life after which a view counts as gone: its window was closed, or its network broke.
-
-A view gives one every 20 s, and a browser may hold up those of a hidden window for a minute.
-"""
-
-
-class Views:
-    """The open views of one widget. `tick` is called every `seconds` while there is one."""
-
-    def __init__(
-        self,
-        loop: Loop,
-        seconds: float,
-        tick: Callable[[], object],
-        opened: Callable[[], object],
-        closed: Callable[[], object],
-    ) -> None:
-        self._loop, self._seconds = loop, seconds
-        self._tick, self._opened, self._closed = tick, opened, closed
-        self._heard: dict[str, float] = {}
-        self._task: asyncio.Task[None] | None = None
-
-    def __len__(self) -> int:
-        return len(self._heard)
-
-    def heard(self, view: str) -> None:
-        """A view says that it is there."""
-        first = not self._heard
-        self._heard[view] = real_monotonic()
-        if first:
-            self._opened()
-            self._task = self._loop.every(self._seconds, self._again)
-        self._tick()
-
-    def gone(self, view: str) -> None:
-        """A view says good-bye."""
-        if self._heard.pop(view, None) is not None and not self._heard:
-            self._stop()
-
-    def clear(self) -> None:
-        """No view is there any more."""
-        if self._heard:
-            self._heard.clear()
-            self._stop()
-
-    def _again(self) -> None:
-        limit = real_monotonic() - PATIENCE
-        for view in [view for view, time in self._heard.items() if time < limit]:
-            self.gone(view)
-        if self._heard:
-            self._tick()
-
-    def _stop(self) -> None:
-        if self._task is not None:
-            self._task.cancel()
-            self._task = None
-        self._closed()

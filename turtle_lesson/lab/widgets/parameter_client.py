@@ -55,7 +55,7 @@ class ParameterClient:
 
         if self._events is None:
             node = self._backend.node
-            self._events = node.create_subscription(ParameterEvent, "/parameter_events", self._hear, 100)
+            self._events = node.create_subscription(ParameterEvent, "/parameter_events", self._follow, 100)
         for what in SERVICES:
             self._client(what)  # now, since on a real network a client finds no server in its first moments
         self._found_by = self._backend.now + DISCOVERY
@@ -146,7 +146,7 @@ class ParameterClient:
                 self._changed()
 
         future = client.call_async(client.srv_type.Request(**content))
-        future.add_done_callback(lambda done: self._backend.loop.now_or_soon(answered, done))
+        future.add_done_callback(answered)
         return future
 
     def _client(self, what: str) -> Any:
@@ -164,12 +164,8 @@ class ParameterClient:
             return f"{self._node_name} is gone."
         return f"{self._node_name} offers no services for its parameters (start_parameter_services=False)."
 
-    def _hear(self, event: Any) -> None:
-        if event.node == self._node_name:
-            self._backend.loop.now_or_soon(self._follow, event)
-
     def _follow(self, event: Any) -> None:
-        if self._events is None or self._backend.ended:
+        if event.node != self._node_name:
             return
         for parameter in event.changed_parameters:
             found = self.found.get(parameter.name)

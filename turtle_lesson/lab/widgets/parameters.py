@@ -9,12 +9,15 @@ import traitlets
 from ...ros.idl.names import is_hidden
 from ..words import count, did_you_mean, enumerated
 from .backend import Backend
-from .live_widget import LiveWidget, script, styles
+from .live_widget import LiveWidget
 from .parameter_client import BOOL, DOUBLE, INTEGER, TYPES, Found, ParameterClient, node_names, read, shown
 
 
 class ParametersPanel(LiveWidget):
     """Shows a node's parameters, sets them through the node's own service, and follows what others set."""
+
+    SCRIPTS = ("dom", "small", "parameter_controls", "parameters")
+    STYLES = ("base", "small", "parameters")
 
     node_name = traitlets.Unicode().tag(sync=True)
     items = traitlets.List(traitlets.Dict()).tag(sync=True)
@@ -25,8 +28,6 @@ class ParametersPanel(LiveWidget):
     """Whether the answer waits for robot time, which stands still."""
 
     def __init__(self, backend: Backend, node: str) -> None:
-        self._esm = script("dom", "small", "parameter_controls", "parameters")
-        self._css = styles("base", "small", "parameters")
         name = _look_up(backend.node, node)
         self._client = ParameterClient(backend, name, self._show)
         self._errors: dict[str, str] = {}
@@ -81,16 +82,9 @@ class ParametersPanel(LiveWidget):
         self._show()
 
     def opened(self) -> None:
-        """Listen and ask, if that has ended."""
         self._client.listen()
 
-    def closed(self) -> None:
-        """The last view is gone: listen no more."""
-        if not self.backend.ended:
-            self.left()
-
     def left(self) -> None:
-        """Listen no more."""
         self._client.close()
 
     def _show(self) -> None:

@@ -9,7 +9,7 @@ import traitlets
 
 from ..path import WORLD
 from .backend import Link, Loop
-from .live_widget import LiveWidget, script, styles
+from .live_widget import LiveWidget
 
 if TYPE_CHECKING:
     from ..predictions import Question
@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
 class PredictionWidget(LiveWidget):
     """Needs no system: its backend is only the notebook's loop, and never ends."""
+
+    SCRIPTS = ("dom", "small", "map", "prediction")
+    STYLES = ("base", "small", "prediction")
 
     question = traitlets.Unicode().tag(sync=True)
     kind = traitlets.Unicode().tag(sync=True)
@@ -35,8 +38,6 @@ class PredictionWidget(LiveWidget):
     """Whether a guess can still be given."""
 
     def __init__(self, question: Question) -> None:
-        self._esm = script("dom", "small", "map", "prediction")
-        self._css = styles("base", "small", "prediction")
         self._asked = question
         backend: Any = Link(SimpleNamespace(loop=Loop(), ended=False))
         kind = question.kind

@@ -6,20 +6,21 @@ from typing import TYPE_CHECKING, Any
 
 import traitlets
 
+from ..path import Trail
 from ..recording import UNDER_WAY
 from ..words import point
 from . import scene_commands
 from .goal_client import Goal, goals_from
-from .live_widget import LiveWidget, script, styles
+from .live_widget import LiveWidget
 from .scene_commands import viewer_bundle
-from .scene_picture import Trail, brief, describe, draw_scene, newest_pose
+from .scene_picture import brief, describe, draw_scene, newest_pose
 
 if TYPE_CHECKING:
     from ..picture import Picture
     from .backend import Backend
     from .scene_page import ScenePage
 
-SCRIPTS = ("dom", "scene_theme", "scene_quality", "scene_stage", "scene_camera", "scene_view")
+VIEW_SCRIPTS = ("dom", "scene_theme", "scene_quality", "scene_stage", "scene_camera", "scene_view")
 TRAIL_RATE, DESCRIPTION_RATE = 10.0, 1.0
 """So many times a second at most, the trail and a screen reader's description of the scene are sent again."""
 
@@ -35,6 +36,9 @@ class Scene(LiveWidget):
     The whole state is in the traits, one for each part of the scene, so that a view that comes late, a second window or a
     reloaded frame is complete at once; what has not changed is not sent again.
     """
+
+    SCRIPTS = (*VIEW_SCRIPTS, "scene")
+    STYLES = ("base", "scene")
 
     bundle = traitlets.Bytes().tag(sync=True)
     """The viewer's script, compressed; it travels once."""
@@ -52,9 +56,7 @@ class Scene(LiveWidget):
     """The scene in words, for a screen reader."""
 
     def __init__(self, backend: Backend) -> None:
-        self._esm = script(*SCRIPTS, "scene")
-        self._css = styles("base", "scene")
-        self._trail = Trail(backend.recorder.poses)
+        self._trail = Trail()
         self._drawn: dict[str, Any] = {}
         super().__init__(backend, bundle=viewer_bundle(), stage=scene_commands.stage())
         self.tick()
@@ -91,19 +93,12 @@ class Scene(LiveWidget):
         if not self.ended:
             self.tick()
 
-    def left(self) -> None:
-        """Draw no more."""
-        super().left()
-        del self._trail
-
     def tick(self) -> None:
-        """Send the parts that have changed."""
-        super().tick()
         recorder = self.backend.recorder
         pose = newest_pose(recorder)
         if pose is not None and self._is_new("turtle", pose):
             self.turtle = scene_commands.turtle_at(*pose)
-        if self.due("trail", TRAIL_RATE) and self._trail.follow():
+        if self.due("trail", TRAIL_RATE) and self._trail.follow(recorder.poses):
             if self._is_new("trail", self._trail.changes):
                 self.trail = scene_commands.trail("lab/trail", self._trail.old)
             self.tip = scene_commands.trail("lab/tip", [self._trail.tip])

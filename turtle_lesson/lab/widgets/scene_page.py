@@ -62,7 +62,7 @@ class ScenePage:
     """A page of HTML, and the same in words. `html` is the page, `text` says what it shows."""
 
     def __init__(self, title: str, text: str, state: dict[str, Any]) -> None:
-        from .scene import SCRIPTS
+        from .scene import VIEW_SCRIPTS
 
         self.text = text
         self.html = FRAME.format(
@@ -70,7 +70,7 @@ class ScenePage:
             title=html.escape(title),
             css=styles("base", "scene", "scene_page"),
             state=json.dumps(_written(state), sort_keys=True).replace("<", "\\u003c"),
-            script=script(*SCRIPTS, "scene_page"),
+            script=script(*VIEW_SCRIPTS, "scene_page"),
         )
 
     def save(self, path: str | Path) -> Path:

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import style
-from ..path import WORLD, find_jumps
+from ..path import WORLD, Trail
 from ..picture import Picture
-from ..recording import UNDER_WAY, Table
+from ..recording import UNDER_WAY
 from ..scan import read_beams
 from ..words import angle, count, listed, number, point
 from . import scene_mesh
@@ -50,8 +50,8 @@ def _draw_floor(axes: Axes, recording: Recording) -> None:
     """What lies on the floor: nothing of it hides anything."""
     _draw(axes, scene_mesh.floor(), layer=1, alpha=0.08)
     _draw(axes, scene_mesh.grid(), layer=2, alpha=0.5)
-    trail = Trail(recording.poses)
-    trail.follow()
+    trail = Trail()
+    trail.follow(recording.poses)
     _draw(axes, scene_mesh.ribbon([*trail.old, trail.tip]), layer=3, lit=False)
 
 
@@ -153,95 +153,3 @@ def describe(recorder: Recording, goal: Goal | None) -> str:
         around.append(f"the goal at {point(goal.x, goal.y)} m is {away} m away")
     rest = f"; {listed(around)}" if around else ""
     return f"the turtle is at {point(x, y)} m facing {angle(theta)}{rest}."
-
-
-STEP = 0.04
-"""Points are at least so far apart, m …"""
-STRETCH = 1.0
-"""… and at most so far, m."""
-BEND = 0.06
-"""Between the two, there is a point where the way has turned by so much, rad."""
-
-TIP, MOST = 24, 900
-"""Points in the newest piece at most, and in all pieces together: the oldest go."""
-
-
-class Trail:
-    """The turtle's way from the poses in a table. `old` changes now and then, `tip` all the time."""
-
-    def __init__(self, table: Table) -> None:
-        self._table = table
-        self._seen: np.ndarray | None = None
-        self._here: np.ndarray | None = None
-        self._turn = 0.0
-        self._done: list[np.ndarray] = []
-        self._tip: list[np.ndarray] = []
-        self.changes = 0
-        """How often `old` has changed."""
-
-    @property
-    def old(self) -> list[np.ndarray]:
-        """The pieces that change no more: each n by 2, m."""
-        return self._done
-
-    @property
-    def tip(self) -> np.ndarray:
-        """The newest piece, to where the turtle is now: n by 2, m."""
-        ahead = [] if self._here is None else [self._here]
-        return np.array([*self._tip, *ahead]).reshape(-1, 2)
-
-    def follow(self) -> bool:
-        """Take in what was heard since the last time; returns whether there was anything new to draw."""
-        rows = self._table.array() if self._seen is None else self._table.after(int(self._seen["stamp"][-1]))
-        rows = rows[np.isfinite(rows["x"]) & np.isfinite(rows["y"])]
-        if not len(rows):
-            return False
-        joined = rows if self._seen is None else np.concatenate([self._seen, rows])
-        known = len(joined) - len(rows)
-        jumps = set(find_jumps(joined).tolist()) if len(joined) > 1 else set()
-        places = np.column_stack([joined["x"], joined["y"]])
-        moved = self._here is None or bool((places[known:] != self._here).any())
-        for index in range(known, len(places)):
-            self._add(places[index], index in jumps)
-        self._seen = joined[-1:]
-        return moved
-
-    def _add(self, place: np.ndarray, jumped: bool) -> None:
-        if jumped:
-            self._finish([])
-        if not self._tip:
-            self._tip.append(place)
-        far, turn = _way(self._tip[-1], place)
-        if far >= STEP:
-            bent = abs(math.remainder(turn - self._turn, math.tau)) > BEND
-            if len(self._tip) == 1 or far >= STRETCH:
-                self._keep(place)
-            elif bent:
-                self._keep(place if self._here is None else self._here)
-        self._here = place
-
-    def _keep(self, place: np.ndarray) -> None:
-        far, turn = _way(self._tip[-1], place)
-        if not far:
-            return
-        self._tip.append(place)
-        self._turn = turn
-        if len(self._tip) >= TIP:
-            self._finish([place])
-
-    def _finish(self, begin: list[np.ndarray]) -> None:
-        """The newest piece is done; another one begins."""
-        if self._here is not None and not begin:
-            self._tip.append(self._here)
-        if len(self._tip) > 1:
-            self._done.append(np.array(self._tip))
-        while sum(map(len, self._done)) > MOST:
-            del self._done[0]
-        self._tip = begin
-        self.changes += 1
-
-
-def _way(begin: np.ndarray, end: np.ndarray) -> tuple[float, float]:
-    """How far it is (m), and in which direction (rad)."""
-    x, y = end - begin
-    return math.hypot(x, y), math.atan2(y, x)

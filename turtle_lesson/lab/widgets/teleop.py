@@ -12,7 +12,7 @@ from ...ros.stdlib.clocks import real_monotonic
 from ..words import number
 from .backend import Backend
 from .lazy_endpoints import LazyPublisher, let_time_go_on
-from .live_widget import LiveWidget, script, styles
+from .live_widget import LiveWidget
 
 TYPE = "geometry_msgs/msg/Twist"
 PERIOD = 0.1
@@ -34,6 +34,9 @@ class Teleop(LiveWidget):
     counted in real time, since a person does.
     """
 
+    SCRIPTS = ("dom", "small", "teleop")
+    STYLES = ("base", "small", "teleop")
+
     topic = traitlets.Unicode().tag(sync=True)
     limits = traitlets.Dict({"forward": 2.0, "turn": 2.0}).tag(sync=True)
     """The speeds of a stick that is pushed all the way: "forward" in m/s, "turn" in rad/s."""
@@ -49,8 +52,6 @@ class Teleop(LiveWidget):
     def __init__(self, backend: Backend, topic: str) -> None:
         from geometry_msgs.msg import Twist
 
-        self._esm = script("dom", "small", "teleop")
-        self._css = styles("base", "small", "teleop")
         if not isinstance(topic, str) or not topic:
             raise ValueError(f'the topic to drive on must be a name such as "/turtle1/cmd_vel", got {topic!r}')
         name = backend.node.resolve_topic_name(topic)
@@ -72,7 +73,7 @@ class Teleop(LiveWidget):
         self.stick = {**place, "held": True}
         if begun:
             self.words = f"Driving on {self.topic}."
-            self._timer = self.backend.node.create_timer(PERIOD, lambda: self.backend.loop.now_or_soon(self._beat))
+            self._timer = self.backend.node.create_timer(PERIOD, self._drive)
         if begun or (changed and not any(place.values())):
             self._publish()
         if begun:
@@ -107,7 +108,6 @@ class Teleop(LiveWidget):
             self.limits = {**self.limits, name: float(value)}
 
     def tick(self) -> None:
-        """Stop if the page no longer says that the stick is held, and look which nodes listen."""
         self._watch()
         self._look_for_program()
         self._publisher.flush()
@@ -118,19 +118,13 @@ class Teleop(LiveWidget):
         if self.backend.keyboard is not None:
             self.program = self.backend.keyboard.reader
 
-    def closed(self) -> None:
-        """The last view is gone: stop, and leave the topic."""
-        if not self.backend.ended:
-            self.left()
-
     def left(self) -> None:
-        """Stop, and leave the topic."""
         self.do_release()
         self._publisher.close()
 
-    def _beat(self) -> None:
+    def _drive(self) -> None:
         self._watch()
-        if self._timer is not None and not self.backend.ended:
+        if self._timer is not None:
             self._publish()
 
     def _watch(self) -> None:

@@ -1,37 +1,70 @@
-"""Panels that act on the world: the map with the turtle's trail, the clock, the editor of obstacles, and the goals."""
+"""The goal pad: the map with the turtle's trail, the clock, the goals, and an editor of obstacles."""
 
 from __future__ import annotations
 
 import math
 from collections import Counter
-from itertools import islice, product
-from typing import Any
+from itertools import product
+from typing import Any, ClassVar
 
 import numpy as np
 import traitlets
 
 from ...turtlesim.obstacles import WORLDS, Box, Circle
 from ..obstacle_board import Obstacle
-from ..path import find_jumps
-from ..recording import UNDER_WAY, Table
-from ..words import angle, count, listed, point
+from ..path import Trail, plot_path
+from ..picture import Picture
+from ..recording import UNDER_WAY
+from ..words import angle, count, listed, number, point
+from .backend import Backend
 from .goal_client import Goal, GoalClient
 from .lazy_endpoints import let_time_go_on
 from .live_widget import LiveWidget, pack
 
-# -- map ------------------------------------------------------------------------------------------------------------
+SPACING, KEPT, TAIL = 0.05, 600, 60
+"""Metres from one point of the trail to the next, how many points are kept (30 m of way), and how many may be new until the
+whole trail is sent again."""
 
 STALE = 1.5
 """A scan of more robot time ago than this, s, is no longer drawn on the map."""
 
+LONGEST_STEP = 1.0
+"""Seconds of robot time that one step may take."""
 
-class MapPanel(LiveWidget):
-    """Shows the world as the topics tell of it."""
+FASTEST = "max"
+"""What the browser calls an infinite rate, which JSON does not know."""
 
+SHOWN = 60
+"""How many of the newest goals the browser is told of."""
+
+CIRCLE, BOX = {"radius": 0.5}, {"width": 1.5, "height": 0.5}
+"""The sizes of a fresh obstacle, m."""
+
+ROOM = 0.8
+"""A fresh obstacle leaves so much room around it where it can, m."""
+
+MIDDLE = 5.5
+
+
+class GoalPad(LiveWidget):
+    """Shows the world as the topics tell of it, sends goals to the navigator, turns the clock and changes the obstacles.
+
+    An order names an obstacle by its place in the list, from 0.
+    """
+
+    PANELS: ClassVar[tuple[str, ...]] = ("clock", "map", "goals", "editor")
+    SCRIPTS = (
+        *("dom", "clock", "map", "goals", "editor", "signs", "status", "log", "scan", "rates", "lights"),
+        *("dashboard", "goal_pad", "lab_view"),
+    )
+    STYLES = ("base", "dashboard", "lab_view", "map", "clock", "goals", "editor")
+
+    title = traitlets.Unicode("Goal pad").tag(sync=True)
+    panels = traitlets.List(traitlets.Unicode()).tag(sync=True)
     pose = traitlets.Bytes().tag(sync=True)
     """x, y, theta, speed (m, rad, m/s); not-a-number where none was heard."""
     trail = traitlets.Bytes().tag(sync=True)
-    """The turtle's way: x, y, x, y, …, m; two not-a-numbers where it was put elsewhere."""
+    """The turtle's way: x, y, x, y, …, m; it breaks at two not-a-numbers."""
     tail = traitlets.Bytes().tag(sync=True)
     """The newest part of its way, which follows on `trail`."""
     scan = traitlets.Bytes().tag(sync=True)
@@ -40,26 +73,77 @@ class MapPanel(LiveWidget):
     """Where the turtle was at that scan: x, y, theta (m, rad); empty when that was too long ago."""
     obstacles = traitlets.List(traitlets.Dict()).tag(sync=True)
     """"shape" ("circle" or "box"), x, y, width, height (m), angle (rad) of each."""
+    worlds = traitlets.List(traitlets.Unicode(), list(WORLDS)).tag(sync=True)
+    """The names of the ready-made worlds."""
+    now = traitlets.Float(0.0).tag(sync=True)
+    """Robot time, s."""
+    clock = traitlets.Dict().tag(sync=True)
+    """Whether it can be turned ("turns"), whether it goes ("playing"), and at which "rate" it shall go ("max": as fast as
+    possible)."""
+    wall = traitlets.Dict().tag(sync=True)
+    """The "seconds" of wall time since it was played, and the "speed" that it really reaches; 0 while it stands still."""
+    goals = traitlets.List(traitlets.Dict()).tag(sync=True)
+    """The newest goals, in the order in which they were sent; `Goal` says what there is of each."""
+    earlier = traitlets.Int(0).tag(sync=True)
+    """How many were sent before those."""
 
-    def __init__(self, *arguments: Any, **traits: Any) -> None:
-        super().__init__(*arguments, **traits)
-        self._way = Trail(self.backend.recorder.poses)
+    def __init__(self, backend: Backend, **traits: Any) -> None:
+        self._trail = Trail(SPACING, SPACING, TAIL, KEPT)
+        self._changes = 0
         self._scan_drawn: Any = None
+        self.desk = GoalClient(backend, self._goal_changed)
+        self._goal_news = False
+        super().__init__(backend, panels=list(self.PANELS), **traits)
+        self.tick()
 
-    def tick(self) -> None:
-        """Read what was heard."""
-        super().tick()
-        poses = self.backend.recorder.poses.newest(1)
-        self.pose = pack([poses[0][name] for name in ("x", "y", "theta", "speed")] if len(poses) else [np.nan] * 4)
-        self._way.grow()
-        self.trail, self.tail = self._way.whole, self._way.tail
-        self._show_scan()
-        self.obstacles = [as_state(each) for each in self.backend.board.obstacles]
+    def opened(self) -> None:
+        self.desk.open()
+
+    def closed(self) -> None:
+        self.desk.rest()
 
     def left(self) -> None:
-        """Draw no more."""
-        super().left()
-        del self._way
+        self.desk.close()
+
+    def tick(self) -> None:
+        self._show_map()
+        self._show_clock()
+        if self.due("navigator", 2):
+            self.desk.look()
+        if self._goal_news:
+            self._goal_news = False
+            self.goals = [each.as_state() for each in self.desk.goals[-SHOWN:]]
+            self.earlier = max(0, len(self.desk.goals) - SHOWN)
+
+    def text(self) -> str:
+        """Where the turtle is, what became of the goals, and how many obstacles there are."""
+        here = f"{self.title} at {number(self.backend.now)} s of robot time: {self._place()}."
+        return f"{here} {self._goals_in_words()} {self._obstacles_in_words()}"
+
+    def picture(self) -> Picture | None:
+        """The map with the path so far."""
+        goals = [(goal.x, goal.y, goal.theta) for goal in self.desk.goals if goal.state in ("on its way", "reached")]
+        return plot_path(self.backend.recorder, goal=goals[-1:] or None)
+
+    def _place(self) -> str:
+        poses = self.backend.recorder.poses.newest(1)
+        if not len(poses):
+            return "no pose heard yet"
+        x, y, theta = (poses[0][name] for name in ("x", "y", "theta"))
+        return f"the turtle is at {point(x, y)} m facing {angle(theta)}"
+
+    # -- map ---------------------------------------------------------------------------------------------------------
+
+    def _show_map(self) -> None:
+        poses = self.backend.recorder.poses.newest(1)
+        self.pose = pack([poses[0][name] for name in ("x", "y", "theta", "speed")] if len(poses) else [np.nan] * 4)
+        if self._trail.follow(self.backend.recorder.poses):
+            if self._trail.changes != self._changes:
+                self._changes = self._trail.changes
+                self.trail = pack([row for piece in self._trail.old for row in ([np.nan, np.nan], *piece)])
+            self.tail = pack([[np.nan, np.nan], *self._trail.tip[:-1]])  # the browser joins it to the turtle
+        self._show_scan()
+        self.obstacles = [as_state(each) for each in self.backend.board.obstacles]
 
     def _show_scan(self) -> None:
         recorder = self.backend.recorder
@@ -76,38 +160,9 @@ class MapPanel(LiveWidget):
             rows = rows[rows["stamp"] <= stamp - UNDER_WAY]  # or a turtle that turns would see walls beside the walls
             self.scanned_from = pack([rows[-1][name] for name in ("x", "y", "theta")]) if len(rows) else b""
 
+    # -- clock -------------------------------------------------------------------------------------------------------
 
-def as_state(obstacle: Obstacle) -> dict[str, Any]:
-    """What the browser is told of an obstacle."""
-    place = {"x": obstacle.x, "y": obstacle.y}
-    if isinstance(obstacle, Box):
-        return {"shape": "box", **place, "width": obstacle.width, "height": obstacle.height, "angle": obstacle.angle}
-    return {"shape": "circle", **place, "width": 2 * obstacle.radius, "height": 2 * obstacle.radius, "angle": 0.0}
-
-
-# -- clock ----------------------------------------------------------------------------------------------------------
-
-LONGEST_STEP = 1.0
-"""Seconds of robot time that one step may take."""
-
-FASTEST = "max"
-"""What the browser calls an infinite rate, which JSON does not know."""
-
-
-class ClockPanel(LiveWidget):
-    """Shows the clock, and turns it where it can be turned."""
-
-    now = traitlets.Float(0.0).tag(sync=True)
-    """Robot time, s."""
-    clock = traitlets.Dict().tag(sync=True)
-    """Whether it can be turned ("turns"), whether it goes ("playing"), and at which "rate" it shall go ("max": as fast as
-    possible)."""
-    wall = traitlets.Dict().tag(sync=True)
-    """The "seconds" of wall time since it was played, and the "speed" that it really reaches; 0 while it stands still."""
-
-    def tick(self) -> None:
-        """Read the clock."""
-        super().tick()
+    def _show_clock(self) -> None:
         self.now = round(self.backend.now, 3)
         clock = self.backend.clock
         if clock is None:
@@ -141,23 +196,7 @@ class ClockPanel(LiveWidget):
         if self.backend.clock is not None:
             self.backend.clock.step(float(seconds))
 
-
-# -- editor ---------------------------------------------------------------------------------------------------------
-
-CIRCLE, BOX = {"radius": 0.5}, {"width": 1.5, "height": 0.5}
-"""The sizes of a fresh obstacle, m."""
-
-ROOM = 0.8
-"""A fresh obstacle leaves so much room around it where it can, m."""
-
-MIDDLE = 5.5
-
-
-class EditorPanel(LiveWidget):
-    """Changes the obstacles. An order names an obstacle by its place in the list, from 0."""
-
-    worlds = traitlets.List(traitlets.Unicode(), list(WORLDS)).tag(sync=True)
-    """The names of the ready-made worlds."""
+    # -- editor ------------------------------------------------------------------------------------------------------
 
     def do_obstacle_add(self, shape: str) -> None:
         """Put a fresh circle or box where there is room."""
@@ -191,7 +230,7 @@ class EditorPanel(LiveWidget):
         """Replace all obstacles by those of a ready-made world."""
         self._put(str(name), f"Loaded the world “{name}”.")
 
-    def obstacles_in_words(self) -> str:
+    def _obstacles_in_words(self) -> str:
         """How many obstacles there are."""
         return f"{count(len(self.backend.board.obstacles), 'obstacle').capitalize()} in the world."
 
@@ -207,7 +246,7 @@ class EditorPanel(LiveWidget):
             clock = self.backend.clock
             later = clock is not None and not clock.playing
             hint = " The nodes notice it once robot time passes." if later else ""
-            self.words = f"{words} {self.obstacles_in_words()}{hint}"
+            self.words = f"{words} {self._obstacles_in_words()}{hint}"
 
     def _free_place(self) -> tuple[float, float]:
         """A place away from the turtle and the obstacles, as near to the middle as can be."""
@@ -223,56 +262,14 @@ class EditorPanel(LiveWidget):
                 return place
         return MIDDLE, MIDDLE
 
-
-# -- goals ----------------------------------------------------------------------------------------------------------
-
-SHOWN = 60
-"""How many of the newest goals the browser is told of."""
-
-
-class GoalsPanel(LiveWidget):
-    """Sends goals to the navigator, and shows its answers."""
-
-    goals = traitlets.List(traitlets.Dict()).tag(sync=True)
-    """The newest goals, in the order in which they were sent; `Goal` says what there is of each."""
-    earlier = traitlets.Int(0).tag(sync=True)
-    """How many were sent before those."""
-
-    def __init__(self, *arguments: Any, **traits: Any) -> None:
-        super().__init__(*arguments, **traits)
-        self.desk = GoalClient(self.backend, self._goal_changed)
-        self._goal_news = False
-
-    def opened(self) -> None:
-        """Somebody looks."""
-        super().opened()
-        self.desk.open()
-
-    def closed(self) -> None:
-        """Nobody looks."""
-        super().closed()
-        self.desk.rest()
-
-    def tick(self) -> None:
-        """Tell the browser of news."""
-        super().tick()
-        self.desk.look()
-        if self._goal_news:
-            self._goal_news = False
-            self.goals = [each.as_state() for each in self.desk.goals[-SHOWN:]]
-            self.earlier = max(0, len(self.desk.goals) - SHOWN)
+    # -- goals -------------------------------------------------------------------------------------------------------
 
     def do_goal(self, x: float, y: float, theta: float) -> None:
         """Send a goal, and let time go on if it stands still."""
         if self.desk.send(x, y, theta).waits:
             let_time_go_on(self.backend)
 
-    def left(self) -> None:
-        """Ask no more."""
-        super().left()
-        self.desk.close()
-
-    def goals_in_words(self) -> str:
+    def _goals_in_words(self) -> str:
         """How many goals were sent, what became of them, and what of the last one."""
         goals = self.desk.goals
         if not goals:
@@ -292,63 +289,9 @@ def _ending(goal: Goal) -> str:
     return f"{goal.state}. {goal.answer}" if goal.answer else f"{goal.state}."
 
 
-# -- trail ----------------------------------------------------------------------------------------------------------
-
-SPACING = 0.05
-"""Metres from one point of the trail to the next; the browser itself joins the last one to the turtle."""
-POINTS = 600
-"""How many points are kept: 30 m of way."""
-TAIL = 60
-"""How many points may be new until the whole trail is sent again."""
-
-Point = tuple[float, float]
-GAP: Point = (math.nan, math.nan)
-
-
-class Trail:
-    """The newest metres of the way that a table of poses tells. `whole` rarely changes, `tail` is short."""
-
-    def __init__(self, poses: Table) -> None:
-        self._poses = poses
-        self._last: Any = None
-        self._points: list[Point] = []
-        self._new: list[Point] = []
-        self.whole = self.tail = b""
-
-    def grow(self) -> None:
-        """Add what has come since the last time."""
-        rows = self._fresh_rows()
-        if len(rows) < 2:
-            return
-        self._last = rows[-1:].copy()
-        jumps = set(find_jumps(rows).tolist())
-        before = len(self._new)
-        places = zip(rows["x"].tolist(), rows["y"].tolist(), strict=True)
-        for number, (x, y) in enumerate(islice(places, 1, None), start=1):
-            self._add(x, y, number in jumps)
-        if len(self._new) == before:
-            return
-        if len(self._new) > TAIL or not self.whole:
-            self._points = [*self._points, *self._new][-POINTS:]
-            self._new = []
-            self.whole = pack(self._points)
-        self.tail = pack(self._new)
-
-    def _fresh_rows(self) -> np.ndarray:
-        """The last row that was used, and those after it; all rows when there was none."""
-        if self._last is None:
-            rows = self._poses.array()
-            if len(rows):
-                self._last = rows[:1]
-                self._add(float(rows["x"][0]), float(rows["y"][0]), False)
-            return rows
-        return np.concatenate([self._last, self._poses.after(int(self._last["stamp"][0]))])
-
-    def _add(self, x: float, y: float, jumped: bool) -> None:
-        if not (math.isfinite(x) and math.isfinite(y)):
-            return
-        points = self._new or self._points
-        if jumped:
-            self._new += [GAP, (x, y)]
-        elif not points or math.hypot(x - points[-1][0], y - points[-1][1]) >= SPACING:
-            self._new.append((x, y))
+def as_state(obstacle: Obstacle) -> dict[str, Any]:
+    """What the browser is told of an obstacle."""
+    place = {"x": obstacle.x, "y": obstacle.y}
+    if isinstance(obstacle, Box):
+        return {"shape": "box", **place, "width": obstacle.width, "height": obstacle.height, "angle": obstacle.angle}
+    return {"shape": "circle", **place, "width": 2 * obstacle.radius, "height": 2 * obstacle.radius, "angle": 0.0}
