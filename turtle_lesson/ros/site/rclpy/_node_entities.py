@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any
 from . import type_support
 from ._hints import refuse_unbuilt
 from ._node_graph import NodeGraph
-from .callback_groups import CallbackGroup, ReentrantCallbackGroup
+from .callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
 from .client import Client
+from .clock import Clock, ROSClock
 from .event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks, checked_callbacks
-from .exceptions import RCLError, not_valid, refuse_destroyed, refuse_ended
+from .exceptions import RCLError, not_valid
 from .guard_condition import GuardCondition
 from .publisher import Publisher
 from .qos import QoSProfile, checked_profile, qos_profile_services_default, usable_quality
@@ -20,40 +21,24 @@ from .subscription import Subscription
 from .timer import Rate, Timer, period_ns
 
 if TYPE_CHECKING:
-    from turtle_lesson.ros.sim.simulation import Simulation
-
     from ._entity import Entity
-    from .clock import Clock, ROSClock
     from .context import Context
     from .executors import Executor
-    from .impl.rcutils_logger import RcutilsLogger
 
 
 class NodeEntities(NodeGraph):
     """Mixed into Node."""
 
-    _ros_clock: ROSClock
-    _ros_context: Context
-    _ros_default_callback_group: CallbackGroup
-    _ros_destroyed: bool
-    _ros_executor: Executor | None
-    _ros_logger: RcutilsLogger
-    _ros_made: int
-    _ros_publishers: list[Publisher]
-    _ros_rate_group: CallbackGroup | None
-    _ros_outlived: list[Any]
-    _ros_shut_down: bool
-    _ros_simulation: Simulation
-    _ros_waiting_entities: list[Entity]
-
-    # -- making things ---------------------------------------------------------------------------------------------
-
-    def _ros_check_alive(self, doing: str = "") -> None:
-        """Raise InvalidHandle if the node was destroyed, and after rclpy.shutdown() RCLError for `doing` something."""
-        if self._ros_destroyed and not self._ros_shut_down:
-            refuse_destroyed(self._ros_simulation)
-        if self._ros_shut_down and doing:
-            refuse_ended(doing)
+    def _ros_setup_entities(self, context: Context) -> None:
+        self._ros_context = context
+        self._ros_executor: Executor | None = None
+        self._ros_made = 0
+        self._ros_publishers: list[Publisher] = []
+        self._ros_waiting_entities: list[Entity] = []
+        self._ros_outlived: list[Any] = []
+        self._ros_default_callback_group = MutuallyExclusiveCallbackGroup()
+        self._ros_rate_group: CallbackGroup | None = None
+        self._ros_clock = ROSClock()
 
     def _ros_check_context(self, what: str) -> None:
         """Raise RCLError after rclpy.shutdown(), for what needs a context, but no place in the graph."""
@@ -220,8 +205,6 @@ class NodeEntities(NodeGraph):
         callback: Any = None  # the rate brings its own
         timer = self.create_timer(1.0 / frequency, callback, self._ros_rate_group, clock)
         return Rate(timer, context=self._ros_context)
-
-    # -- taking things away ----------------------------------------------------------------------------------------
 
     def _ros_destroy(self, entity: Any) -> bool:
         if entity not in self._ros_waiting_entities:

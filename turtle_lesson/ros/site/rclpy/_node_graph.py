@@ -3,25 +3,23 @@
 from __future__ import annotations
 
 import zlib
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from turtle_lesson.ros.rmw.graph import Graph, NodeEntry
-from turtle_lesson.ros.rmw.names import remap
+from turtle_lesson.ros.rmw.graph import NodeEntry
+from turtle_lesson.ros.rmw.names import Remap, remap
 from turtle_lesson.ros.rmw.reader import Reader
 from turtle_lesson.ros.rmw.topic import Topic
 from turtle_lesson.ros.rmw.writer import Writer
+from turtle_lesson.ros.runtime.world import current_world
 from turtle_lesson.ros.sim.simulation import NANOSECONDS
 from turtle_lesson.ros.stdlib.polling import looked_in_vain
 
 from ._blocking import drives_the_simulation
-from .exceptions import NameValidationException, NodeNameNonExistentError, RCLError
+from .exceptions import NameValidationException, NodeNameNonExistentError, RCLError, refuse_destroyed, refuse_ended
 from .expand_topic_name import expand_topic_name
 from .topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 from .validate_full_topic_name import validate_full_topic_name
 from .validate_topic_name import validate_topic_name
-
-if TYPE_CHECKING:
-    from turtle_lesson.ros.rmw.names import Remap
 
 LOOK_AGAIN = 100_000_000
 """How often, in ns, `wait_for_node` looks."""
@@ -35,13 +33,19 @@ NODE_S = "rcl node's"
 class NodeGraph:
     """Mixed into Node."""
 
-    _ros_graph: Graph
-    _ros_entry: NodeEntry
-    _ros_remaps: list[Remap]
+    def _ros_setup_graph(self, entry: NodeEntry, remaps: list[Remap]) -> None:
+        self._ros_entry = entry
+        self._ros_remaps = remaps
+        self._ros_graph = current_world().graph
+        self._ros_simulation = current_world().sim
+        self._ros_destroyed = self._ros_shut_down = False
 
-    if TYPE_CHECKING:
-
-        def _ros_check_alive(self, doing: str = "") -> None: ...
+    def _ros_check_alive(self, doing: str = "") -> None:
+        """Raise InvalidHandle if the node was destroyed, and after rclpy.shutdown() RCLError for `doing` something."""
+        if self._ros_destroyed and not self._ros_shut_down:
+            refuse_destroyed(self._ros_simulation)
+        if self._ros_shut_down and doing:
+            refuse_ended(doing)
 
     def _ros_full_name_of(self, name: Any, *, only_expand: bool = False, is_service: bool = False) -> str:
         """From what a program calls a topic or service to its full name, remapped unless told otherwise."""

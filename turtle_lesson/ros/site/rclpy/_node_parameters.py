@@ -7,7 +7,10 @@ import warnings
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
+from turtle_lesson.ros.sim.simulation import NANOSECONDS
+
 from ._hints import did_you_mean
+from ._node_entities import NodeEntities
 from .exceptions import (
     InvalidParameterException,
     InvalidParameterTypeException,
@@ -20,7 +23,7 @@ from .exceptions import (
 from .parameter import PARAMETER_SEPARATOR_STRING, Parameter, parameter_value_to_python
 
 if TYPE_CHECKING:
-    from .context import Context
+    from .publisher import Publisher
 
 
 TOLERANCE = 1e-6
@@ -33,15 +36,10 @@ ONLY_A_NAME = (
 )
 
 
-class NodeParameters:
+class NodeParameters(NodeEntities):
     """Mixed into Node."""
 
-    context: Context
-    _ros_allow_undeclared: bool
-
-    if TYPE_CHECKING:
-
-        def _ros_tell_parameter_events(self, news: dict[str, list[Any]]) -> None: ...
+    _ros_event_publisher: Publisher
 
     def _ros_setup_parameters(self, overrides: Sequence[Parameter], allow_undeclared: bool) -> None:
         self._ros_parameters: dict[str, Parameter] = {}
@@ -60,8 +58,6 @@ class NodeParameters:
             f"{', '.join(known) or 'none'}{did_you_mean(str(name), known)}"
         )
         return error
-
-    # -- setting ---------------------------------------------------------------------------------------------------
 
     def set_parameters(self, parameter_list: list[Parameter]) -> list[Any]:
         """Set parameters one by one; a list of rcl_interfaces/msg/SetParametersResult says how each went.
@@ -136,6 +132,14 @@ class NodeParameters:
             self._ros_parameters[name] = parameter
         self._ros_tell_parameter_events(news)
 
+    def _ros_tell_parameter_events(self, news: dict[str, list[Any]]) -> None:
+        """Publish on /parameter_events what was new, changed or deleted."""
+        event = self._ros_event_publisher.msg_type(node=self._ros_entry.full_name)
+        event.stamp.sec, event.stamp.nanosec = divmod(self._ros_clock._now(), NANOSECONDS)
+        for kind, parameters in news.items():
+            setattr(event, f"{kind}_parameters", parameters)
+        self._ros_event_publisher.publish(event)
+
     def _ros_why_refused(self, parameters: list[Parameter], descriptors: dict[str, Any] | None) -> str:
         """Why one of the values is not allowed, as the real one words it; '' if all are."""
         for parameter in parameters:
@@ -182,8 +186,6 @@ class NodeParameters:
         self._ros_descriptors[name] = descriptor
         return self._ros_parameters[name].get_parameter_value()
 
-    # -- callbacks -------------------------------------------------------------------------------------------------
-
     def add_on_set_parameters_callback(self, callback: Callable[[list[Parameter]], Any]) -> None:
         """Have `callback(parameters)` decide about changes: it returns an rcl_interfaces/msg/SetParametersResult."""
         if not callable(callback):
@@ -209,8 +211,6 @@ class NodeParameters:
     def remove_post_set_parameters_callback(self, callback: Callable[[list[Parameter]], Any]) -> None:
         """No longer tell a callback."""
         self._ros_after_set.remove(callback)
-
-    # -- declaring -------------------------------------------------------------------------------------------------
 
     def declare_parameter(
         self, name: str, value: Any = None, descriptor: Any = None, ignore_override: bool = False
@@ -264,8 +264,6 @@ class NodeParameters:
         if self._ros_descriptors[name].read_only:
             raise ParameterImmutableException(name)
         del self._ros_parameters[name], self._ros_descriptors[name]
-
-    # -- reading ---------------------------------------------------------------------------------------------------
 
     def has_parameter(self, name: str) -> bool:
         """Whether a parameter is declared."""

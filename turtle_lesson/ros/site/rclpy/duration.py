@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import total_ordering
 from typing import Any
 
 from turtle_lesson.ros.distro import DURATION_ARITHMETIC, TIMES_EQUAL_NO_OTHER_THING
@@ -12,6 +13,7 @@ from .constants import S_TO_NS
 _LIMIT = 2**63
 
 
+@total_ordering
 class Duration:
     """`Duration(seconds=…, nanoseconds=…)`; raises OverflowError beyond 63 bits, as ROS does.
 
@@ -61,15 +63,6 @@ class Duration:
 
     def __lt__(self, other: object) -> bool:
         return self._nanoseconds < _ns(other)
-
-    def __le__(self, other: object) -> bool:
-        return self._nanoseconds <= _ns(other)
-
-    def __gt__(self, other: object) -> bool:
-        return self._nanoseconds > _ns(other)
-
-    def __ge__(self, other: object) -> bool:
-        return self._nanoseconds >= _ns(other)
 
     def __add__(self, other: object) -> Duration:
         if not isinstance(other, (Duration, int, float)):

@@ -7,11 +7,12 @@ from types import FrameType
 from typing import TYPE_CHECKING, Any
 
 from turtle_lesson.ros.rmw.graph import NodeEntry
-from turtle_lesson.ros.runtime.world import current_process, current_world
+from turtle_lesson.ros.rmw.names import Remap
+from turtle_lesson.ros.runtime.world import current_process
 from turtle_lesson.ros.sim.errors import shown_path
 from turtle_lesson.ros.sim.simulation import EPOCH, NANOSECONDS
 
-from ._entity import Entity, Handle
+from ._entity import Handle
 from ._hints import set_by_init
 from ._node_entities import NodeEntities
 from ._node_graph import NodeGraph
@@ -19,9 +20,9 @@ from ._node_parameters import TOLERANCE, NodeParameters
 from ._reexports import reexported
 from ._ros_args import Arguments, own_arguments
 from ._state import RclpyState
-from .callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup
+from .callback_groups import CallbackGroup
 from .client import Client
-from .clock import Clock, ROSClock
+from .clock import Clock
 from .context import Context
 from .exceptions import NotInitializedException, RCLError
 from .guard_condition import GuardCondition
@@ -54,7 +55,7 @@ TWO_OF_A_NAME = (
 )
 
 
-class Node(NodeEntities, NodeParameters):
+class Node(NodeParameters):
     """A node of a name. Subclass it, or make one with `rclpy.create_node`.
 
     What it has for itself is called `_ros_…`, so that a subclass may call its own things whatever it likes.
@@ -83,34 +84,22 @@ class Node(NodeEntities, NodeParameters):
     ) -> None:
         from rcl_interfaces.msg import ParameterEvent
 
-        self._ros_context = get_default_context() if context is None else context
-        if not self._ros_context.ok():
+        context = get_default_context() if context is None else context
+        if not context.ok():
             raise NotInitializedException("cannot create node")
         own = own_arguments([] if cli_args is None else cli_args)
-        common = self._ros_context.arguments if use_global_arguments else Arguments()
-        self._ros_remaps = own.remaps + common.remaps
-        name, full_namespace = self._ros_names(node_name, namespace)
-        world = current_world()
-        self._ros_graph = world.graph
-        self._ros_simulation = world.sim
-        self._ros_entry = NodeEntry(name, full_namespace, current_process())
-        self._ros_executor: Executor | None = None
+        common = context.arguments if use_global_arguments else Arguments()
+        remaps = own.remaps + common.remaps
+        entry = NodeEntry(*_names(node_name, namespace, remaps), current_process())
+        self._ros_setup_graph(entry, remaps)
+        self._ros_setup_entities(context)
         self._ros_place: tuple[Any, int] = (None, 0)
-        self._ros_made = 0
-        self._ros_publishers: list[Publisher] = []
-        self._ros_waiting_entities: list[Entity] = []
-        self._ros_destroyed = self._ros_shut_down = False
-        self._ros_outlived: list[Any] = []
         self._ros_logs_on_rosout = False  # an interrupted __init__ leaves a node that is destroyed all the same
-        self._ros_default_callback_group = MutuallyExclusiveCallbackGroup()
-        self._ros_rate_group: CallbackGroup | None = None
-        self._ros_clock = ROSClock()
-        self._ros_logger = RcutilsLogger(self._ros_entry.full_name.strip("/").replace("/", "."))
-        self._ros_graph.add_node(self._ros_entry)
-        self._ros_context.track_node(self)
-        given = [parameter for each in (common, own) for parameter in each.parameters_of(self._ros_entry.full_name)]
-        overrides = [*given, *(parameter_overrides or [])]
-        self._ros_setup_parameters(overrides, allow_undeclared_parameters)
+        self._ros_logger = RcutilsLogger(entry.full_name.strip("/").replace("/", "."))
+        self._ros_graph.add_node(entry)
+        context.track_node(self)
+        given = [*common.parameters_of(entry.full_name), *own.parameters_of(entry.full_name)]
+        self._ros_setup_parameters([*given, *(parameter_overrides or [])], allow_undeclared_parameters)
         self._ros_logs_on_rosout = enable_rosout
         if enable_rosout:
             self._ros_publish_rosout(rosout_qos_profile)
@@ -122,9 +111,9 @@ class Node(NodeEntities, NodeParameters):
         self._ros_time_source = TimeSource(node=self)
         self._ros_time_source.attach_clock(self._ros_clock)
         if start_parameter_services:
-            self._ros_parameter_service = ParameterService(self)
+            ParameterService(self)
         if enable_logger_service:
-            self._ros_logger_service = LoggingService(self)
+            LoggingService(self)
 
     def __repr__(self) -> str:
         entry = vars(self).get("_ros_entry")
@@ -135,29 +124,6 @@ class Node(NodeEntities, NodeParameters):
 
     def __exit__(self, *error: object) -> None:
         self.destroy_node()
-
-    # -- names -----------------------------------------------------------------------------------------------------
-
-    def _ros_names(self, node_name: str, namespace: str | None) -> tuple[str, str]:
-        if node_name is None:
-            raise RCLError("error creating node: its name is None; a node needs a name, such as Node('talker')")
-        for what, given in (("name", node_name), ("namespace", namespace or "/")):
-            if not isinstance(given, str):
-                raise TypeError(f"a node's {what} must be a str, got {given!r}")
-        namespace = namespace or "/"
-        namespace = namespace if namespace.startswith("/") else f"/{namespace}"
-        validate_node_name(node_name)
-        original = node_name
-        for rule in self._ros_remaps:
-            if rule.node not in (None, original):
-                continue
-            if rule.match == "__node":
-                node_name = rule.replacement
-            elif rule.match == "__ns":
-                namespace = rule.replacement
-        validate_node_name(node_name)
-        validate_namespace(namespace)
-        return node_name, namespace
 
     def get_name(self) -> str:
         """The node's name."""
@@ -173,8 +139,6 @@ class Node(NodeEntities, NodeParameters):
         """Namespace and name."""
         self._ros_check_alive()
         return self._ros_entry.full_name
-
-    # -- what it has -----------------------------------------------------------------------------------------------
 
     def _ros_of_kind(self, kind: type) -> Iterator[Any]:
         return (entity for entity in list(self._ros_waiting_entities) if isinstance(entity, kind))
@@ -210,7 +174,7 @@ class Node(NodeEntities, NodeParameters):
         return self._ros_of_kind(GuardCondition)
 
     @property
-    def context(self) -> Context:  # type: ignore[override]
+    def context(self) -> Context:
         """The context that the node lives in."""
         return self._ros_context
 
@@ -252,8 +216,6 @@ class Node(NodeEntities, NodeParameters):
         """The node's clock, which shows ROS time."""
         return self._ros_clock
 
-    # -- /rosout and /parameter_events ------------------------------------------------------------------------------
-
     def _ros_publish_rosout(self, profile: QoSProfile | int) -> None:
         """Publish on /rosout what the logger prints."""
         from rcl_interfaces.msg import Log
@@ -275,16 +237,6 @@ class Node(NodeEntities, NodeParameters):
                 trace.log.append((self._ros_simulation.now, int(severity), log.name, message))
 
         own.rosout[self._ros_logger.name] = publish
-
-    def _ros_tell_parameter_events(self, news: dict[str, list[Any]]) -> None:
-        """Publish on /parameter_events what was new, changed or deleted."""
-        event = self._ros_event_publisher.msg_type(node=self._ros_entry.full_name)
-        event.stamp.sec, event.stamp.nanosec = divmod(self._ros_clock._now(), NANOSECONDS)
-        for kind, parameters in news.items():
-            setattr(event, f"{kind}_parameters", parameters)
-        self._ros_event_publisher.publish(event)
-
-    # -- its end ---------------------------------------------------------------------------------------------------
 
     def destroy_node(self) -> None:
         """Leave the graph, with everything that the node has made."""
@@ -327,6 +279,29 @@ for _part in (NodeEntities, NodeGraph, NodeParameters):
     for _name, _method in vars(_part).items():
         if not _name.startswith("_"):
             _method.__qualname__ = f"Node.{_name}"  # Python's own errors name it: nobody knows of parts
+
+
+def _names(node_name: str, namespace: str | None, remaps: list[Remap]) -> tuple[str, str]:
+    """A node's name and namespace, remapped. Raises InvalidNodeNameException or InvalidNamespaceException."""
+    if node_name is None:
+        raise RCLError("error creating node: its name is None; a node needs a name, such as Node('talker')")
+    for what, given in (("name", node_name), ("namespace", namespace or "/")):
+        if not isinstance(given, str):
+            raise TypeError(f"a node's {what} must be a str, got {given!r}")
+    namespace = namespace or "/"
+    namespace = namespace if namespace.startswith("/") else f"/{namespace}"
+    validate_node_name(node_name)
+    original = node_name
+    for rule in remaps:
+        if rule.node not in (None, original):
+            continue
+        if rule.match == "__node":
+            node_name = rule.replacement
+        elif rule.match == "__ns":
+            namespace = rule.replacement
+    validate_node_name(node_name)
+    validate_namespace(namespace)
+    return node_name, namespace
 
 
 __getattr__ = reexported(__name__)

@@ -114,8 +114,6 @@ class ParameterEventHandler:
         """Listen no more."""
         self.node.destroy_subscription(self.parameter_event_subscription)
 
-    # -- what an event says ----------------------------------------------------------------------------------------
-
     @staticmethod
     def get_parameter_from_event(event: Any, parameter_name: str, node_name: str) -> Any:
         """The rcl_interfaces/msg/Parameter of a name in an event, if it is new or changed and of this node; or None."""
@@ -129,8 +127,6 @@ class ParameterEventHandler:
     def get_parameters_from_event(event: Any) -> Iterable[Any]:
         """The parameters in an event that are new or changed."""
         yield from chain(event.new_parameters, event.changed_parameters)
-
-    # -- callbacks -------------------------------------------------------------------------------------------------
 
     def add_parameter_callback(
         self, parameter_name: str, node_name: str, callback: Callable[[Any], Any]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from datetime import datetime
+from functools import total_ordering
 from typing import Any
 
 from .clock_type import ClockType
@@ -12,6 +13,7 @@ from .duration import Duration, equals_no_other_thing
 _LIMIT = 2**63
 
 
+@total_ordering
 class Time:
     """`Time(seconds=…, nanoseconds=…, clock_type=…)`: ns since the clock's beginning, never negative."""
 
@@ -103,18 +105,7 @@ class Time:
     __hash__ = None  # type: ignore[assignment]
 
     def __lt__(self, other: object) -> bool:
-        return self._other(other) > self._nanoseconds if isinstance(other, Time) else NotImplemented
-
-    def __le__(self, other: object) -> bool:
-        return self._other(other) >= self._nanoseconds if isinstance(other, Time) else NotImplemented
-
-    def __gt__(self, other: object) -> bool:
-        return self._other(other) < self._nanoseconds if isinstance(other, Time) else NotImplemented
-
-    def __ge__(self, other: object) -> bool:
-        return self._other(other) <= self._nanoseconds if isinstance(other, Time) else NotImplemented
-
-    def _other(self, other: Time) -> int:
-        """The time (ns) to compare with. Raises TypeError if it is of another clock."""
+        if not isinstance(other, Time):
+            return NotImplemented
         self._check(other)
-        return other._nanoseconds
+        return self._nanoseconds < other._nanoseconds

@@ -97,8 +97,6 @@ class ActionClient(ActionEndpoint):
     def _readers(self) -> list[Reader]:
         return [self._parts[part]._reader for part in TOPICS]
 
-    # -- the server ------------------------------------------------------------------------------------------------
-
     def server_is_ready(self) -> bool:
         """Whether somebody offers the action now."""
         self._check_alive()
@@ -120,8 +118,6 @@ class ActionClient(ActionEndpoint):
             time.sleep(POLL)
             left -= POLL
         return self.server_is_ready()
-
-    # -- goals -----------------------------------------------------------------------------------------------------
 
     def send_goal_async(
         self, goal: Any, feedback_callback: Callable[[Any], Any] | None = None, goal_uuid: Any = None
@@ -189,8 +185,6 @@ class ActionClient(ActionEndpoint):
             "wait_for_server(timeout_sec=…) waits for it."
         )
 
-    # -- what comes back -------------------------------------------------------------------------------------------
-
     async def execute(self, taken_data: dict[str, Any]) -> None:
         """Give the futures their results, and feedback to its callback, in the order of rclpy."""
         if "goal" in taken_data:
@@ -242,8 +236,6 @@ class ActionClient(ActionEndpoint):
                 handle._status = each.status
                 if each.status not in ACTIVE:
                     del self._goal_handles[key]
-
-    # -- as part of a node -----------------------------------------------------------------------------------------
 
     @property
     def _waiting(self) -> bool:

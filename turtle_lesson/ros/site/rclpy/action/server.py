@@ -139,8 +139,6 @@ class ActionServer(ActionEndpoint):
         """The action's class."""
         return self._action_type
 
-    # -- callbacks -------------------------------------------------------------------------------------------------
-
     def register_handle_accepted_callback(
         self, handle_accepted_callback: Callable[[ServerGoalHandle], Any] | None
     ) -> None:
@@ -162,8 +160,6 @@ class ActionServer(ActionEndpoint):
             error.add_note("Hand over the function itself, as in self.execute_callback, without brackets.")
             raise error
         self._execute_callback = execute_callback
-
-    # -- what comes in ---------------------------------------------------------------------------------------------
 
     def _arrive(self) -> None:
         """What is known when a request comes counts, not what is when there is time for it."""
@@ -249,8 +245,6 @@ class ActionServer(ActionEndpoint):
         else:
             request.answer(handle._response)
 
-    # -- executing goals -------------------------------------------------------------------------------------------
-
     def notify_execute(
         self, goal_handle: ServerGoalHandle, execute_callback: Callable[[ServerGoalHandle], Any] | None
     ) -> None:
@@ -321,8 +315,6 @@ class ActionServer(ActionEndpoint):
             )
             raise
 
-    # -- what goes out ---------------------------------------------------------------------------------------------
-
     def _publish_status(self) -> None:
         self._forget_expired()
         goals = [goal._for_all for goal in self._goals.values()]
@@ -330,8 +322,6 @@ class ActionServer(ActionEndpoint):
 
     def _publish_feedback(self, goal_id: Any, feedback: Any) -> None:
         self._parts["feedback"].publish(self._action_type.Impl.FeedbackMessage(goal_id=goal_id, feedback=feedback))
-
-    # -- forgetting goals ------------------------------------------------------------------------------------------
 
     def _goal_ends(self, handle: ServerGoalHandle) -> None:
         """A goal has come to its end, and will be forgotten."""

@@ -70,8 +70,6 @@ class LifecycleNodeMixin(ManagedEntity):
         if enable_communication_interface:
             self._ros_offer_services(callback_group or self.default_callback_group)
 
-    # -- transitions ---------------------------------------------------------------------------------------------
-
     def trigger_configure(self) -> TransitionCallbackReturn:
         """Configure the node, which must be unconfigured; raises RCLError if it is not (as its siblings do)."""
         return self._ros_change_state(CONFIGURE)
@@ -159,8 +157,6 @@ class LifecycleNodeMixin(ManagedEntity):
             name = f"~/{callback.__name__}"
             Node.create_service(self, kind, name, callback, callback_group=group)  # type: ignore[arg-type]
 
-    # -- what the transitions do by default ----------------------------------------------------------------------
-
     def add_managed_entity(self, entity: ManagedEntity) -> None:
         """Have an entity go through the node's transitions, too."""
         if not isinstance(entity, ManagedEntity):
@@ -198,8 +194,6 @@ class LifecycleNodeMixin(ManagedEntity):
     def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
         """An error is being dealt with: ask all managed entities, up to the first that does not succeed."""
         return self._ros_ask_entities("on_error", state)
-
-    # -- publishers ----------------------------------------------------------------------------------------------
 
     def create_lifecycle_publisher(self, *args: Any, **kwargs: Any) -> LifecyclePublisher:
         """As `create_publisher`; but the publisher only publishes while the node is active."""
