@@ -49,7 +49,7 @@ def say(widget, order, /, **content):
     widget.comm.handle_msg({{"content": {{"data": {{"method": "custom", "content": content}}}}, "buffers": []}})
 
 def figures():
-    vars(get_ipython().history_manager).get("outputs", {{}}).clear()
+    getattr(get_ipython().history_manager, "outputs", {{}}).clear()
     gc.collect()
     if sys.platform == "linux":
         ctypes.CDLL(None).malloc_trim(0)

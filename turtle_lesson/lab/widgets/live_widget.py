@@ -11,6 +11,7 @@ from typing import Any, ClassVar, cast
 import anywidget
 import numpy as np
 import traitlets
+from ipywidgets import CallbackDispatcher
 from numpy.typing import ArrayLike
 
 from ...ros.stdlib.clocks import real_monotonic
@@ -58,6 +59,10 @@ class LiveWidget(anywidget.AnyWidget):
     When its system ends, it stays on the page as it is and says what it said last, but lets go of the system.
     """
 
+    _esm = traitlets.Unicode().tag(sync=True)
+    _css = traitlets.Unicode().tag(sync=True)
+    _anywidget_id = traitlets.Unicode().tag(sync=True)
+
     words = traitlets.Unicode().tag(sync=True)
     """What has just happened, in words: a screen reader speaks it."""
     ended = traitlets.Bool(False).tag(sync=True)
@@ -71,6 +76,7 @@ class LiveWidget(anywidget.AnyWidget):
 
     def __init__(self, backend: Backend, **traits: Any) -> None:
         """`backend` is a `Link` to it."""
+        self._bare = {*vars(self), "_bare"}
         self.backend = backend
         self._esm, self._css = script(*self.SCRIPTS), styles(*self.STYLES)
         self._paces: dict[str, float] = {}
@@ -80,6 +86,10 @@ class LiveWidget(anywidget.AnyWidget):
         super().__init__(**traits)
         self.on_msg(partial(backend.loop.soon, self._order))
         self.is_made = True
+
+    @traitlets.default("_anywidget_id")
+    def _class_name(self) -> str:
+        return f"{type(self).__module__}.{type(self).__qualname__}"
 
     # -- for subclasses to override ------------------------------------------------------------------------------------
 
@@ -195,6 +205,12 @@ class LiveWidget(anywidget.AnyWidget):
             self.ended = True
             put_aside(self)
 
+    def add_traits(self, **traits: Any) -> None:
+        """Add those traits that the class does not have: anywidget adds its own to each widget, which makes a class of each."""
+        new = {name: trait for name, trait in traits.items() if not self.has_trait(name)}
+        if new:
+            super().add_traits(**new)
+
     def close(self) -> None:
         """Take the widget away: its views close, it listens no more, and lets go of what it has."""
         if self.is_made and self.comm is not None:  # traitlets' __del__ closes what was refused while it was made, too
@@ -202,6 +218,15 @@ class LiveWidget(anywidget.AnyWidget):
             layout = self.layout
             super().close()
             layout.close()
+            self._forget()
+
+    def _forget(self) -> None:
+        """Keep the last words only: a notebook's `Out` holds each widget that was shown for as long as its kernel lives."""
+        for name in set(self.keys) - {"layout", "words", "ended"}:
+            self._trait_values.pop(name, None)
+        for name in vars(self).keys() - self._bare - {"text", "picture", "is_made"}:
+            delattr(self, name)
+        self._msg_callbacks = CallbackDispatcher()
 
     def _let_go(self) -> None:
         """Keep the last words, and nothing of the system."""
