@@ -12,16 +12,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-from rosidl_parser.definition import (
-    AbstractString,
-    AbstractWString,
-    Array,
-    BasicType,
-    BoundedSequence,
-    NamedType,
-    NamespacedType,
-    UnboundedSequence,
-)
+from rosidl_parser.definition import Array, BoundedSequence, NamespacedType
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,13 +101,9 @@ def _plain(value: Any, type_: Any, style: _Style) -> Any:
         return tuple(shown) if isinstance(value, tuple) else shown
     if hasattr(value, "get_fields_and_field_types"):
         return _fields(value, style)
-    return _plain_number(value)
-
-
-def _plain_number(value: Any) -> Any:
-    """A bool, int or float of Python, whatever subclass (an enum, a number of numpy) was put into the field."""
     if hasattr(value, "item"):
         return value.item()
+    # A bool, int or float of Python, whatever subclass, such as an enum, was put into the field.
     return value if isinstance(value, bool) else int(value) if isinstance(value, int) else float(value)
 
 
@@ -159,21 +146,9 @@ def _cut(value: str, style: _Style) -> str:
 
 def _array_info(value: Any, type_: Any) -> str:
     """What stands for an array that is not shown: its type and length."""
-    element = _element_name(type_.value_type)
+    kind = type_.value_type
+    element = "/".join(kind.namespaced_name()) if isinstance(kind, NamespacedType) else str(kind).partition("<")[0]
     if isinstance(type_, Array):
         return f"<array type: {element}[{type_.size}]>"
-    if isinstance(type_, BoundedSequence):
-        return f"<sequence type: {element}[{type_.maximum_size}], length: {len(value)}>"
-    return f"<sequence type: {element}, length: {len(value)}>" if isinstance(type_, UnboundedSequence) else "unknown"
-
-
-def _element_name(type_: Any) -> str:
-    if isinstance(type_, BasicType):
-        return type_.typename
-    if isinstance(type_, AbstractString):
-        return "string"
-    if isinstance(type_, AbstractWString):
-        return "wstring"
-    if isinstance(type_, NamedType):
-        return type_.name
-    return "/".join(type_.namespaced_name()) if isinstance(type_, NamespacedType) else "unknown"
+    bound = f"[{type_.maximum_size}]" if isinstance(type_, BoundedSequence) else ""
+    return f"<sequence type: {element}{bound}, length: {len(value)}>"

@@ -5,7 +5,8 @@ Where the real functions give the names of a package in no order, ours give them
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
+from functools import partial
 from pathlib import Path
 
 from turtle_lesson.ros.ament.index import current_packages
@@ -19,27 +20,23 @@ def get_interface_packages() -> list[str]:
     return registry.packages()
 
 
-def get_interfaces(package_names: Iterable[str] = ()) -> dict[str, list[str]]:
+def get_interfaces(package_names: Iterable[str] = (), folders: Collection[str] = FOLDERS) -> dict[str, list[str]]:
     """The interfaces of some packages, or of all if none is named: `{'std_srvs': ['srv/Empty', …]}`.
 
     A package without interfaces is left out. Raises LookupError if there is no package of a name.
     """
-    return _interfaces(package_names, FOLDERS)
+    found = {}
+    for package in list(package_names) or registry.packages():
+        _check_package(package)
+        names = registry.interface_names(package) if registry.knows(package) else []
+        if wanted := [name for name in names if name.partition("/")[0] in folders]:
+            found[package] = wanted
+    return found
 
 
-def get_message_interfaces(package_names: Iterable[str] = ()) -> dict[str, list[str]]:
-    """The messages alone."""
-    return _interfaces(package_names, ("msg",))
-
-
-def get_service_interfaces(package_names: Iterable[str] = ()) -> dict[str, list[str]]:
-    """The services alone."""
-    return _interfaces(package_names, ("srv",))
-
-
-def get_action_interfaces(package_names: Iterable[str] = ()) -> dict[str, list[str]]:
-    """The actions alone."""
-    return _interfaces(package_names, ("action",))
+get_message_interfaces = partial(get_interfaces, folders=("msg",))
+get_service_interfaces = partial(get_interfaces, folders=("srv",))
+get_action_interfaces = partial(get_interfaces, folders=("action",))
 
 
 def get_interface_path(interface_name: str) -> str:
@@ -71,17 +68,6 @@ def _share(package: str) -> Path:
     if registry.knows(package):
         return registry.package(package).directory
     return current_packages().get(package).share if package in current_packages() else SITE / package
-
-
-def _interfaces(package_names: Iterable[str], folders: tuple[str, ...]) -> dict[str, list[str]]:
-    chosen = list(package_names) or get_interface_packages()
-    found = {}
-    for package in chosen:
-        _check_package(package)
-        names = registry.interface_names(package) if registry.knows(package) else []
-        if wanted := [name for name in names if name.partition("/")[0] in folders]:
-            found[package] = wanted
-    return found
 
 
 def _check_package(name: str) -> None:

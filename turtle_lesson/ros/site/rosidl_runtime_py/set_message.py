@@ -68,10 +68,11 @@ class _Filling:
 
     def _set(self, message: Any, name: str, value: Any, type_: Any) -> None:
         now = getattr(message, name)
-        kind = type(now)
-        if self.header_auto and _is_word(value, "auto") and _is(kind, "std_msgs.msg._header", "Header"):
+        kind = f"{type(now).__module__}.{type(now).__name__}"  # by its name: it may have been generated anew since
+        word = value if isinstance(value, str) else ""
+        if self.header_auto and (word, kind) == ("auto", "std_msgs.msg._header.Header"):
             self.setters.append(partial(setattr, now, "stamp"))
-        elif self.time_now and _is_word(value, "now") and _is(kind, "builtin_interfaces.msg._time", "Time"):
+        elif self.time_now and (word, kind) == ("now", "builtin_interfaces.msg._time.Time"):
             self.setters.append(partial(setattr, message, name))
         else:
             setattr(message, name, self._elements(type_, self._converted(now, value)))
@@ -82,7 +83,11 @@ class _Filling:
         if kind is array.array:
             return array.array(now.typecode, value)
         if kind.__module__ == "numpy":
-            return _numpy(value, now.dtype)
+            import numpy
+
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                return numpy.array(value, dtype=now.dtype)
         if type(value) is kind:
             return value
         if kind is bytes and isinstance(value, int):
@@ -91,14 +96,10 @@ class _Filling:
             made = kind()
             self.fill(made, value)
             return made
-        return self._by_type(kind, value)
-
-    def _by_type(self, kind: type, value: Any) -> Any:
-        """`kind(value)`; where that is impossible, the real one takes the field for a message and says so."""
         try:
             return kind(value)
         except TypeError:
-            self.fill(kind(), value)
+            self.fill(kind(), value)  # the real one takes the field for a message, and says so
             raise
 
     def _elements(self, type_: Any, values: Any) -> Any:
@@ -110,23 +111,6 @@ class _Filling:
         for message, value in zip(made, values, strict=True):
             self.fill(message, value)
         return made
-
-
-def _is_word(value: Any, word: str) -> bool:
-    return isinstance(value, str) and value == word
-
-
-def _is(kind: type, module: str, name: str) -> bool:
-    """Whether a class is this one by its name: it may have been generated anew since."""
-    return kind.__module__ == module and kind.__name__ == name
-
-
-def _numpy(value: Any, dtype: Any) -> Any:
-    import numpy
-
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        return numpy.array(value, dtype=dtype)
 
 
 def _no_text(name: Any, fields: list[str]) -> TypeError:

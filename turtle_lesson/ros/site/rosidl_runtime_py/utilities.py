@@ -7,6 +7,7 @@ AttributeError where there is no such interface, ValueError where it is one of a
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from rosidl_parser.definition import NamespacedType
@@ -41,24 +42,19 @@ def _checked(identifier: str, type_: NamespacedType, fits: Callable[[Any], bool]
     return interface
 
 
-def get_namespaced_type(identifier: str) -> NamespacedType:
-    """A full name as a type of `rosidl_parser.definition`."""
-    return _namespaced_type(identifier)
+def get_namespaced_type(identifier: str, folder: str | None = None) -> NamespacedType:
+    """A full name as a type of `rosidl_parser.definition`; the name may lack the `folder`, if one is given."""
+    *namespaces, name = identifier.split("/")
+    if len(namespaces) == 1 and folder is not None:
+        namespaces.append(folder)
+    if not namespaces or not namespaces[0]:
+        raise ValueError(f"Empty module name: '{identifier}' is not a name such as geometry_msgs/msg/Twist")
+    return NamespacedType(namespaces, name)
 
 
-def get_message_namespaced_type(identifier: str) -> NamespacedType:
-    """The same for a message, whose name may lack the `msg`."""
-    return _namespaced_type(identifier, "msg")
-
-
-def get_service_namespaced_type(identifier: str) -> NamespacedType:
-    """The same for a service, whose name may lack the `srv`."""
-    return _namespaced_type(identifier, "srv")
-
-
-def get_action_namespaced_type(identifier: str) -> NamespacedType:
-    """The same for an action, whose name may lack the `action`."""
-    return _namespaced_type(identifier, "action")
+get_message_namespaced_type = partial(get_namespaced_type, folder="msg")
+get_service_namespaced_type = partial(get_namespaced_type, folder="srv")
+get_action_namespaced_type = partial(get_namespaced_type, folder="action")
 
 
 def is_message(interface: Any) -> bool:
@@ -74,12 +70,3 @@ def is_service(interface: Any) -> bool:
 def is_action(interface: Any) -> bool:
     """Whether a class is that of an action."""
     return hasattr(interface, "Goal") and hasattr(interface, "Result") and hasattr(interface, "Feedback")
-
-
-def _namespaced_type(identifier: str, folder: str | None = None) -> NamespacedType:
-    *namespaces, name = identifier.split("/")
-    if len(namespaces) == 1 and folder is not None:
-        namespaces.append(folder)
-    if not namespaces or not namespaces[0]:
-        raise ValueError(f"Empty module name: '{identifier}' is not a name such as geometry_msgs/msg/Twist")
-    return NamespacedType(namespaces, name)

@@ -54,19 +54,8 @@ class Buffer(BufferCore, BufferInterface):
         get_logger("tf2_buffer").warning("Detected jump back in time. Clearing tf buffer.")
         self.clear()
 
-    # -- telling -------------------------------------------------------------------------------------------
-
-    def set_transform(self, transform: TransformStamped, authority: str) -> None:
-        """Keep the transform of a frame that moves."""
-        super().set_transform(transform, authority)
-        self._try_waiting_again()
-
-    def set_transform_static(self, transform: TransformStamped, authority: str) -> None:
-        """Keep the transform of a frame that never moves."""
-        super().set_transform_static(transform, authority)
-        self._try_waiting_again()
-
-    def _try_waiting_again(self) -> None:
+    def _set(self, transform: TransformStamped, authority: str, span: int | None) -> None:
+        super()._set(transform, authority, span)
         if self._waiting:
             for _, try_again in self._waiting:
                 try_again()
@@ -124,8 +113,7 @@ class Buffer(BufferCore, BufferInterface):
         return_debug_tuple: bool = False,
     ) -> Any:
         """Whether there is such a transform; with `return_debug_tuple` also why not."""
-        wait_until(self.can_transform_core, (target_frame, source_frame, time), timeout)
-        found = self.can_transform_core(target_frame, source_frame, time)
+        found = wait_until(self.can_transform_core, (target_frame, source_frame, time), timeout)
         return found if return_debug_tuple else found[0]
 
     def can_transform_full(
@@ -140,8 +128,7 @@ class Buffer(BufferCore, BufferInterface):
     ) -> Any:
         """Whether there is such a transform between two times; with `return_debug_tuple` also why not."""
         asked = (target_frame, target_time, source_frame, source_time, fixed_frame)
-        wait_until(self.can_transform_full_core, asked, timeout)
-        found = self.can_transform_full_core(*asked)
+        found = wait_until(self.can_transform_full_core, asked, timeout)
         return found if return_debug_tuple else found[0]
 
     # -- waiting -------------------------------------------------------------------------------------------
@@ -178,17 +165,20 @@ def _is_over(future: Future) -> bool:
     return future.done() or future.cancelled()
 
 
-def wait_until(can: Question, asked: tuple[Any, ...], timeout: Duration) -> None:
-    """Wait until what is asked can be looked up, or the timeout is over. Raises TypeError for anything but a Duration."""
+def wait_until(can: Question, asked: tuple[Any, ...], timeout: Duration) -> tuple[bool, str]:
+    """Wait until what is asked can be looked up, or the timeout is over; the last answer.
+
+    Raises TypeError for anything but a Duration.
+    """
     if not isinstance(timeout, Duration):
         raise TypeError(f"timeout must be a rclpy.duration.Duration, got {timeout!r}: write Duration(seconds=1.0)")
-    if timeout.nanoseconds > 0:
-        _look_again(can, asked, timeout)
+    return _look_again(can, asked, timeout) if timeout.nanoseconds > 0 else can(*asked)
 
 
 @drives_the_simulation
-def _look_again(can: Question, asked: tuple[Any, ...], timeout: Duration) -> None:
+def _look_again(can: Question, asked: tuple[Any, ...], timeout: Duration) -> tuple[bool, str]:
     clock = Clock()
     end = clock.now() + timeout
     while clock.now() < end and not can(*asked)[0]:
         sleep(PAUSE)
+    return can(*asked)
