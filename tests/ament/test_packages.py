@@ -9,7 +9,6 @@ from pathlib import Path
 import pytest
 
 import turtle_lesson
-from turtle_lesson.ros.ament.cmake_syntax import CMakeError
 from turtle_lesson.ros.ament.errors import (
     ExecutableNotFoundError,
     LaunchFileNotFoundError,
@@ -17,7 +16,8 @@ from turtle_lesson.ros.ament.errors import (
     PackageNotFoundError,
 )
 from turtle_lesson.ros.ament.index import PackageIndex, find_launch_file, seeing
-from turtle_lesson.ros.ament.package import Package, read_source_package
+from turtle_lesson.ros.ament.package import Package
+from turtle_lesson.ros.ament.source import read_source_package
 
 XML = """\
 <?xml version="1.0"?>
@@ -25,6 +25,8 @@ XML = """\
   <name>{name}</name>
   <version>0.0.0</version>
   <description>TODO</description>
+  <maintainer email="user@example.org">user</maintainer>
+  <license>Apache-2.0</license>
   <buildtool_depend>ament_cmake</buildtool_depend>
   <depend>rclpy</depend>
   {group}
@@ -35,6 +37,7 @@ GROUP = "<member_of_group>rosidl_interface_packages</member_of_group>"
 CMAKE = """\
 cmake_minimum_required(VERSION 3.8)
 project(demo)
+find_package(ament_cmake REQUIRED)
 find_package(rosidl_default_generators REQUIRED)
 rosidl_generate_interfaces(${PROJECT_NAME} "msg/Count.msg")
 install(PROGRAMS demo/talker_node.py DESTINATION lib/${PROJECT_NAME} RENAME talker)
@@ -64,9 +67,9 @@ def change(path: Path, old: str, new: str) -> None:
 
 
 def refused(folder: Path) -> str:
-    with pytest.raises((PackageError, CMakeError)) as caught:
+    with pytest.raises(PackageError) as caught:
         read_source_package(folder)
-    return str(caught.value).replace(str(folder), "demo")
+    return " ".join(str(caught.value).replace(str(folder), "demo").split())
 
 
 def test_a_good_package(demo: Path) -> None:
@@ -75,7 +78,6 @@ def test_a_good_package(demo: Path) -> None:
     assert package.executables == {"talker": demo / "demo/talker_node.py"}
     assert package.interfaces == ["msg/Count.msg"]
     assert package.shared_files("demo.launch.py") == [demo / "launch/demo.launch.py"]
-    assert package.warnings == []
 
 
 def test_the_finished_package_is_a_good_one() -> None:
@@ -84,101 +86,35 @@ def test_the_finished_package_is_a_good_one() -> None:
     assert sorted(package.executables) == ["navigator", "obstacle_detector", "status_monitor"]
     assert package.interfaces == ["msg/TurtleStatus.msg", "srv/NavigateTo.srv"]
     assert package.shared_files("start_system.launch.py") == [folder / "launch/start_system.launch.py"]
-    assert package.warnings == []
 
 
-def test_what_is_missing(demo: Path, tmp_path: Path) -> None:
-    assert "there is no folder" in refused(tmp_path / "nowhere")
+def test_what_is_missing(demo: Path) -> None:
     (demo / "CMakeLists.txt").rename(demo / "CMakeList.txt")
-    assert refused(demo).startswith("demo/CMakeLists.txt: it is missing")
+    assert "does not appear to contain CMakeLists.txt. Hint: An ament_cmake package is built from its" in refused(demo)
     (demo / "package.xml").unlink()
-    assert refused(demo).startswith("demo/package.xml: it is missing: a folder is a ROS 2 package if")
+    assert refused(demo).startswith("demo/package.xml: it is missing. A folder is a ROS 2 package if")
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "said"),
+    ("file", "old", "new", "said"),
     [
-        ("<name>demo</name>", "", "demo/package.xml: it has no <name>"),
+        ("package.xml", "</export>", "", "contains invalid XML: mismatched tag"),
         (
-            "<name>demo</name>",
-            "<name>My Demo</name>",
-            "demo/package.xml: the package name 'My Demo' is not allowed",
+            "package.xml",
+            "ament_cmake</build",
+            "ament_cmak</build",
+            "'ament_cmak' is unknown. Did you mean 'ament_cmake'?",
         ),
-        ("</export>", "", "demo/package.xml, line 10: this is not well-formed XML (mismatched tag"),
-        ("<build_type>ament_cmake</build_type>", "", "demo/package.xml: it does not say how to build"),
-        (
-            "<build_type>ament_cmake",
-            "<build_type>ament_cmak",
-            "demo/package.xml: the build_type 'ament_cmak' is unknown. Did you mean 'ament_cmake'?",
-        ),
-        (
-            "<build_type>ament_cmake",
-            "<build_type>cmake",
-            "demo/package.xml: build_type cmake cannot be used here; use ament_cmake or ament_python",
-        ),
-        (
-            GROUP,
-            "",
-            "demo/CMakeLists.txt, line 4: Packages installing interfaces must include "
-            "'<member_of_group>rosidl_interface_packages</member_of_group>' in their package.xml. Add",
-        ),
-        (
-            "<name>demo</name>",
-            "<name>demos</name>",
-            "demo/CMakeLists.txt, line 2: project(demo) and <name>demos</name> in package.xml must be",
-        ),
+        ("package.xml", GROUP, "", "Hint: Add that line to demo/package.xml, before <export>."),
+        ("package.xml", "<name>demo", "<name>demos", "Hint: Write project(demos) in line 2 of CMakeLists.txt."),
+        ("CMakeLists.txt", "talker_node.py D", "talker.py D", "names 'demo/talker.py', which does not exist."),
+        ("CMakeLists.txt", "Count.msg", "Cout.msg", "the passed file 'msg/Cout.msg' doesn't exist"),
+        ("CMakeLists.txt", "DIRECTORY launch", "DIRECTORY (", "line 7: the '(' of install is never closed"),
     ],
 )
-def test_a_wrong_package_xml(demo: Path, old: str, new: str, said: str) -> None:
-    change(demo / "package.xml", old, new)
-    assert refused(demo).startswith(said)
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "said"),
-    [
-        (
-            "talker_node.py D",
-            "talker.py D",
-            "line 5: install(PROGRAMS demo/talker.py …) names a file that does not",
-        ),
-        (
-            "Count.msg",
-            "Cout.msg",
-            "line 4: rosidl_generate_interfaces names 'msg/Cout.msg', which does not exist",
-        ),
-        ("Count.msg", "Count.txt", "line 4: 'msg/Count.txt' is not an interface file"),
-        ("DIRECTORY launch", "DIRECTORY lunch", "line 6: install() names 'lunch', which does not exist"),
-        (
-            "find_package(rosidl_default_generators REQUIRED)\n",
-            "",
-            'line 3: Unknown CMake command "rosidl_generate_interfaces"',
-        ),
-        (
-            "project(demo)",
-            "project(demo)\nadd_executable(x x.cpp)",
-            "line 3: add_executable(x …) builds a C++",
-        ),
-        ("DIRECTORY launch", "DIRECTORY (", "line 6: the '(' of install is never closed"),
-    ],
-)
-def test_a_wrong_cmake_file(demo: Path, old: str, new: str, said: str) -> None:
-    change(demo / "CMakeLists.txt", old, new)
-    assert refused(demo).startswith(f"demo/CMakeLists.txt, {said}")
-
-
-def test_ament_package_is_needed(demo: Path) -> None:
-    change(demo / "CMakeLists.txt", "ament_package()", "")
-    assert "there is no ament_package()" in refused(demo)
-
-
-def test_what_would_fail_on_a_robot_is_a_warning(demo: Path) -> None:
-    (demo / "demo/talker_node.py").write_text("print('hi')\n")
-    change(demo / "CMakeLists.txt", "ament_package()", "install(PROGRAMS demo/talker_node.py DESTINATION bin)")
-    (demo / "CMakeLists.txt").write_text((demo / "CMakeLists.txt").read_text() + "ament_package()\n")
-    no_shebang, elsewhere = read_source_package(demo).warnings
-    assert no_shebang.startswith("demo/talker_node.py does not begin with '#!/usr/bin/env python3'")
-    assert elsewhere.endswith("demo/talker_node.py goes to bin; ros2 run looks only in lib/${PROJECT_NAME}")
+def test_what_a_build_would_refuse(demo: Path, file: str, old: str, new: str, said: str) -> None:
+    change(demo / file, old, new)
+    assert said in refused(demo)
 
 
 def test_a_launch_file_that_is_not_installed_is_not_found(demo: Path) -> None:

@@ -13,7 +13,8 @@ from command_cases import cases
 from workspace_cases import colcon, source_in, started
 
 from turtle_lesson.ros.ament.create import LICENCES, create_package, parse
-from turtle_lesson.ros.ament.manifest import install_scripts, read_manifest, read_setup
+from turtle_lesson.ros.ament.manifest import read_found
+from turtle_lesson.ros.ament.setup_py import install_scripts, read_setup
 from turtle_lesson.ros.runtime.world import World
 
 
@@ -58,8 +59,8 @@ def test_wrong_words(capsys: pytest.CaptureFixture[str]) -> None:
 def test_an_ament_cmake_package(folder: Path) -> None:
     create("robot_controller --dependencies rclpy geometry_msgs --license MIT --description 'Drives & reports'")
     package = folder / "robot_controller"
-    manifest = read_manifest(package / "package.xml")
-    assert (manifest.name, manifest.build_type) == ("robot_controller", "ament_cmake")
+    found = read_found(package, folder)
+    assert (found.name, found.build_type) == ("robot_controller", "ament_cmake")
     root = ElementTree.parse(package / "package.xml")
     assert root.findtext("description") == "Drives & reports"
     assert [each.text for each in root.findall("depend")] == ["rclpy", "geometry_msgs"]

@@ -13,7 +13,7 @@ from command_cases import cases
 from workspace_cases import XML, change, colcon, make_package, source_in, started, timeless
 
 import turtle_lesson
-from turtle_lesson.ros.ament import manifest
+from turtle_lesson.ros.ament import setup_py
 from turtle_lesson.ros.ament.create import create_package, parse
 from turtle_lesson.ros.cli.shell import run_line
 from turtle_lesson.ros.idl.registry import registry
@@ -262,7 +262,7 @@ def test_a_python_package_can_be_used_where_it_lies(py_demo: Path) -> None:
 
 def test_a_python_package_that_no_build_would_take(py_demo: Path) -> None:
     change(py_demo / "setup.py", "zip_safe=True,", "zip_safe=True")
-    with pytest.raises(ValueError, match=r"(?s)setup.py: a build would refuse it:.*is a comma or a bracket missing"):
+    with pytest.raises(ValueError, match=r"(?s)a real build would refuse py_demo:.*is a comma or a bracket missing"):
         turtle_lesson.start(package=py_demo, simulator=False)
 
 
@@ -376,7 +376,7 @@ SETUP = "from setuptools import setup\nsetup(name='py_demo', {})\n"
 def test_a_setup_py_full_of_nonsense(
     py_demo: Path, world: World, monkeypatch: pytest.MonkeyPatch, text: str, said: str
 ) -> None:
-    monkeypatch.setattr(manifest, "LONGEST", 3.0)
+    monkeypatch.setattr(setup_py, "LONGEST", 3.0)
     (py_demo / "setup.py").write_text(text)
     answer = colcon(world)
     assert (answer.code, said in answer.err) == (1, True), answer.err

@@ -217,7 +217,7 @@ def _sources(folder: Path) -> list[Path]:
 def _is_template(path: str, text: str) -> bool:
     """Whether a file is still as `ros2 pkg create` made it."""
     if path == "CMakeLists.txt":
-        return text == cmake_lists(PACKAGE, build_type="ament_cmake", dependencies=())
+        return text == cmake_lists(PACKAGE)
     return path == "package.xml" and TO_DO_DESCRIPTION in text
 
 

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..learner.story import FINISHED, page_named
 from ..learner.workspace import Workspace, workspace
-from ..ros.ament.package import read_source_package
-from ..ros.ament.source import make_importable
+from ..ros.ament.source import make_importable, read_source_package
 from ..ros.cli.shell import open_terminal
 from ..ros.distro import chosen_release
 from ..ros.idl.registry import registry

@@ -1,47 +1,29 @@
 """What `colcon build` makes of an `ament_cmake` package: CMake's three steps, configure, build and install, on paper.
 
 Commands are looked at in the order in which CMake carries them out, so that the first fault found is the one that a real
-build reports, at its line.
+build reports, at its line. Facts: CMake 3.25 and ament_cmake 1.3; only what a package of Python files meets.
 """
 
 from __future__ import annotations
 
 import os
+import re
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from difflib import get_close_matches
-from pathlib import Path
+from fnmatch import fnmatchcase
+from pathlib import Path, PurePosixPath
 
 from ..idl.names import did_you_mean
 from ..idl.registry import Registry
 from ..sim.errors import shown_path
-from .catalog import CMAKE_COMMANDS, CMAKE_PACKAGES, COMMANDS_OF, brought_by, why_not_here
-from .cmake import CMakeFile, Command, Program, evaluate
-from .cmake_commands import (
-    InterfaceCheck,
-    asks_for_python,
-    install_entries,
-    install_items,
-    not_found,
-    refusal,
-    refused,
-    serves_cpp,
-    unreadable,
-)
-from .cmake_syntax import SHARE, CMakeError, cmake_message
-from .discover import Found
+from .catalog import CMAKE_COMMANDS, CMAKE_PACKAGES, COMMANDS_OF, PYTHON_PACKAGES, brought_by, why_not_here
+from .cmake import SHARE, CMakeFile, Command, cmake_message, evaluate, refused, split_at
+from .errors import BuildFailure
 from .index import package_hint
-from .install_tree import (
-    PYTHON,
-    BuildFailure,
-    Environment,
-    Item,
-    Outcome,
-    check_targets,
-    definitions,
-    interface_items,
-    prefix_of,
-    with_hint,
-)
-from .manifest import faults_in, hint_for
+from .install_tree import PYTHON_FOLDERS, Environment, Item, Outcome, check_targets, files_in, prefix_of, with_hint
+from .interfaces import InterfaceCheck, definitions, interface_items
+from .manifest import Found, faults_in, hint_for
 
 _PACKAGE_XML = f"{SHARE}/ament_cmake_core/cmake/core/ament_package_xml.cmake"
 _EXTENSIONS = f"{SHARE}/ament_cmake_core/cmake/core/ament_execute_extensions.cmake"
@@ -58,15 +40,41 @@ _TWICE = (
 )
 _OLD = 'if given arguments:\n\n  "ament_cmake_core" "IN_LIST" "_ARG_EXCLUDE"\n\nUnknown arguments specified'
 _QUIET = {"STATUS", "VERBOSE", "DEBUG", "TRACE", "CHECK_START", "CHECK_PASS", "CHECK_FAIL", "CONFIGURE_LOG"}
-_PYTHON_PLACE = f"local/lib/{PYTHON}/dist-packages"
+_SITE = PYTHON_FOLDERS["cmake"]
+_MODULES = (
+    "CTest", "GNUInstallDirs", "CMakePackageConfigHelpers", "FetchContent", "ExternalProject", "CheckCXXCompilerFlag",
+)  # fmt: skip
+_INSTALLS = ("PROGRAMS", "DIRECTORY", "FILES", "TARGETS", "SCRIPT", "CODE", "EXPORT")
+_INSTALL_WORDS = {
+    "DESTINATION", "RENAME", "PERMISSIONS", "FILE_PERMISSIONS", "DIRECTORY_PERMISSIONS", "CONFIGURATIONS",
+    "COMPONENT", "OPTIONAL", "TYPE", "EXCLUDE_FROM_ALL", "USE_SOURCE_PERMISSIONS", "PATTERN", "REGEX",
+    "EXCLUDE", "FILES_MATCHING", "MESSAGE_NEVER",
+}  # fmt: skip
+_FILTERS = ("PATTERN", "REGEX")
+_RUNS = "OWNER_EXECUTE"
+
+
+@dataclass(frozen=True)
+class _Entry:
+    """A file or folder that `install(…)` names, and the folder it goes to.
+
+    A folder whose name ends in `/` gives its content instead of itself, as in CMake.
+    """
+
+    kind: str
+    source: str
+    destination: str
+    name: str
+    line: int
+    options: tuple[str, ...] = ()
 
 
 def build_ament_cmake(found: Found, environment: Environment) -> Outcome:
     """Build one package: what it prints, and what is to be installed if nothing is refused."""
     again = (environment.build / found.name / "colcon_build.rc").is_file()
-    build = _Build(found, environment, again)
+    build = _Build(found, environment)
     try:
-        return build.run()
+        outcome = build.run()
     except BuildFailure as failure:
         text, code = "".join(build.warnings) + failure.text, failure.code
         if (
@@ -76,17 +84,17 @@ def build_ament_cmake(found: Found, environment: Environment) -> Outcome:
         ):
             text += "gmake: *** [Makefile:786: cmake_check_build_system] Error 1\n"
             code = 2
-        text = with_hint(text, [failure.hint, *build.hints])
-        return Outcome(code=code, stderr=text, seconds=failure.seconds)
+        return Outcome(code, with_hint(text, [failure.hint, *build.hints]), seconds=failure.seconds)
+    outcome.seconds = (0.7 if again else 1.2) + 2.0 * build.changed_interfaces()
+    return outcome
 
 
 class _Build:
     """The build of one package."""
 
-    def __init__(self, found: Found, environment: Environment, again: bool) -> None:
+    def __init__(self, found: Found, environment: Environment) -> None:
         self.found = found
         self.environment = environment
-        self.again = again
         self.seen: set[str] = set()
         self.commands: set[str] = set(CMAKE_COMMANDS)
         self.finished = False
@@ -94,41 +102,69 @@ class _Build:
         self.checks: list[InterfaceCheck] = []
         self.warnings: list[str] = []
         self.hints: list[str] = []
-        self.python: list[tuple[str, str]] = []
-        self.modules: list[Item] = []
-        self.compiled = False
-        self.left_out: list[str] = []
+        self.entries: list[_Entry] = []
+        self.python: list[Item] = []
+        self.cpp = False
         self.lacking: list[str] = []
         self.project, self.project_line = "Project", 1  # as CMake pretends where there is no project()
 
+    @property
+    def interfaces(self) -> tuple[str, ...]:
+        return tuple(file for check in self.checks for file in check.files)
+
     def run(self) -> Outcome:
         cmake = self._read()
-        self.compiled = cmake.builds_cpp or bool(cmake.compiled())
+        self.cpp = cmake.builds_cpp or bool(cmake.compiled)
         self.commands |= cmake.defined
         self._warn_of_catkin()
-        self._warn_of_blocks(cmake)
+        if cmake.passed_over:
+            blocks = " and ".join(f"{name}() in line {line}" for name, line in cmake.passed_over)
+            self.warnings.append(
+                f"Warning: CMakeLists.txt: {blocks} cannot be carried out here: what lies inside is passed over. All else "
+                "is built; write out what is missing.\n"
+            )
         for command in cmake.commands:
             self._configure(command)
         if not self.finished:
             self.hints.append(
                 "There is no ament_package() in CMakeLists.txt: without it ROS 2 does not find the package. Write it last."
             )
-        for check in self.checks:
-            check.resolve(self._types())
-        items = self._items(cmake)
+        if self.environment.compiles:
+            types = self._types()
+            for check in self.checks:
+                check.resolve(types)
+        foreign = [entry for entry in self.entries if entry.kind == "PROGRAMS" and not self._asks_for_python(entry)]
+        items = [item for entry in self.entries if entry not in foreign for item in self._items(entry)]
+        items += [*self.python, *interface_items(self.found, self.interfaces)] if self.checks else self.python
+        check_targets(items)
+        self._warn_of_mode(items)
         self._warn_of_definitions()
-        self._warn_of_setup_py(cmake)
-        return self._outcome(items)
+        self._warn_of_setup_py()
+        stdout = [f"-- Found {name}" for name in sorted(self.seen)]
+        stdout += ["-- Configuring done", "-- Generating done"]
+        return Outcome(
+            stderr=with_hint("".join(self.warnings), self.hints),
+            stdout=stdout,
+            items=items,
+            dependencies=self.found.runtime_dependencies,
+            paths=[_SITE] if self.python else [],
+            left_out=[*cmake.compiled, *(entry.name for entry in foreign)],
+            lacking=self.lacking,
+        )
 
-    # -- configure -------------------------------------------------------------------------------------------------
+    def changed_interfaces(self) -> int:
+        """How many interfaces are others than the last build has installed."""
+        share = prefix_of(self.environment.install, self.found.name) / "share" / self.found.name
+        pairs = [(share / file, self.found.path / file) for file in self.interfaces]
+        return sum(not old.is_file() or old.read_bytes() != new.read_bytes() for old, new in pairs)
 
     def _read(self) -> CMakeFile:
-        file = self.found.path / "CMakeLists.txt"
+        folder = self.found.path
+        file = folder / "CMakeLists.txt"
         if not file.is_file():
-            where = shown_path(str(self.found.path))
-            text = f'CMake Error: The source directory "{where}" does not appear to contain CMakeLists.txt.\n'
+            text = f'CMake Error: The source directory "{shown_path(str(folder))}" does not appear to contain CMakeLists.txt.\n'
             hint = "An ament_cmake package is built from its CMakeLists.txt. Or is this an ament_python package?"
-            if (self.found.path / "setup.py").is_file():
+            if (folder / "setup.py").is_file():
                 hint = (
                     "There is a setup.py: if this is to be an ament_python package, say so in package.xml: "
                     "<build_type>ament_python</build_type>."
@@ -136,16 +172,16 @@ class _Build:
             raise BuildFailure(text, hint, seconds=0.1)
         try:
             source = file.read_text(encoding="utf-8")
-            cmake = evaluate(source, "CMakeLists.txt", self.found.path)
-            if not cmake.named("project"):
-                self._warn_of_project()
-                cmake = evaluate(f"project(Project) {source}", "CMakeLists.txt", self.found.path)
-            cmake.programs(), cmake.directories(), cmake.files()
-        except CMakeError as error:
-            raise unreadable(error) from None
         except (OSError, UnicodeDecodeError) as error:
             raise BuildFailure(f"CMake Error: CMakeLists.txt cannot be read: {error}\n", seconds=0.1) from None
-        return cmake
+        cmake = evaluate(source, folder)
+        if any(command.name == "project" for command in cmake.commands):
+            return cmake
+        self.warnings.append(_NO_PROJECT)
+        self.hints.append(f"Write project({self.found.name}) below cmake_minimum_required(…).")
+        return evaluate(f"project(Project) {source}", folder)
+
+    # -- configure -------------------------------------------------------------------------------------------------
 
     def _configure(self, command: Command) -> None:
         where = f"CMakeLists.txt:{command.line} ({command.name})"
@@ -153,11 +189,10 @@ class _Build:
             if self.lacking and not get_close_matches(command.name, self.commands, cutoff=0.85):
                 return  # a command of a package that is not here, and no slip of the pen
             raise self._unknown(command, where)
-        if self.compiled and serves_cpp(command):
+        about_targets = command.name == "install" and command.args[:1] in {(kind,) for kind in _INSTALLS[3:]}
+        if self.cpp and (about_targets or command.name in {"add_subdirectory", "include"}):
             return
-        if wrong := refusal(command, self.found.path):
-            raise refused(wrong[0], where, wrong[1])
-        special = getattr(self, f"_on_{command.name}", None)
+        special: Callable[[Command, str], None] | None = getattr(self, f"_on_{command.name}", None)
         if special is not None:
             special(command, where)
 
@@ -172,42 +207,32 @@ class _Build:
         )
         return refused(f'Unknown CMake command "{command.name}".', where, hint)
 
-    def _on_project(self, command: Command, where: str) -> None:
-        self.project_line = command.line
-        self.project = command.args[0] if command.args else self.project
-
-    def _on_find_package(self, command: Command, where: str) -> None:
-        if not command.args:
-            raise refused("find_package called with incorrect number of arguments", where)
-        name, required = command.args[0], "REQUIRED" in command.args
-        known = {*CMAKE_PACKAGES, *self.environment.findable, *self.environment.types.packages()}
-        if name in (known - {self.found.name}) | self.environment.findable:
-            self.seen.add(name)
-            self.commands |= COMMANDS_OF.get(name, frozenset())
-            return
-        if "QUIET" in command.args and not required:
-            return
-        if why_not_here(name) or (self.compiled and not package_hint(name, known)):
-            self.lacking.append(name)
-            self.commands |= COMMANDS_OF.get(name, frozenset())
-            return
-        text, hint = not_found(name, command.line, required, known)
-        if required:
-            raise BuildFailure(text, hint)
-        self.warnings.append(text)
-        self.hints.append(hint)
-
-    def _on_rosidl_generate_interfaces(self, command: Command, where: str) -> None:
-        check = InterfaceCheck(self.found, command, self.finished, self.seen)
-        check.configure()
-        self._check_xml(where, [f"{SHARE}/rosidl_cmake/cmake/rosidl_generate_interfaces.cmake:226 (ament_package_xml)"])
-        check.check_group()
-        if any(name == self.found.name for _, name in self.python):
-            raise self._two_python_packages(where)
-        self.checks.append(check)
-
     def _on_cmake_minimum_required(self, command: Command, where: str) -> None:
         self.modern = True
+
+    def _on_project(self, command: Command, where: str) -> None:
+        if not command.args:
+            hint = "Write the package's name in it, as in package.xml."
+            raise refused("project PROJECT called with incorrect number of arguments", where, hint)
+        self.project, self.project_line = command.args[0], command.line
+
+    def _on_set(self, command: Command, where: str) -> None:
+        if not command.args:
+            raise refused("set called with incorrect number of arguments", where, "It looks like set(NAME value).")
+
+    def _on_include(self, command: Command, where: str) -> None:
+        name = "".join(command.args[:1])
+        if name in _MODULES or "OPTIONAL" in command.args:
+            return
+        if name and (self.found.path / name).is_file():
+            raise refused(f"include({name}) is not understood here.", where, _ELSEWHERE)
+        raise refused(f"include could not find requested file:\n\n  {name}", where)
+
+    def _on_add_subdirectory(self, command: Command, where: str) -> None:
+        name = "".join(command.args[:1])
+        if name and (self.found.path / name).is_dir():
+            raise refused(f"add_subdirectory({name}) is not understood here.", where, _ELSEWHERE)
+        raise refused(f'add_subdirectory given source "{name}" which is not an existing directory.', where)
 
     def _on_message(self, command: Command, where: str) -> None:
         kind, text = (command.args or ("",))[0], "".join(command.args[1:])
@@ -218,41 +243,70 @@ class _Build:
         elif kind not in _QUIET:
             self.warnings.append("".join(command.args[kind == "NOTICE" :]) + "\n")
 
-    def _on_ament_package(self, command: Command, where: str) -> None:
-        if self.finished:
-            raise refused(_TWICE, _HOOKS[0], f"Delete line {command.line}.", (*_HOOKS[1:], where))
-        self._check_xml(where, [f"{SHARE}/ament_cmake_core/cmake/core/ament_package.cmake:63 (ament_package_xml)"])
-        if not self.modern:
-            hint = "Write cmake_minimum_required(VERSION 3.8) as the first line of CMakeLists.txt."
-            raise refused(_OLD, f"{_EXTENSIONS}:41 (if)", hint, (_HOOKS[3], where))
-        self.finished = True
+    def _on_find_package(self, command: Command, where: str) -> None:
+        if not command.args:
+            raise refused("find_package called with incorrect number of arguments", where)
+        name, required = command.args[0], "REQUIRED" in command.args
+        known = {*CMAKE_PACKAGES, *self.environment.findable, *self.environment.types.packages()}
+        if name in (known - {self.found.name}) | self.environment.findable:
+            self._has_found(name)
+        elif "QUIET" in command.args and not required:
+            return
+        elif why_not_here(name) or (self.cpp and not package_hint(name, known)):
+            self.lacking.append(name)
+            self.commands |= COMMANDS_OF.get(name, frozenset())
+        else:
+            text = cmake_message(
+                _NOT_FOUND.format(name=name, lower=name.lower()), where, (), "Error" if required else "Warning"
+            )
+            hint = package_hint(name, known) or (
+                f"Is {name} the right name? If it is a package of this workspace, write <depend>{name}</depend> in "
+                "package.xml, so that it is built first."
+            )
+            if name in PYTHON_PACKAGES:
+                hint = f"{name} is a Python package, which CMake cannot find: name it only in package.xml."
+            if required:
+                raise BuildFailure(text, hint)
+            self.warnings.append(text)
+            self.hints.append(hint)
 
-    _on_ament_auto_package = _on_ament_package
+    def _has_found(self, name: str) -> None:
+        self.seen.add(name)
+        self.commands |= COMMANDS_OF.get(name, frozenset())
 
     def _on_ament_auto_find_build_dependencies(self, command: Command, where: str) -> None:
-        for name in self.found.dependencies:
-            if name in self.environment.findable or name in self.environment.types.packages() or name in CMAKE_PACKAGES:
-                self.seen.add(name)
-                self.commands |= COMMANDS_OF.get(name, frozenset())
+        known = {*CMAKE_PACKAGES, *self.environment.findable, *self.environment.types.packages()}
+        for name in known.intersection(self.found.dependencies):
+            self._has_found(name)
+
+    def _on_rosidl_generate_interfaces(self, command: Command, where: str) -> None:
+        check = InterfaceCheck(self.found, command)
+        check.configure(self.finished, self.seen)
+        self._check_xml(where, f"{SHARE}/rosidl_cmake/cmake/rosidl_generate_interfaces.cmake:226 (ament_package_xml)")
+        check.check_group()
+        self.checks.append(check)
+        self._check_python_packages(where)
 
     def _on_ament_python_install_package(self, command: Command, where: str) -> None:
-        name = command.args[0] if command.args else ""
-        folder = self._option(command, "PACKAGE_DIR") or name
-        if self.checks and name == self.found.name:
-            raise self._two_python_packages(f"CMakeLists.txt:{command.line} (ament_python_install_package)")
-        if not (self.found.path / folder / "__init__.py").is_file():
-            text = f"ament_python_install_package() the Python package folder '{folder}' doesn't exist"
-            raise refused(text, where, f"Make {folder}/__init__.py, which may be empty.")
-        self.python.append((folder, name))
+        name = "".join(command.args[:1])
+        folder = self.found.path / (command.after("PACKAGE_DIR") or name)
+        if not (folder / "__init__.py").is_file():
+            shown = folder.relative_to(self.found.path).as_posix()
+            text = f"ament_python_install_package() the Python package folder '{shown}' doesn't exist"
+            raise refused(text, where, f"Make {shown}/__init__.py, which may be empty.")
+        self.python.append(Item(f"{_SITE}/{name}", folder))
+        self._check_python_packages(where)
         self.commands |= COMMANDS_OF["ament_cmake_core"]  # which it finds (ament_cmake_python-extras.cmake)
 
-    def _two_python_packages(self, where: str) -> BuildFailure:
-        """The refusal of a package that generates interfaces and installs a Python package of the same name.
+    def _check_python_packages(self, where: str) -> None:
+        """A package that generates interfaces must not install a Python package of the same name.
 
         In whichever order: rosidl_generator_py calls ament_python_install_package(), too, and CMake refuses the second
         target of one name (ros2/rosidl_python, issue 141).
         """
         name = self.found.name
+        if not self.checks or all(item.target != f"{_SITE}/{name}" for item in self.python):
+            return
         text = (
             f'add_custom_target cannot create target "ament_cmake_python_copy_{name}" because another target with the '
             "same name already exists. The existing target is a custom target created in source directory "
@@ -263,35 +317,46 @@ class _Build:
             f"The interfaces already make a Python package {name}: install the nodes as programs instead, "
             f"install(PROGRAMS {name}/<file>.py DESTINATION lib/${{PROJECT_NAME}} RENAME <name>)."
         )
-        return refused(text, place, hint, (where,))
+        raise refused(text, place, hint, [where])
 
     def _on_ament_python_install_module(self, command: Command, where: str) -> None:
-        name = command.args[0] if command.args else ""
-        if not name.endswith(".py") or not (self.found.path / name).is_file():
-            text = f"ament_python_install_module() the Python module file '{self.found.path / name}' doesn't exist"
+        file = self.found.path / "".join(command.args[:1])
+        if file.suffix != ".py" or not file.is_file():
+            text = f"ament_python_install_module() the Python module file '{file}' doesn't exist"
             raise refused(text, where, "Name a file that is there, as seen from CMakeLists.txt.")
-        place = "/".join(filter(None, (_PYTHON_PLACE, self._option(command, "DESTINATION_SUFFIX"))))
-        self.modules.append(Item(f"{place}/{Path(name).name}", self.found.path / name))
+        self.python.append(
+            Item((PurePosixPath(_SITE) / command.after("DESTINATION_SUFFIX") / file.name).as_posix(), file)
+        )
 
-    def _option(self, command: Command, word: str) -> str:
-        args = command.args
-        return args[args.index(word) + 1] if word in args[:-1] else ""
+    def _on_ament_package(self, command: Command, where: str) -> None:
+        if self.finished:
+            raise refused(_TWICE, _HOOKS[0], f"Delete line {command.line}.", (*_HOOKS[1:], where))
+        self._check_xml(where, f"{SHARE}/ament_cmake_core/cmake/core/ament_package.cmake:63 (ament_package_xml)")
+        if not self.modern:
+            hint = "Write cmake_minimum_required(VERSION 3.8) as the first line of CMakeLists.txt."
+            raise refused(_OLD, f"{_EXTENSIONS}:41 (if)", hint, (_HOOKS[3], where))
+        self.finished = True
 
-    def _check_xml(self, where: str, stack: list[str]) -> None:
+    def _on_ament_auto_package(self, command: Command, where: str) -> None:
+        self._on_ament_package(command, where)
+        _, names = split_at(command.args, {"INSTALL_TO_SHARE"})
+        for name in names[1:]:
+            self.entries.append(_Entry("DIRECTORY", name, f"share/{self.project}", Path(name).name, command.line))
+
+    def _check_xml(self, where: str, caller: str) -> None:
         faults = [f"The manifest contains invalid XML:\n{self.found.xml_error}"] if self.found.xml_error else []
         if self.found.root is not None:
             faults = faults_in(self.found.root)
         if faults:
-            raise self._refused_xml(faults, [*stack, where])
-        project = self.project
-        if project != self.found.name:
+            raise self._refused_xml(faults, [caller, where])
+        if self.project != self.found.name:
             text = (
                 f"ament_package_xml() package name '{self.found.name}' in '/package.xml' does not match current "
-                f"PROJECT_NAME '{project}'. You must call project() with the same package name before."
+                f"PROJECT_NAME '{self.project}'. You must call project() with the same package name before."
             )
             hint = f"Write project({self.found.name}) in line {self.project_line} of CMakeLists.txt."
             hint = "" if self.hints else hint  # there is none at all, and that is said already
-            raise refused(text, f"{_PACKAGE_XML}:53 (message)", hint, (*stack, where))
+            raise refused(text, f"{_PACKAGE_XML}:53 (message)", hint, [caller, where])
 
     def _refused_xml(self, faults: list[str], stack: list[str]) -> BuildFailure:
         file = shown_path(str(self.found.path / "package.xml"))
@@ -299,116 +364,211 @@ class _Build:
         text = f"Error parsing '{file}':\ncatkin_pkg.package.InvalidPackage: Error(s) in package '{file}':\n{said}\n"
         what = f"{SHARE}/ament_cmake_core/cmake/core/package_xml_2_cmake.py"
         process = f"execute_process(/usr/bin/python3 {what} {file}) returned error code 1"
-        text += cmake_message(
-            process, f"{_PACKAGE_XML}:95 (message)", [f"{_PACKAGE_XML}:49 (_ament_package_xml)", *stack]
-        )
+        stack = [f"{_PACKAGE_XML}:49 (_ament_package_xml)", *stack]
         hints = [hint_for(fault) for fault in faults]
         if self.found.xml_error:
             hints = ["Is every <tag> closed by a </tag>, and is every < in a text written as &lt;?"]
-        return BuildFailure(text, " ".join(filter(None, hints)))
+        message = cmake_message(process, f"{_PACKAGE_XML}:95 (message)", stack)
+        return BuildFailure(text + message, " ".join(filter(None, hints)))
 
     def _types(self) -> Registry:
         """All types that exist in this build; of the package's own those alone that CMakeLists.txt names."""
         types = self.environment.types
         if self.found.name in types.packages():
             types.remove(self.found.name)
-        types.add(self.found.name, self.found.path, tuple(file for check in self.checks for file in check.files))
+        types.add(self.found.name, self.found.path, self.interfaces)
         return types
 
     # -- install ---------------------------------------------------------------------------------------------------
 
-    def _items(self, cmake: CMakeFile) -> list[Item]:
-        entries = install_entries(cmake)
-        foreign = [entry for entry in entries if isinstance(entry, Program) and not asks_for_python(self.found, entry)]
-        self.left_out = [*cmake.compiled(), *(entry.name for entry in foreign)]
-        wanted = [entry for entry in entries if entry not in foreign]
-        items = [item for entry in wanted for item in install_items(self.found, entry, self.hints)]
-        for folder, name in self.python:
-            items.append(Item(f"{_PYTHON_PLACE}/{name}", self.found.path / folder))
-        items += self.modules
-        for check in self.checks:
-            items += interface_items(self.found, check.files)
-        check_targets(items)
-        if self.environment.symlink:
-            self._warn_of_mode(items)
-        return items
+    def _on_install(self, command: Command, where: str) -> None:
+        if not command.args:
+            return
+        kind, folder = command.args[0], self.found.path
+        names, options = split_at(command.args[1:], _INSTALL_WORDS)
+        if kind not in _INSTALLS:
+            hint = did_you_mean(kind, _INSTALLS) or f"Known are {', '.join(_INSTALLS[:3])}."
+            raise refused(f"install does not recognize sub-command {kind}", where, hint)
+        if kind == "TARGETS":
+            hint = "A Python program is installed with install(PROGRAMS …)."
+            raise refused(f'install TARGETS given target "{" ".join(names[:1])}" which does not exist.', where, hint)
+        if kind in _INSTALLS[3:]:
+            return
+        for name in names if kind != "DIRECTORY" else ():
+            if (folder / name).is_dir():
+                hint = f"Write install(DIRECTORY {name} …)."
+                raise refused(f'install {kind} given directory "{name}" to install.', where, hint)
+        values = {
+            word: "".join(split_at(options[place + 1 :][:1], _INSTALL_WORDS)[0]) for place, word in enumerate(options)
+        }
+        destination, rename = values.get("DESTINATION", ""), values.get("RENAME", "")
+        if rename and len(names) > 1:
+            hint = "RENAME gives a single name, so install one program at a time: install(PROGRAMS a.py …)."
+            raise refused(f"install {kind} given RENAME option with more than one file.", where, hint)
+        if not destination:
+            hint = f"install({kind} …) needs a DESTINATION, such as lib/${{PROJECT_NAME}}."
+            raise refused(f"install {kind} given no DESTINATION!", where, hint)
+        place = PurePosixPath(destination)
+        if place.is_absolute() or ".." in place.parts or ":" in destination:
+            text = f"DESTINATION {destination} lies outside the package's install folder"
+            hint = "Use lib/${PROJECT_NAME} for programs and share/${PROJECT_NAME} for everything else: "
+            hint += f"share/{self.found.name}."
+            raise refused(text, where, hint)
+        for name in names:
+            inside = kind == "DIRECTORY" and name.endswith("/")
+            own = "" if inside else rename or Path(name).name
+            self.entries.append(_Entry(kind, name, destination.rstrip("/"), own, command.line, options))
+
+    def _asks_for_python(self, entry: _Entry) -> bool:
+        """Whether a program can run here: its first line names no other interpreter. Of a file that is not there it is true."""
+        first = _first_line(self.found.path / entry.source)
+        return not first.startswith("#!") or "python" in first
+
+    def _items(self, entry: _Entry) -> Iterator[Item]:
+        """Where one entry goes, a folder file by file."""
+        folder, is_program = self.found.path, entry.kind == "PROGRAMS"
+        source = folder / entry.source
+        where = f"CMakeLists.txt:{entry.line} (install)"
+        if not source.resolve().is_relative_to(folder.resolve()):
+            raise refused(f"{entry.source} lies outside the package's folder", where, "Put the files into the package.")
+        if not source.exists():
+            text = f'file INSTALL cannot find "{shown_path(str(source))}": No such file or directory.'
+            paths = [
+                path for path in sorted(folder.rglob("*.py" if is_program else "*")) if "__pycache__" not in path.parts
+            ]
+            close = did_you_mean(entry.source.rstrip("/"), [path.relative_to(folder).as_posix() for path in paths])
+            hint = f"CMakeLists.txt, line {entry.line}, names '{entry.source}', which does not exist. {close}".strip()
+            raise refused(text, "cmake_install.cmake:46 (file)", hint, seconds=1.2)
+        target = "/".join(filter(None, (entry.destination, entry.name)))
+        if is_program:
+            self._warn_of_program(entry)
+            yield Item(target, source, program=True)
+        elif source.is_dir():
+            items = list(_directory_items(target, source, entry.options))
+            if entry.destination == f"lib/{self.found.name}" and items and not any(item.program for item in items):
+                self.hints.append(
+                    f"CMakeLists.txt, line {entry.line}: what install(DIRECTORY …) installs cannot be run. Write "
+                    "install(PROGRAMS <file>.py … DESTINATION lib/${PROJECT_NAME}), or add USE_SOURCE_PERMISSIONS."
+                )
+            yield from items
+        else:
+            yield Item(target, source, program=_RUNS in entry.options)
+
+    # -- what would be wrong on a robot, although it builds -----------------------------------------------------------
+
+    def _warn_of_program(self, entry: _Entry) -> None:
+        if entry.destination != f"lib/{self.found.name}":
+            self.hints.append(
+                f"CMakeLists.txt, line {entry.line}: {entry.source} goes to {entry.destination}; ros2 run looks only in "
+                "lib/${PROJECT_NAME}."
+            )
+        elif not _first_line(self.found.path / entry.source).startswith("#!"):
+            self.hints.append(
+                f"{entry.source} does not begin with '#!/usr/bin/env python3': a real ROS 2 could not start it (Exec "
+                "format error)."
+            )
 
     def _warn_of_mode(self, items: list[Item]) -> None:
         """A link has the mode of the file that it leads to; a copy gets one that can be run."""
         files = [item.source for item in items if item.program and item.source is not None]
-        if left := [shown_path(str(file)) for file in files if not os.access(file, os.X_OK)]:
+        left = [shown_path(str(file)) for file in files if not os.access(file, os.X_OK)]
+        if self.environment.symlink and left:
             self.hints.append(
                 f"--symlink-install links to {', '.join(left)}, which cannot be run (ros2 run: No executable found): "
                 f"!chmod +x {' '.join(left)}"
             )
 
-    # -- what is worth a word --------------------------------------------------------------------------------------
-
-    def _warn_of_project(self) -> None:
-        text = (
-            "No project() command is present. The top-level CMakeLists.txt file must contain a literal, direct call to the "
-            "project() command. Add a line of code such as\n\n  project(ProjectName)\n\nnear the top of the file, but after "
-            'cmake_minimum_required().\n\nCMake is pretending there is a "project(Project)" command on the first line.'
-        )
-        message = cmake_message(text, "", kind="Warning (dev) in CMakeLists.txt").rstrip("\n")
-        self.warnings.append(f"{message}\nThis warning is for project developers.  Use -Wno-dev to suppress it.\n\n")
-        self.hints.append(f"Write project({self.found.name}) below cmake_minimum_required(…).")
-
     def _warn_of_catkin(self) -> None:
         if self.found.root is not None and not self.found.build_type:
-            text = "Manually-specified variables were not used by the project:\n\n  CATKIN_INSTALL_INTO_PREFIX_ROOT\n"
-            self.warnings.append(cmake_message(text.rstrip(), "", kind="Warning"))
+            text = "Manually-specified variables were not used by the project:\n\n  CATKIN_INSTALL_INTO_PREFIX_ROOT"
+            self.warnings.append(cmake_message(text, "", kind="Warning"))
             self.hints.append(
                 "package.xml does not say how to build, so colcon takes it for a package of ROS 1. Add "
                 "<export><build_type>ament_cmake</build_type></export>."
             )
 
-    def _warn_of_blocks(self, cmake: CMakeFile) -> None:
-        """Loops, functions and macros are not carried out, and neither is what stands in them."""
-        if cmake.passed_over:
-            blocks = " and ".join(f"{name}() in line {line}" for name, line in cmake.passed_over)
-            self.warnings.append(
-                f"Warning: CMakeLists.txt: {blocks} cannot be carried out here: what lies inside is passed over. All else "
-                "is built; write out what is missing.\n"
-            )
-
     def _warn_of_definitions(self) -> None:
         """Definitions that lie there and that nobody asks for: nothing is made of them, and importing them fails."""
-        named = {file for check in self.checks for file in check.files}
-        there = [path.relative_to(self.found.path).as_posix() for path in definitions(self.found.path)]
-        if left := [file for file in there if file not in named]:
+        if left := [file for file in definitions(self.found.path) if file not in self.interfaces]:
             names = " ".join(f'"{file}"' for file in left)
             self.hints.append(
                 f"nothing is generated from {', '.join(left)}, which CMakeLists.txt does not name: write {names} in "
                 "rosidl_generate_interfaces(${PROJECT_NAME} …)."
             )
 
-    def _warn_of_setup_py(self, cmake: CMakeFile) -> None:
+    def _warn_of_setup_py(self) -> None:
         file = self.found.path / "setup.py"
         text = file.read_text(encoding="utf-8", errors="replace") if file.is_file() else ""
         if "entry_points" not in text:
             return
-        installed = [program for program in cmake.programs() if program.destination == f"lib/{self.found.name}"]
+        place = f"lib/{self.found.name}"
+        hint = f" Install each program in CMakeLists.txt: install(PROGRAMS {self.found.name}/<file>.py DESTINATION "
+        hint += "lib/${PROJECT_NAME} RENAME <name>)."
+        installed = any(entry.kind == "PROGRAMS" and entry.destination == place for entry in self.entries)
         line = text[: text.index("entry_points")].count("\n") + 1
-        hint = "" if installed else (
-            f" Install each program in CMakeLists.txt: install(PROGRAMS {self.found.name}/<file>.py DESTINATION "
-            "lib/${PROJECT_NAME} RENAME <name>)."
-        )  # fmt: skip
         self.hints.append(
             f"setup.py, line {line}, lists entry_points, but package.xml says ament_cmake: CMake does not read setup.py, and "
-            f"nothing will be installed from them.{hint}"
+            f"nothing will be installed from them.{'' if installed else hint}"
         )
 
-    def _outcome(self, items: list[Item]) -> Outcome:
-        files = [file for check in self.checks for file in check.files]
-        share = prefix_of(self.environment.install, self.found.name) / "share" / self.found.name
-        pairs = [(share / file, self.found.path / file) for file in files]
-        changed = [new for old, new in pairs if not old.is_file() or old.read_bytes() != new.read_bytes()]
-        seconds = (0.7 if self.again else 1.2) + 2.0 * len(changed)
-        stdout = [f"-- Found {name}" for name in sorted(self.seen)]
-        stdout += ["-- Configuring done", "-- Generating done"]
-        text = with_hint("".join(self.warnings), self.hints)
-        paths = [_PYTHON_PLACE] if self.python or self.modules else []
-        outcome = Outcome(0, text, stdout, seconds, items, self.found.runtime_dependencies(), paths)
-        outcome.left_out, outcome.lacking = self.left_out, self.lacking
-        return outcome
+
+_ELSEWHERE = "Only CMakeLists.txt itself is read here: write the lines of that file into it."
+_NO_PROJECT = (
+    cmake_message(
+        "No project() command is present. The top-level CMakeLists.txt file must contain a literal, direct call to the "
+        "project() command. Add a line of code such as\n\n  project(ProjectName)\n\nnear the top of the file, but after "
+        'cmake_minimum_required().\n\nCMake is pretending there is a "project(Project)" command on the first line.',
+        "",
+        kind="Warning (dev) in CMakeLists.txt",
+    ).removesuffix("\n")
+    + "This warning is for project developers.  Use -Wno-dev to suppress it.\n\n"
+)
+_NOT_FOUND = """\
+By not providing "Find{name}.cmake" in CMAKE_MODULE_PATH this project has asked CMake to find a package configuration file \
+provided by "{name}", but CMake did not find one.
+
+Could not find a package configuration file provided by "{name}" with any of the following names:
+
+  {name}Config.cmake
+  {lower}-config.cmake
+
+Add the installation prefix of "{name}" to CMAKE_PREFIX_PATH or set "{name}_DIR" to a directory containing one of the above \
+files. If "{name}" provides a separate development package or SDK, be sure it has been installed."""
+
+
+def _first_line(file: Path) -> str:
+    text = file.read_bytes().split(b"\n", 1)[0] if file.is_file() else b""
+    return text.decode("utf-8", "replace")
+
+
+def _directory_items(target: str, folder: Path, options: Sequence[str]) -> Iterator[Item]:
+    """The files of a folder, as an `install(DIRECTORY …)` with these options installs them below `target`.
+
+    Without USE_SOURCE_PERMISSIONS a copy cannot be run, whatever the file itself can.
+    """
+    general, rest = split_at(options, _FILTERS)
+    filters: list[tuple[str, str, tuple[str, ...]]] = []
+    while len(rest) > 1:
+        words, later = split_at(rest[2:], _FILTERS)
+        filters.append((rest[0], rest[1], words))
+        rest = later
+    for file in files_in(folder):
+        inner = file.relative_to(folder)
+        paths = [folder / path for path in (inner, *inner.parents)]
+        if any("EXCLUDE" in words and _fits(path, kind, text) for kind, text, words in filters for path in paths):
+            continue
+        wanted = [words for kind, text, words in filters if "EXCLUDE" not in words and _fits(file, kind, text)]
+        if "FILES_MATCHING" in general and not wanted:
+            continue
+        modes = [words for words in [*wanted, general] if {"PERMISSIONS", "FILE_PERMISSIONS"} & set(words)]
+        runs = _RUNS in modes[0] if modes else "USE_SOURCE_PERMISSIONS" in general and os.access(file, os.X_OK)
+        yield Item("/".join(filter(None, (target, inner.as_posix()))), file, program=runs)
+
+
+def _fits(path: Path, kind: str, text: str) -> bool:
+    """Whether a filter is about a path: a pattern looks at its last names, a regex at all of it."""
+    if kind == "REGEX":
+        return re.search(text, path.as_posix()) is not None
+    parts = text.strip("/").split("/")
+    last = path.parts[-len(parts) :]
+    return len(last) == len(parts) and all(map(fnmatchcase, last, parts))

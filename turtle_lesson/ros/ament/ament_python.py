@@ -16,11 +16,12 @@ from typing import Any
 
 from ..idl.names import did_you_mean
 from ..sim.errors import shown_path
-from .discover import Found
-from .install_tree import PYTHON, BuildFailure, Environment, Item, Outcome, check_targets, with_hint
-from .manifest import SetupError, hint_for, install_scripts, read_setup
+from .errors import BuildFailure
+from .install_tree import PYTHON, PYTHON_FOLDERS, Environment, Item, Outcome, check_targets, with_hint
+from .manifest import Found, hint_for
+from .setup_py import SetupError, install_scripts, read_setup
 
-SITE = f"lib/{PYTHON}/site-packages"
+SITE = PYTHON_FOLDERS["python"]
 _ENTRY = re.compile(r"\s*([\w.-]+)\s*=\s*([\w.]+)\s*:\s*([\w.]+)\s*(\[.*\])?\s*")
 PROGRAMS = ("console_scripts", "gui_scripts")
 
@@ -66,7 +67,7 @@ class _Build:
         check_targets(items)
         seconds = 1.7 if self.environment.symlink else 1.3
         text = with_hint("".join(self.warnings), self.hints)
-        return Outcome(0, text, [], seconds, items, self.found.runtime_dependencies(), [SITE])
+        return Outcome(0, text, [], seconds, items, self.found.runtime_dependencies, [SITE])
 
     def _check(self) -> None:
         if self.found.xml_error:

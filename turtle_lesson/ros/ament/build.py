@@ -20,11 +20,9 @@ from ..sim.simulation import NANOSECONDS
 from ..sim.strand import running_strand
 from .ament_cmake import build_ament_cmake
 from .ament_python import build_ament_python
-from .discover import Found, in_order, needed_by
 from .install_tree import (
     Environment,
     Outcome,
-    definitions,
     install_package,
     installed_names,
     prefix_of,
@@ -32,6 +30,8 @@ from .install_tree import (
     read_installed,
     write_setup_files,
 )
+from .interfaces import definitions
+from .manifest import Found, in_order, needed_by
 from .source import resource
 
 if TYPE_CHECKING:
@@ -259,7 +259,7 @@ def types_for(found: Found, others: Mapping[str, tuple[Path, tuple[str, ...] | N
     sourced = [registry.package(name) for name in registry.packages() if name not in built_in]
     places = {package.name: (package.directory, package.files) for package in sourced} | dict(others)
     places.pop(found.name, None)
-    files = tuple(path.relative_to(found.path).as_posix() for path in definitions(found.path))
+    files = tuple(definitions(found.path))
     if files and LOWER_CASE.fullmatch(found.name):
         places[found.name] = (found.path, files)
     types = Registry()

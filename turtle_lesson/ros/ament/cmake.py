@@ -1,53 +1,327 @@
-"""A small honest reader of a package's CMakeLists.txt: variables, `if`, and what ament packages are made of.
+"""Reads a CMakeLists.txt: text to commands with their lines, and which of them take effect, with their variables put in.
 
-It understands what a Python package needs (set, list, project, if, file(GLOB), install, rosidl_generate_interfaces). Loops,
+Understood is what an ament package of Python files needs: `set`, `list(APPEND)`, `project`, `if` and `file(GLOB)`. Loops,
 functions and macros are passed over with all that lies inside, and named (`CMakeFile.passed_over`). Nothing is built or run.
+Facts: https://cmake.org/cmake/help/latest/manual/cmake-language.7.html and, for conditions, command/if.html there.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+import textwrap
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from glob import glob
 from pathlib import Path
 
 from ..sim.errors import shown_path
-from .cmake_syntax import BLOCKS, Argument, Call, CMakeError, check_blocks, condition_holds, read_calls
+from .errors import BuildFailure
 
-__all__ = [
-    "CMakeError",
-    "CMakeFile",
-    "Command",
-    "Installed",
-    "Program",
-    "read_cmake",
-]
-
-
-_VARIABLE = re.compile(r"\\(.)|\$\{([^${}]*)\}", re.DOTALL)
-_ESCAPES = {"n": "\n", "t": "\t", "r": "\r"}
-_INSTALL_FOLDERS = {
-    f"CMAKE_INSTALL_{name}DIR": folder
-    for name, folder in {
-        "BIN": "bin", "LIB": "lib", "LIBEXEC": "libexec", "INCLUDE": "include", "DATA": "share", "DATAROOT": "share",
-        "DOC": "share/doc", "SYSCONF": "etc", "MAN": "share/man",
-    }.items()
-}  # fmt: skip
-"""The variables that include(GNUInstallDirs) sets."""
-
-_INSTALL_WORDS = {
-    "DESTINATION", "RENAME", "PERMISSIONS", "FILE_PERMISSIONS", "DIRECTORY_PERMISSIONS", "CONFIGURATIONS",
-    "COMPONENT", "OPTIONAL", "TYPE", "EXCLUDE_FROM_ALL", "USE_SOURCE_PERMISSIONS", "PATTERN", "REGEX",
-    "EXCLUDE", "FILES_MATCHING", "MESSAGE_NEVER",
-}  # fmt: skip
-INTERFACE_WORDS = {
-    "DEPENDENCIES", "LIBRARY_NAME", "SKIP_INSTALL", "SKIP_GROUP_MEMBERSHIP_CHECK", "ADD_LINTER_TESTS",
-}  # fmt: skip
-
+SHARE = "/opt/ros/humble/share"
+"""Where the real build's own files are; named in the call stacks of its messages."""
 
 COMPILES = {"add_executable", "add_library", "ament_auto_add_executable", "ament_auto_add_library"}
 """The commands by which a package builds something in C++, which is left out here."""
+
+_BLOCKS = ("foreach", "while", "function", "macro")
+"""The commands whose bodies are passed over."""
+
+_ENDS = {f"end{name}": name for name in ("if", *_BLOCKS)}
+_INSTALL_FOLDERS = {
+    "CMAKE_INSTALL_BINDIR": "bin",
+    "CMAKE_INSTALL_LIBDIR": "lib",
+    "CMAKE_INSTALL_INCLUDEDIR": "include",
+    "CMAKE_INSTALL_DATADIR": "share",
+    "CMAKE_INSTALL_DATAROOTDIR": "share",
+}
+"""The variables that include(GNUInstallDirs) sets."""
+
+
+def cmake_message(text: str, where: str, stack: Sequence[str] = (), kind: str = "Error") -> str:
+    """`CMake Error at <where>:` and the text; the paragraphs of the text are separated by empty lines.
+
+    The wrapping is CMake's: lines of at most 77 columns, indented by two, two spaces after a full stop, and lines that
+    begin with a space left as they are.
+    """
+    lines = [f"CMake {kind} at {where}:" if where else f"CMake {kind}:"]
+    for line in text.split("\n"):
+        words = re.sub(r"\. ", ".  ", " ".join(line.split()))
+        wrapped = textwrap.wrap(words, 75, break_long_words=False, break_on_hyphens=False)
+        lines += [f"  {part}" for part in ([line] if line.startswith(" ") else wrapped)] or [""]
+    if stack:
+        lines += ["Call Stack (most recent call first):", *(f"  {call}" for call in stack)]
+    return "\n".join(lines) + "\n\n"
+
+
+def refused(text: str, where: str, hint: str = "", stack: Sequence[str] = (), *, seconds: float = 0.9) -> BuildFailure:
+    """An error of CMake's at a place such as `CMakeLists.txt:12 (install)`."""
+    return BuildFailure(cmake_message(text, where, stack), hint, seconds=seconds)
+
+
+def split_at(args: Sequence[str], words: Collection[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """The arguments before the first of CMake's own words, and those from it on."""
+    end = next((place for place, argument in enumerate(args) if argument in words), len(args))
+    return tuple(args[:end]), tuple(args[end:])
+
+
+# -- text to commands ----------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Argument:
+    """One argument as written. `quoted` ones stay one argument, `raw` ones ([[…]]) are never expanded."""
+
+    text: str
+    line: int
+    quoted: bool = False
+    raw: bool = False
+
+
+@dataclass(frozen=True)
+class Call:
+    """One command as written: its name in lower case, its arguments, the line where it begins."""
+
+    name: str
+    args: tuple[Argument, ...]
+    line: int
+
+
+_SKIPPED = re.compile(r"(?:\s+|#\[(=*)\[.*?\]\1\]|#(?!\[=*\[)[^\n]*)*", re.DOTALL)
+"""Spaces, line ends and comments of both kinds."""
+
+_BLANKS = re.compile(r"[ \t\r]*")
+_NAME = re.compile(r"[A-Za-z_]\w*")
+_BRACKET = re.compile(r"\[(=*)\[\n?(.*?)\]\1\]", re.DOTALL)
+_QUOTED = re.compile(r'"((?:[^"\\]|\\.)*)"', re.DOTALL)
+_PLAIN = re.compile(r'(?:[^\s()#"\\]|\\.|(?<=[^\s()])"[^"]*")+')
+
+
+class _Reader:
+    """Walks over the text once; `position` is the next character to read."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.position = 0
+
+    @property
+    def line(self) -> int:
+        return self.text.count("\n", 0, self.position) + 1
+
+    @property
+    def last_line(self) -> int:
+        return self.text.count("\n") + 1
+
+    def take(self, pattern: re.Pattern[str]) -> re.Match[str] | None:
+        """What the pattern matches here, stepped over; None if it does not match."""
+        if match := pattern.match(self.text, self.position):
+            self.position = match.end()
+        return match
+
+    def more(self) -> bool:
+        """Step over what is no code; whether anything is left."""
+        self.take(_SKIPPED)
+        if self.text.startswith("#", self.position):
+            rest = _shown(self.text[self.text.index("[", self.position + 2) + 1 :])
+            words = f'Expected a command name, got unterminated bracket with text "{rest}".'
+            raise self.error(words, "this #[[ comment never ends; close it with ]]", self.line, self.last_line)
+        return self.position < len(self.text)
+
+    def got(self) -> tuple[str, int]:
+        """What CMake calls the token that comes next, and the line at which it says so."""
+        rest = self.text[self.position :]
+        if rest[:1] == "\n":
+            return f'newline with text "{_shown(rest[:1])}"', self.line + 1
+        if rest[:1] in {"(", ")"}:
+            return f'{"left" if rest[0] == "(" else "right"} paren with text "{rest[0]}"', self.line
+        kind, text = "unquoted", rest
+        for name, pattern in (("quoted argument", _QUOTED), ("identifier", _NAME), ("unquoted argument", _PLAIN)):
+            if match := pattern.match(rest):
+                kind, text = name, match[match.lastindex or 0]
+                break
+        return f'{kind} with text "{text[:60]}"', self.line
+
+    def error(self, words: str, reason: str, line: int, place: int = 0) -> BuildFailure:
+        """CMake's own words, which name `place`; `reason` says what is wrong in `line`."""
+        hint = f"CMakeLists.txt, line {line}: {reason}."
+        return refused(f"Parse error. {words}", f"CMakeLists.txt:{place or line}", hint, seconds=0.1)
+
+
+def read_calls(text: str) -> list[Call]:
+    """All commands of the text, in order.
+
+    Raises:
+        BuildFailure: the text is no CMake, or its blocks are not nested.
+    """
+    reader = _Reader(text)
+    calls = []
+    while reader.more():
+        calls.append(_call(reader))
+    _check_blocks(calls)
+    return calls
+
+
+def _call(reader: _Reader) -> Call:
+    line = reader.line
+    token, place = reader.got()
+    name = reader.take(_NAME)
+    if not name:
+        found = reader.text[reader.position : reader.position + 20].split("\n")[0]
+        reason = f"expected a command such as find_package(…), found {found!r}"
+        raise reader.error(f"Expected a command name, got {token}.", reason, line, place)
+    reader.take(_BLANKS)
+    if not reader.text.startswith("(", reader.position):
+        token, place = reader.got()
+        reason = f"expected '(' after {name[0]!r}: a command looks like {name[0]}(…)"
+        if reader.position < len(reader.text):
+            raise reader.error(f'Expected "(", got {token}.', reason, line, place)
+        raise reader.error('Function missing opening "(". End of file reached.', reason, line, place)
+    reader.position += 1
+    return Call(name[0].lower(), tuple(_arguments(reader, name[0], line)), line)
+
+
+def _arguments(reader: _Reader, name: str, line: int) -> Iterator[Argument]:
+    """The arguments up to the parenthesis that ends the command; inner ones are arguments of their own."""
+    depth = 1
+    while reader.more():
+        here = reader.line
+        if match := reader.take(_BRACKET):
+            yield Argument(match[2], here, quoted=True, raw=True)
+        elif match := reader.take(_QUOTED):
+            yield Argument(match[1].replace("\\\n", ""), here, quoted=True)
+        elif match := reader.take(_PLAIN):
+            yield Argument(match[0], here)
+        elif (character := reader.text[reader.position]) in "()":
+            reader.position += 1
+            depth += 1 if character == "(" else -1
+            if depth == 0:
+                return
+            yield Argument(character, here)
+        else:
+            rest = _shown(reader.text[reader.position + 1 :])
+            words = f'Function missing ending ")". Instead found unterminated string with text "{rest}".'
+            raise reader.error(words, 'this quote is never closed; end the text with another "', here, reader.last_line)
+    reason = f"the '(' of {name} is never closed; put a ')' where its arguments end"
+    raise reader.error('Function missing ending ")". End of file reached.', reason, line)
+
+
+def _shown(rest: str) -> str:
+    """Text as CMake shows it, every line a paragraph; a long one is cut."""
+    cut = rest if len(rest) <= 400 else f"{rest[:400]}…"
+    return cut.replace("\n", "\n\n")
+
+
+def _check_blocks(calls: Sequence[Call]) -> None:
+    """Every `if` and every loop is closed, in the right order."""
+    opened: list[Call] = []
+    for call in calls:
+        if call.name in _ENDS.values():
+            opened.append(call)
+        elif call.name in {*_ENDS, "else", "elseif"}:
+            start = _ENDS.get(call.name, "if")
+            if not opened or opened[-1].name != start:
+                article = "an" if start == "if" else "a"
+                raise _not_nested(call, f"{call.name}() without {article} {start}() before it")
+            if call.name in _ENDS:
+                opened.pop()
+    if opened:
+        raise _not_nested(opened[-1], f"this {opened[-1].name}() has no end{opened[-1].name}()")
+
+
+def _not_nested(call: Call, reason: str) -> BuildFailure:
+    words = "Flow control statements are not properly nested."
+    hint = f"CMakeLists.txt, line {call.line}: {reason}."
+    return refused(words, f"CMakeLists.txt:{call.line} ({call.name})", hint, seconds=0.1)
+
+
+# -- conditions ----------------------------------------------------------------------------------------------------------
+
+_TRUE = {"1", "ON", "YES", "TRUE", "Y"}
+_FALSE = {"", "0", "OFF", "NO", "FALSE", "N", "IGNORE", "NOTFOUND"}
+_BINARY = (
+    "STREQUAL", "EQUAL", "MATCHES", "IN_LIST", "LESS", "GREATER", "LESS_EQUAL", "GREATER_EQUAL", "STRLESS",
+    "STRGREATER", "VERSION_LESS", "VERSION_GREATER", "VERSION_EQUAL", "VERSION_LESS_EQUAL",
+    "VERSION_GREATER_EQUAL", "IS_NEWER_THAN",
+)  # fmt: skip
+_UNARY = ("DEFINED", "TARGET", "EXISTS", "COMMAND", "POLICY", "TEST", "IS_DIRECTORY", "IS_ABSOLUTE")
+
+Word = tuple[str, bool]
+"""A word of a condition, and whether it was quoted."""
+
+
+class _Condition:
+    """The condition of an `if(…)`: takes the words from the left, the operator that binds weakest first.
+
+    Names, NOT, AND, OR, DEFINED, STREQUAL, EQUAL, IN_LIST, MATCHES and parentheses are understood; other tests count as
+    false, as they mostly are for a package of Python files. What CMake does not know raises ValueError.
+    """
+
+    def __init__(self, words: list[Word], variables: Mapping[str, str]) -> None:
+        self.words = list(words)
+        self.variables = variables
+
+    def holds(self) -> bool:
+        value = bool(self.words) and self._either()
+        if self.words:
+            raise ValueError
+        return value
+
+    def _accept(self, *expected: str) -> str:
+        if self.words and not self.words[0][1] and self.words[0][0] in expected:
+            return self.words.pop(0)[0]
+        return ""
+
+    def _next(self) -> Word:
+        if not self.words:
+            raise ValueError
+        return self.words.pop(0)
+
+    def _either(self) -> bool:
+        value = self._both()
+        while self._accept("OR"):
+            value = self._both() or value
+        return value
+
+    def _both(self) -> bool:
+        value = self._single()
+        while self._accept("AND"):
+            value = self._single() and value
+        return value
+
+    def _single(self) -> bool:
+        if self._accept("NOT"):
+            return not self._single()
+        if self._accept("("):
+            value = self._either()
+            if not self._accept(")"):
+                raise ValueError
+            return value
+        if test := self._accept(*_UNARY):
+            operand = self.words.pop(0)[0] if self.words else ""
+            return test == "DEFINED" and operand in self.variables
+        left = self._next()
+        if operator := self._accept(*_BINARY):
+            return self._compare(self._value(left), operator, self._value(self._next()))
+        return self._truth(*left)
+
+    def _value(self, word: Word) -> str:
+        text, quoted = word
+        return text if quoted else self.variables.get(text, text)
+
+    def _compare(self, left: str, operator: str, right: str) -> bool:
+        if operator in {"STREQUAL", "EQUAL"}:
+            return left == right
+        if operator == "IN_LIST":
+            return left in right.split(";")
+        return operator == "MATCHES" and re.search(right, left) is not None
+
+    def _truth(self, text: str, quoted: bool) -> bool:
+        if text.upper() in _TRUE:
+            return True
+        value = "" if quoted else self.variables.get(text, "").upper()
+        return value not in _FALSE and not value.endswith("-NOTFOUND")
+
+
+# -- commands that take effect -------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -58,30 +332,9 @@ class Command:
     args: tuple[str, ...]
     line: int
 
-
-@dataclass(frozen=True)
-class Program:
-    """A file that `install(PROGRAMS …)` names: where it lies, the folder it goes to, its name there."""
-
-    source: str
-    destination: str
-    name: str
-    line: int
-
-
-@dataclass(frozen=True)
-class Installed:
-    """A folder or file that `install(DIRECTORY …)` or `install(FILES …)` names, and the folder it goes to.
-
-    A folder whose name ends in `/` gives its content instead of itself, as in CMake.
-    """
-
-    source: str
-    destination: str
-    line: int
-    name: str | None = None
-    options: tuple[str, ...] = field(default=(), compare=False)
-    """The words behind the names, DESTINATION and all others."""
+    def after(self, word: str) -> str:
+        """The argument behind a word such as PACKAGE_DIR; nothing where there is none."""
+        return self.args[self.args.index(word) + 1] if word in self.args[:-1] else ""
 
 
 @dataclass
@@ -89,9 +342,8 @@ class CMakeFile:
     """The commands of a CMakeLists.txt in the order of their effect, and what they mean for a package."""
 
     commands: list[Command] = field(default_factory=list)
-    file: str = "CMakeLists.txt"
-    folders: dict[int, CMakeFile] = field(default_factory=dict)
-    """The files of the folders that `add_subdirectory` names, by its line."""
+    compiled: dict[str, int] = field(default_factory=dict)
+    """The C++ programs and libraries, each with its line; those of inner folders with the line that names the folder."""
     builds_cpp: bool = False
     """Whether a command of the text builds C++, even where it is passed over."""
     passed_over: list[tuple[str, int]] = field(default_factory=list)
@@ -99,290 +351,179 @@ class CMakeFile:
     defined: set[str] = field(default_factory=set)
     """The names of the functions and macros that the text defines, in lower case."""
 
-    def named(self, name: str) -> list[Command]:
-        """All commands of a name."""
-        return [command for command in self.commands if command.name == name]
-
-    def project(self) -> Command:
-        """The `project(name)` command; the name is its first argument."""
-        for command in self.named("project"):
-            if command.args:
-                return command
-            raise CMakeError("project() needs a name: project(robot_controller)", command.line, self.file)
-        raise CMakeError("there is no project(…); write project(<the package's name>) first", 1, self.file)
-
-    def found_packages(self) -> list[str]:
-        """What `find_package` asks for."""
-        return [command.args[0] for command in self.named("find_package") if command.args]
-
-    def compiled(self) -> dict[str, int]:
-        """The C++ programs and libraries that it builds, each with its line; those of inner folders with that of the folder."""
-        found: dict[str, int] = {}
-        for line, inner in self.folders.items():
-            found |= dict.fromkeys(inner.compiled(), line)
-        for command in self.commands:
-            if command.name in COMPILES and command.args:
-                found[command.args[0]] = command.line
-            if "EXECUTABLE" in command.args[:-1] and command.name.startswith("rclcpp_components_register_node"):
-                found[command.args[command.args.index("EXECUTABLE") + 1]] = command.line
-        return found
-
-    def interfaces(self) -> list[tuple[str, int]]:
-        """The files in `rosidl_generate_interfaces`, such as `msg/TurtleStatus.msg`, each with its line."""
-        files = []
-        for command in self.named("rosidl_generate_interfaces"):
-            names, _ = _until(command.args[1:], INTERFACE_WORDS)
-            files += [(name, command.line) for name in names]
-        return files
-
-    def programs(self) -> list[Program]:
-        """What `install(PROGRAMS …)` installs."""
-        found = []
-        for command in self._installs("PROGRAMS"):
-            names, options = _until(command.args[1:], _INSTALL_WORDS)
-            rename = options.get("RENAME")
-            if rename and len(names) > 1:
-                reason = "RENAME gives a single name, so install one program at a time: install(PROGRAMS a.py …)"
-                words = "install PROGRAMS given RENAME option with more than one file."
-                raise self._refused(command, reason, words)
-            destination = self._destination(command, options)
-            for name in names:
-                found.append(Program(name, destination, rename or Path(name).name, command.line))
-        return found
-
-    def directories(self) -> list[Installed]:
-        """What `install(DIRECTORY …)` installs, and `ament_auto_package(INSTALL_TO_SHARE …)`."""
-        found = self._installed("DIRECTORY")
-        for command in self.named("ament_auto_package"):
-            place = f"share/{self.project().args[0]}"
-            names = (
-                command.args[command.args.index("INSTALL_TO_SHARE") + 1 :] if "INSTALL_TO_SHARE" in command.args else ()
-            )
-            found += [Installed(name, place, command.line) for name in names]
-        return found
-
-    def files(self) -> list[Installed]:
-        """What `install(FILES …)` installs."""
-        return self._installed("FILES")
-
-    def _installed(self, kind: str) -> list[Installed]:
-        found = []
-        for command in self._installs(kind):
-            names, options = _until(command.args[1:], _INSTALL_WORDS)
-            destination = self._destination(command, options)
-            rename, words = options.get("RENAME"), command.args[1 + len(names) :]
-            found += [Installed(name, destination, command.line, rename, words) for name in names]
-        return found
-
-    def _installs(self, kind: str) -> list[Command]:
-        return [command for command in self.named("install") if command.args[:1] == (kind,)]
-
-    def _destination(self, command: Command, options: dict[str, str]) -> str:
-        if not options.get("DESTINATION"):
-            kind = command.args[0]
-            reason = f"install({kind} …) needs a DESTINATION, such as lib/${{PROJECT_NAME}}"
-            raise self._refused(command, reason, f"install {kind} given no DESTINATION!")
-        return options["DESTINATION"].rstrip("/")
-
-    def _refused(self, command: Command, reason: str, words: str) -> CMakeError:
-        place = f"{command.line} ({command.name})"
-        return CMakeError(reason, command.line, self.file, words=words, place=place)
-
-
-def _until(args: tuple[str, ...], words: set[str]) -> tuple[list[str], dict[str, str]]:
-    """The arguments before the first of CMake's own words, and for each of those words what follows it."""
-    names: list[str] = []
-    options: dict[str, str] = {}
-    word = None
-    for argument in args:
-        if argument in words:
-            word = argument
-            options.setdefault(word, "")
-        elif word is None:
-            names.append(argument)
-        else:
-            options[word] = options[word] or argument
-    return names, options
-
-
-def read_cmake(path: Path) -> CMakeFile:
-    """Read a CMakeLists.txt.
-
-    Raises:
-        CMakeError: where it is not understood, with the file and the line.
-    """
-    return evaluate(path.read_text(encoding="utf-8"), str(path), path.parent)
-
 
 def compiled_programs(folder: Path) -> dict[str, int]:
     """What the CMakeLists.txt in a folder builds in C++, each with its line; nothing without a readable one."""
     try:
-        return read_cmake(folder / "CMakeLists.txt").compiled()
-    except (CMakeError, OSError, UnicodeDecodeError):
+        return evaluate((folder / "CMakeLists.txt").read_text(encoding="utf-8"), folder).compiled
+    except (BuildFailure, OSError, UnicodeDecodeError):
         return {}
 
 
-def evaluate(
-    text: str, file: str = "CMakeLists.txt", folder: Path | None = None, variables: dict[str, str] | None = None
-) -> CMakeFile:
-    """The commands of the text that take effect, with their variables put in, and those of its inner folders.
+def evaluate(text: str, folder: Path = Path(), variables: dict[str, str] | None = None) -> CMakeFile:
+    """The commands of the text that take effect, with their variables put in, and the C++ of its inner folders.
 
     Where a file builds C++, what is not understood in it is passed over: most of it serves the C++.
+
+    Raises:
+        BuildFailure: CMake would refuse the text, or it needs more of CMake than is understood here.
     """
-    where = (folder or Path(".")).as_posix()
+    where = folder.as_posix()
     known = variables or dict.fromkeys(("CMAKE_SOURCE_DIR", "PROJECT_SOURCE_DIR"), where)
     known |= {"CMAKE_CURRENT_SOURCE_DIR": where, "CMAKE_CURRENT_LIST_DIR": where, "BUILD_TESTING": "ON", "UNIX": "1"}
-    calls = read_calls(text, file)
-    check_blocks(calls, file)
-    cpp = any(call.name in COMPILES for call in calls)
-    evaluator = _Evaluator(known, file, lenient=cpp)
-    read = CMakeFile(list(evaluator.run(calls)), file, builds_cpp=cpp, passed_over=evaluator.passed_over)
+    calls = read_calls(text)
+    evaluator = _Evaluator(known, lenient=any(call.name in COMPILES for call in calls))
+    read = CMakeFile(list(evaluator.run(calls)), builds_cpp=evaluator.lenient, passed_over=evaluator.passed_over)
     read.defined = {call.args[0].text.lower() for call in calls if call.name in {"function", "macro"} and call.args}
-    for command in read.named("add_subdirectory"):
-        inner = Path(where, "".join(command.args[:1])).resolve()
-        if Path(where).resolve() in inner.parents:
-            list_file = inner / "CMakeLists.txt"
-            try:
-                text = list_file.read_text(encoding="utf-8")
-                read.folders[command.line] = evaluate(text, str(list_file), inner, dict(known))
-            except (CMakeError, OSError, UnicodeDecodeError):
-                read.folders[command.line] = CMakeFile(file=str(list_file))  # nothing is known of it
+    for command in read.commands:
+        if command.name in COMPILES and command.args:
+            read.compiled[command.args[0]] = command.line
+        elif command.name.startswith("rclcpp_components_register_node") and command.after("EXECUTABLE"):
+            read.compiled[command.after("EXECUTABLE")] = command.line
+        elif command.name == "add_subdirectory":
+            read.compiled |= dict.fromkeys(_compiled_below(folder, command, known), command.line)
     return read
+
+
+def _compiled_below(folder: Path, command: Command, variables: dict[str, str]) -> Iterator[str]:
+    """The C++ of an inner folder; nothing is known of one whose file cannot be read."""
+    inner = folder.joinpath(*command.args[:1]).resolve()
+    if folder.resolve() in inner.parents:
+        try:
+            text = (inner / "CMakeLists.txt").read_text(encoding="utf-8")
+            yield from evaluate(text, inner, dict(variables)).compiled
+        except (BuildFailure, OSError, UnicodeDecodeError):
+            return
+
+
+_VARIABLE = re.compile(r"\\(.)|\$\{([^${}]*)\}", re.DOTALL)
+_ESCAPES = {"n": "\n", "t": "\t", "r": "\r", ";": "\\;"}  # \; is still to be seen when lists are split
 
 
 class _Evaluator:
     """Goes through the calls once, keeping the variables and which `if` branch is taken."""
 
-    def __init__(self, variables: dict[str, str], file: str, *, lenient: bool = False) -> None:
+    def __init__(self, variables: dict[str, str], *, lenient: bool) -> None:
         self.variables = variables
-        self.file = file
-        self._lenient = lenient
-        self._branches: list[str] = []  # one per open if: "taken", "waiting" for its branch, or "done"
+        self.lenient = lenient
         self.passed_over: list[tuple[str, int]] = []
+        self._branches: list[str] = []  # one per open if: "taken", "waiting" for its branch, or "done"
 
     def run(self, calls: list[Call]) -> Iterator[Command]:
         """The commands that take effect."""
         depth = 0  # of the loops, functions and macros that the call stands in
         for call in calls:
-            if call.name in BLOCKS and self._active:
+            if call.name in _BLOCKS and self._active:
                 if not depth:
                     self.passed_over.append((call.name, call.line))
                 depth += 1
             elif depth:
-                depth -= call.name.startswith("end") and call.name[3:] in BLOCKS
-            elif not self._conditional(call) and self._active:
+                depth -= _ENDS.get(call.name) in _BLOCKS
+            elif call.name in {"if", "elseif", "else", "endif"}:
+                self._branch(call)
+            elif self._active:
                 if call.name == "return":
                     return
-                yield from self._effect(call)
+                command = Command(call.name, tuple(self._arguments(call)), call.line)
+                self._effect(command)
+                yield command
 
     @property
     def _active(self) -> bool:
         return all(branch == "taken" for branch in self._branches)
 
-    def _conditional(self, call: Call) -> bool:
+    def _branch(self, call: Call) -> None:
         if call.name == "if":
-            taken = self._active and self._holds(call)
-            self._branches.append("taken" if taken else "waiting" if self._active else "done")
-        elif call.name in {"elseif", "else", "endif"}:
-            self._next_branch(call)
+            state = "waiting" if self._active else "done"
         else:
-            return False
-        return True
-
-    def _next_branch(self, call: Call) -> None:
-        state = self._branches.pop()
-        if call.name == "endif":
-            return
+            state = self._branches.pop()
+            if call.name == "endif":
+                return
         if state == "waiting" and (call.name == "else" or self._holds(call)):
             self._branches.append("taken")
         else:
             self._branches.append("waiting" if state == "waiting" else "done")
 
     def _holds(self, call: Call) -> bool:
-        words = [(self.expand(argument, call), argument.quoted) for argument in call.args]
-        return condition_holds(words, self.variables, call.line, self.file)
+        words = [(self._expanded(argument, call), argument.quoted) for argument in call.args]
+        try:
+            return _Condition(words, self.variables).holds()
+        except (ValueError, re.error, RecursionError):  # no regular expression, or thousands of parentheses
+            given = " ".join(f'"{word}"' for word, _ in words)
+            said = f"if given arguments:\n\n  {given}\n\nUnknown arguments specified"
+            text = " ".join(word for word, _ in words)
+            hint = f"CMakeLists.txt, line {call.line}: if({text}) is not a condition that CMake knows."
+            raise refused(said, f"CMakeLists.txt:{call.line} (if)", hint, seconds=0.1) from None
 
-    def _effect(self, call: Call) -> Iterator[Command]:
-        args = self._arguments(call)
-        if call.name == "set" and args:
-            self.variables[args[0]] = ";".join(_until(args[1:], {"CACHE", "PARENT_SCOPE"})[0])
-        elif call.name == "unset" and args:
-            self.variables.pop(args[0], None)
-        elif call.name == "list" and args[:1] == ("APPEND",) and len(args) > 1:
-            self.variables[args[1]] = ";".join(filter(None, [self.variables.get(args[1], ""), *args[2:]]))
-        elif call.name == "project" and args:
-            self.variables["PROJECT_NAME"] = self.variables["CMAKE_PROJECT_NAME"] = args[0]
-        elif call.name == "include" and args[:1] == ("GNUInstallDirs",):
-            self.variables |= _INSTALL_FOLDERS
-        elif call.name == "file" and args[:1] in {("GLOB",), ("GLOB_RECURSE",)}:
-            found = _globbed(args, self.variables["CMAKE_CURRENT_SOURCE_DIR"])
-            if found is None and not self._lenient:
-                reason = f"file({args[0]} …) with these arguments is not understood here; name the files one by one"
-                raise CMakeError(reason, call.line, self.file)
-            if len(args) > 1:
-                self.variables[args[1]] = ";".join(found or ())
-        yield Command(call.name, args, call.line)
+    def _effect(self, command: Command) -> None:
+        variables, args = self.variables, command.args
+        match command.name, *args:
+            case ["set", name, *values]:
+                variables[name] = ";".join(split_at(values, {"CACHE", "PARENT_SCOPE"})[0])
+            case ["unset", name, *_]:
+                variables.pop(name, None)
+            case ["list", "APPEND", name, *values]:
+                variables[name] = ";".join(filter(None, [variables.get(name, ""), *values]))
+            case ["project", name, *_]:
+                variables["PROJECT_NAME"] = variables["CMAKE_PROJECT_NAME"] = name
+            case ["include", "GNUInstallDirs", *_]:
+                variables |= _INSTALL_FOLDERS
+            case ["file", "GLOB" | "GLOB_RECURSE" as kind, name, *words]:
+                found = _globbed(words, variables["CMAKE_CURRENT_SOURCE_DIR"], below=kind == "GLOB_RECURSE")
+                if found is None and not self.lenient:
+                    reason = f"file({kind} …) with these arguments is not understood here; name the files one by one"
+                    raise refused(reason, f"CMakeLists.txt:{command.line}", seconds=0.1)
+                variables[name] = ";".join(found or ())
 
-    def _arguments(self, call: Call) -> tuple[str, ...]:
-        values: list[str] = []
+    def _arguments(self, call: Call) -> Iterator[str]:
         for argument in call.args:
-            text = self.expand(argument, call)
+            text = self._expanded(argument, call)
             if argument.quoted:
-                values.append(text)
+                yield text
             else:  # a list, whose elements are arguments of their own
-                values += [part.replace("\\;", ";") for part in re.split(r"(?<!\\);", text) if part]
-        return tuple(values)
+                yield from (part.replace("\\;", ";") for part in re.split(r"(?<!\\);", text) if part)
 
-    def expand(self, argument: Argument, call: Call) -> str:
+    def _expanded(self, argument: Argument, call: Call) -> str:
         """The argument with its variables and escapes put in; an unset variable is empty, as in CMake."""
         text = argument.text
         if argument.raw:
             return text
         if text.count("${") > text.count("}"):
-            reason = f"'{text}': a ${{ is not closed by }}"
-            file = shown_path(str(Path(self.variables.get("CMAKE_CURRENT_SOURCE_DIR", ".")) / Path(self.file).name))
+            file = shown_path(f"{self.variables['CMAKE_CURRENT_SOURCE_DIR']}/CMakeLists.txt")
             words = (
                 f"Syntax error in cmake code at\n\n  {file}:{argument.line}\n\nwhen parsing string\n\n  {text}\n\n"
                 "There is an unterminated variable reference."
             )
-            raise CMakeError(reason, argument.line, self.file, words=words, place=f"{call.line} ({call.name})")
+            hint = f"CMakeLists.txt, line {argument.line}: '{text}': a ${{ is not closed by }}."
+            raise refused(words, f"CMakeLists.txt:{call.line} ({call.name})", hint, seconds=0.1)
         for _ in range(10):  # ${a_${b}} needs a round for each level
-            expanded = _VARIABLE.sub(self._replace, text)
+            expanded = _VARIABLE.sub(self._replaced, text)
             if expanded == text or "${" not in expanded:
                 return expanded
             text = expanded
         return text
 
-    def _replace(self, match: re.Match[str]) -> str:
+    def _replaced(self, match: re.Match[str]) -> str:
         escaped, name = match.groups()
-        if escaped is None:
-            return self.variables.get(name, "")
-        if escaped == ";":
-            return "\\;"  # still to be seen when lists are split
-        return _ESCAPES.get(escaped, escaped)
+        return self.variables.get(name, "") if escaped is None else _ESCAPES.get(escaped, escaped)
 
 
-def _globbed(args: Sequence[str], here: str) -> list[str] | None:
-    """What `file(GLOB|GLOB_RECURSE variable [RELATIVE folder] pattern …)` puts into its variable, sorted.
+def _globbed(words: Sequence[str], here: str, *, below: bool) -> list[str] | None:
+    """What `file(GLOB variable [RELATIVE folder] pattern …)` finds from the folder `here` on, sorted.
 
-    `here` is the folder of the CMakeLists.txt. None if there are words that are not understood.
+    None if there are words that are not understood.
     """
-    patterns = [word for word in args[2:] if word != "CONFIGURE_DEPENDS"]
-    beside = None
-    if "RELATIVE" in patterns[:-1]:
-        place = patterns.index("RELATIVE")
-        beside = patterns[place + 1]
-        del patterns[place : place + 2]
-    if len(args) < 2 or "LIST_DIRECTORIES" in patterns or beside not in (None, here):
+    patterns = [word for word in words if word != "CONFIGURE_DEPENDS"]
+    start = ""
+    if patterns[:2] == ["RELATIVE", here]:
+        del patterns[:2]
+        start = f"{here}/"
+    if {"RELATIVE", "LIST_DIRECTORIES"} & set(patterns):
         return None
-    found = {
-        path.as_posix() for pattern in patterns for path in _matches(Path(here, pattern), args[0] == "GLOB_RECURSE")
-    }
-    start = "" if beside is None else f"{here}/"
+    found: set[str] = set()
+    for pattern in (Path(here, each) for each in patterns):
+        if not below:
+            found |= {Path(path).as_posix() for path in glob(str(pattern))}
+        elif pattern.name:
+            found |= {path.as_posix() for path in pattern.parent.rglob(pattern.name) if path.is_file()}
     return [path.removeprefix(start) for path in sorted(found)]
-
-
-def _matches(pattern: Path, below: bool) -> list[Path]:
-    if not below:
-        return [Path(path) for path in glob(str(pattern))]
-    return [path for path in pattern.parent.rglob(pattern.name) if path.is_file()] if pattern.name else []

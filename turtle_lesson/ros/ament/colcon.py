@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn, TextIO
 
@@ -12,18 +13,9 @@ from ..sim.errors import shown_path
 from ..sim.simulation import NANOSECONDS
 from .build import DEFAULTS, OTHERS, Plan, build
 from .catalog import CMAKE_PACKAGES, PYTHON_PACKAGES
-from .discover import (
-    ColconError,
-    Found,
-    UnknownPackageError,
-    add_selection,
-    build_type_hint,
-    choose,
-    discover,
-    in_order,
-    needed_by,
-)
+from .errors import ColconError
 from .install_tree import prefix_of
+from .manifest import Found, build_type_hint, discover, in_order, needed_by
 
 if TYPE_CHECKING:
     from ..runtime.world import World
@@ -138,9 +130,6 @@ def run(world: World, words: list[str], *, stdout: TextIO, stderr: TextIO, cwd: 
         return command.run(words[1:])
     except _Exit as end:
         return end.code
-    except UnknownPackageError as error:
-        stderr.write(f"{error}\n")
-        return 1
     except ColconError as error:
         stderr.write(f"[{command.clock()}s] ERROR:colcon:colcon {verb}: {error}\n")
         return 1
@@ -168,7 +157,7 @@ class _Command:
     def run(self, words: list[str]) -> int:
         args = self._parse(words)
         found = self._found(args)
-        chosen = choose(args, found, self._warn)
+        chosen = self._chosen(args, found)
         if self.verb == "list":
             return self._list(args, chosen)
         if self.verb == "graph":
@@ -182,7 +171,13 @@ class _Command:
             formatter_class=lambda prog: argparse.HelpFormatter(prog, width=80),
         )
         parser.out, parser.err = self.out, self.err
-        add_selection(parser)
+        parser.add_argument(
+            "--base-paths", nargs="*", metavar="PATH", help="folders to look for packages in (default: .)"
+        )
+        for option, text in _SELECTIONS.items():
+            parser.add_argument(option, nargs="*", metavar="PATTERN" if "regex" in option else "PKG_NAME", help=text)
+        parser.add_argument("--packages-start", metavar="PKG_NAME", help="this package and those that come after it")
+        parser.add_argument("--packages-end", metavar="PKG_NAME", help="this package and those that come before it")
         if self.verb == "build":
             _add_build(parser)
         elif self.verb == "list":
@@ -210,6 +205,44 @@ class _Command:
                 continue
             found += [each for each in discover(folder, self.cwd) if each.path not in {other.path for other in found}]
         return found
+
+    def _chosen(self, args: argparse.Namespace, found: list[Found]) -> list[Found]:
+        """The packages that the options leave."""
+        found = [each for each in found if each.name not in set(args.packages_ignore or [])]
+        names = {each.name for each in found}
+        self._check_names(args, names)
+        chosen = set(names)
+        if args.packages_select is not None:
+            chosen &= set(args.packages_select)
+        if args.packages_up_to is not None:
+            chosen &= needed_by(found, args.packages_up_to)
+        if args.packages_above is not None:
+            above = set(args.packages_above)
+            chosen &= {each.name for each in found if needed_by(found, [each.name]) & above}
+        if args.packages_select_regex is not None:
+            chosen &= _matching(names, args.packages_select_regex)
+        chosen -= set(args.packages_skip or []) | _matching(names, args.packages_skip_regex or [])
+        if args.packages_start or args.packages_end:
+            ordered = [each.name for each in in_order(found)]
+            first = ordered.index(args.packages_start) if args.packages_start else 0
+            chosen &= set(ordered[first : ordered.index(args.packages_end) + 1 if args.packages_end else None])
+        return [each for each in found if each.name in chosen]
+
+    def _check_names(self, args: argparse.Namespace, names: set[str]) -> None:
+        """Names of packages that are not there: some options need theirs, others do without."""
+        there = f"There are: {', '.join(sorted(names))}."
+        for option in ("up_to", "above", "start", "end", "select", "skip"):
+            given = getattr(args, f"packages_{option}") or []
+            flag = f"--packages-{option.replace('_', '-')}"
+            for name in [given] if isinstance(given, str) else given:
+                if name in names:
+                    continue
+                hint = f"\nHint: {did_you_mean(name, names) or there}" if names else ""
+                if option in {"select", "skip"}:
+                    self._warn(f"ignoring unknown package '{name[:80]}' in {flag}{hint}")
+                else:
+                    self.err.write(f"Package '{name[:80]}' specified with {flag} was not found{hint}\n")
+                    raise _Exit(1)
 
     def _list(self, args: argparse.Namespace, chosen: list[Found]) -> int:
         if args.topological_graph:
@@ -295,6 +328,24 @@ _DESCRIPTIONS = {
     "list": "Show the packages below this folder.",
     "graph": "Show which package depends on which: a * marks a direct dependency.",
 }
+
+
+_SELECTIONS = {
+    "--packages-ignore": "packages to ignore, as if they did not exist",
+    "--packages-up-to": "these packages and all that they depend on",
+    "--packages-above": "these packages and all that depend on them",
+    "--packages-select": "only these packages",
+    "--packages-skip": "all packages except these",
+    "--packages-select-regex": "only packages whose names match",
+    "--packages-skip-regex": "all packages except those whose names match",
+}
+
+
+def _matching(names: set[str], patterns: list[str]) -> set[str]:
+    try:
+        return {name for name in names if any(re.fullmatch(pattern, name) for pattern in patterns)}
+    except re.error as error:
+        raise ColconError(f"{' '.join(patterns)[:80]} is not a regular expression: {error}") from None
 
 
 _CMAKE_ARGUMENTS = {"--cmake-args", "--ament-cmake-args", "--catkin-cmake-args"}

@@ -32,6 +32,21 @@ class PackageError(ValueError):
         return f"{text}. {self.hint}" if self.hint else text
 
 
+class ColconError(Exception):
+    """Why colcon builds nothing at all; the text is what stands after `ERROR:colcon:colcon build: `."""
+
+
+class BuildFailure(Exception):
+    """A package cannot be built: the text that the real tool prints, the exit code, and what to try."""
+
+    def __init__(self, text: str, hint: str = "", *, code: int = 1, seconds: float = 0.9) -> None:
+        super().__init__(text)
+        self.text = text
+        self.hint = hint
+        self.code = code
+        self.seconds = seconds
+
+
 class PackageNotFoundError(KeyError):
     """No package of this name is in the index (`ament_index_python` raises it under the same name).
 

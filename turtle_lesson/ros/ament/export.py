@@ -13,13 +13,12 @@ from typing import TYPE_CHECKING
 from ..idl.names import did_you_mean
 from ..idl.registry import registry
 from ..sim.errors import shown_path
-from .ament_cmake import build_ament_cmake
-from .ament_python import build_ament_python
 from .catalog import CMAKE_PACKAGES, PYTHON_PACKAGES
-from .discover import Found, build_type_hint, discover, read_found
 from .errors import PackageError
 from .index import is_launch_file
 from .install_tree import Environment, Outcome
+from .manifest import Found, discover, read_found
+from .source import checked_build
 
 if TYPE_CHECKING:
     from ..distro import Release
@@ -128,20 +127,12 @@ def _check_target(found: Found, target: Path, overwrite: bool) -> None:
 
 
 def _checked(found: Found) -> Outcome:
-    """What a build makes of it; an error where a build would fail."""
-    if not found.buildable:
-        hint = build_type_hint(found.build_type)
-        raise PackageError(f"the build_type '{found.build_type}' is unknown", found.path / "package.xml", hint=hint)
     from .build import types_for
 
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch)
-        types = types_for(found, {})
-        environment = Environment(folder / "install", folder / "build", frozenset(registry.packages()), types)
-        outcome = (build_ament_python if found.is_python else build_ament_cmake)(found, environment)
-    if outcome.code:
-        raise PackageError(f"a real build would refuse {found.name}:\n{outcome.stderr.strip()}")
-    return outcome
+        known = frozenset(registry.packages())
+        return checked_build(found, Environment(folder / "install", folder / "build", known, types_for(found, {})))
 
 
 def _sources(folder: Path) -> Iterator[tuple[Path, ast.Module]]:

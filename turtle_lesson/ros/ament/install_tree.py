@@ -12,11 +12,11 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 
-from ..idl.names import module_name
 from ..idl.registry import Registry
 from ..runtime import files
 from ..sim.errors import shown_path
-from .discover import ColconError, Found
+from .errors import BuildFailure, ColconError
+from .manifest import Found
 from .package import Package
 
 PYTHON = "python3.10"
@@ -25,7 +25,8 @@ PYTHON = "python3.10"
 SHELLS = ("bash", "sh", "zsh")
 LAYOUT = ".colcon_install_layout"
 """The file in which an install folder says `isolated` (a folder a package) or `merged` (one for all)."""
-PYTHON_FOLDERS = (f"lib/{PYTHON}/site-packages", f"local/lib/{PYTHON}/dist-packages")
+PYTHON_FOLDERS = {"python": f"lib/{PYTHON}/site-packages", "cmake": f"local/lib/{PYTHON}/dist-packages"}
+"""Where setuptools and where CMake install the modules of a package."""
 _INDEX = "share/ament_index/resource_index"
 
 
@@ -79,24 +80,14 @@ class Outcome:
 
 @dataclass
 class Environment:
-    """Where a package is built, and what it finds there."""
+    """Where a package is built, what it finds there, and whether the fields' types are looked up, as a compiler does."""
 
     install: Path
     build: Path
     findable: frozenset[str] = frozenset()
     types: Registry = field(default_factory=Registry)
     symlink: bool = False
-
-
-class BuildFailure(Exception):
-    """A package cannot be built: the text that the real tool prints, the exit code, and what to try."""
-
-    def __init__(self, text: str, hint: str = "", *, code: int = 1, seconds: float = 0.9) -> None:
-        super().__init__(text)
-        self.text = text
-        self.hint = hint
-        self.code = code
-        self.seconds = seconds
+    compiles: bool = True
 
 
 def with_hint(text: str, hints: Iterable[str]) -> str:
@@ -153,7 +144,7 @@ def install_package(found: Found, outcome: Outcome, environment: Environment) ->
 def _targets(item: Item) -> Iterator[str]:
     """The files that come of an item."""
     if item.source is not None and item.source.is_dir():
-        yield from (f"{item.target}/{path.relative_to(item.source).as_posix()}" for path in _files_in(item.source))
+        yield from (f"{item.target}/{path.relative_to(item.source).as_posix()}" for path in files_in(item.source))
     else:
         yield item.target
 
@@ -190,7 +181,7 @@ def _write(item: Item, target: Path, symlink: bool) -> None:
 def _link(source: Path, target: Path) -> None:
     """A link where the computer allows one (Windows may not), otherwise a copy. Folders stay folders, as with colcon."""
     if source.is_dir():
-        for inner in _files_in(source):
+        for inner in files_in(source):
             _link(inner, target / inner.relative_to(source))
         return
     files.check(target, follow=False).parent.mkdir(parents=True, exist_ok=True)
@@ -201,7 +192,8 @@ def _link(source: Path, target: Path) -> None:
         shutil.copyfile(source, target)
 
 
-def _files_in(folder: Path) -> Iterator[Path]:
+def files_in(folder: Path) -> Iterator[Path]:
+    """The files below a folder, sorted, without those that Python compiles."""
     for place, folders, names in os.walk(folder):
         folders[:] = sorted(name for name in folders if name != "__pycache__")
         yield from (Path(place, name) for name in sorted(names) if not name.endswith(".pyc"))
@@ -335,62 +327,7 @@ def python_folders(prefix: Path) -> list[Path]:
     made = {path.name for path in index.iterdir()} if index.is_dir() else set()
     return [
         folder
-        for folder in (prefix / place for place in PYTHON_FOLDERS)
+        for folder in (prefix / place for place in PYTHON_FOLDERS.values())
         if folder.is_dir()
         and any(path.name not in made and not path.name.endswith(".egg-info") for path in folder.iterdir())
     ]
-
-
-def definitions(folder: Path) -> Iterator[Path]:
-    """The definition files of a package, where they are looked for."""
-    for kind in ("msg", "srv", "action"):
-        yield from sorted((folder / kind).glob(f"*.{kind}"))
-
-
-def interface_items(found: Found, files: list[str]) -> list[Item]:
-    """What is installed for the interface files of a package, such as `msg/TurtleStatus.msg`."""
-    name = found.name
-    # Copied, as the classes are made from these: with --symlink-install, too, a new field counts after a build.
-    items = [Item(f"share/{name}/{file}", found.path / file, copied=True) for file in files]
-    for file in files:
-        items += _parts(found, file)
-    listed = sorted(item.target.removeprefix(f"share/{name}/") for item in items)
-    items.append(Item(f"share/ament_index/resource_index/rosidl_interfaces/{name}", text="\n".join(listed)))
-    return items + _modules(name, files)
-
-
-def _parts(found: Found, file: str) -> list[Item]:
-    """`NavigateTo_Request.msg` and `NavigateTo_Response.msg` of a service."""
-    path = Path(file)
-    if path.suffix != ".srv":
-        return []
-    request, _, response = (found.path / file).read_text(encoding="utf-8").partition("\n---")
-    texts = {"Request": request.removeprefix("---"), "Response": response.partition("\n")[2]}
-    stem = f"share/{found.name}/{path.with_suffix('').as_posix()}"
-    return [Item(f"{stem}_{part}.msg", text=text.strip("\n") + "\n") for part, text in texts.items()]
-
-
-def _modules(package: str, files: list[str]) -> list[Item]:
-    """The Python package, whose modules get their classes from the simulation."""
-    folder = f"local/lib/{PYTHON}/dist-packages/{package}"
-    items = [Item(f"{folder}/__init__.py")]
-    kinds: dict[str, list[str]] = {}
-    for file in files:
-        kind, _, rest = file.partition("/")
-        kinds.setdefault(kind, []).append(rest.rpartition(".")[0])
-    for kind, names in kinds.items():
-        lines = [f"from {package}.{kind}.{module_name(name)} import {name}  # noqa: F401\n" for name in names]
-        items.append(Item(f"{folder}/{kind}/__init__.py", text="".join(lines)))
-        for name in names:
-            text = _MODULE.format(package=package, kind=kind, name=name)
-            items.append(Item(f"{folder}/{kind}/{module_name(name)}.py", text=text))
-    return items
-
-
-_MODULE = '''\
-"""{package}/{kind}/{name}: made from {kind}/{name}.{kind} by colcon build."""
-
-from turtle_lesson.ros.idl.registry import registry
-
-{name} = registry.get("{package}/{kind}/{name}")
-'''

@@ -1,32 +1,178 @@
-"""What a package says about itself: its `package.xml`, `setup.py` and `setup.cfg`, and what a real build refuses in them.
+"""The packages below a folder, as their `package.xml` describe them, their order, and what a real build refuses in them.
 
-Facts: REP 149 (https://ros.org/reps/rep-0149.html; format 1 to 3) and catkin_pkg 0.5, which every real build asks, and whose
-sentences are compared with ours in a test. A `setup.py` is read by running it in a process of its own (see `setup_runner`), as
-colcon does.
+Facts: REP 149 (https://ros.org/reps/rep-0149.html; format 1 to 3), colcon_ros's package_identification/ros.py, and catkin_pkg
+0.5, which every real build asks, and whose sentences are compared with ours in a test.
 """
 
 from __future__ import annotations
 
-import configparser
-import json
+import os
 import re
-import subprocess
-import sys
-import tempfile
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree
 
 from ..idl.names import did_you_mean
-from ..sim.errors import shown_path
-from .errors import PackageError
+from .errors import ColconError
+from .setup_py import SetupError, read_setup
 
 BUILD_TYPES = ("ament_cmake", "ament_python", "cmake")
-_NAME = re.compile(r"[a-z][a-z0-9_-]*")
+IGNORE_MARKERS = {"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"}
+_ORDERING = ("depend", "build_depend", "build_export_depend", "buildtool_depend", "buildtool_export_depend",
+             "exec_depend", "run_depend", "test_depend")  # fmt: skip
+_RUNTIME = ("depend", "exec_depend", "build_export_depend", "buildtool_export_depend", "run_depend")
+
+
+@dataclass
+class Found:
+    """A package's folder.
+
+    Attributes:
+        name: what package.xml says, or the folder's name where it cannot be read.
+        path: the folder.
+        shown: the folder from the workspace's.
+        build_type: as package.xml says, empty if it says nothing.
+        dependencies: all packages that it names.
+        root: the parsed package.xml, or None.
+        xml_error: why package.xml cannot be read, empty if it can; beside a setup.py also what is refused in it.
+    """
+
+    name: str
+    path: Path
+    shown: str
+    build_type: str = ""
+    dependencies: list[str] = field(default_factory=list)
+    root: ElementTree.Element | None = None
+    xml_error: str = ""
+
+    @property
+    def kind(self) -> str:
+        """As `colcon list` names it: `ros.ament_cmake`."""
+        if self.root is None:
+            return "python" if (self.path / "setup.py").is_file() else "cmake"
+        return f"ros.{self.build_type or 'catkin'}"
+
+    @property
+    def is_python(self) -> bool:
+        """Whether it is built by its setup.py."""
+        return self.kind in {"ros.ament_python", "python"}
+
+    @property
+    def buildable(self) -> bool:
+        """Whether colcon knows how to build it at all."""
+        return self.root is None or not self.build_type or self.build_type in BUILD_TYPES
+
+    @property
+    def runtime_dependencies(self) -> list[str]:
+        """The packages that are needed when it runs."""
+        return self.texts(*_RUNTIME)
+
+    def texts(self, *tags: str) -> list[str]:
+        """What package.xml says in these tags, in its order."""
+        return [] if self.root is None else _texts(self.root, *tags)
+
+
+def read_found(path: Path, base: Path) -> Found:
+    """What one package's folder says about itself.
+
+    A folder whose package.xml is refused and that has a setup.py is a plain Python package for colcon, which has its name
+    from setup.py and knows of no dependencies.
+    """
+    shown = path.relative_to(base).as_posix() if path.is_relative_to(base) else str(path)
+    try:
+        root = ElementTree.fromstring((path / "package.xml").read_bytes())
+    except (ElementTree.ParseError, OSError, ValueError, LookupError) as error:
+        return Found(_name_of_project(path) or _name_in_setup(path) or path.name, path, shown, xml_error=str(error))
+    name = _text(root, "name")
+    if not re.fullmatch(r"[a-zA-Z0-9][a-zA-Z0-9_-]*", name):  # colcon takes it for a package without package.xml then
+        name = _name_of_project(path) or path.name
+    build_type = _text(root, "export/build_type")
+    if build_type != "ament_cmake" and (faults := faults_in(root)) and (name_in_setup := _name_in_setup(path)):
+        return Found(name_in_setup, path, shown, xml_error=faults[0])
+    dependencies = list(dict.fromkeys(filter(None, _texts(root, *_ORDERING))))
+    return Found(name, path, shown, build_type, dependencies, root)
+
+
+def _name_of_project(path: Path) -> str:
+    file = path / "CMakeLists.txt"
+    text = file.read_text(encoding="utf-8", errors="replace") if file.is_file() else ""
+    match = re.search(r"^\s*project\s*\(\s*([\w-]+)", text, re.MULTILINE | re.IGNORECASE)
+    return match[1] if match else ""
+
+
+def _name_in_setup(path: Path) -> str:
+    """The name that setup.py gives; nothing without one that can be run."""
+    try:
+        return str(read_setup(path).get("name", "")) if (path / "setup.py").is_file() else ""
+    except SetupError:
+        return ""
+
+
+def build_type_hint(build_type: str) -> str:
+    """What to try about an unknown build type."""
+    return did_you_mean(build_type, BUILD_TYPES) or f"Known are {', '.join(BUILD_TYPES)}."
+
+
+# -- several packages ----------------------------------------------------------------------------------------------------
+
+
+def discover(folder: Path, base: Path) -> list[Found]:
+    """All packages below a folder, sorted by their place; packages inside of packages are not looked for."""
+    found = []
+    for place, folders, files in os.walk(folder):
+        if IGNORE_MARKERS.intersection(files):
+            folders.clear()
+        elif "package.xml" in files:
+            found.append(read_found(Path(place), base))
+            folders.clear()
+        else:
+            folders[:] = sorted(name for name in folders if not name.startswith(".") and name != "__pycache__")
+    return found
+
+
+def in_order(packages: Iterable[Found]) -> list[Found]:
+    """The packages so that each comes after those it depends on, otherwise by name.
+
+    Raises:
+        ColconError: two packages have one name, or some depend on each other in a circle.
+    """
+    waiting = sorted(packages, key=lambda found: found.name)
+    places: dict[str, list[str]] = {}
+    for found in waiting:
+        places.setdefault(found.name, []).append(found.shown)
+    twice = [f"- {name}:\n  - " + "\n  - ".join(shown) for name, shown in places.items() if len(shown) > 1]
+    if twice:
+        raise ColconError("\n".join(["Duplicate package names not supported:", *twice]))
+    ordered: list[Found] = []
+    while waiting:
+        names = {found.name for found in waiting}
+        ready = [found for found in waiting if not names.intersection(found.dependencies) - {found.name}]
+        if not ready:
+            lines = [f"{each.name}: {sorted(needed_by(waiting, [each.name]) - {each.name})}" for each in waiting]
+            raise ColconError("\n".join(["Unable to order packages topologically:", *lines]))
+        ordered += ready
+        waiting = [found for found in waiting if found not in ready]
+    return ordered
+
+
+def needed_by(packages: Iterable[Found], names: Iterable[str]) -> set[str]:
+    """The names of the packages, and of all among them that these depend on."""
+    by_name = {found.name: found for found in packages}
+    found: set[str] = set()
+    waiting = [name for name in names if name in by_name]
+    while waiting:
+        name = waiting.pop()
+        if name not in found:
+            found.add(name)
+            waiting += [each for each in by_name[name].dependencies if each in by_name]
+    return found
+
+
+# -- what is refused in a package.xml ------------------------------------------------------------------------------------
 
 _DEPENDS = ("depend", "build_depend", "build_export_depend", "buildtool_depend", "buildtool_export_depend",
-            "exec_depend", "test_depend", "doc_depend", "group_depend")  # fmt: skip
+            "exec_depend", "test_depend", "doc_depend")  # fmt: skip
 _IN_ALL = {
     "name", "version", "description", "maintainer", "license", "url", "author", "conflict", "replace", "export",
     "build_depend", "buildtool_depend", "test_depend",
@@ -36,96 +182,36 @@ _SINCE_3 = {"group_depend", "member_of_group"}
 _TAGS = {"1": _IN_ALL | {"run_depend"}, "2": _IN_ALL | _SINCE_2, "3": _IN_ALL | _SINCE_2 | _SINCE_3}
 _VERSIONS = {"version_lt", "version_lte", "version_eq", "version_gte", "version_gt"}
 _ATTRIBUTES = {
+    **dict.fromkeys((*_DEPENDS, "run_depend", "conflict", "replace"), _VERSIONS),
     "maintainer": {"email"},
     "author": {"email"},
     "url": {"type"},
-    "group_depend": set(),
-    "member_of_group": set(),
+}
+_ATTRIBUTES_SINCE_3 = {
+    **{tag: {"condition"} for tag in (*_DEPENDS, *_SINCE_3, "conflict", "replace")},
+    "version": {"compatibility"},
+    "license": {"file"},
 }
 _EMAIL = re.compile(r"[-a-zA-Z0-9_%+]+(\.[-a-zA-Z0-9_%+]+)*@[-a-zA-Z0-9%]+(\.[-a-zA-Z0-9%]+)*\.[a-zA-Z]{2,}")
-_RUNNER = Path(__file__).with_name("setup_runner.py")
-LONGEST = 10.0
-"""What a setup.py may take, in s of real time."""
-
-
-@dataclass
-class Manifest:
-    """The parts of a `package.xml` by which a package is used as it lies there."""
-
-    name: str
-    build_type: str
-    groups: list[str]
-    file: Path
-
-
-def read_manifest(file: Path) -> Manifest:
-    """Read a `package.xml`.
-
-    Raises:
-        PackageError: if it is missing, is no XML, or lacks what every package needs.
-    """
-    root = _root(file)
-    name = _text(root, "name")
-    if not name:
-        raise PackageError("it has no <name>; write <name>…</name>, the same as in project(…)", file)
-    if not _NAME.fullmatch(name):
-        rule = "small letters, digits and '_', beginning with a letter"
-        reason = f"the package name '{name}' is not allowed: {rule}"
-        raise PackageError(reason, file)
-    return Manifest(
-        name=name,
-        build_type=_build_type(root, file),
-        groups=[(element.text or "").strip() for element in root.findall("member_of_group")],
-        file=file,
-    )
-
-
-def _root(file: Path) -> ElementTree.Element:
-    if not file.is_file():
-        reason = "it is missing: a folder is a ROS 2 package if it holds a package.xml"
-        raise PackageError(reason, file, hint="ros2 pkg create <name> --build-type ament_cmake makes one.")
-    try:
-        root = ElementTree.fromstring(file.read_bytes())
-    except ElementTree.ParseError as error:
-        line = error.position[0]
-        hint = "Is every <tag> closed by a </tag>?"
-        raise PackageError(f"this is not well-formed XML ({error})", file, line, hint) from None
-    if root.tag != "package":
-        raise PackageError(f'the outermost tag is <{root.tag}>; it must be <package format="3">', file)
-    return root
-
-
-def _text(root: ElementTree.Element, tag: str) -> str:
-    return " ".join((root.findtext(tag) or "").split())
-
-
-def _build_type(root: ElementTree.Element, file: Path) -> str:
-    build_type = _text(root, "export/build_type")
-    if not build_type:
-        raise PackageError(
-            "it does not say how to build the package",
-            file,
-            hint="Add <export><build_type>ament_cmake</build_type></export>.",
-        )
-    if build_type not in BUILD_TYPES:
-        hint = did_you_mean(build_type, BUILD_TYPES) or f"Known are {', '.join(BUILD_TYPES)}."
-        raise PackageError(f"the build_type '{build_type}' is unknown", file, hint=hint)
-    return build_type
 
 
 def faults_in(root: ElementTree.Element) -> list[str]:
     """Everything that is refused, in catkin_pkg's words; the first alone where it would stop at it."""
+    version = root.get("format", "1")
     if root.tag != "package":
         return ['The manifest must contain a single "package" root tag']
-    if root.get("format", "1") not in _TAGS:
-        return [f"Unable to handle package.xml format version '{root.get('format')}', please update catkin_pkg"]
+    if version not in _TAGS:
+        return [f"Unable to handle package.xml format version '{version}', please update catkin_pkg"]
     for tag in ("name", "version", "description"):
         if len(root.findall(tag)) != 1:
             return [f'The manifest must contain exactly one "{tag}" tag']
     name = _text(root, "name")
     if len(root.findall("export")) > 1:
         return ['The manifest must not contain more than one "export" tags']
-    return _unknown(root, name) or _redundant(root) + _odd(root) or _values(root, name)
+    if tags := sorted({child.tag for child in root if isinstance(child.tag, str)} - _TAGS[version]):
+        start = f'The manifest of package "{name}" (with format version {version})'
+        return [f"{start} must not contain the following tags: {', '.join(tags)}"]
+    return _redundant(root) + _odd(root) or _values(root, name)
 
 
 def hint_for(fault: str) -> str:
@@ -140,8 +226,37 @@ def hint_for(fault: str) -> str:
     return ""
 
 
-def _names(root: ElementTree.Element, *tags: str) -> list[str]:
-    return [(element.text or "").strip() for tag in tags for element in root.findall(tag)]
+def _text(root: ElementTree.Element, tag: str) -> str:
+    return " ".join((root.findtext(tag) or "").split())
+
+
+def _texts(root: ElementTree.Element, *tags: str) -> list[str]:
+    return [(child.text or "").strip() for child in root if child.tag in tags]
+
+
+def _redundant(root: ElementTree.Element) -> list[str]:
+    found = []
+    generic = _texts(root, "depend")
+    for name in dict.fromkeys(generic):
+        parts = ("build_depend", "build_export_depend", "exec_depend")
+        if others := [tag for tag in parts if name in _texts(root, tag) or generic.count(name) > 1]:
+            found.append(f"The generic dependency on '{name}' is redundant with: {', '.join(others)}")
+    return found
+
+
+def _odd(root: ElementTree.Element) -> list[str]:
+    """Attributes and inner tags where there must not be any."""
+    found = []
+    for child in root:
+        allowed = _ATTRIBUTES.get(child.tag, set())
+        if root.get("format") == "3":
+            allowed = allowed | _ATTRIBUTES_SINCE_3.get(child.tag, set())
+        if odd := [each for each in child.attrib if each not in allowed]:
+            found.append(f'The "{child.tag}" tag must not have the following attributes: {", ".join(odd)}')
+        if len(child) and child.tag not in {"description", "export"}:
+            inner = ", ".join(str(each.tag) for each in child if isinstance(each.tag, str))
+            found.append(f'The "{child.tag}" tag must not contain the following children: {inner}')
+    return found
 
 
 def _values(root: ElementTree.Element, name: str) -> list[str]:
@@ -156,77 +271,25 @@ def _values(root: ElementTree.Element, name: str) -> list[str]:
     description = root.find("description")
     if not _text(root, "description") and (description is None or len(description) == 0):
         found.append("Package description must not be empty")
-    found += _people(root, name)
-    licences = _names(root, "license")
+    if root.find("maintainer") is None:
+        found.append(f"Package '{name}' must declare at least one maintainer")
+    for person in [*root.findall("maintainer"), *root.findall("author")]:
+        email = person.get("email")
+        if email is not None and not _EMAIL.fullmatch(email):
+            found.append(f'Invalid email "{email}" for person "{(person.text or "").strip()}"')
+        elif email is None and person.tag == "maintainer":
+            found.append('The "maintainer" tag must have the attribute "email"')
+    licences = _texts(root, "license")
     if not licences:
         found.append('The package node must contain at least one "license" tag')
     if not all(licences):
         found.append("The license tag must neither be empty nor only contain whitespaces")
-    return found + _own_name(root, name)
-
-
-def _people(root: ElementTree.Element, name: str) -> list[str]:
-    maintainers = root.findall("maintainer")
-    if not maintainers:
-        return [f"Package '{name}' must declare at least one maintainer"]
-    found = []
-    for person in maintainers:
-        email = person.get("email")
-        if email is None:
-            found.append('The "maintainer" tag must have the attribute "email"')
-        elif not _EMAIL.fullmatch(email):
-            found.append(_no_address(person))
-    authors = [each for each in root.findall("author") if each.get("email") is not None]
-    return found + [_no_address(each) for each in authors if not _EMAIL.fullmatch(each.get("email", ""))]
-
-
-def _no_address(person: ElementTree.Element) -> str:
-    return f'Invalid email "{person.get("email")}" for person "{(person.text or "").strip()}"'
-
-
-def _own_name(root: ElementTree.Element, name: str) -> list[str]:
-    tags = [tag for tag in _DEPENDS if tag != "group_depend" and name in _names(root, tag)]
-    kinds = ["build" if tag == "depend" else tag.removesuffix("_depend") for tag in tags]
-    same = "on a package with the same name as this package"
-    return [f'The package "{name}" must not "{kind}_depend" {same}' for kind in kinds]
-
-
-def _redundant(root: ElementTree.Element) -> list[str]:
-    found = []
-    generic = _names(root, "depend")
-    parts = ("build_depend", "build_export_depend", "exec_depend")
-    for name in dict.fromkeys(generic):
-        others = [tag for tag in parts if name in _names(root, tag) or generic.count(name) > 1]
-        if others:
-            found.append(f"The generic dependency on '{name}' is redundant with: {', '.join(others)}")
-    return found
-
-
-def _unknown(root: ElementTree.Element, name: str) -> list[str]:
-    version = root.get("format", "1")
-    tags = sorted({child.tag for child in root if isinstance(child.tag, str)} - _TAGS[version])
-    if not tags:
-        return []
-    start = f'The manifest of package "{name}" (with format version {version})'
-    return [f"{start} must not contain the following tags: {', '.join(tags)}"]
-
-
-def _odd(root: ElementTree.Element) -> list[str]:
-    """Attributes and inner tags where there must not be any."""
-    newest = root.get("format") == "3"
-    found = []
-    for child in root:
-        allowed = set(_ATTRIBUTES.get(child.tag, set()))
-        if child.tag in {*_DEPENDS, "run_depend", "conflict", "replace"} - _SINCE_3:
-            allowed |= _VERSIONS
-        if newest:
-            allowed |= {"version": {"compatibility"}, "license": {"file"}}.get(child.tag, set())
-            allowed |= {"condition"} if child.tag in {*_DEPENDS, "conflict", "replace", *_SINCE_3} else set()
-        if odd := [each for each in child.attrib if each not in allowed]:
-            found.append(f'The "{child.tag}" tag must not have the following attributes: {", ".join(odd)}')
-        if len(child) and child.tag not in {"description", "export"}:
-            inner = ", ".join(str(each.tag) for each in child if isinstance(each.tag, str))
-            found.append(f'The "{child.tag}" tag must not contain the following children: {inner}')
+    for tag in _DEPENDS:
+        if name in _texts(root, tag):
+            kind = "build" if tag == "depend" else tag.removesuffix("_depend")
+            found.append(
+                f'The package "{name}" must not "{kind}_depend" on a package with the same name as this package'
+            )
     return found
 
 
@@ -245,44 +308,3 @@ _HINTS = {
     "redundant with": "<depend> says all of these at once: delete the others.",
     "same name as this package": "Delete that line: a package does not depend on itself.",
 }
-
-
-class SetupError(Exception):
-    """A setup.py that fails; the text is Python's, shortened to the file's own lines."""
-
-
-def read_setup(folder: Path) -> dict[str, Any]:
-    """What the package's `setup.py` gives to `setup(…)`.
-
-    Raises:
-        SetupError: it fails, does not end, or never calls `setup`.
-    """
-    with tempfile.TemporaryDirectory() as scratch:
-        answer = Path(scratch) / "answer.json"
-        command = [sys.executable, "-I", "-X", "utf8", str(_RUNNER), str(folder.resolve()), str(answer)]
-        try:
-            done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, timeout=LONGEST, check=False)
-        except subprocess.TimeoutExpired:
-            text = f"setup.py did not end within {LONGEST:g} s: is there a loop in it, or a wait?\n"
-            raise SetupError(text) from None
-        result = json.loads(answer.read_text(encoding="utf-8")) if answer.is_file() else {}
-    if "error" in result:
-        raise SetupError(result["error"])
-    if "setup" not in result:
-        ended = f" and ended Python with exit code {done.returncode}" if done.returncode else ""
-        raise SetupError(f"{shown_path(str(folder / 'setup.py'))} never calls setup(…){ended}\n")
-    setup: dict[str, Any] = result["setup"]
-    return setup
-
-
-def install_scripts(folder: Path) -> str | None:
-    """Where `setup.cfg` puts programs, such as `lib/demo`; None if it does not say."""
-    config = configparser.ConfigParser(interpolation=None)
-    try:
-        config.read(folder / "setup.cfg", encoding="utf-8")
-    except (configparser.Error, UnicodeDecodeError) as error:
-        raise SetupError(f"setup.cfg: {error}\n") from None
-    for option in ("install_scripts", "install-scripts"):
-        if config.has_option("install", option):
-            return config.get("install", option).strip().removeprefix("$base").strip("/")
-    return None

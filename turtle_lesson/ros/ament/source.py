@@ -10,8 +10,18 @@ from typing import TYPE_CHECKING, TextIO
 
 from ..idl.names import did_you_mean
 from ..idl.registry import registry
-from .install_tree import LAYOUT, installed_names, python_folders, read_installed
-from .package import Package, PythonProgram, forget_below
+from .errors import PackageError
+from .install_tree import (
+    LAYOUT,
+    PYTHON_FOLDERS,
+    Environment,
+    Outcome,
+    installed_names,
+    python_folders,
+    read_installed,
+)
+from .manifest import Found, build_type_hint, read_found
+from .package import Package, PythonProgram, Target, forget_below
 
 if TYPE_CHECKING:
     from ..runtime.world import World
@@ -148,6 +158,58 @@ def remove_all(world: World) -> None:
     """Undo every `source` of a world."""
     for each in reversed(overlays(world)[:]):
         _remove(world, each.install, each.package.name)
+
+
+# -- a package that is used as it lies there ---------------------------------------------------------------------------
+
+
+def read_source_package(folder: Path | str) -> Package:
+    """Take a package as it lies in its source folder, as if it had just been built and sourced.
+
+    Raises:
+        PackageError: what a build would refuse, in its own words.
+    """
+    folder = Path(folder).resolve()
+    file = folder / "package.xml"
+    if not file.is_file():
+        hint = "A folder is a ROS 2 package if it holds a package.xml; ros2 pkg create makes one."
+        raise PackageError("it is missing", file, hint=hint)
+    found = read_found(folder, folder.parent)
+    environment = Environment(folder / "install", folder / "build", symlink=found.is_python, compiles=False)
+    outcome = checked_build(found, environment)
+    share, libexec, site = f"share/{found.name}/", f"lib/{found.name}/", PYTHON_FOLDERS["python"]
+    modules = {item.source.parent for item in outcome.items if item.source and item.target.startswith(f"{site}/")}
+    executables: dict[str, Target] = {}
+    for item in outcome.items:
+        if item.program and item.target.startswith(libexec):
+            path, text = (item.source, None) if item.source else (folder / item.target, item.text)
+            program = PythonProgram(path, tuple(sorted(modules)), text)
+            executables[item.target.removeprefix(libexec)] = program if modules else path
+    installed = {
+        item.target.removeprefix(share): item.source
+        for item in outcome.items
+        if item.source and item.target.startswith(share)
+    }
+    interfaces = [item.target.removeprefix(share) for item in outcome.items if item.source and item.copied]
+    return Package(found.name, folder, executables, interfaces, folder, installed=installed, modules=sorted(modules))
+
+
+def checked_build(found: Found, environment: Environment) -> Outcome:
+    """What a build makes of a package.
+
+    Raises:
+        PackageError: a real build would refuse the package, with the build's own words.
+    """
+    from .ament_cmake import build_ament_cmake
+    from .ament_python import build_ament_python
+
+    if not found.buildable:
+        hint = build_type_hint(found.build_type)
+        raise PackageError(f"the build_type '{found.build_type}' is unknown", found.path / "package.xml", hint=hint)
+    outcome = (build_ament_python if found.is_python else build_ament_cmake)(found, environment)
+    if outcome.code:
+        raise PackageError(f"a real build would refuse {found.name}:\n{outcome.stderr.strip()}")
+    return outcome
 
 
 def make_importable(world: World, package: Package) -> None:

@@ -1,11 +1,13 @@
-"""Runs a `setup.py` with a stand-in for setuptools, and writes what `setup(…)` was given as JSON.
+"""What a package's `setup.py` and `setup.cfg` say.
 
-It is a program of its own (`python -I setup_runner.py FOLDER ANSWER`), so that a setup.py that loops, ends the process or
-changes Python's modules does no harm; it imports nothing of this library.
+A `setup.py` is read by running it, as colcon does, with a stand-in for setuptools. This file is also the program that does so
+(`python -I setup_py.py FOLDER ANSWER`), so that a setup.py that loops, ends the process or changes Python's modules does no
+harm; it imports nothing of this library.
 """
 
 from __future__ import annotations
 
+import configparser
 import json
 import logging
 import os
@@ -15,6 +17,56 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 from types import ModuleType
 from typing import Any, ClassVar
+
+LONGEST = 10.0
+"""What a setup.py may take, in s of real time."""
+
+
+class SetupError(Exception):
+    """A setup.py that fails; the text is Python's, shortened to the file's own lines."""
+
+
+def read_setup(folder: Path) -> dict[str, Any]:
+    """What the package's `setup.py` gives to `setup(…)`.
+
+    Raises:
+        SetupError: it fails, does not end, or never calls `setup`.
+    """
+    import subprocess  # which the program does not need: it starts sooner
+    import tempfile
+
+    with tempfile.TemporaryDirectory() as scratch:
+        answer = Path(scratch) / "answer.json"
+        command = [sys.executable, "-I", "-X", "utf8", __file__, str(folder.resolve()), str(answer)]
+        try:
+            done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, timeout=LONGEST, check=False)
+        except subprocess.TimeoutExpired:
+            text = f"setup.py did not end within {LONGEST:g} s: is there a loop in it, or a wait?\n"
+            raise SetupError(text) from None
+        result = json.loads(answer.read_text(encoding="utf-8")) if answer.is_file() else {}
+    if "error" in result:
+        raise SetupError(result["error"])
+    if "setup" not in result:
+        ended = f" and ended Python with exit code {done.returncode}" if done.returncode else ""
+        raise SetupError(f"setup.py never calls setup(…){ended}\n")
+    setup: dict[str, Any] = result["setup"]
+    return setup
+
+
+def install_scripts(folder: Path) -> str | None:
+    """Where `setup.cfg` puts programs, such as `lib/demo`; None if it does not say."""
+    config = configparser.ConfigParser(interpolation=None)
+    try:
+        config.read(folder / "setup.cfg", encoding="utf-8")
+    except (configparser.Error, UnicodeDecodeError) as error:
+        raise SetupError(f"setup.cfg: {error}\n") from None
+    for option in ("install_scripts", "install-scripts"):
+        if config.has_option("install", option):
+            return config.get("install", option).strip().removeprefix("$base").strip("/")
+    return None
+
+
+# -- the program that runs a setup.py ------------------------------------------------------------------------------------
 
 
 def main(folder: str, answer: str) -> None:

@@ -1,0 +1,210 @@
+"""`rosidl_generate_interfaces`: what it refuses, in its own words, and what a build installs for each interface.
+
+Facts: rosidl_cmake 3.1 and rosidl_adapter.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from ..idl import names
+from ..idl.model import Definition, DuplicateName, InvalidDefinition, MessageDefinition, UnknownMessageType
+from ..idl.names import did_you_mean, module_name
+from ..idl.registry import PARSERS, Registry
+from ..sim.errors import shown_path
+from .cmake import SHARE, Command, refused, split_at
+from .errors import BuildFailure
+from .install_tree import PYTHON_FOLDERS, Item
+from .manifest import Found
+
+_GROUP = "rosidl_interface_packages"
+_WORDS = {"DEPENDENCIES", "LIBRARY_NAME", "SKIP_INSTALL", "SKIP_GROUP_MEMBERSHIP_CHECK", "ADD_LINTER_TESTS"}
+_GENERATE = f"{SHARE}/rosidl_cmake/cmake/rosidl_generate_interfaces.cmake"
+_ADAPT = f"{SHARE}/rosidl_adapter/cmake/rosidl_adapt_interfaces.cmake:59 (message)"
+_KINDS = ("msg", "srv", "action")
+
+
+def definitions(folder: Path) -> list[str]:
+    """The definition files of a package where they are looked for, such as `msg/TurtleStatus.msg`."""
+    found = [path for kind in _KINDS for path in sorted((folder / kind).glob(f"*.{kind}"))]
+    return [path.relative_to(folder).as_posix() for path in found]
+
+
+class InterfaceCheck:
+    """Checks one `rosidl_generate_interfaces`, in the order in which the real one finds fault."""
+
+    def __init__(self, found: Found, command: Command) -> None:
+        self._found = found
+        self._line = command.line
+        self._own = f"CMakeLists.txt:{command.line} (rosidl_generate_interfaces)"
+        self.files, options = split_at(command.args[1:], _WORDS)
+        after = options[options.index("DEPENDENCIES") + 1 :] if "DEPENDENCIES" in options else ()
+        self._dependencies, _ = split_at(after, _WORDS)
+
+    def configure(self, finished: bool, seen: set[str]) -> None:
+        """What is refused while CMake configures.
+
+        Args:
+            finished: whether ament_package() was called before.
+            seen: what find_package has found.
+        """
+        if not self.files:
+            raise self._refused(59, "rosidl_generate_interfaces() called without any interface files")
+        if finished:
+            hint = f"Move ament_package() to the end of CMakeLists.txt, below line {self._line}."
+            raise self._refused(64, "rosidl_generate_interfaces() must be called before ament_package()", hint)
+        for name in self.files:
+            self._exists(name)
+        for name in self.files:
+            self._parses(name)
+        for name in self._dependencies:
+            if name not in seen:
+                reason = f"rosidl_generate_interfaces() the passed dependency '{name}' has not been found before"
+                hint = f"Write find_package({name} REQUIRED) above line {self._line}."
+                raise self._refused(164, f"{reason} using find_package()", hint)
+
+    def check_group(self) -> None:
+        """Whether package.xml says that there are interfaces."""
+        if _GROUP not in self._found.texts("member_of_group"):
+            line = f"<member_of_group>{_GROUP}</member_of_group>"
+            text = f"Packages installing interfaces must include '{line}' in their package.xml"
+            raise self._refused(229, text, f"Add that line to {self._found.shown}/package.xml, before <export>.")
+
+    def resolve(self, types: Registry) -> None:
+        """Whether the fields' types exist: what the C compiler finds out in a real build."""
+        known = {self._found.name, *self._dependencies, "builtin_interfaces", "service_msgs"}
+        for name in self.files:
+            interface = name.rpartition(".")[0]
+            file = shown_path(str(self._found.path / name))
+            try:
+                types.module(self._found.name, interface)
+            except UnknownMessageType as error:
+                where = file if error.line is None else f"{file}, line {error.line}"
+                raise self._uncompiled(file, error.line, error.reason, _located(where, error.hint)) from None
+            except InvalidDefinition as error:
+                raise self._adapter(error) from None
+            lines = _packages_in(types.definition(f"{self._found.name}/{interface}"))
+            for package in sorted(lines.keys() - known):
+                hint = (
+                    f"{file}, line {lines[package]}, uses messages of {package}: in CMakeLists.txt write "
+                    f"find_package({package} REQUIRED), and DEPENDENCIES {package} as the last words in "
+                    f"rosidl_generate_interfaces(…); in package.xml <depend>{package}</depend>."
+                )
+                raise self._uncompiled(file, lines[package], f"{package}/msg/…: No such file or directory", hint)
+
+    def _refused(self, line: int, text: str, hint: str = "") -> BuildFailure:
+        return refused(text, f"{_GENERATE}:{line} (message)", hint, [self._own])
+
+    def _uncompiled(self, file: str, line: int | None, reason: str, hint: str) -> BuildFailure:
+        place = file if line is None else f"{file}:{line}"
+        text = (
+            f"{place}: fatal error: {reason}\ncompilation terminated.\ngmake[1]: *** "
+            f"[CMakeFiles/Makefile2:173: CMakeFiles/{self._found.name}__rosidl_generator_c.dir/all] Error 2\n"
+            "gmake: *** [Makefile:146: all] Error 2\n"
+        )
+        return BuildFailure(text, hint, code=2, seconds=1.5)
+
+    def _exists(self, name: str) -> None:
+        folder = self._found.path
+        if (folder / name).is_file():
+            return
+        text = (
+            f"rosidl_generate_interfaces() the passed file '{name}' doesn't exist relative to the "
+            f"CMAKE_CURRENT_SOURCE_DIR '{shown_path(str(folder))}'"
+        )
+        there = sorted(path.relative_to(folder).as_posix() for path in folder.rglob(f"*{Path(name).suffix or '.msg'}"))
+        hint = did_you_mean(name, there) or (f"There are: {', '.join(there)}." if there else "Write that file first.")
+        if name.endswith(","):
+            hint = "CMake separates names by spaces or new lines: leave the commas out."
+        raise self._refused(93, text, hint)
+
+    def _parses(self, name: str) -> None:
+        path = self._found.path / name
+        suffix = path.suffix[1:]
+        if suffix not in PARSERS:
+            text = f"AssertionError: Unsupported interface type '{path.suffix}'"
+            raise self._adapter_text(text, "An interface file ends in .msg, .srv or .action.")
+        if path.parent.name != suffix:
+            hint = f'Put it in {suffix}/ and write "{suffix}/{path.name}": Python\'s `import` expects it there.'
+            raise self._adapter_text(f"{name} does not lie in a folder {suffix}/", hint)
+        try:
+            names.check_package(self._found.name)
+            PARSERS[suffix](self._found.name, path.stem, path.read_text(encoding="utf-8"), str(path))
+        except InvalidDefinition as error:
+            raise self._adapter(error) from None
+        except (OSError, UnicodeDecodeError) as error:
+            raise self._adapter_text(f"{type(error).__name__}: {error}", f"{name} must be plain text.") from None
+
+    def _adapter(self, error: InvalidDefinition) -> BuildFailure:
+        lines = []
+        if error.printed:
+            lines.append(error.printed)
+        elif error.line_text is not None and error.interface and not isinstance(error, DuplicateName):
+            package, _, kind = error.interface.split("/")
+            lines.append(f"Error processing '{error.line_text}' of '{package}/{kind}': '{error.reason}'")
+        lines.append(f"{error.qualified_ros_error}: {error.reason}")
+        where, hint = "", error.hint
+        if error.file is not None:
+            where = shown_path(error.file) + ("" if error.line is None else f", line {error.line}")
+            if error.line is None and error.ros_error == "InvalidResourceName":
+                words = re.split(r"[^A-Za-z0-9]+", Path(error.file).stem)
+                good = "".join(word[:1].upper() + word[1:] for word in words) + Path(error.file).suffix
+                hint = f"Name the file {good}, beginning with a capital letter and without '_'"
+        return self._adapter_text("\n\n".join(lines), _located(where, hint))
+
+    def _adapter_text(self, text: str, hint: str) -> BuildFailure:
+        whole = f"execute_process(/usr/bin/python3 -m rosidl_adapter) returned error code 1:\n\n{text}\n"
+        return refused(whole, _ADAPT, hint, [f"{_GENERATE}:130 (rosidl_adapt_interfaces)", self._own], seconds=0.3)
+
+
+def _packages_in(definition: Definition) -> dict[str, int]:
+    """The packages whose messages a definition's own fields are, each with the line that says so."""
+    if isinstance(definition, MessageDefinition):
+        return {field.type.package: field.line for field in reversed(definition.fields) if field.type.package}
+    parts = [getattr(definition, part, None) for part in ("request", "response", "goal", "result", "feedback")]
+    return {package: line for part in parts if part is not None for package, line in _packages_in(part).items()}
+
+
+def _located(where: str, hint: str) -> str:
+    """A hint that begins with the place of the fault."""
+    if not where:
+        return hint
+    return f"{where}: {hint}" if hint else f"It is in {where}."
+
+
+def interface_items(found: Found, files: tuple[str, ...]) -> Iterator[Item]:
+    """What is installed for the interface files of a package: definitions, the index, and a Python package.
+
+    Definitions are copied, as the classes are made from these: with --symlink-install, too, a new field counts after a build.
+    """
+    name = found.name
+    share = [Item(f"share/{name}/{file}", found.path / file, copied=True) for file in files]
+    for path in (Path(file) for file in files if file.endswith(".srv")):
+        request, _, response = (found.path / path).read_text(encoding="utf-8").partition("\n---")
+        for part, text in (("Request", request.removeprefix("---")), ("Response", response.partition("\n")[2])):
+            target = f"share/{name}/{path.with_suffix('').as_posix()}_{part}.msg"
+            share.append(Item(target, text=text.strip("\n") + "\n"))
+    yield from share
+    listed = sorted(item.target.removeprefix(f"share/{name}/") for item in share)
+    yield Item(f"share/ament_index/resource_index/rosidl_interfaces/{name}", text="\n".join(listed))
+    folder = f"{PYTHON_FOLDERS['cmake']}/{name}"
+    yield Item(f"{folder}/__init__.py")
+    for kind in _KINDS:
+        classes = [Path(file).stem for file in files if file.startswith(f"{kind}/")]
+        modules = {each: module_name(each) for each in classes}
+        lines = [f"from {name}.{kind}.{module} import {each}  # noqa: F401\n" for each, module in modules.items()]
+        if lines:
+            yield Item(f"{folder}/{kind}/__init__.py", text="".join(lines))
+        for each, module in modules.items():
+            yield Item(f"{folder}/{kind}/{module}.py", text=_MODULE.format(package=name, kind=kind, name=each))
+
+
+_MODULE = '''\
+"""{package}/{kind}/{name}: made from {kind}/{name}.{kind} by colcon build."""
+
+from turtle_lesson.ros.idl.registry import registry
+
+{name} = registry.get("{package}/{kind}/{name}")
+'''
