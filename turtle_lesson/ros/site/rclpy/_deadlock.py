@@ -8,7 +8,7 @@ the same process) would have to be called.
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import FrameType
 from typing import TYPE_CHECKING, Any
@@ -107,20 +107,17 @@ def others_may_act(strand: Strand) -> bool:
     executor = executor_of_worker(strand)
     if executor is not None and not executor._spinning_forever:
         return True
+    spinning = strand.process.state(RclpyState).spinning
     others = (each for each in strand.process.strands if each is not strand and not each.dead)
-    return any(each.waits_for is None and executor_of_worker(each) is None and not is_in_spin(each) for each in others)
-
-
-def is_in_spin(strand: Strand) -> bool:
-    """Whether a strand is in the `spin` of an executor, and so does nothing else before the shutdown."""
-    return strand in strand.process.state(RclpyState).spinning
+    return any(each.waits_for is None and executor_of_worker(each) is None and each not in spinning for each in others)
 
 
 def why_never_answered(client: Client, strand: Strand) -> str:
     """Why a synchronous call of a service from this strand would wait forever; '' if it need not."""
     servers = client._servers()
     if not servers:
-        return _why_nobody_serves(client)
+        end = client._end
+        return why_nobody_offers("service", end.name, end.type_name, client._of_node._ros_graph.services())
     drives = is_notebook(strand.process) and not callbacks_around()
     if drives and client._end.cut_off:
         return (
@@ -130,16 +127,12 @@ def why_never_answered(client: Client, strand: Strand) -> str:
     return _why_not_taken(client, strand, drives) or _why_not_served(client, servers, strand, drives)
 
 
-def _why_nobody_serves(client: Client) -> str:
-    """What is known about a service that no node offers by this name and type."""
-    end, graph = client._end, client._of_node._ros_graph
-    if others := graph.servers(end.name):
-        return f"the service of this name is of type {others[0].type_name}, not {end.type_name}."
-    hint = did_you_mean(end.name, graph.services())
-    return (
-        f"no node offers this service ({end.type_name}){hint or '.'} Is its node running? "
-        "wait_for_service(timeout_sec=…) waits for it."
-    )
+def why_nobody_offers(what: str, name: str, kind: str, offered: Mapping[str, list[str]]) -> str:
+    """What is known about a service or action (`what`) that no node offers by this name and type."""
+    if name in offered:
+        return f"the {what} of this name is of type {offered[name][0]}, not {kind}."
+    hint, wait = did_you_mean(name, offered) or ".", "wait_for_service" if what == "service" else "wait_for_server"
+    return f"no node offers this {what} ({kind}){hint} Is its node running? {wait}(timeout_sec=…) waits for it."
 
 
 def _why_not_taken(client: Client, strand: Strand, drives: bool) -> str:

@@ -71,25 +71,21 @@ class NodeParameters(NodeEntities):
         from rcl_interfaces.msg import SetParametersResult
 
         if self._ros_before_set:
-            parameter_list = self._ros_ask_before_set(parameter_list)
+            changed: list[Parameter] = []
+            for callback in self._ros_before_set:
+                answer = callback(parameter_list)
+                try:
+                    changed.extend(answer)
+                except TypeError as error:
+                    error.add_note("A pre-set callback ends with `return parameters`, the list of parameters to set.")
+                    raise
+            parameter_list = changed
             if not parameter_list:
                 reason = "parameter list cannot be empty, this might be due to pre_set_parameters_callback "
                 return SetParametersResult(reason=reason + "modifying the original parameters list.")
         self._ros_check_settable(parameter_list)
         reason = self._ros_set(parameter_list)
         return SetParametersResult(successful=not reason, reason=reason)
-
-    def _ros_ask_before_set(self, parameters: list[Parameter]) -> list[Parameter]:
-        """What the callbacks that are asked first make of the parameters."""
-        found: list[Parameter] = []
-        for callback in self._ros_before_set:
-            changed = callback(parameters)
-            try:
-                found.extend(changed)
-            except TypeError as error:
-                error.add_note("A pre-set callback ends with `return parameters`, the list of parameters to set.")
-                raise
-        return found
 
     def _ros_check_settable(self, parameters: list[Parameter]) -> None:
         for parameter in parameters:
@@ -116,28 +112,21 @@ class NodeParameters(NodeEntities):
         from rcl_interfaces.msg import ParameterDescriptor
 
         known = descriptors or self._ros_descriptors
-        news: dict[str, list[Any]] = {"new": [], "changed": [], "deleted": []}
+        event = self._ros_event_publisher.msg_type(node=self._ros_entry.full_name)
+        event.stamp.sec, event.stamp.nanosec = divmod(self._ros_clock._now(), NANOSECONDS)
         for parameter in parameters:
-            name = parameter.name
+            name, message = parameter.name, parameter.to_parameter_msg()
             if parameter.type_ == Parameter.Type.NOT_SET and descriptors is None:
-                news["deleted"].append(parameter.to_parameter_msg())
+                event.deleted_parameters.append(message)
                 self._ros_parameters.pop(name, None)
                 self._ros_descriptors.pop(name, None)
                 continue
             is_new = self.get_parameter_or(name).type_ == Parameter.Type.NOT_SET
-            news["new" if is_new else "changed"].append(parameter.to_parameter_msg())
+            (event.new_parameters if is_new else event.changed_parameters).append(message)
             if name not in known:
                 known[name] = ParameterDescriptor(name=name, type=parameter.type_.value, dynamic_typing=True)
             self._ros_descriptors[name] = known[name]
             self._ros_parameters[name] = parameter
-        self._ros_tell_parameter_events(news)
-
-    def _ros_tell_parameter_events(self, news: dict[str, list[Any]]) -> None:
-        """Publish on /parameter_events what was new, changed or deleted."""
-        event = self._ros_event_publisher.msg_type(node=self._ros_entry.full_name)
-        event.stamp.sec, event.stamp.nanosec = divmod(self._ros_clock._now(), NANOSECONDS)
-        for kind, parameters in news.items():
-            setattr(event, f"{kind}_parameters", parameters)
         self._ros_event_publisher.publish(event)
 
     def _ros_why_refused(self, parameters: list[Parameter], descriptors: dict[str, Any] | None) -> str:
@@ -330,7 +319,14 @@ class NodeParameters(NodeEntities):
         """
         from rcl_interfaces.msg import ListParametersResult
 
-        _check_prefixes(prefixes, depth)
+        if not isinstance(prefixes, list):
+            raise TypeError(f"The prefixes argument must be a list, got {prefixes!r}")
+        if not all(isinstance(prefix, str) for prefix in prefixes):
+            raise TypeError("All prefixes must be instances of type str")
+        if not isinstance(depth, int):
+            raise TypeError(f"The depth must be instance of type int, got {depth!r}")
+        if depth < 0:
+            raise ValueError("The depth must be greater than or equal to zero")
         names = [name for name in self._ros_parameters if _is_listed(name, prefixes, depth)]
         parts = [name.rpartition(PARAMETER_SEPARATOR_STRING) for name in names]
         parents = dict.fromkeys(parent for parent, separator, _ in parts if separator)
@@ -426,18 +422,6 @@ def _range_flaw(parameter: Parameter, limits: Any) -> str:
                 f"The parameter value for {name} is not {what}. Min: {low}, max: {high}, value: {value}, step: {step}"
             )
     return ""
-
-
-def _check_prefixes(prefixes: object, depth: object) -> None:
-    """Raise TypeError or ValueError for what `list_parameters` cannot go by."""
-    if not isinstance(prefixes, list):
-        raise TypeError(f"The prefixes argument must be a list, got {prefixes!r}")
-    if not all(isinstance(prefix, str) for prefix in prefixes):
-        raise TypeError("All prefixes must be instances of type str")
-    if not isinstance(depth, int):
-        raise TypeError(f"The depth must be instance of type int, got {depth!r}")
-    if depth < 0:
-        raise ValueError("The depth must be greater than or equal to zero")
 
 
 def _is_listed(name: str, prefixes: list[str], depth: int) -> bool:

@@ -56,7 +56,7 @@ class Context:
         contexts_of(self._process).append(self)
         if initialize_logging:
             self._set_up_logging()
-        self._process.at_exit.append(self._end)
+        self._process.at_exit.append(self._end)  # what the process leaves behind disappears
 
     def _read(self, args: list[str]) -> Arguments:
         try:
@@ -130,7 +130,11 @@ class Context:
 
     def shut_down_by_signal(self) -> None:
         """A signal ends it, at once. What was given to `on_shutdown` is not called, as on a robot."""
-        self.ended = self.ended_by_signal = True
+        self.ended_by_signal = True
+        self._end()
+
+    def _end(self) -> None:
+        self.ended = True
         self._callbacks.clear()
         self._leave()
 
@@ -192,12 +196,6 @@ class Context:
         """Forget a node that was destroyed."""
         if node in self._nodes:
             self._nodes.remove(node)
-
-    def _end(self) -> None:
-        """The process ends: what it leaves behind disappears."""
-        self._callbacks.clear()
-        self.ended = True
-        self._leave()
 
     def __enter__(self) -> Context:
         if not self.initialized:

@@ -17,19 +17,17 @@ class LoggingService:
     def __init__(self, node: Node) -> None:
         from rcl_interfaces import srv
 
-        for kind, name, callback in (
-            (srv.GetLoggerLevels, "get_logger_levels", self._get_logger_levels),
-            (srv.SetLoggerLevels, "set_logger_levels", self._set_logger_levels),
-        ):
-            node.create_service(kind, f"{node.get_name()}/{name}", callback, qos_profile=qos_profile_services_default)
+        profile, name = qos_profile_services_default, node.get_name()
+        node.create_service(srv.GetLoggerLevels, f"{name}/get_logger_levels", self._get, qos_profile=profile)
+        node.create_service(srv.SetLoggerLevels, f"{name}/set_logger_levels", self._set, qos_profile=profile)
 
-    def _get_logger_levels(self, request: Any, response: Any) -> Any:
+    def _get(self, request: Any, response: Any) -> Any:
         from rcl_interfaces.msg import LoggerLevel
 
         response.levels = [LoggerLevel(name=name, level=int(get_logger_level(name))) for name in request.names]
         return response
 
-    def _set_logger_levels(self, request: Any, response: Any) -> Any:
+    def _set(self, request: Any, response: Any) -> Any:
         from rcl_interfaces.msg import SetLoggerLevelsResult
 
         for wish in request.levels:

@@ -13,6 +13,7 @@ from ._reexports import reexported
 from .callback_groups import CallbackGroup
 from .client import POLL, Client
 from .parameter import Parameter, parameter_dict_from_yaml_file
+from .parameter_service import SERVICES
 from .qos import QoSProfile, qos_profile_parameter_events, qos_profile_services_default
 from .subscription import Subscription
 from .task import Future
@@ -21,15 +22,6 @@ if TYPE_CHECKING:
     from .node import Node
 
 Told = Callable[[Future], Any] | None
-
-SERVICES = {
-    "get_parameters": "GetParameters",
-    "list_parameters": "ListParameters",
-    "set_parameters": "SetParameters",
-    "get_parameter_types": "GetParameterTypes",
-    "describe_parameters": "DescribeParameters",
-    "set_parameters_atomically": "SetParametersAtomically",
-}
 
 
 class AsyncParameterClient:

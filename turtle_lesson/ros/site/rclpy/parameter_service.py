@@ -12,6 +12,17 @@ if TYPE_CHECKING:
     from .node import Node
 
 
+SERVICES = {
+    "describe_parameters": "DescribeParameters",
+    "get_parameters": "GetParameters",
+    "get_parameter_types": "GetParameterTypes",
+    "list_parameters": "ListParameters",
+    "set_parameters": "SetParameters",
+    "set_parameters_atomically": "SetParametersAtomically",
+}
+"""The services' names and types (rcl_interfaces/srv/…)."""
+
+
 class ParameterService:
     """Made by every node for itself."""
 
@@ -19,24 +30,16 @@ class ParameterService:
         from rcl_interfaces import srv
 
         self._node = node
-        for name, callback in {
-            "DescribeParameters": self._describe,
-            "GetParameters": self._get,
-            "GetParameterTypes": self._get_types,
-            "ListParameters": self._list,
-            "SetParameters": self._set,
-            "SetParametersAtomically": self._set_atomically,
-        }.items():
-            words = "".join(f"_{letter.lower()}" if letter.isupper() else letter for letter in name)
-            service = f"~/{words.lstrip('_')}"
-            node.create_service(getattr(srv, name), service, callback, qos_profile=qos_profile_parameters)
+        for name, kind in SERVICES.items():
+            callback = getattr(self, f"_{name}")
+            node.create_service(getattr(srv, kind), f"~/{name}", callback, qos_profile=qos_profile_parameters)
 
-    def _describe(self, request: Any, response: Any) -> Any:
+    def _describe_parameters(self, request: Any, response: Any) -> Any:
         if all(map(self._node.has_parameter, request.names)):
             response.descriptors = self._node.describe_parameters(request.names)
         return response
 
-    def _get(self, request: Any, response: Any) -> Any:
+    def _get_parameters(self, request: Any, response: Any) -> Any:
         try:
             parameters = self._node.get_parameters(request.names)
         except (ParameterNotDeclaredException, ParameterUninitializedException):
@@ -44,30 +47,28 @@ class ParameterService:
         response.values = [parameter.get_parameter_value() for parameter in parameters]
         return response
 
-    def _get_types(self, request: Any, response: Any) -> Any:
+    def _get_parameter_types(self, request: Any, response: Any) -> Any:
         if all(map(self._node.has_parameter, request.names)):
             response.types = self._node.get_parameter_types(request.names)
         return response
 
-    def _list(self, request: Any, response: Any) -> Any:
+    def _list_parameters(self, request: Any, response: Any) -> Any:
         """List names below prefixes. In Humble (parameter_service.py) a name without dots need only begin with one."""
         prefixes = list(request.prefixes)
-        result = self._node.list_parameters(prefixes, request.depth)
+        response.result = result = self._node.list_parameters(prefixes, request.depth)
         below = set(result.names)
         result.names = [
             name
             for name in self._node._ros_parameters
             if name in below or (PARAMETER_SEPARATOR_STRING not in name and name.startswith(tuple(prefixes)))
         ]
-        response.result = result
         return response
 
-    def _set(self, request: Any, response: Any) -> Any:
-        for message in request.parameters:
-            response.results.append(self._try_to_set([message]))
+    def _set_parameters(self, request: Any, response: Any) -> Any:
+        response.results = [self._try_to_set([message]) for message in request.parameters]
         return response
 
-    def _set_atomically(self, request: Any, response: Any) -> Any:
+    def _set_parameters_atomically(self, request: Any, response: Any) -> Any:
         response.result = self._try_to_set(request.parameters)
         return response
 

@@ -15,8 +15,8 @@ from turtle_lesson.ros.sim.errors import NeverWakes
 from turtle_lesson.ros.sim.strand import running_strand
 
 from .._blocking import drives_the_simulation
-from .._deadlock import Words, why_never_answered
-from .._hints import did_you_mean, shown
+from .._deadlock import Words, why_never_answered, why_nobody_offers
+from .._hints import shown
 from .._reexports import reexported
 from ..callback_groups import CallbackGroup
 from ..client import Client
@@ -167,23 +167,19 @@ class ActionClient(ActionEndpoint):
         strand = running_strand()
         assert strand is not None
         strand.activity = f"{what} of {self._name}"
-        problem = why_never_answered(client, strand) if self.server_is_ready() else self._why_nobody_offers()
+        if self.server_is_ready():
+            problem = why_never_answered(client, strand)
+        else:
+            services = self._node._ros_graph.services()
+            offered = {
+                each.removesuffix(SUFFIX): [kind.removesuffix("_SendGoal") for kind in kinds]
+                for each, kinds in services.items()
+                if each.endswith(SUFFIX)
+            }
+            problem = why_nobody_offers("action", self._name, self._action_type._TYPE_NAME, offered)
         if problem:
             raise NeverWakes(f"this {what} of {self._name} can never be answered: {problem}")
         return client._answer_to(ask(), strand)
-
-    def _why_nobody_offers(self) -> str:
-        """What is known about an action that nobody offers by this name and type."""
-        own = self._action_type._TYPE_NAME
-        services = self._node._ros_graph.services().items()
-        offered = {each.removesuffix(SUFFIX): types for each, types in services if each.endswith(SUFFIX)}
-        if self._name in offered:
-            kind = offered[self._name][0].removesuffix("_SendGoal")
-            return f"the action of this name is of type {kind}, not {own}."
-        return (
-            f"no node offers this action ({own}){did_you_mean(self._name, offered) or '.'} Is its node running? "
-            "wait_for_server(timeout_sec=…) waits for it."
-        )
 
     async def execute(self, taken_data: dict[str, Any]) -> None:
         """Give the futures their results, and feedback to its callback, in the order of rclpy."""
