@@ -176,22 +176,19 @@ def _class_of(topic: BagTopic) -> Any:
         message_class = registry.get(topic.type_name)
     except LookupError as error:
         raise BagError(str(error.args[0])) from None
-    if topic.definition and not _same_definition(message_class, topic.definition):
+    today = schema_text(message_class)
+    if topic.definition in ("", today):
+        return message_class
+    try:
+        same = type_hash(message_class, today) == type_hash(message_class, topic.definition)
+    except BagError:
+        same = True  # in a form that is not understood here: reading the messages will tell
+    if not same:
         raise BagError(
             f"the {topic.type_name} in the bag has other fields than the current one. Play it with the package that it was "
             "recorded with, or record it again"
         )
     return message_class
-
-
-def _same_definition(message_class: Any, recorded: str) -> bool:
-    today = schema_text(message_class)
-    if today == recorded:
-        return True
-    try:
-        return type_hash(message_class, today) == type_hash(message_class, recorded)
-    except BagError:
-        return True  # in a form that is not understood here: reading the messages will tell
 
 
 def check_topics(bag: Bag, names: tuple[str, ...]) -> None:

@@ -11,7 +11,7 @@ from __future__ import annotations
 import re
 import warnings
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -67,20 +67,16 @@ class Selection:
         return re.search(self.regex, name) is not None
 
 
+@dataclass(eq=False)
 class _Heard:
     """A topic that is recorded: its type, its subscription (since when, ns since 1970), and the publishers it had."""
 
-    def __init__(self, name: str, message_class: Any, since: int) -> None:
-        self.name = name
-        self.message_class = message_class
-        self.since = since
-        self.subscription: Any = None
-        self.writers: list[Writer] = []
-        self.registered = False
-
-    def profiles(self) -> list[QoSProfile]:
-        """What the publishers offered."""
-        return [writer.profile for writer in self.writers if hasattr(writer, "profile")]
+    name: str
+    message_class: Any
+    since: int
+    writers: list[Writer]
+    subscription: Any = None
+    registered: bool = False
 
 
 class Recorder:
@@ -102,8 +98,6 @@ class Recorder:
         self._graph.on_change.append(self._look)
         self._look()
         self._note("INFO", "Recording...")
-
-    # -- finding topics --------------------------------------------------------------------------------------------
 
     def _look(self) -> None:
         """Subscribe to what has appeared. Called in the middle of somebody else's `create_publisher`."""
@@ -135,14 +129,14 @@ class Recorder:
                     )
 
     def _subscribe(self, name: str, topic: Topic) -> None:
+        writers = [writer for writer, _ in topic.writers]
         try:
-            heard = _Heard(name, _class_of(name, topic.types), EPOCH + self._simulation.now)
+            heard = _Heard(name, _class_of(name, topic.types), EPOCH + self._simulation.now, writers)
         except BagError as error:
             self._refused.add(name)
             self._note("WARN", str(error))
             return
-        heard.writers = [writer for writer, _ in topic.writers]
-        profile = request_for([writer.quality for writer in heard.writers])
+        profile = request_for([writer.quality for writer in writers])
 
         def write(message: Any, info: Any) -> None:
             # When it arrived, were it not for the moment that everything takes: so in the usual network it is when it was sent.
@@ -166,15 +160,14 @@ class Recorder:
     def _register(self, heard: _Heard) -> bool:
         """Make a topic known in the bag, before its first message; False if the bag cannot hold it."""
         if not heard.registered and heard.name not in self._refused:
+            profiles = [writer.profile for writer in heard.writers if hasattr(writer, "profile")]
             try:
-                self._bag.add_topic(heard.name, heard.message_class, heard.profiles())
+                self._bag.add_topic(heard.name, heard.message_class, profiles)
                 heard.registered = True
             except UnrecordableType as error:
                 self._refused.add(heard.name)
                 self._note("WARN", str(error))
         return heard.registered
-
-    # -- telling ---------------------------------------------------------------------------------------------------
 
     def _note(self, severity: str, text: str) -> None:
         """Say this soon, in our own process."""
@@ -199,8 +192,6 @@ class Recorder:
             f"{did_you_mean(name, known)}".rstrip()
             for name in missing
         ]
-
-    # -- ending ----------------------------------------------------------------------------------------------------
 
     def close(self) -> None:
         """Take what has arrived and what is under way, and complete the bag."""
@@ -244,10 +235,6 @@ def _class_of(name: str, types: list[str]) -> Any:
         ) from None
 
 
-class _TimeIsOver(Exception):
-    """The stretch of time that was asked for has passed."""
-
-
 def record(
     bag: BagWriter, selection: Selection, say: Say, seconds: float | None = None, node_name: str = NODE
 ) -> Recorder:
@@ -264,12 +251,11 @@ def record(
         visible = not node_name.startswith("_")
         node = rclpy.create_node(node_name, start_parameter_services=visible, enable_rosout=False)
         names = tuple(node.resolve_topic_name(name) for name in selection.topics)
-        selection = Selection(names, selection.regex, selection.exclude, selection.hidden, selection.unpublished)
-        recorder = Recorder(node, bag, selection, say)
+        recorder = Recorder(node, bag, replace(selection, topics=names), say)
         if seconds is not None:
-            node.create_timer(max(seconds, 1 / NANOSECONDS), _time_is_over)
+            node.create_timer(max(seconds, 1 / NANOSECONDS), _interrupt)
         rclpy.spin(node)
-    except (KeyboardInterrupt, _TimeIsOver):
+    except KeyboardInterrupt:
         pass
     finally:
         if recorder is not None:
@@ -280,8 +266,8 @@ def record(
     return recorder
 
 
-def _time_is_over() -> None:
-    raise _TimeIsOver
+def _interrupt() -> None:
+    raise KeyboardInterrupt
 
 
 def checked_names(names: Iterable[str]) -> tuple[str, ...]:
