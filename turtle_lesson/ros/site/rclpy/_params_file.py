@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
 from functools import cache
@@ -83,7 +84,6 @@ def _check(node: str, line: int) -> None:
             raise YamlValueError(f"{flaw.reason} (it is '{node}', before line {line})")
 
 
-# -- yaml values --------------------------------------------------------------------------------------------------
 # What a word in YAML means as a parameter's value. ROS's rules (rcl_yaml_param_parser's parse.c), not those of YAML.
 # So `0x10` and `010` are numbers, `y` is true, `1_000` and `12:30` are texts, and so are dates.
 
@@ -111,47 +111,44 @@ def scalar(text: str) -> Any:
     """The value of an unquoted word."""
     if text in TRUE or text in FALSE:
         return text in TRUE
-    if WHOLE.fullmatch(text) and (number := _whole(text)) in INT64:
-        return number
+    digits = text.lstrip("+-")
+    if WHOLE.fullmatch(text):
+        base = 16 if digits[:2] in ("0x", "0X") else 8 if digits.startswith("0") else 10
+        number = int(digits, base) * (-1 if text.startswith("-") else 1)
+        if number in INT64:
+            return number
     if SPECIAL.fullmatch(text):
         return float(text.replace(".", ""))
-    value = None
-    if DECIMAL.fullmatch(text):
-        value = float(text)
-    elif HEXADECIMAL.fullmatch(text):
-        value = _hexadecimal(text)
-    in_range = (
-        value is not None and abs(value) != float("inf") and (value != 0 or not re.search(r"[1-9]", _digits(text)))
-    )
-    return value if in_range else text
-
-
-def _whole(text: str) -> int:
-    digits = text.lstrip("+-")
-    base = 16 if digits[:2] in ("0x", "0X") else 8 if digits.startswith("0") else 10
-    return int(digits, base) * (-1 if text.startswith("-") else 1)
-
-
-def _hexadecimal(text: str) -> float:
     try:
-        return float.fromhex(text)
+        value = float(text) if DECIMAL.fullmatch(text) else float.fromhex(text) if HEXADECIMAL.fullmatch(text) else None
     except OverflowError:
-        return float("inf")
-
-
-def _digits(text: str) -> str:
-    return re.split(r"[eEpP]", text)[0]
+        return text
+    underflows = value == 0 and re.search(r"[1-9]", re.split(r"[eEpP]", text)[0])
+    return text if value is None or math.isinf(value) or underflows else value
 
 
 def value_of(node: Any) -> Any:
     """The value of a node of YAML's tree; of an empty list it is None, as in ROS. Raises YamlValueError."""
-    import yaml
-
-    if isinstance(node, yaml.ScalarNode):
+    if node.id == "scalar":
         return _scalar_of(node)
-    if isinstance(node, yaml.SequenceNode):
-        return _sequence_of(node) or None
-    raise YamlValueError(f"Unknown YAML event at line {line_of(node)}: a value, or a list of values, is expected here")
+    if node.id == "mapping":
+        line = line_of(node)
+        raise YamlValueError(f"Unknown YAML event at line {line}: a value, or a list of values, is expected here")
+    for item in node.value:
+        if item.id != "scalar":
+            raise YamlValueError(
+                f"Unknown YAML event at line {line_of(item)}: a parameter can be a list of plain values, not of lists or maps"
+            )
+    values = [_scalar_of(item) for item in node.value]
+    for item, value in zip(node.value, values, strict=True):
+        if type(value) is not type(values[0]):
+            mixed = {type(value), type(values[0])} == {int, float}
+            advice = "; write 1.0 for a whole number among others" if mixed else ""
+            raise YamlValueError(
+                f"Sequence should be of same type. Value type '{NAMES[type(value)]}' do not belong at line_num "
+                f"{line_of(item)}{advice}"
+            )
+    return values or None
 
 
 def _scalar_of(node: Any) -> Any:
@@ -160,27 +157,6 @@ def _scalar_of(node: Any) -> Any:
     if not node.value:
         raise YamlValueError(f'No value at line {line_of(node)}; an empty text is written ""')
     return scalar(node.value)
-
-
-def _sequence_of(node: Any) -> list[Any]:
-    import yaml
-
-    for item in node.value:
-        if not isinstance(item, yaml.ScalarNode):
-            raise YamlValueError(
-                f"Unknown YAML event at line {line_of(item)}: a parameter can be a list of plain values, not of lists or maps"
-            )
-    values = [_scalar_of(item) for item in node.value]
-    for item, value in zip(node.value, values, strict=True):
-        if type(value) is not type(values[0]):
-            advice = (
-                "; write 1.0 for a whole number among others" if {type(value), type(values[0])} == {int, float} else ""
-            )
-            raise YamlValueError(
-                f"Sequence should be of same type. Value type '{NAMES[type(value)]}' do not belong at line_num "
-                f"{line_of(item)}{advice}"
-            )
-    return values
 
 
 def line_of(node: Any) -> int:

@@ -6,7 +6,7 @@ Facts: https://docs.ros.org/en/humble/How-To-Guides/Node-arguments.html, rcl's a
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
@@ -175,9 +175,8 @@ def pattern_matches(pattern: str, full_name: str) -> bool:
     return re.fullmatch(expression, full_name) is not None
 
 
-# -- how the rules are written ----------------------------------------------------------------------------------
-# Facts: rcl's lexer.c and arguments.c (which names may stand where, and the words of the errors), and recordings of
-# them.
+# How the rules are written. Facts: rcl's lexer.c and arguments.c (which names may stand where, and the words of the errors),
+# and recordings of them.
 
 LEVELS = ("UNSET", "DEBUG", "INFO", "WARN", "ERROR", "FATAL")
 NONE, EOF, TILDE_SLASH, SERVICE_URL, TOPIC_URL, COLON, NODE, NS, SEPARATOR, REFERENCE = range(10)
@@ -256,7 +255,7 @@ def read_remap(rule: str) -> Remap:
         is_service = {SERVICE_URL: True, TOPIC_URL: False}.get(kind)
         reader.skip(SERVICE_URL, TOPIC_URL)
         start = reader.at
-        _name(reader, _token, SEPARATOR)
+        _name(reader, SEPARATOR)
         name = rule[start : reader.at]
     reader.expect(SEPARATOR)
     start = reader.at
@@ -271,7 +270,7 @@ def read_remap(rule: str) -> Remap:
             reader.skip(TOKEN)
         reader.expect(EOF)
     else:
-        _name(reader, _new_token, EOF)
+        _name(reader, EOF, is_new=True)
     return Remap(name, rule[start:], node, is_service)
 
 
@@ -326,29 +325,23 @@ def _node_prefix(reader: Reader) -> str | None:
     return match[1]
 
 
-def _name(reader: Reader, token: Callable[[Reader], None], end: int) -> None:
-    """Read a name, whose tokens a function reads, up to what ends it."""
+def _name(reader: Reader, end: int, *, is_new: bool = False) -> None:
+    """Read a name up to what ends it: that of something, or the new one that it gets."""
     reader.skip(TILDE_SLASH, SLASH)
-    token(reader)
+    _token(reader, is_new=is_new)
     while reader.next() != end:
         reader.expect(SLASH)
-        token(reader)
+        _token(reader, is_new=is_new)
 
 
-def _token(reader: Reader) -> None:
+def _token(reader: Reader, *, is_new: bool = False) -> None:
     kind = reader.next()
-    if kind in (ONE, MANY):
+    if kind == REFERENCE and is_new:
+        raise RuleError("Backreferences are not implemented")
+    if kind in (ONE, MANY) and not is_new:
         raise RuleError(f"Wildcard '{reader.take()}' is not implemented")
     if kind != TOKEN:
-        raise RuleError("Expecting token or wildcard")
-    reader.take()
-
-
-def _new_token(reader: Reader) -> None:
-    if reader.next() == REFERENCE:
-        raise RuleError("Backreferences are not implemented")
-    if reader.next() != TOKEN:
-        raise RuleError(f"a name is expected at index {reader.at}")
+        raise RuleError(f"a name is expected at index {reader.at}" if is_new else "Expecting token or wildcard")
     reader.take()
 
 

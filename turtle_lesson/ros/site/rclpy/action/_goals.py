@@ -60,11 +60,6 @@ _NEXT = {
 }
 
 
-def is_cancelable(state: int) -> bool:
-    """Whether a goal in this state can still be cancelled."""
-    return (state, GoalEvent.CANCEL_GOAL) in _NEXT
-
-
 def state_after(state: int, event: GoalEvent) -> int:
     """The state that an event leads to. Raises RCLError where it is not allowed, with what to do instead as a note."""
     following = _NEXT.get((state, event))
@@ -215,7 +210,8 @@ def goals_to_cancel(goal_info: Any, goals: dict[bytes, ServerGoalHandle]) -> tup
     found = [
         goal
         for key, goal in goals.items()
-        if (everything or key == wanted or _nanoseconds(goal._goal_info.stamp) <= until) and is_cancelable(goal.status)
+        if (everything or key == wanted or _nanoseconds(goal._goal_info.stamp) <= until)
+        and (goal.status, GoalEvent.CANCEL_GOAL) in _NEXT
     ]
     if found or until or everything:
         return CancelGoal.Response.ERROR_NONE, found

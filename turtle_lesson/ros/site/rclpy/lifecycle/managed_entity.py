@@ -13,31 +13,38 @@ if TYPE_CHECKING:
 
 
 class ManagedEntity:
-    """Base class. Each method is called in a transition, with the state it begins in, and returns how that went."""
+    """Base class. Each method is called in a transition, with the state it begins in, and returns how that went.
+
+    By default a transition succeeds; that of a node asks all its managed entities, up to the first that does not succeed.
+    """
+
+    def _ros_go_along(self, name: str, state: LifecycleState) -> TransitionCallbackReturn:
+        """What the method of a name does by default."""
+        return TransitionCallbackReturn.SUCCESS
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """The node is being configured."""
-        return TransitionCallbackReturn.SUCCESS
+        return self._ros_go_along("on_configure", state)
 
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
         """The node is being cleaned up."""
-        return TransitionCallbackReturn.SUCCESS
+        return self._ros_go_along("on_cleanup", state)
 
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
         """The node is being shut down."""
-        return TransitionCallbackReturn.SUCCESS
+        return self._ros_go_along("on_shutdown", state)
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """The node is being activated."""
-        return TransitionCallbackReturn.SUCCESS
+        return self._ros_go_along("on_activate", state)
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """The node is being deactivated."""
-        return TransitionCallbackReturn.SUCCESS
+        return self._ros_go_along("on_deactivate", state)
 
     def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
         """An error is being dealt with."""
-        return TransitionCallbackReturn.SUCCESS
+        return self._ros_go_along("on_error", state)
 
 
 class SimpleManagedEntity(ManagedEntity):

@@ -164,36 +164,12 @@ class LifecycleNodeMixin(ManagedEntity):
         if entity not in self._managed_entities:
             self._managed_entities.append(entity)
 
-    def _ros_ask_entities(self, name: str, state: LifecycleState) -> TransitionCallbackReturn:
+    def _ros_go_along(self, name: str, state: LifecycleState) -> TransitionCallbackReturn:
         for entity in list(self._managed_entities):
             outcome = getattr(entity, name)(state)
             if outcome != TransitionCallbackReturn.SUCCESS:
                 return outcome
         return TransitionCallbackReturn.SUCCESS
-
-    def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """The node is being configured: ask all managed entities, up to the first that does not succeed."""
-        return self._ros_ask_entities("on_configure", state)
-
-    def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """The node is being cleaned up: ask all managed entities, up to the first that does not succeed."""
-        return self._ros_ask_entities("on_cleanup", state)
-
-    def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """The node is being shut down: ask all managed entities, up to the first that does not succeed."""
-        return self._ros_ask_entities("on_shutdown", state)
-
-    def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """The node is being activated: ask all managed entities, up to the first that does not succeed."""
-        return self._ros_ask_entities("on_activate", state)
-
-    def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """The node is being deactivated: ask all managed entities, up to the first that does not succeed."""
-        return self._ros_ask_entities("on_deactivate", state)
-
-    def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """An error is being dealt with: ask all managed entities, up to the first that does not succeed."""
-        return self._ros_ask_entities("on_error", state)
 
     def create_lifecycle_publisher(self, *args: Any, **kwargs: Any) -> LifecyclePublisher:
         """As `create_publisher`; but the publisher only publishes while the node is active."""
