@@ -9,7 +9,8 @@ from it.
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from importlib import import_module
 from importlib.machinery import ModuleSpec, PathFinder
 from types import ModuleType
@@ -63,17 +64,20 @@ class InterfaceFinder:
 
     def _spec(self, fullname: str, owner: Package, inner: list[str]) -> ModuleSpec | None:
         if not inner:
-            return ModuleSpec(fullname, _PackageLoader(), origin="interfaces only", is_package=True)
-        if not owner.names_in(inner[0]):
+            return ModuleSpec(fullname, _Loader(_mark), origin="interfaces only", is_package=True)
+        folder, known = inner[0], owner.names_in(inner[0])
+        if not known:
             return None
         if len(inner) == 1:
-            origin = f"made from {owner.name}/{inner[0]}"
-            return ModuleSpec(fullname, _FolderLoader(owner, inner[0]), origin=origin, is_package=True)
-        by_module = {names.module_name(name): name for name in owner.names_in(inner[0])}
-        if inner[1] in by_module:
-            return ModuleSpec(fullname, _InterfaceLoader(self.registry, f"{inner[0]}/{by_module[inner[1]]}"))
+            loader = _Loader(partial(_fill_folder, owner=owner, folder=folder))
+            return ModuleSpec(fullname, loader, origin=f"made from {owner.name}/{folder}", is_package=True)
+        for name in known:
+            if names.module_name(name) == inner[1]:
+                made = partial(self.registry.module, fullname.partition(".")[0], f"{folder}/{name}")
+                return ModuleSpec(fullname, _Loader(made=made))
         if inner[1][:1].isupper():  # `from std_msgs.msg import Strng` ends here once the attribute is missing
-            raise ImportError(_missing(owner, *inner), name=f"{owner.name}.{inner[0]}")
+            text = f"cannot import name '{inner[1]}' from '{owner.name}.{folder}'. {_hint(owner, folder, inner[1])}"
+            raise ImportError(text.rstrip(". "), name=f"{owner.name}.{folder}")
         return None
 
 
@@ -89,63 +93,43 @@ def _is_found_elsewhere(fullname: str, path: Sequence[str] | None, target: Modul
     return False
 
 
-class _PackageLoader(Loader):
-    """Makes the outer package, e.g. `geometry_msgs`: nothing but a place for its inner ones."""
+class _Loader(Loader):
+    """Fills in a module that Python makes, or has one that is complete already."""
 
-    def create_module(self, spec: ModuleSpec) -> None:
-        """Leave it to Python."""
+    def __init__(
+        self, fill: Callable[[ModuleType], None] | None = None, made: Callable[[], ModuleType] | None = None
+    ) -> None:
+        self._fill = fill
+        self._made = made
 
-    def exec_module(self, module: ModuleType) -> None:
-        """Mark the module as ours."""
-        module.__interfaces__ = True  # type: ignore[attr-defined]
-
-
-class _FolderLoader(Loader):
-    """Makes an inner package, e.g. `geometry_msgs.msg`, whose classes are made when first asked for."""
-
-    def __init__(self, owner: Package, folder: str) -> None:
-        self._owner = owner
-        self._folder = folder
-
-    def create_module(self, spec: ModuleSpec) -> None:
-        """Leave it to Python."""
+    def create_module(self, spec: ModuleSpec) -> ModuleType | None:
+        """The complete module, or None to leave it to Python."""
+        return self._made() if self._made else None
 
     def exec_module(self, module: ModuleType) -> None:
-        """Give the module its lazy attributes."""
-        known = self._owner.names_in(self._folder)
-
-        def get(name: str) -> Any:
-            if name not in known:
-                raise AttributeError(_missing_attribute(module, self._owner, self._folder, name), name=name)
-            found = getattr(import_module(f"{module.__name__}.{names.module_name(name)}"), name)
-            setattr(module, name, found)
-            return found
-
-        module.__dict__.update(__getattr__=get, __dir__=lambda: sorted({*module.__dict__, *known}), __all__=known)
+        """Fill the module in."""
+        if self._fill:
+            self._fill(module)
 
 
-class _InterfaceLoader(Loader):
-    """Makes the module of one interface, e.g. `geometry_msgs.msg._twist`."""
-
-    def __init__(self, registry: Registry, interface: str) -> None:
-        self._registry = registry
-        self._interface = interface
-
-    def create_module(self, spec: ModuleSpec) -> ModuleType:
-        """The generated module; it is complete already."""
-        return self._registry.module(spec.name.partition(".")[0], self._interface)
-
-    def exec_module(self, module: ModuleType) -> None:
-        """Nothing is left to do."""
+def _mark(module: ModuleType) -> None:
+    """The outer package, e.g. `geometry_msgs`: nothing but a place for its inner ones."""
+    module.__interfaces__ = True  # type: ignore[attr-defined]
 
 
-def _missing(owner: Package, folder: str, name: str) -> str:
-    text = f"cannot import name '{name}' from '{owner.name}.{folder}'. {_hint(owner, folder, name)}"
-    return text.rstrip(". ")
+def _fill_folder(module: ModuleType, owner: Package, folder: str) -> None:
+    """An inner package, e.g. `geometry_msgs.msg`, whose classes are made when first asked for."""
+    known = owner.names_in(folder)
 
+    def get(name: str) -> Any:
+        if name not in known:
+            text = f"module '{module.__name__}' has no attribute '{name}'. {_hint(owner, folder, name)}"
+            raise AttributeError(text.rstrip(". "), name=name)
+        found = getattr(import_module(f"{module.__name__}.{names.module_name(name)}"), name)
+        setattr(module, name, found)
+        return found
 
-def _missing_attribute(module: ModuleType, owner: Package, folder: str, name: str) -> str:
-    return f"module '{module.__name__}' has no attribute '{name}'. {_hint(owner, folder, name)}".rstrip(". ")
+    module.__dict__.update(__getattr__=get, __dir__=lambda: sorted({*module.__dict__, *known}), __all__=known)
 
 
 def _hint(owner: Package, folder: str, name: str) -> str:
