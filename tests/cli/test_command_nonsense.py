@@ -12,14 +12,15 @@ from command_cases import type_in
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from turtle_lesson.ros.cli.parser import GROUPS, verb_parser
+from turtle_lesson.ros.cli.parser import GROUPS
 from turtle_lesson.ros.cli.run_command import run
+from turtle_lesson.ros.cli.verb import Verb
 from turtle_lesson.ros.runtime.world import World, open_world
 
 VERBS = [
     (group, verb)
     for group in ("daemon", "interface", "node", "param", "service", "topic")
-    for verb in GROUPS[group].verbs
+    for verb in GROUPS[group].members
 ]
 NAMES = ["/chatter", "chatter", "/talker", "/param_demo", "speed", "name", "/nope", "/", "//", "~", "~/x", "/a//b", "_"]
 ODD_NAMES = [
@@ -69,8 +70,11 @@ WORDS = ["data", "header.stamp", "m.data", "1/0", "(", "exit()", "[", "^a", "a{9
 def commands(draw: st.DrawFn) -> list[str]:
     """A verb of the command line, and what may be typed after it: its options, names, values, and anything."""
     group, verb = draw(st.sampled_from(VERBS))
-    options = verb_parser(GROUPS[group].verbs[verb], "").option_names()
-    options = [option for option in options if option != "--output-dir"]  # it would write into any folder
+    found = GROUPS[group].members[verb]
+    assert isinstance(found, Verb)
+    options = [
+        option for option in found.parser.option_names() if option != "--output-dir"
+    ]  # it would write into any folder
     word = st.sampled_from(NAMES + ODD_NAMES + TYPES + VALUES + WORDS) | st.text(max_size=20)
     option = st.sampled_from(options).map(lambda name: name[:-1]) | st.sampled_from(options)
     assigned = st.builds("{}={}".format, option, word)

@@ -12,11 +12,13 @@ from command_cases import FOLDER, check, type_in
 from hypothesis import given, settings
 from hypothesis import strategies as some
 
+from turtle_lesson.ros.cli.arguments import WIDTH
 from turtle_lesson.ros.cli.jobs import CellErrors, Errors
-from turtle_lesson.ros.cli.parser import GROUPS, NOT_HERE, WIDTH, group_help, top_help, verb_parser
+from turtle_lesson.ros.cli.parser import GROUPS, NOT_HERE, ROS2
 from turtle_lesson.ros.cli.run_command import run
 from turtle_lesson.ros.cli.script import Operator, UnfinishedError, Word, command_end, tokens
 from turtle_lesson.ros.cli.shell import run_line
+from turtle_lesson.ros.cli.verb import Verb
 from turtle_lesson.ros.runtime.world import World
 
 
@@ -320,29 +322,27 @@ def test_a_wrong_name_is_noticed_before_help_is_printed(world: World) -> None:
 def test_help_lists_the_commands_and_the_verbs(world: World) -> None:
     for command in ("ros2", "ros2 -h", "ros2 --help"):
         answer = type_in(world, command)
-        assert (answer.stdout, answer.stderr, answer.code) == (f"{top_help()}\n", "", 0)
+        assert (answer.stdout, answer.stderr, answer.code) == (f"{ROS2.text}\n", "", 0)
     for group in GROUPS.values():
-        answer = type_in(world, f"ros2 {group.name} --help")
+        answer = type_in(world, f"{group.prog} --help")
         assert (answer.stderr, answer.code) == ("", 0)
-        if group.alone is None:
-            assert answer.stdout == f"{group_help(group)}\n" == type_in(world, f"ros2 {group.name}").stdout
-            for name in group.verbs:
+        if "" not in group.members:
+            assert answer.stdout == f"{group.text}\n" == type_in(world, group.prog).stdout
+            for name in group.members:
                 assert f"\n  {name} " in answer.stdout
 
 
 def test_every_verb_has_help_of_its_own(world: World) -> None:
     for group in GROUPS.values():
-        verbs = {"": group.alone} if group.alone else group.verbs
-        for name, verb in verbs.items():
-            assert verb is not None
+        for verb in group.members.values():
+            assert isinstance(verb, Verb)
             if verb.help.startswith("Not available in this simulation"):
                 continue
-            answer = type_in(world, f"ros2 {group.name} {name} -h".replace("  ", " "))
+            answer = type_in(world, f"{verb.prog} -h")
             assert (answer.stderr, answer.code) == ("", 0)
-            assert answer.stdout.startswith(f"usage: ros2 {group.name}")
+            assert answer.stdout.startswith(f"usage: {verb.prog}")
             assert verb.help in " ".join(answer.stdout.split())
-            parser = verb_parser(verb, "ros2")
-            assert all(action.help for action in parser.actions), f"{group.name} {name}: an argument without help"
+            assert all(action.help for action in verb.parser.actions), f"{verb.prog}: an argument without help"
             assert "--for" not in answer.stdout.split("\n\n")[0], "the usage line is the real tool's"
             assert all(len(line) <= WIDTH or "{" in line or line[:3] == "  -" for line in answer.stdout.splitlines())
 
@@ -414,8 +414,6 @@ def test_a_command_works_in_the_folder_that_it_is_given(world: World, folder: Pa
 
 
 def test_what_can_never_end_is_ended_and_explained(world: World, monkeypatch: pytest.MonkeyPatch) -> None:
-    import turtle_lesson.ros.cli.group_doctor as group
-
     def wait(args: object) -> int:
         import rclpy
 
@@ -423,7 +421,7 @@ def test_what_can_never_end_is_ended_and_explained(world: World, monkeypatch: py
         rclpy.spin(rclpy.create_node("_waits"))
         return 0
 
-    monkeypatch.setitem(group.COMMANDS, "doctor", group.Command("wait", lambda parser: None, wait))
+    monkeypatch.setitem(GROUPS["doctor"].members, "", Verb("doctor", "wait", (), wait))
     answer = type_in(world, "ros2 doctor")
     assert "ros2 doctor waits for something that can never happen" in answer.stderr
     assert answer.code == 2
@@ -431,12 +429,10 @@ def test_what_can_never_end_is_ended_and_explained(world: World, monkeypatch: py
 
 
 def test_a_verb_that_breaks_is_one_line(world: World, monkeypatch: pytest.MonkeyPatch) -> None:
-    import turtle_lesson.ros.cli.group_doctor as group
-
     def break_down(args: object) -> int:
         raise ZeroDivisionError("this is a bug")
 
-    monkeypatch.setitem(group.COMMANDS, "doctor", group.Command("break", lambda parser: None, break_down))
+    monkeypatch.setitem(GROUPS["doctor"].members, "", Verb("doctor", "break", (), break_down))
     answer = type_in(world, "ros2 doctor")
     assert (answer.stderr, answer.code) == ("ros2 doctor: ZeroDivisionError: this is a bug\n", 1)
 
@@ -449,8 +445,8 @@ JUNK = "\x00\x01\x1b[31m\x7f\ufffe\ud800"
 
 def all_commands() -> list[list[str]]:
     found = []
-    for group in GROUPS.values():
-        found += [[group.name]] if group.alone else [[group.name], *([group.name, verb] for verb in group.verbs)]
+    for name, group in GROUPS.items():
+        found += [[name]] if "" in group.members else [[name], *([name, verb] for verb in group.members)]
     return found
 
 

@@ -15,7 +15,7 @@ from command_cases import FOLDER, type_in
 from command_interfaces import interfaces  # noqa: F401
 from rosidl_runtime_py import message_to_csv, message_to_yaml, set_message_fields
 
-from turtle_lesson.ros.cli.typed_values import NoYaml, message_class, populate, read_yaml, service_class
+from turtle_lesson.ros.cli.typed_values import class_of, populate, read_yaml
 from turtle_lesson.ros.cli.verb import CommandError
 from turtle_lesson.ros.idl.model import InvalidDefinition
 from turtle_lesson.ros.idl.registry import registry
@@ -35,10 +35,10 @@ def recorded_values() -> Iterator[tuple[str, str, str]]:
 
 @pytest.mark.parametrize(("kind", "text", "expected"), list(recorded_values()))
 def test_yaml_becomes_a_message(kind: str, text: str, expected: str, world: World) -> None:
-    message = message_class(kind)()
+    message = class_of(kind, "msg")()
     if "ParserError" in expected:
         with pytest.raises(
-            NoYaml, match=r"^The passed value is not valid YAML: while parsing a flow mapping, expected"
+            CommandError, match=r"^The passed value is not valid YAML: while parsing a flow mapping, expected"
         ):
             read_yaml(text)
         return
@@ -82,8 +82,8 @@ def test_what_is_printed_as_yaml_can_be_typed(name: str, world: World) -> None:
 
 def test_types_are_found_by_their_recorded_names(world: World) -> None:
     for name in ("geometry_msgs/msg/Twist", "geometry_msgs/Twist"):
-        assert message_class(name).__name__ == "Twist"
-    assert service_class("std_srvs/srv/Empty").__name__ == "Empty"
+        assert class_of(name, "msg").__name__ == "Twist"
+    assert class_of("std_srvs/srv/Empty", "srv").__name__ == "Empty"
 
 
 @pytest.mark.parametrize(
@@ -100,9 +100,9 @@ def test_types_are_found_by_their_recorded_names(world: World) -> None:
 )
 def test_types_are_refused_by_their_recorded_names(name: str, world: World) -> None:
     with pytest.raises(CommandError, match=r"^The passed message type is invalid"):
-        message_class(name)
+        class_of(name, "msg")
     with pytest.raises(CommandError, match=r"^The passed service type is invalid"):
-        service_class(name)
+        class_of(name, "srv")
 
 
 def test_a_few_aliases_are_read() -> None:
@@ -151,7 +151,7 @@ def test_yaml_means_what_it_means_elsewhere() -> None:
 
 
 def test_a_field_of_ours_that_is_none_is_no_field(world: World) -> None:
-    message: Any = message_class("std_msgs/String")()
+    message: Any = class_of("std_msgs/String", "msg")()
     for name in ("SLOT_TYPES", "__class__", "_data", "get_fields_and_field_types"):
         with pytest.raises(AttributeError, match="has no attribute"):
             set_message_fields(message, {name: 1})
@@ -174,7 +174,7 @@ def test_a_definition_of_ones_own_that_is_refused_says_why(world: World, tmp_pat
     registry.add("bad_msgs", tmp_path)
     try:
         with pytest.raises(InvalidDefinition, match=r"bad_msgs/msg/Bad\.msg, line 1, 'float x'"):
-            message_class("bad_msgs/msg/Bad")
+            class_of("bad_msgs/msg/Bad", "msg")
     finally:
         registry.remove("bad_msgs")
 
@@ -189,5 +189,5 @@ def test_a_definition_of_ones_own_that_is_refused_says_why(world: World, tmp_pat
 )
 def test_a_fields_name_that_yaml_takes_for_something_else(world: World, typed: str, said: str) -> None:
     with pytest.raises(CommandError) as caught:
-        populate(service_class("turtlesim/srv/SetPen").Request(), read_yaml("{r: 7, " + typed + "}"))
+        populate(class_of("turtlesim/srv/SetPen", "srv").Request(), read_yaml("{r: 7, " + typed + "}"))
     assert str(caught.value) == f"Failed to populate field: attribute name must be string, not {said}"

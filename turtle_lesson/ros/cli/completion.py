@@ -17,12 +17,14 @@ from .. import launching
 from ..idl.names import is_hidden
 from ..idl.registry import registry
 from ..runtime.world import current_world
+from .arguments import Parser
 from .cells import COMMANDS, inner_places
 from .group_pkg import package_names
 from .jobs import jobs
-from .parser import GROUPS, Parser, Stop, Verb, verb_parser
+from .parser import GROUPS
 from .script import Operator, UnfinishedError, Word, tokens
-from .verb import absolute
+from .typed_values import interface_names
+from .verb import Verb, absolute
 
 if TYPE_CHECKING:
     from ..runtime.world import World
@@ -57,13 +59,11 @@ def _candidates(world: World, words: list[str], begun: str) -> Iterable[str]:
     group = GROUPS.get(rest[0])
     if group is None:
         return []
-    if group.alone is not None:
-        return _arguments(world, group.alone, rest[1:], begun)
-    before = [word for word in rest[1:] if not word.startswith("-")]
-    if not before:
-        return [*group.verbs, "--help", *([group.flag[0]] if group.flag else [])]
-    verb = group.verbs.get(before[0])
-    return [] if verb is None else _arguments(world, verb, rest[rest.index(before[0]) + 1 :], begun)
+    name = "" if "" in group.members else next((word for word in rest[1:] if not word.startswith("-")), None)
+    if name is None:
+        return [*group.members, "--help", group.flag[0]]
+    verb = group.members.get(name)
+    return _arguments(world, verb, rest[rest.index(name or rest[0]) + 1 :], begun) if isinstance(verb, Verb) else []
 
 
 def _colcon(words: Sequence[str]) -> list[str]:
@@ -77,10 +77,7 @@ def _colcon(words: Sequence[str]) -> list[str]:
 
 
 def _arguments(world: World, verb: Verb, words: list[str], begun: str) -> Iterable[str]:
-    try:
-        parser = verb_parser(verb, "ros2")
-    except Stop:
-        return []
+    parser = verb.parser
     if begun.startswith("-"):
         return parser.option_names()
     option = _waiting_option(parser, words)
@@ -175,8 +172,7 @@ FEEDBACK = "/_action/feedback"
 def _types(*folders: str) -> Finder:
     def find(world: World, given: Sequence[str], begun: str) -> list[str]:
         own = _own_type(world, given[0]) if given else []
-        every = (f"{package}/{name}" for package in registry.packages() for name in registry.interface_names(package))
-        return own or [name for name in every if name.split("/")[1] in folders]
+        return own or [name for name in interface_names() if name.split("/")[1] in folders]
 
     return find
 

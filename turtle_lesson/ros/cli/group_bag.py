@@ -7,7 +7,6 @@ the exit code after a Ctrl-C is 0, as there: both verbs handle it themselves. Th
 
 from __future__ import annotations
 
-import math
 import sys
 from argparse import REMAINDER, SUPPRESS, Action, ArgumentError, ArgumentParser, ArgumentTypeError, Namespace
 from contextlib import suppress
@@ -19,10 +18,10 @@ from ..bags import BagError
 from ..idl.names import did_you_mean
 from ..runtime import files
 from ..runtime.world import current_process
-from .verb import Command, add_duration, end_of_stretch, flag, frequency, now, remark, stretch_of
+from .arguments import Argument, arg, duration, flag, frequency, number
+from .verb import end_of_stretch, now, remark, stretch_of, verb
 
-# -- bag arguments ------------------------------------------------------------------------------------------------
-# The arguments of `ros2 bag`.
+# -- arguments ---------------------------------------------------------------------------------------------------------
 # Spellings of Humble and of later releases are understood (`record /a /b` and `record --topics /a /b`). What only
 # tunes the real tool is accepted; what would change the result and is not here is refused, with the reason.
 
@@ -49,34 +48,30 @@ def _bags_here(text: str) -> str:
     return f" {hint}" if hint else ""
 
 
-def positive_rate(text: str) -> float:
-    """An argument that is a number above 0."""
-    value = _number(text)
-    if not value > 0:
-        raise ArgumentTypeError(f"{text} is not in the valid range (> 0.0)")
-    if value < 1 / LONGEST:
-        raise ArgumentTypeError(f"{text} is too slow to wait for")
-    return value
-
-
-def not_negative(text: str) -> float:
-    """An argument that is a number, 0 or above."""
-    value = _number(text)
-    if not value >= 0:
-        raise ArgumentTypeError(f"{text} is not in the valid range (>= 0.0)")
-    return value
-
-
-def _number(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
+def finite(text: str) -> float:
+    """An argument that is a number."""
+    value = number(text)
+    if value != value:
         raise ArgumentTypeError(f"{text} is not the valid type (float)")
     if abs(value) > LONGEST:
         raise ArgumentTypeError(f"{text} is too much: at most {LONGEST:.0e}")
     return value
+
+
+def positive_rate(text: str) -> float:
+    """An argument that is a number above 0."""
+    if not finite(text) > 0:
+        raise ArgumentTypeError(f"{text} is not in the valid range (> 0.0)")
+    if finite(text) < 1 / LONGEST:
+        raise ArgumentTypeError(f"{text} is too slow to wait for")
+    return finite(text)
+
+
+def not_negative(text: str) -> float:
+    """An argument that is a number, 0 or above."""
+    if not finite(text) >= 0:
+        raise ArgumentTypeError(f"{text} is not in the valid range (>= 0.0)")
+    return finite(text)
 
 
 class _Refused(Action):
@@ -86,96 +81,54 @@ class _Refused(Action):
         raise ArgumentError(self, f"not available in this simulation: {self.const}. A real ROS 2 has it.")
 
 
-def _refuse(parser: ArgumentParser, reason: str, *options: str) -> None:
-    for names in options:
-        parser.add_argument(*names.split(), action=_Refused, nargs="?", const=reason, help=SUPPRESS)
+def _refuse(reason: str, *options: str) -> tuple[Argument, ...]:
+    return tuple(arg(names, SUPPRESS, action=_Refused, nargs="?", const=reason) for names in options)
 
 
-def _accept(parser: ArgumentParser, *options: str) -> None:
+def _accept(*options: str) -> tuple[Argument, ...]:
     """Options with a number that tunes the real tool, and changes nothing in what it does."""
-    for option in options:
-        parser.add_argument(option, type=int, metavar="N", help=SUPPRESS)
+    return tuple(arg(option, SUPPRESS, type=int, metavar="N") for option in options)
 
 
-def reader_arguments(parser: ArgumentParser) -> None:
-    """Arguments of every verb that reads a bag."""
-    parser.add_argument("bag_path", type=existing_path, help="The bag: its folder, or one of its files")
-    parser.add_argument(
-        "-s", "--storage", choices=["mcap", "sqlite3"], help="Accepted; the storage is recognised from the bag's files"
-    )
+STORAGES = ["mcap", "sqlite3"]
+READER = (
+    arg("bag_path", "The bag: its folder, or one of its files", type=existing_path),
+    arg("-s --storage", "Accepted; the storage is recognised from the bag's files", choices=STORAGES),
+)
+"""Arguments of every verb that reads a bag."""
 
 
-def record_arguments(parser: ArgumentParser) -> None:
-    """Arguments of `ros2 bag record`."""
-    add = parser.add_argument
-    add("topics", nargs="*", default=[], help="The topics to record")
-    add(
+@verb(
+    "bag record",
+    "Record published messages in a bag",
+    arg("topics", "The topics to record", nargs="*", default=[]),
+    arg(
         "--topics",
+        "The same, as newer releases spell it",
         dest="more_topics",
         nargs="+",
         default=[],
         metavar="topic",
-        help="The same, as newer releases spell it",
-    )
-    flag(parser, "-a --all --all-topics", "Record all topics but the hidden ones")
-    add("-e", "--regex", default="", help="Record the topics that match this pattern")
-    add("-x", "--exclude", "--exclude-regex", default="", help="Leave out the topics that match this pattern")
-    flag(parser, "--include-hidden-topics", "Also record topics with a hidden name")
-    flag(parser, "--include-unpublished-topics", "Also note topics without publishers")
-    add("-o", "--output", help="Folder to create (default: named after the date and time)")
-    add("-s", "--storage", default="mcap", choices=["mcap", "sqlite3"], help="Storage format of the bag")
-    add_duration(parser)
-    _accept(parser, "--max-cache-size", "--polling-interval", "--compression-queue-size", "--compression-threads")
-    flag(parser, "--disable-keyboard-controls", SUPPRESS)
-    flag(parser, "--use-sim-time", SUPPRESS)
-    _refuse(parser, "a bag is one file here", "-b --max-bag-size", "-d --max-bag-duration", "--max-splits")
-    _refuse(parser, "a bag is not compressed here", "--compression-mode", "--compression-format")
-    _refuse(parser, "a bag is always written in the same way", "--storage-preset-profile", "--storage-config-file")
-    _refuse(
-        parser, "the recorder requests the quality of service that the publishers offer", "--qos-profile-overrides-path"
-    )
-    _refuse(parser, "a topic is recorded whenever it appears", "--no-discovery", "--ignore-leaf-topics")
-    _refuse(parser, "there is no key to press to continue", "--start-paused", "--snapshot-mode")
-    _refuse(
-        parser, "a bag holds what is published on topics", "--services", "--all-services", "--actions", "--all-actions"
-    )
-
-
-def play_arguments(parser: ArgumentParser) -> None:
-    """Arguments of `ros2 bag play`."""
-    add = parser.add_argument
-    reader_arguments(parser)
-    add("-r", "--rate", type=positive_rate, default=1.0, help="How many times as fast as recorded")
-    add("--topics", nargs="+", default=[], help="Play only these topics")
-    add("-m", "--remap", nargs="+", default=[], help="Other names for topics: /old:=/new ...")
-    flag(parser, "-l --loop", "Start over at the end")
-    add("-d", "--delay", type=not_negative, default=0.0, help="Seconds to wait before the first message (each time)")
-    add("--start-offset", type=not_negative, default=0.0, help="Start this many seconds into the bag")
-    add("--playback-duration", type=_number, default=-1.0, help="Play only this many seconds of the bag")
-    add(
-        "--clock",
-        type=frequency,
-        nargs="?",
-        const=40.0,
-        default=0.0,
-        help="Publish the bag's time on /clock this many times a second (default: never; without a number: 40)",
-    )
-    flag(parser, "--disable-keyboard-controls", "Accepted; there are none here")
-    add_duration(parser)
-    _accept(parser, "--read-ahead-queue-size")
-    _refuse(parser, "there is no key to press to continue", "-p --start-paused")
-    _refuse(parser, "the player offers what was recorded", "--qos-profile-overrides-path")
-    _refuse(parser, "a bag is always read in the same way", "--storage-config-file")
-    _refuse(parser, "say how far to play with --playback-duration", "--playback-until-sec", "--playback-until-nsec")
-
-
-def info_arguments(parser: ArgumentParser) -> None:
-    """Arguments of `ros2 bag info`."""
-    reader_arguments(parser)
-    flag(parser, "-t --topic-name", "Print only the names of the topics")
-    _refuse(parser, "there are no further details of a bag", "-v --verbose", "--sort")
-
-
+    ),
+    flag("-a --all --all-topics", "Record all topics but the hidden ones"),
+    arg("-e --regex", "Record the topics that match this pattern", default=""),
+    arg("-x --exclude --exclude-regex", "Leave out the topics that match this pattern", default=""),
+    flag("--include-hidden-topics", "Also record topics with a hidden name"),
+    flag("--include-unpublished-topics", "Also note topics without publishers"),
+    arg("-o --output", "Folder to create (default: named after the date and time)"),
+    arg("-s --storage", "Storage format of the bag", default="mcap", choices=STORAGES),
+    duration(),
+    *_accept("--max-cache-size", "--polling-interval", "--compression-queue-size", "--compression-threads"),
+    flag("--disable-keyboard-controls", SUPPRESS),
+    flag("--use-sim-time", SUPPRESS),
+    *_refuse("a bag is one file here", "-b --max-bag-size", "-d --max-bag-duration", "--max-splits"),
+    *_refuse("a bag is not compressed here", "--compression-mode", "--compression-format"),
+    *_refuse("a bag is always written in the same way", "--storage-preset-profile", "--storage-config-file"),
+    *_refuse("the recorder requests the quality of service that the publishers offer", "--qos-profile-overrides-path"),
+    *_refuse("a topic is recorded whenever it appears", "--no-discovery", "--ignore-leaf-topics"),
+    *_refuse("there is no key to press to continue", "--start-paused", "--snapshot-mode"),
+    *_refuse("a bag holds what is published on topics", "--services", "--all-services", "--actions", "--all-actions"),
+)
 def _record(args: Namespace) -> int:
     if problem := _contradiction(args):
         return _error(problem)
@@ -232,6 +185,13 @@ def _name_by_time() -> str:
     return f"rosbag2_{moment:%Y_%m_%d-%H_%M_%S}"
 
 
+@verb(
+    "bag info",
+    "Describe what a bag contains",
+    *READER,
+    flag("-t --topic-name", "Print only the names of the topics"),
+    *_refuse("there are no further details of a bag", "-v --verbose", "--sort"),
+)
 def _info(args: Namespace) -> int:
     from ..bags.bag import info_text, open_bag
 
@@ -243,6 +203,33 @@ def _info(args: Namespace) -> int:
     return _error(bag.damage) if bag.damage else 0
 
 
+@verb(
+    "bag play",
+    "Publish recorded messages again",
+    *READER,
+    arg("-r --rate", "How many times as fast as recorded", type=positive_rate, default=1.0),
+    arg("--topics", "Play only these topics", nargs="+", default=[]),
+    arg("-m --remap", "Other names for topics: /old:=/new ...", nargs="+", default=[]),
+    flag("-l --loop", "Start over at the end"),
+    arg("-d --delay", "Seconds to wait before the first message (each time)", type=not_negative, default=0.0),
+    arg("--start-offset", "Start this many seconds into the bag", type=not_negative, default=0.0),
+    arg("--playback-duration", "Play only this many seconds of the bag", type=finite, default=-1.0),
+    arg(
+        "--clock",
+        "Publish the bag's time on /clock this many times a second (default: never; without a number: 40)",
+        type=frequency,
+        nargs="?",
+        const=40.0,
+        default=0.0,
+    ),
+    flag("--disable-keyboard-controls", "Accepted; there are none here"),
+    duration(),
+    *_accept("--read-ahead-queue-size"),
+    *_refuse("there is no key to press to continue", "-p --start-paused"),
+    *_refuse("the player offers what was recorded", "--qos-profile-overrides-path"),
+    *_refuse("a bag is always read in the same way", "--storage-config-file"),
+    *_refuse("say how far to play with --playback-duration", "--playback-until-sec", "--playback-until-nsec"),
+)
 def _play(args: Namespace) -> int:
     from ..bags.bag import open_bag
     from ..bags.player import Playback, parse_remaps, play
@@ -275,6 +262,7 @@ def _play(args: Namespace) -> int:
     return 1 if bag.damage else 0
 
 
+@verb("bag reindex", "Rebuild a bag's lost metadata.yaml", *READER)
 def _reindex(args: Namespace) -> int:
     from ..bags.bag import METADATA, reindex
 
@@ -292,19 +280,24 @@ def _reindex(args: Namespace) -> int:
     return _error(bag.damage) if bag.damage else 0
 
 
-def _not_here(verb: str, reason: str) -> Command:
-    """A verb of the real tool that is not here."""
+def _all_words(parser: ArgumentParser) -> None:
+    """Take all words as they are, also those that look like options."""
+    parser.prefix_chars = ""
+    parser.add_argument("words", nargs=REMAINDER, help=SUPPRESS)
 
-    def everything(parser: ArgumentParser) -> None:
-        """Take all words as they are, also those that look like options."""
-        parser.prefix_chars = ""
-        parser.add_argument("words", nargs=REMAINDER, help=SUPPRESS)
 
+def _not_here(name: str, reason: str) -> None:
+    """Add a verb of the real tool that is not here."""
+
+    @verb(f"bag {name}", f"Not available in this simulation: {reason}", _all_words)
     def work(args: Namespace) -> int:
-        print(f"ros2 bag {verb}: not available in this simulation: {reason}. A real ROS 2 has it.", file=sys.stderr)
+        print(f"ros2 bag {name}: not available in this simulation: {reason}. A real ROS 2 has it.", file=sys.stderr)
         return 2
 
-    return Command(f"Not available in this simulation: {reason}", everything, work)
+
+_not_here("burst", "'ros2 bag play -r' plays as fast as you like")
+_not_here("convert", "record again with '-s', while the bag is played")
+_not_here("list", "there are no plugins; bags are stored as mcap or sqlite3")
 
 
 def _logger(name: str) -> Any:
@@ -333,14 +326,3 @@ def _reason(error: BagError | OSError) -> str:
 def _error(text: str) -> int:
     print(f"[ERROR] [ros2bag]: {text}", file=sys.stderr)
     return 1
-
-
-VERBS: dict[str, Any] = {
-    "burst": _not_here("burst", "'ros2 bag play -r' plays as fast as you like"),
-    "convert": _not_here("convert", "record again with '-s', while the bag is played"),
-    "info": Command("Describe what a bag contains", info_arguments, _info),
-    "list": _not_here("list", "there are no plugins; bags are stored as mcap or sqlite3"),
-    "play": Command("Publish recorded messages again", play_arguments, _play),
-    "record": Command("Record published messages in a bag", record_arguments, _record),
-    "reindex": Command("Rebuild a bag's lost metadata.yaml", reader_arguments, _reindex),
-}

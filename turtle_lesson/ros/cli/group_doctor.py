@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from collections import Counter
 from collections.abc import Sized
 from dataclasses import dataclass
@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING
 
 from ..idl.names import is_hidden
 from ..runtime.world import current_world
+from .arguments import flag
 from .jobs import jobs
-from .verb import CellCommand, Command, direct_node, flag, no_arguments, node_names, services, topics
+from .verb import direct_node, node_names, services, topics, verb
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -21,12 +22,13 @@ if TYPE_CHECKING:
 CHECKS = 2
 
 
-def _arguments(parser: ArgumentParser) -> None:
-    flag(parser, "-r --report", "also list nodes, topics, services and jobs")
-    flag(parser, "-rf --report-failed", "accepted: only failed checks are printed anyway")
-    flag(parser, "-iw --include-warnings", "count warnings as failures")
-
-
+@verb(
+    "doctor",
+    "Describe this simulation, what is running, and what looks wrong",
+    flag("-r --report", "also list nodes, topics, services and jobs"),
+    flag("-rf --report-failed", "accepted: only failed checks are printed anyway"),
+    flag("-iw --include-warnings", "count warnings as failures"),
+)
 def _doctor(args: Namespace) -> int:
     with direct_node() as node:
         _introduce(node)
@@ -87,12 +89,8 @@ def _lonely_topics(node: Node) -> list[str]:
     return found
 
 
-COMMANDS = {"doctor": Command("Describe this simulation, what is running, and what looks wrong", _arguments, _doctor)}
-
-
-# -- group daemon -------------------------------------------------------------------------------------------------
-# `ros2 daemon`: on a robot a helper that remembers the graph. No command needs it here; it only says that it is
-# there.
+# -- daemon ------------------------------------------------------------------------------------------------------------
+# On a robot it remembers the graph for the other commands. No command needs it here; it only says that it is there.
 
 
 @dataclass
@@ -100,26 +98,21 @@ class _Daemon:
     running: bool = True
 
 
-def _running() -> bool:
-    return current_world().notebook.state(_Daemon).running
-
-
+@verb("daemon start", "Start the daemon", in_cell=True)
 def _start(args: Namespace) -> None:
-    print("The daemon is already running" if _running() else "The daemon has been started")
-    current_world().notebook.state(_Daemon).running = True
+    daemon = current_world().notebook.state(_Daemon)
+    print("The daemon is already running" if daemon.running else "The daemon has been started")
+    daemon.running = True
 
 
+@verb("daemon status", "Show whether the daemon is running", in_cell=True)
 def _status(args: Namespace) -> None:
-    print("The daemon is running" if _running() else "The daemon is not running")
+    daemon = current_world().notebook.state(_Daemon)
+    print("The daemon is running" if daemon.running else "The daemon is not running")
 
 
+@verb("daemon stop", "Stop the daemon", in_cell=True)
 def _stop(args: Namespace) -> None:
-    print("The daemon has been stopped" if _running() else "The daemon is not running")
-    current_world().notebook.state(_Daemon).running = False
-
-
-VERBS = {
-    "start": CellCommand("Start the daemon", no_arguments, _start),
-    "status": CellCommand("Show whether the daemon is running", no_arguments, _status),
-    "stop": CellCommand("Stop the daemon", no_arguments, _stop),
-}
+    daemon = current_world().notebook.state(_Daemon)
+    print("The daemon has been stopped" if daemon.running else "The daemon is not running")
+    daemon.running = False

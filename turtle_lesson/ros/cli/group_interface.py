@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from collections.abc import Iterator
 from typing import Any
 
@@ -11,18 +11,18 @@ from ..idl.model import FieldType
 from ..idl.names import did_you_mean
 from ..idl.registry import registry
 from ..sim.errors import shown_path
-from .parser import cut
-from .verb import CellCommand, CommandError, flag
+from .arguments import arg, cut, either, flag
+from .typed_values import interface_names
+from .verb import CommandError, verb
 
-KINDS = {"msg": "Messages", "srv": "Services", "action": "Actions"}
+TITLES = {"msg": "Messages", "srv": "Services", "action": "Actions"}
 
-
-def _kind_arguments(parser: ArgumentParser) -> None:
-    parser.add_argument("-m", "--only-msgs", action="append_const", dest="kinds", const="msg", help="messages only")
-    parser.add_argument("-s", "--only-srvs", action="append_const", dest="kinds", const="srv", help="services only")
-    parser.add_argument(
-        "-a", "--only-actions", action="append_const", dest="kinds", const="action", help="actions only"
-    )
+KINDS = (
+    arg("-m --only-msgs", "messages only", action="append_const", dest="kinds", const="msg"),
+    arg("-s --only-srvs", "services only", action="append_const", dest="kinds", const="srv"),
+    arg("-a --only-actions", "actions only", action="append_const", dest="kinds", const="action"),
+)
+TYPE = arg("type", "full name of the interface, such as geometry_msgs/msg/Twist")
 
 
 def _of_kind(kind: str) -> dict[str, list[str]]:
@@ -37,8 +37,9 @@ def _of_kind(kind: str) -> dict[str, list[str]]:
     return getters[kind]()
 
 
+@verb("interface list", "List all interfaces", *KINDS, in_cell=True)
 def _list(args: Namespace) -> None:
-    for kind, title in KINDS.items():
+    for kind, title in TITLES.items():
         if args.kinds is None or kind in args.kinds:
             print(f"{title}:")
             for package, names in _of_kind(kind).items():
@@ -46,15 +47,16 @@ def _list(args: Namespace) -> None:
                     print(f"    {package}/{name}")
 
 
+@verb("interface packages", "List the packages that have interfaces", *KINDS, in_cell=True)
 def _packages(args: Namespace) -> None:
-    for package in sorted({package for kind in args.kinds or KINDS for package in _of_kind(kind)}):
+    for package in sorted({package for kind in args.kinds or TITLES for package in _of_kind(kind)}):
         print(package)
 
 
-def _package_arguments(parser: ArgumentParser) -> None:
-    parser.add_argument("package_name", help="name of the package")
+_PACKAGE = arg("package_name", "name of the package")
 
 
+@verb("interface package", "List the interfaces of a package", _PACKAGE, in_cell=True)
 def _package(args: Namespace) -> None:
     from rosidl_runtime_py import get_interfaces
 
@@ -80,7 +82,7 @@ def _check(name: str) -> None:
     package, folder, base = parts
     _check_package(package, base[:100])
     owner = registry.package(package)
-    if folder not in KINDS or not owner.has(f"{folder}/{base}"):
+    if folder not in TITLES or not owner.has(f"{folder}/{base}"):
         where = shown_path(str(owner.directory / cut(f"{folder}/{base}", 100)))
         hint = did_you_mean(name[:100], [f"{package}/{each}" for each in registry.interface_names(package)])
         raise CommandError(f"Could not find the interface '{where}.idl'", hint)
@@ -88,25 +90,23 @@ def _check(name: str) -> None:
 
 def _where_is(base: str) -> str:
     """`Did you mean 'geometry_msgs/msg/Twist'?`, where an interface has this last name."""
-    found = [
-        f"{package}/{name}"
-        for package in registry.packages()
-        for name in registry.interface_names(package)
-        if name.rpartition("/")[2].lower() == base.lower()
-    ]
+    found = [name for name in interface_names() if name.rpartition("/")[2].lower() == base.lower()]
     return f"Did you mean {' or '.join(map(repr, found[:3]))}?" if found else ""
 
 
 # -- show ----------------------------------------------------------------------------------------------------------------
 
 
-def _show_arguments(parser: ArgumentParser) -> None:
-    parser.add_argument("type", help="full name of the interface, such as geometry_msgs/msg/Twist")
-    comments = parser.add_mutually_exclusive_group()
-    flag(comments, "--all-comments", "also show the comments of nested types")
-    flag(comments, "--no-comments", "show neither comments nor empty lines")
-
-
+@verb(
+    "interface show",
+    "Print the definition of an interface",
+    TYPE,
+    either(
+        flag("--all-comments", "also show the comments of nested types"),
+        flag("--no-comments", "show neither comments nor empty lines"),
+    ),
+    in_cell=True,
+)
 def _show(args: Namespace) -> None:
     _check(args.type)
     package, _, interface = args.type.partition("/")
@@ -163,11 +163,13 @@ def _field_type(package: str, line: str) -> FieldType | None:
 # -- proto ---------------------------------------------------------------------------------------------------------------
 
 
-def _proto_arguments(parser: ArgumentParser) -> None:
-    parser.add_argument("type", help="full name of the interface, such as geometry_msgs/msg/Twist")
-    flag(parser, "--no-quotes", "without the quotation marks around it")
-
-
+@verb(
+    "interface proto",
+    "Print an interface with its default values, to fill in",
+    TYPE,
+    flag("--no-quotes", "without the quotation marks around it"),
+    in_cell=True,
+)
 def _proto(args: Namespace) -> None:
     from rosidl_runtime_py import message_to_yaml
     from rosidl_runtime_py.utilities import get_interface
@@ -178,12 +180,3 @@ def _proto(args: Namespace) -> None:
         made = getattr(made, part, made)
     text = message_to_yaml(made())
     print(text if args.no_quotes else f'"{text}"')
-
-
-VERBS = {
-    "list": CellCommand("List all interfaces", _kind_arguments, _list),
-    "package": CellCommand("List the interfaces of a package", _package_arguments, _package),
-    "packages": CellCommand("List the packages that have interfaces", _kind_arguments, _packages),
-    "proto": CellCommand("Print an interface with its default values, to fill in", _proto_arguments, _proto),
-    "show": CellCommand("Print the definition of an interface", _show_arguments, _show),
-}

@@ -1,48 +1,49 @@
-"""`ros2 node`: which nodes there are, and what each one does."""
+"""`ros2 node`: which nodes there are, and what each one does. `ros2 lifecycle`: the states of managed nodes.
+
+Formats are those of ros2node and ros2lifecycle.
+"""
 
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentParser, Namespace
-from typing import TYPE_CHECKING
+from argparse import Namespace
+from typing import TYPE_CHECKING, Any
 
 from ..idl.names import is_hidden
-from .parser import Verb
-from .verb import Command, CommandError, add_node_arguments, direct_node, flag, node_names, suggest
+from .arguments import ALL_NODES, COUNT_NODES, HIDDEN_NODES, NODE, arg, flag
+from .verb import CommandError, ask, direct_node, find_node, node_names, suggest, verb
 
 if TYPE_CHECKING:
     from rclpy.node import Node
 
 
-NamesAndTypes = list[tuple[str, list[str]]]
-
 TWINS = "WARNING: Be aware that are nodes in the graph that share an exact name, this can have unintended side effects."
 
 
-def _list_arguments(parser: ArgumentParser) -> None:
-    add_node_arguments(parser)
-    flag(parser, "-a --all", "Also list nodes with a hidden name")
-    flag(parser, "-c --count-nodes", "Print only how many there are")
-
-
+@verb("node list", "The names of the nodes that are running", *NODE, ALL_NODES, COUNT_NODES)
 def list_nodes(args: Namespace) -> None:
     """`ros2 node list`."""
     with direct_node(args) as node:
         names = node_names(node, include_hidden=args.all)
+    if len(set(names)) < len(names) and not args.count_nodes:
+        print(TWINS, file=sys.stderr)
+    _print_or_count(names, args)
+
+
+def _print_or_count(names: list[str], args: Namespace) -> None:
     if args.count_nodes:
         print(len(names))
     elif names:
-        if len(set(names)) < len(names):
-            print(TWINS, file=sys.stderr)
         print(*names, sep="\n")
 
 
-def _info_arguments(parser: ArgumentParser) -> None:
-    add_node_arguments(parser)
-    parser.add_argument("node_name", help="Full name of the node, such as /turtlesim")
-    flag(parser, "--include-hidden", "Also show topics and services with a hidden name")
-
-
+@verb(
+    "node info",
+    "What a node publishes, subscribes to and offers",
+    *NODE,
+    arg("node_name", "Full name of the node, such as /turtlesim"),
+    flag("--include-hidden", "Also show topics and services with a hidden name"),
+)
 def info(args: Namespace) -> None:
     """`ros2 node info`."""
     with direct_node(args) as node:
@@ -57,26 +58,117 @@ def info(args: Namespace) -> None:
                 file=sys.stderr,
             )
         print(name)
-        for title, found in _ends(node, name).items():
-            print(f"  {title}:")
+        namespace, _, base = name.rpartition("/")
+        for title, find in (
+            ("Subscribers", node.get_subscriber_names_and_types_by_node),
+            ("Publishers", node.get_publisher_names_and_types_by_node),
+            ("Service Servers", node.get_service_names_and_types_by_node),
+            ("Service Clients", node.get_client_names_and_types_by_node),
+            ("Action Servers", node.get_action_server_names_and_types_by_node),
+            ("Action Clients", node.get_action_client_names_and_types_by_node),
+        ):
+            found = find(base, namespace or "/")
             shown = [(end, types) for end, types in found if args.include_hidden or not is_hidden(end)]
+            print(f"  {title}:")
             print("\n".join(f"    {end}: {', '.join(types)}" for end, types in shown))
 
 
-def _ends(node: Node, full_name: str) -> dict[str, NamesAndTypes]:
-    namespace, _, name = full_name.rpartition("/")
-    where = (name, namespace or "/")
-    return {
-        "Subscribers": node.get_subscriber_names_and_types_by_node(*where),
-        "Publishers": node.get_publisher_names_and_types_by_node(*where),
-        "Service Servers": node.get_service_names_and_types_by_node(*where),
-        "Service Clients": node.get_client_names_and_types_by_node(*where),
-        "Action Servers": node.get_action_server_names_and_types_by_node(*where),
-        "Action Clients": node.get_action_client_names_and_types_by_node(*where),
-    }
+# -- lifecycle ---------------------------------------------------------------------------------------------------------
+
+GET_STATE = "lifecycle_msgs/srv/GetState"
 
 
-VERBS: dict[str, Verb] = {
-    "info": Command("What a node publishes, subscribes to and offers", _info_arguments, info),
-    "list": Command("The names of the nodes that are running", _list_arguments, list_nodes),
-}
+_MANAGED = arg("node_name", "Name of the node, such as /lc_talker")
+
+
+def _managed(node: Node, include_hidden: bool) -> list[str]:
+    """The full names of the managed nodes, sorted."""
+    services = dict(node.get_service_names_and_types())
+    names = node_names(node, include_hidden)
+    return sorted({name for name in names if GET_STATE in services.get(f"{name}/get_state", [])})
+
+
+def _ask(node: Node, node_name: str, kind: str, service: str, **request: Any) -> Any:
+    """The answer of a managed node's service."""
+    import lifecycle_msgs.srv
+
+    not_there = f"{node_name} offers no {service}: it is not a managed node (`ros2 lifecycle nodes` lists those)"
+    return ask(node, getattr(lifecycle_msgs.srv, kind), f"{node_name}/{service}", not_there, request)
+
+
+@verb("lifecycle nodes", "The names of the managed nodes", *NODE, ALL_NODES, COUNT_NODES)
+def nodes(args: Namespace) -> None:
+    """`ros2 lifecycle nodes`."""
+    with direct_node(args) as node:
+        found = _managed(node, args.all)
+    _print_or_count(found, args)
+
+
+@verb(
+    "lifecycle get",
+    "The state that a managed node is in",
+    *NODE,
+    arg("node_name", "Name of the node; without one, all managed nodes are asked", nargs="?"),
+    HIDDEN_NODES,
+)
+def get(args: Namespace) -> None:
+    """`ros2 lifecycle get`."""
+    with direct_node(args) as node:
+        known = _managed(node, args.include_hidden_nodes)
+        if args.node_name:
+            state = _ask(node, find_node(node, args, known), "GetState", "get_state").current_state
+            print(f"{state.label} [{state.id}]")
+            return
+        for name in known:
+            try:
+                state = _ask(node, name, "GetState", "get_state").current_state
+            except CommandError as error:
+                print(f"Exception while calling service of node '{name}': {error}", file=sys.stderr)
+            else:
+                print(f"{name}: {state.label} [{state.id}]")
+
+
+@verb(
+    "lifecycle list",
+    "The transitions that are possible now",
+    *NODE,
+    _MANAGED,
+    HIDDEN_NODES,
+    flag("-a --all", "All transitions, not only those that are possible now"),
+)
+def list_transitions(args: Namespace) -> None:
+    """`ros2 lifecycle list`."""
+    with direct_node(args) as node:
+        name = find_node(node, args, _managed(node, args.include_hidden_nodes))
+        for each in _transitions(node, name, "get_transition_graph" if args.all else "get_available_transitions"):
+            print(f"- {each.transition.label} [{each.transition.id}]")
+            print(f"\tStart: {each.start_state.label}")
+            print(f"\tGoal: {each.goal_state.label}")
+
+
+def _transitions(node: Node, node_name: str, service: str) -> list[Any]:
+    return _ask(node, node_name, "GetAvailableTransitions", service).available_transitions
+
+
+@verb(
+    "lifecycle set",
+    "Trigger a transition of a managed node",
+    *NODE,
+    _MANAGED,
+    HIDDEN_NODES,
+    arg("transition", "Label or number of the transition, such as configure"),
+)
+def set_state(args: Namespace) -> None:
+    """`ros2 lifecycle set`."""
+    with direct_node(args) as node:
+        name = find_node(node, args)
+        possible = [each.transition for each in _transitions(node, name, "get_available_transitions")]
+        chosen = [each for each in possible if each.label == args.transition]
+        chosen += [each for each in possible if str(each.id) == args.transition]
+        if not chosen:
+            lines = "".join(f"\n- {each.label} [{each.id}]" for each in possible)
+            raise CommandError(f"Unknown transition requested, available ones are:{lines}")
+        if _ask(node, name, "ChangeState", "change_state", transition=chosen[0]).success:
+            print("Transitioning successful")
+        else:
+            print("Transitioning failed", file=sys.stderr)

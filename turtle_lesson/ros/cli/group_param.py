@@ -3,26 +3,15 @@
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..runtime import files
-from .parser import Verb
+from .arguments import HIDDEN_NODES, NODE, arg, flag
 from .typed_values import MAX_LENGTH, Unparsable, read_yaml
-from .verb import (
-    Command,
-    CommandError,
-    absolute,
-    add_node_arguments,
-    answer_of,
-    ask,
-    direct_node,
-    flag,
-    node_names,
-    suggest,
-)
+from .verb import CommandError, ask, direct_node, find_node, node_names, spin_for, suggest, verb
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -46,8 +35,7 @@ TYPES: tuple[tuple[str, str, str], ...] = (
 )
 """By number of rcl_interfaces/msg/ParameterType: the type's name, its field of a ParameterValue, and how it is shown."""
 
-_SCALARS: tuple[tuple[type, int], ...] = ((bool, 1), (int, 2), (float, 3))
-_ELEMENTS: tuple[tuple[type, int], ...] = ((bool, 6), (int, 7), (float, 8), (str, 9))
+_KINDS = {bool: 1, int: 2, float: 3, str: 4}
 
 
 def from_text(text: str) -> Any:
@@ -63,34 +51,15 @@ def from_python(value: Any, text: str) -> Any:
     """The ParameterValue of what YAML gave for a text."""
     from rcl_interfaces.msg import ParameterValue
 
-    kind = _kind_of(value)
+    elements, first_array = (value, 5) if isinstance(value, list) else ([value], 0)
+    kinds = [first_array + kind for type_, kind in _KINDS.items() if all(isinstance(each, type_) for each in elements)]
+    kind = kinds[0] if kinds else 4
     message = ParameterValue(type=kind)
-    if kind == 4 and isinstance(value, list):
-        value = text
     try:
-        setattr(message, TYPES[kind][1], value)
+        setattr(message, TYPES[kind][1], text if kind == 4 and isinstance(value, list) else value)
     except (AssertionError, OverflowError) as error:
         raise CommandError(f"{text[:200]!r} is not a valid parameter value: {error}") from None
     return message
-
-
-def _kind_of(value: Any) -> int:
-    for type_, kind in _SCALARS:
-        if isinstance(value, type_):
-            return kind
-    if isinstance(value, list):
-        for type_, kind in _ELEMENTS:
-            if all(isinstance(each, type_) for each in value):
-                return kind
-    return 4
-
-
-def to_python(value: Any) -> Any:
-    """What YAML has for a ParameterValue; None if it is not set."""
-    if not 0 < value.type < len(TYPES):
-        return None
-    found = getattr(value, TYPES[value.type][1])
-    return list(found) if TYPES[value.type][0].endswith("array") else found
 
 
 def nested(names_and_values: list[tuple[str, Any]]) -> dict[str, Any]:
@@ -119,20 +88,10 @@ def flat(tree: dict[Any, Any], prefix: str = "") -> list[tuple[str, Any]]:
 
 # -- what the verbs share --------------------------------------------------------------------------------------------
 
+OF_NODE = (*NODE, arg("node_name", "Name of the node, such as /turtlesim"), HIDDEN_NODES)
+"""The arguments of every verb of `ros2 param`."""
 
-def arguments_of_all(parser: ArgumentParser, *, optional_node: bool = False) -> None:
-    """The arguments of every verb of `ros2 param`."""
-    add_node_arguments(parser)
-    parser.add_argument("node_name", nargs="?" if optional_node else None, help="Name of the node, such as /turtlesim")
-    flag(parser, "--include-hidden-nodes", "Also use nodes with a hidden name")
-
-
-def find_node(node: Node, args: Namespace) -> str:
-    """The full name of the node that was named. Raises CommandError if it is not there."""
-    name, known = absolute(args.node_name), node_names(node, args.include_hidden_nodes)
-    if name not in known:
-        raise CommandError("Node not found", suggest(name, known))
-    return name
+PARAMETER = arg("parameter_name", "Name of the parameter")
 
 
 def _ask(node: Node, node_name: str, service: str, **request: Any) -> Any:
@@ -165,16 +124,17 @@ def with_reason(text: str, result: Any) -> str:
 # -- dump, load ------------------------------------------------------------------------------------------------------
 
 
-def dump_arguments(parser: ArgumentParser) -> None:
-    """The arguments of dump."""
-    arguments_of_all(parser)
-    parser.add_argument("--output-dir", help="Deprecated: write a file named after the node into this folder")
-    flag(parser, "--print", "Deprecated, and without effect")
-
-
+@verb(
+    "param dump",
+    "All parameters of a node, in the format that `load` reads",
+    *OF_NODE,
+    arg("--output-dir", "Deprecated: write a file named after the node into this folder"),
+    flag("--print", "Deprecated, and without effect"),
+)
 def dump(args: Namespace) -> None:
     """`ros2 param dump`."""
     import yaml
+    from rclpy.parameter import parameter_value_to_python
 
     if args.output_dir is not None and not Path(args.output_dir).is_dir():
         raise CommandError(f"'{args.output_dir}' is not a valid directory.")
@@ -182,7 +142,7 @@ def dump(args: Namespace) -> None:
         name = find_node(node, args)
         names = listed(node, name)
         values = _ask(node, name, "GetParameters", names=names).values
-    pairs = zip(names, map(to_python, values), strict=False)
+    pairs = zip(names, map(parameter_value_to_python, values), strict=False)
     tree = {name: {"ros__parameters": nested(list(pairs))}}
     text = yaml.safe_dump(tree, default_flow_style=False, allow_unicode=True)
     if args.print:
@@ -199,13 +159,13 @@ def dump(args: Namespace) -> None:
         raise CommandError(f"cannot write {file}: {getattr(error, 'strerror', None) or error}") from None
 
 
-def load_arguments(parser: ArgumentParser) -> None:
-    """The arguments of load."""
-    arguments_of_all(parser)
-    parser.add_argument("parameter_file", help="A file as `ros2 param dump` prints it")
-    flag(parser, "--no-use-wildcard", "Leave out what the file says for all nodes (/**)")
-
-
+@verb(
+    "param load",
+    "Set parameters from a file",
+    *OF_NODE,
+    arg("parameter_file", "A file as `ros2 param dump` prints it"),
+    flag("--no-use-wildcard", "Leave out what the file says for all nodes (/**)"),
+)
 def load(args: Namespace) -> None:
     """`ros2 param load`."""
     with direct_node(args) as node:
@@ -263,16 +223,24 @@ LIST_PATIENCE = 1.0
 # -- list --------------------------------------------------------------------------------------------------------
 
 
-def _list_arguments(parser: ArgumentParser) -> None:
-    arguments_of_all(parser, optional_node=True)
-    parser.add_argument("--param-prefixes", nargs="+", default=[], help="Only parameters that begin with these")
-    flag(parser, "--param-type", "Show each parameter's type beside it")
-    parser.add_argument("--filter", metavar="FILTER", help="Only names whose beginning this regular expression matches")
-
-
+@verb(
+    "param list",
+    "The names of the parameters",
+    *NODE,
+    arg("node_name", "Name of the node, such as /turtlesim", nargs="?"),
+    HIDDEN_NODES,
+    arg("--param-prefixes", "Only parameters that begin with these", nargs="+", default=[]),
+    flag("--param-type", "Show each parameter's type beside it"),
+    arg("--filter", "Only names whose beginning this regular expression matches", metavar="FILTER"),
+)
 def list_parameters(args: Namespace) -> None:
     """`ros2 param list`. A node of which nothing is listed is left out (ros2param/verb/list.py)."""
-    wanted = _name_filter(args.filter)
+    import re
+
+    try:
+        wanted = re.compile(args.filter or "").match
+    except (re.error, OverflowError, RecursionError) as error:
+        raise CommandError(f"'{args.filter}' is not a regular expression: {error}") from None
     with direct_node(args) as node:
         every = dict.fromkeys(node_names(node, args.include_hidden_nodes))
         nodes = [find_node(node, args)] if args.node_name else list(every)
@@ -283,16 +251,12 @@ def list_parameters(args: Namespace) -> None:
             names = [each for each in sorted(response.result.names) if wanted(each)]
             if names and not args.node_name:
                 print(f"{name}:")
-            _print_names(node, name, names, args.param_type)
-
-
-def _name_filter(pattern: str | None) -> Any:
-    import re
-
-    try:
-        return re.compile(pattern or "").match
-    except (re.error, OverflowError, RecursionError) as error:
-        raise CommandError(f"'{pattern}' is not a regular expression: {error}") from None
+            types: dict[str, str] = {}
+            if args.param_type and names:
+                descriptors = _ask(node, name, "DescribeParameters", names=names).descriptors
+                types = {each.name: f" (type: {TYPES[each.type][0]})" for each in descriptors}
+            for each in names:
+                print(f"  {each}{types.get(each, '')}")
 
 
 def _ask_all(node: Node, names: list[str], prefixes: list[str]) -> list[tuple[str, Any]]:
@@ -304,27 +268,13 @@ def _ask_all(node: Node, names: list[str], prefixes: list[str]) -> list[tuple[st
         client = node.create_client(ListParameters, f"{name}/list_parameters")
         if client.service_is_ready():
             futures.append((name, client.call_async(ListParameters.Request(prefixes=prefixes))))
-    return [(name, answer_of(node, future, LIST_PATIENCE)) for name, future in futures]
-
-
-def _print_names(node: Node, node_name: str, names: list[str], with_types: bool) -> None:
-    types: dict[str, str] = {}
-    if with_types and names:
-        descriptors = _ask(node, node_name, "DescribeParameters", names=names).descriptors
-        types = {each.name: f" (type: {TYPES[each.type][0]})" for each in descriptors}
-    for name in names:
-        print(f"  {name}{types.get(name, '')}")
+    return [(name, future.result() if spin_for(node, LIST_PATIENCE, future) else None) for name, future in futures]
 
 
 # -- get, set, delete, describe ----------------------------------------------------------------------------------
 
 
-def _get_arguments(parser: ArgumentParser) -> None:
-    arguments_of_all(parser)
-    parser.add_argument("parameter_name", help="Name of the parameter")
-    flag(parser, "--hide-type", "Print only the value")
-
-
+@verb("param get", "A parameter's value", *OF_NODE, PARAMETER, flag("--hide-type", "Print only the value"))
 def get(args: Namespace) -> None:
     """`ros2 param get`."""
     with direct_node(args) as node:
@@ -339,15 +289,24 @@ def get(args: Namespace) -> None:
     print(*([] if args.hide_type else [label]), getattr(values[0], field))
 
 
-def _set_arguments(parser: ArgumentParser) -> None:
-    arguments_of_all(parser)
-    parser.add_argument("parameter_name", help="Name of the parameter")
-    parser.add_argument("value", help="Its new value, in YAML: 1.5, true, fast, '[1, 2]'")
-
-
+@verb(
+    "param set",
+    "Change a parameter",
+    *OF_NODE,
+    PARAMETER,
+    arg("value", "Its new value, in YAML: 1.5, true, fast, '[1, 2]'"),
+)
 def set_parameter(args: Namespace) -> None:
     """`ros2 param set`."""
     _change(args, lambda: from_text(args.value), "Set parameter successful", "Setting parameter failed")
+
+
+@verb("param delete", "Delete a parameter", *OF_NODE, PARAMETER)
+def delete(args: Namespace) -> None:
+    """`ros2 param delete`."""
+    from rcl_interfaces.msg import ParameterValue
+
+    _change(args, ParameterValue, "Deleted parameter successfully", "Deleting parameter failed")
 
 
 def _change(args: Namespace, value: Callable[[], Any], done: str, failed: str) -> None:
@@ -364,23 +323,12 @@ def _change(args: Namespace, value: Callable[[], Any], done: str, failed: str) -
             print(hint, file=sys.stderr)
 
 
-def _delete_arguments(parser: ArgumentParser) -> None:
-    arguments_of_all(parser)
-    parser.add_argument("parameter_name", help="Name of the parameter")
-
-
-def delete(args: Namespace) -> None:
-    """`ros2 param delete`."""
-    from rcl_interfaces.msg import ParameterValue
-
-    _change(args, ParameterValue, "Deleted parameter successfully", "Deleting parameter failed")
-
-
-def _describe_arguments(parser: ArgumentParser) -> None:
-    arguments_of_all(parser)
-    parser.add_argument("parameter_names", nargs="+", help="Names of the parameters")
-
-
+@verb(
+    "param describe",
+    "What a parameter is for, its type and limits",
+    *OF_NODE,
+    arg("parameter_names", "Names of the parameters", nargs="+"),
+)
 def describe(args: Namespace) -> None:
     """`ros2 param describe`. If one of the parameters is unknown the real one says nothing, of any of them."""
     with direct_node(args) as node:
@@ -410,14 +358,3 @@ def _print_descriptor(descriptor: Any) -> None:
             print(f"    Step: {limits.step}")
     if descriptor.additional_constraints:
         print(f"    Additional constraints: {descriptor.additional_constraints}")
-
-
-VERBS: dict[str, Verb] = {
-    "delete": Command("Delete a parameter", _delete_arguments, delete),
-    "describe": Command("What a parameter is for, its type and limits", _describe_arguments, describe),
-    "dump": Command("All parameters of a node, in the format that `load` reads", dump_arguments, dump),
-    "get": Command("A parameter's value", _get_arguments, get),
-    "list": Command("The names of the parameters", _list_arguments, list_parameters),
-    "load": Command("Set parameters from a file", load_arguments, load),
-    "set": Command("Change a parameter", _set_arguments, set_parameter),
-}

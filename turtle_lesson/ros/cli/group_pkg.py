@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from pathlib import Path
 
 from ..ament.create import add_arguments as add_create_arguments
@@ -13,8 +13,8 @@ from ..ament.package import Package
 from ..idl.names import did_you_mean
 from ..idl.registry import registry
 from ..sim.errors import shown_path
-from .parser import cut
-from .verb import CellCommand, CommandError, flag, no_arguments
+from .arguments import arg, cut, flag
+from .verb import CommandError, verb
 
 SITE = Path(__file__).resolve().parents[1] / "site"
 
@@ -50,23 +50,25 @@ def hint_for_package(name: str) -> str:
     return package_hint(name[:100], package_names()) or "Is it built (colcon build), and is its setup file sourced?"
 
 
-def _package(parser: ArgumentParser) -> None:
-    parser.add_argument("package_name", help="name of the package")
+PACKAGE = arg("package_name", "name of the package")
 
 
 # -- list, prefix, xml ---------------------------------------------------------------------------------------------------
 
 
+@verb("pkg list", "List the packages that can be found", in_cell=True)
 def _list(args: Namespace) -> None:
     for name in package_names():
         print(name)
 
 
-def _prefix_arguments(parser: ArgumentParser) -> None:
-    _package(parser)
-    flag(parser, "--share", "the folder of its shared files instead")
-
-
+@verb(
+    "pkg prefix",
+    "Print the folder in which a package is installed",
+    PACKAGE,
+    flag("--share", "the folder of its shared files instead"),
+    in_cell=True,
+)
 def _prefix(args: Namespace) -> None:
     prefix = find_prefix(args.package_name)
     if prefix is None:
@@ -76,11 +78,13 @@ def _prefix(args: Namespace) -> None:
     print(shown_path(str(prefix)))
 
 
-def _xml_arguments(parser: ArgumentParser) -> None:
-    _package(parser)
-    parser.add_argument("-t", "--tag", help="only this element, such as version")
-
-
+@verb(
+    "pkg xml",
+    "Print the package.xml of a package",
+    PACKAGE,
+    arg("-t --tag", "only this element, such as version"),
+    in_cell=True,
+)
 def _xml(args: Namespace) -> None:
     from xml.etree import ElementTree
 
@@ -105,11 +109,13 @@ def _xml(args: Namespace) -> None:
 # -- executables ---------------------------------------------------------------------------------------------------------
 
 
-def _executables_arguments(parser: ArgumentParser) -> None:
-    parser.add_argument("package_name", nargs="?", help="name of the package; all packages if left out")
-    flag(parser, "--full-path", "print the paths of the programs")
-
-
+@verb(
+    "pkg executables",
+    "List the programs of a package",
+    arg("package_name", "name of the package; all packages if left out", nargs="?"),
+    flag("--full-path", "print the paths of the programs"),
+    in_cell=True,
+)
 def _executables(args: Namespace) -> None:
     packages = current_packages()
     names = packages.names() if args.package_name is None else [args.package_name]
@@ -132,14 +138,6 @@ def path_of(package: Package, executable: str) -> Path:
 # -- create --------------------------------------------------------------------------------------------------------------
 
 
+@verb("pkg create", "Create a new package", add_create_arguments, in_cell=True)
 def _create(args: Namespace) -> int:
     return create_package(args, cwd=Path.cwd(), stdout=sys.stdout, stderr=sys.stderr)
-
-
-VERBS = {
-    "create": CellCommand("Create a new package", add_create_arguments, _create),
-    "executables": CellCommand("List the programs of a package", _executables_arguments, _executables),
-    "list": CellCommand("List the packages that can be found", no_arguments, _list),
-    "prefix": CellCommand("Print the folder in which a package is installed", _prefix_arguments, _prefix),
-    "xml": CellCommand("Print the package.xml of a package", _xml_arguments, _xml),
-}

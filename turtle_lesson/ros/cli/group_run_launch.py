@@ -21,10 +21,10 @@ from ..runtime.run_world import run_for
 from ..runtime.world import current_world
 from ..sim.errors import shown_path
 from ..sim.process import Process
+from .arguments import Argument, arg, cut, duration, either, flag, positive_float
 from .group_pkg import not_found, path_of
 from .jobs import Job, LastSignal, jobs, lasting
-from .parser import cut
-from .verb import CellCommand, CommandError, add_duration, flag, positive_float
+from .verb import CommandError, verb
 
 if TYPE_CHECKING:
     from ..launching.start import LaunchHandle
@@ -37,18 +37,25 @@ SIGNAL_TEXTS = {-2: "Interrupt", -9: "Killed", -15: "Terminated"}
 # -- run -----------------------------------------------------------------------------------------------------------------
 
 
-def _run_arguments(parser: ArgumentParser) -> None:
-    parser.add_argument("--prefix", help="a program to run it with: accepted, but without effect here")
-    add_duration(parser, LET_PASS.format("ros2 run"), positive_float)
-    parser.set_defaults(stdin=None)
-    parser.add_argument("package_name", help="package that the program belongs to")
-    parser.add_argument("executable_name", help="name of the program")
-    words = parser.add_argument(
-        "argv", nargs=REMAINDER, help="arguments of the program itself, such as --ros-args -p a:=1"
-    )
-    words.required = True  # as in Python 3.11, whatever the Python
+def _words(name: str, text: str, nargs: str) -> Argument:
+    """The words that go on to a program or a launch file; the usage has them as Python 3.11's, whatever the Python."""
+
+    def add(parser: ArgumentParser) -> None:
+        parser.add_argument(name, nargs=nargs, help=text).required = True
+
+    return add
 
 
+@verb(
+    "run",
+    "Start a program of a package",
+    arg("--prefix", "a program to run it with: accepted, but without effect here"),
+    duration(LET_PASS.format("ros2 run"), positive_float),
+    arg("package_name", "package that the program belongs to"),
+    arg("executable_name", "name of the program"),
+    _words("argv", "arguments of the program itself, such as --ros-args -p a:=1", REMAINDER),
+    in_cell=True,
+)
 def _run(args: Namespace) -> int:
     world = current_world()
     name = args.executable_name
@@ -70,7 +77,7 @@ def _run(args: Namespace) -> int:
         target,
         name=name,
         argv=[str(path_of(package, name)), *args.argv],
-        stdin=reader_of(args.stdin),
+        stdin=reader_of(getattr(args, "stdin", None)),
         stdout=lasting(sys.stdout, world.sim),
         stderr=lasting(sys.stderr, world.sim),
         on_exit=_say_how_it_ended,
@@ -100,24 +107,31 @@ def _status(process: Process) -> int:
 # -- launch --------------------------------------------------------------------------------------------------------------
 
 
-def _launch_arguments(parser: ArgumentParser) -> None:
-    nothing = "accepted, but without effect here"
-    flag(parser, "-n --noninteractive", nothing)
-    flag(parser, "-d --debug", nothing)
-    shown = parser.add_mutually_exclusive_group()
-    flag(shown, "-p --print --print-description", "not available here", dest="print")
-    flag(shown, "-s --show-args --show-arguments", "list the arguments it takes", dest="show")
-    shown_all = "show all that the programs print, whatever the launch file says"
-    flag(parser, "-a --show-all-subprocesses-output", shown_all, dest="all")
-    parser.add_argument("--launch-prefix", help=nothing)
-    parser.add_argument("--launch-prefix-filter", help=nothing)
-    add_duration(parser, LET_PASS.format("ros2 launch"), positive_float)
-    parser.add_argument("package_name", help="package that the launch file belongs to, or the path of a launch file")
-    parser.add_argument("launch_file_name", nargs="?", help="name of the launch file")
-    words = parser.add_argument("launch_arguments", nargs="*", help="values for its arguments, as name:=value")
-    words.required = True  # as in Python 3.11, whatever the Python
+NOTHING = "accepted, but without effect here"
 
 
+@verb(
+    "launch",
+    "Start everything that a launch file describes",
+    flag("-n --noninteractive", NOTHING),
+    flag("-d --debug", NOTHING),
+    either(
+        flag("-p --print --print-description", "not available here", dest="print"),
+        flag("-s --show-args --show-arguments", "list the arguments it takes", dest="show"),
+    ),
+    flag(
+        "-a --show-all-subprocesses-output",
+        "show all that the programs print, whatever the launch file says",
+        dest="all",
+    ),
+    arg("--launch-prefix", NOTHING),
+    arg("--launch-prefix-filter", NOTHING),
+    duration(LET_PASS.format("ros2 launch"), positive_float),
+    arg("package_name", "package that the launch file belongs to, or the path of a launch file"),
+    arg("launch_file_name", "name of the launch file", nargs="?"),
+    _words("launch_arguments", "values for its arguments, as name:=value", "*"),
+    in_cell=True,
+)
 def _launch(args: Namespace) -> int:
     world = current_world()
     try:
@@ -196,9 +210,3 @@ def leave(what: Process | LaunchHandle, words: str, seconds: float | None) -> in
         return 0  # that of `ros2 launch`, however its programs ended
     code = _status(what)
     return code if code >= 0 else 256 + code
-
-
-COMMANDS = {
-    "launch": CellCommand("Start everything that a launch file describes", _launch_arguments, _launch),
-    "run": CellCommand("Start a program of a package", _run_arguments, _run),
-}

@@ -3,43 +3,39 @@
 from __future__ import annotations
 
 import time
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from . import topic_listen
-from .parser import Verb
+from . import topic_listen  # noqa: F401 - echo, hz, bw and delay are verbs of this command
+from .arguments import LONGEST, NODE, NODE_WITHOUT_DAEMON, arg, duration, either, flag, frequency, seconds, unsigned_int
 from .typed_values import (
-    Names,
-    add_qos_arguments,
-    message_class,
+    add_type_and_find,
+    class_of,
+    list_arguments,
+    name_argument,
     populate,
     profile_of,
+    qos_arguments,
     read_yaml,
     stamp,
+    types_of,
 )
 from .verb import (
-    LONGEST,
     PATIENCE,
-    Command,
     CommandError,
-    add_duration,
-    add_node_arguments,
     direct_node,
     end_of_stretch,
     expanded,
-    flag,
-    frequency,
     now,
     of_the_simulator,
     publishers,
-    seconds,
     spin_for,
     stretch_of,
     subscriptions,
     suggest,
     topics,
-    unsigned_int,
+    verb,
 )
 
 if TYPE_CHECKING:
@@ -52,35 +48,35 @@ if TYPE_CHECKING:
 PRESET = "system_default"
 
 
-def arguments(parser: ArgumentParser) -> None:
-    """The arguments, in the real tool's order."""
-    parser.add_argument("topic_name", help="Name of the topic, such as /turtle1/cmd_vel")
-    parser.add_argument("message_type", help="Type of the message, such as geometry_msgs/msg/Twist")
-    parser.add_argument("values", nargs="?", default="{}", help="Values for its fields, in YAML, as in '{data: hello}'")
-    parser.add_argument("-r", "--rate", metavar="N", type=frequency, default=1.0, help="How often a second (1)")
-    parser.add_argument("-p", "--print", metavar="N", type=int, default=1, help="Print only every N-th message (1)")
-    group = parser.add_mutually_exclusive_group()
-    flag(group, "-1 --once", "Publish one message")
-    group.add_argument("-t", "--times", type=unsigned_int, default=0, help="Publish this many messages")
-    parser.add_argument(
-        "-w",
-        "--wait-matching-subscriptions",
+@verb(
+    "topic pub",
+    "Publish a message on a topic",
+    arg("topic_name", "Name of the topic, such as /turtle1/cmd_vel"),
+    arg("message_type", "Type of the message, such as geometry_msgs/msg/Twist"),
+    arg("values", "Values for its fields, in YAML, as in '{data: hello}'", nargs="?", default="{}"),
+    arg("-r --rate", "How often a second (1)", metavar="N", type=frequency, default=1.0),
+    arg("-p --print", "Print only every N-th message (1)", metavar="N", type=int, default=1),
+    either(
+        flag("-1 --once", "Publish one message"),
+        arg("-t --times", "Publish this many messages", type=unsigned_int, default=0),
+    ),
+    arg(
+        "-w --wait-matching-subscriptions",
+        "Wait for this many subscriptions first (1 with --once or --times, else 0)",
         type=unsigned_int,
-        help="Wait for this many subscriptions first (1 with --once or --times, else 0)",
-    )
-    parser.add_argument(
+    ),
+    arg(
         "--keep-alive",
+        "Stay for this many seconds after the last message (0.1)",
         metavar="N",
         type=seconds,
         default=0.1,
-        help="Stay for this many seconds after the last message (0.1)",
-    )
-    parser.add_argument("-n", "--node-name", help="Name of the node that publishes")
-    add_qos_arguments(parser, "publish", PRESET, automatic=False)
-    add_node_arguments(parser, daemon=False)
-    add_duration(parser)
-
-
+    ),
+    arg("-n --node-name", "Name of the node that publishes"),
+    *qos_arguments("publish", PRESET, automatic=False),
+    *NODE_WITHOUT_DAEMON,
+    duration(),
+)
 def pub(args: Namespace) -> None:
     """`ros2 topic pub`."""
     profile = profile_of(args, PRESET, reliability="reliable", durability="transient_local", history="keep_last")
@@ -97,7 +93,7 @@ def pub(args: Namespace) -> None:
 
 def _message(type_name: str, text: str) -> tuple[Any, list[Callable[[Any], None]]]:
     """The message as typed, and what sets its stamps. The real tool looks at fields only when somebody subscribes."""
-    kind = message_class(type_name)
+    kind = class_of(type_name, "msg")
     values = read_yaml(text)
     if not isinstance(values, dict):
         raise CommandError("The passed value needs to be a dictionary in YAML format")
@@ -183,15 +179,19 @@ def _publish(
 
 # -- list, info, type, find ------------------------------------------------------------------------------------------
 
+EXAMPLES = ("/turtle1/pose", "geometry_msgs/msg/Twist")
 
-TOPICS = Names("topic", "msg", ("/turtle1/pose", "geometry_msgs/msg/Twist"), topics, add_node_arguments)
-
-
-def _list_arguments(parser: ArgumentParser) -> None:
-    TOPICS.list_arguments(parser)
-    flag(parser, "-v --verbose", "Show types, and count publishers and subscriptions")
+add_type_and_find("topic", "msg", EXAMPLES, topics, *NODE)
 
 
+@verb(
+    "topic list",
+    "The names of the topics that are in use",
+    *NODE,
+    flag("-t --show-types", "Show each topic's type beside it"),
+    *list_arguments("topic"),
+    flag("-v --verbose", "Show types, and count publishers and subscriptions"),
+)
 def list_topics(args: Namespace) -> None:
     """`ros2 topic list`; all that are hidden include those that only the simulation itself subscribes to."""
     with direct_node(args) as node:
@@ -199,53 +199,35 @@ def list_topics(args: Namespace) -> None:
         if args.count_topics:
             print(len(found))
         elif args.verbose:
-            published = {name: len(publishers(node, name)) for name in found}
-            subscribed = {name: len(subscriptions(node, name)) for name in found}
-            _print_ends("Published", "publisher", found, published)
-            _print_ends("Subscribed", "subscriber", found, subscribed)
+            for title, what, ends in (
+                ("Published", "publisher", publishers),
+                ("Subscribed", "subscriber", subscriptions),
+            ):
+                print(f"{title} topics:")
+                for name, types in found.items():
+                    if count := len(ends(node, name)):
+                        print(f" * {name} [{', '.join(types)}] {count} {what}{'s' if count > 1 else ''}")
+                print()
         else:
             for name, types in found.items():
                 print(f"{name} [{', '.join(types)}]" if args.show_types else name)
 
 
-def _print_ends(title: str, what: str, found: dict[str, list[str]], counts: dict[str, int]) -> None:
-    print(f"{title} topics:")
-    for name, count in counts.items():
-        if count:
-            print(f" * {name} [{', '.join(found[name])}] {count} {what}{'s' if count > 1 else ''}")
-    print()
-
-
-def _info_arguments(parser: ArgumentParser) -> None:
-    TOPICS.type_arguments(parser)
-    flag(parser, "--verbose -v", "Show every publisher and subscription, with QoS")
-
-
+@verb(
+    "topic info",
+    "A topic's type, its publishers and its subscriptions",
+    *NODE,
+    name_argument("topic", EXAMPLES[0]),
+    flag("--verbose -v", "Show every publisher and subscription, with QoS"),
+)
 def info(args: Namespace) -> None:
     """`ros2 topic info`."""
     with direct_node(args) as node:
-        name, known = args.topic_name, topics(node, include_hidden=True)
-        types = TOPICS.types_of(name, known)
+        name = args.topic_name
+        types = types_of("topic", name, topics(node, include_hidden=True))
         end = "\n\n" if args.verbose else "\n"
         print(f"Type: {types[0] if len(types) == 1 else types}", end=end)
         for title, ends in (("Publisher", publishers(node, name)), ("Subscription", subscriptions(node, name))):
             print(f"{title} count: {len(ends)}", end=end)
             for each in ends if args.verbose else ():
                 print(each, end="\n\n")
-
-
-VERBS: dict[str, Verb] = {
-    "bw": Command("How many bytes a second arrive on a topic", topic_listen.bw_arguments, topic_listen.bw),
-    "delay": Command(
-        "How old the messages of a topic are when they arrive, judged by the stamp in their header",
-        topic_listen.delay_arguments,
-        topic_listen.delay,
-    ),
-    "echo": Command("Print the messages of a topic", topic_listen.arguments, topic_listen.echo),
-    "find": Command("The topics of a type", TOPICS.find_arguments, TOPICS.print_found),
-    "hz": Command("How many messages a second arrive on a topic", topic_listen.hz_arguments, topic_listen.hz),
-    "info": Command("A topic's type, its publishers and its subscriptions", _info_arguments, info),
-    "list": Command("The names of the topics that are in use", _list_arguments, list_topics),
-    "pub": Command("Publish a message on a topic", arguments, pub),
-    "type": Command("A topic's type", TOPICS.type_arguments, TOPICS.print_type),
-}

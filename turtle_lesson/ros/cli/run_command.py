@@ -1,6 +1,8 @@
 """The `ros2` command line: each command runs as a simulated process, and answers as the real tool does.
 
 code = run(world, ["ros2", "topic", "list"])        # prints into the cell; returns the exit code
+
+What commands in launch files need of the terminal (`turtle_lesson/ros/launching/commands.py`) is here, too.
 """
 
 from __future__ import annotations
@@ -12,16 +14,18 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..launching.commands import ForeignCommand, UnknownCommand
 from ..runtime.run_world import Waiter
-from .jobs import Errors, cell_streams, lasting
-from .parser import Call, Invocation, Stop, cut, parse
+from ..runtime.world import current_process
+from .arguments import Stop
+from .jobs import Errors, Job, cell_streams, jobs, lasting
+from .parser import Call, parse
+from .script import ShellSyntaxError, UnfinishedError, expand, pipelines, tokens
+from .verb import INTERRUPTED, Invocation
 
 if TYPE_CHECKING:
     from ..runtime.world import World
-    from ..sim.process import Output, Process
-
-INTERRUPTED = 2
-"""The exit code of a `ros2` command that was ended by Ctrl-C."""
+    from ..sim.process import Output
 
 
 def run(
@@ -54,75 +58,83 @@ def run(
         try:
             call = parse(words[1:])
         except Stop as stop:
-            print(stop.text, file=error_to if stop.code else out_to)
-            return stop.code
-        if getattr(call.verb, "in_cell", False):
+            return stop.print(out_to, error_to)
+        if call.verb.in_cell:
             call.arguments.stdin = stdin
-            return _run_in_cell(call, out_to, error_to)
+            with contextlib.redirect_stdout(out_to), contextlib.redirect_stderr(error_to):
+                return call.verb.main(call.arguments)
         if background:
-            return _start_in_background(world, call, words, out_to, error_to)
-        shown = stdout is None or stdout is sys.stdout
-        return _run_as_process(world, call, words, out_to, error_to, shown)
-
-
-def run_here(words: Sequence[str]) -> int:
-    """Run one command as part of the running process, as a launch file does; what has no end goes on until Ctrl-C."""
-    from ..runtime.world import current_process
-
-    try:
-        call = parse(words[1:])
-    except Stop as stop:
-        print(stop.text, file=sys.stderr if stop.code else sys.stdout)
-        return stop.code
-    current_process().state(Invocation).background = True
-    try:
-        return _guarded(call)
-    except KeyboardInterrupt:
-        return INTERRUPTED
-
-
-def _run_in_cell(call: Call, stdout: Any, stderr: Any) -> int:
-    with contextlib.redirect_stdout(stdout), contextlib.redirect_stderr(stderr):
-        return _guarded(call)
-
-
-def _guarded(call: Call) -> int:
-    """Run a verb; whatever goes wrong in it becomes one line and an exit code."""
-    try:
-        return call.verb.main(call.arguments) or 0
-    except Exception as error:
-        print(f"{call.prog}: {type(error).__name__}: {cut(str(error))}", file=sys.stderr)
-        return 1
+            out, error = lasting(out_to, world.sim), lasting(error_to, world.sim)
+            process = world.spawn(partial(_main, call), name="ros2", argv=words, stdout=out, stderr=error)
+            process.state(Invocation).background = True
+            job = jobs(world).add(Job(" ".join(words), process))
+            print(f"[{job.number}] {process.pid}")
+            world.sim.settle()
+            return 0
+        waiter = Waiter(world, call.verb.prog)
+        process = world.spawn(
+            partial(_main, call), name="ros2", argv=words, stdout=out_to, stderr=error_to, on_exit=waiter.ended
+        )  # fmt: skip
+        process.state(Invocation).shown = out_to is sys.stdout
+        reason = waiter.wait(process)
+        if reason:
+            print(f"{call.verb.prog}: {reason}", file=error_to)
+        return process.exit_code or 0
 
 
 def _main(call: Call) -> None:
     """The main program of the process that a verb runs as."""
     try:
-        code = _guarded(call)
+        code = call.verb.main(call.arguments)
     except KeyboardInterrupt:
         code = INTERRUPTED
     sys.exit(code)
 
 
-def _run_as_process(world: World, call: Call, words: Sequence[str], stdout: Any, stderr: Any, shown: bool) -> int:
-    waiter = Waiter(world, call.prog)
-    process = world.spawn(
-        partial(_main, call), name="ros2", argv=words, stdout=stdout, stderr=stderr, on_exit=waiter.ended
-    )  # fmt: skip
-    process.state(Invocation).shown = shown
-    reason = waiter.wait(process)
-    if reason:
-        print(f"{call.prog}: {reason}", file=stderr)
-    return process.exit_code or 0
+# -- commands in launch files --------------------------------------------------------------------------------------------
 
 
-def _start_in_background(world: World, call: Call, words: Sequence[str], stdout: Any, stderr: Any) -> int:
-    from .jobs import Job, jobs
+def run_here(words: Sequence[str]) -> int:
+    """Run one command as part of the running process, as a launch file does; what has no end goes on until Ctrl-C."""
+    try:
+        call = parse(words[1:])
+    except Stop as stop:
+        return stop.print(sys.stdout, sys.stderr)
+    current_process().state(Invocation).background = True
+    try:
+        return call.verb.main(call.arguments)
+    except KeyboardInterrupt:
+        return INTERRUPTED
 
-    out, error = lasting(stdout, world.sim), lasting(stderr, world.sim)
-    process: Process = world.spawn(partial(_main, call), name="ros2", argv=words, stdout=out, stderr=error)
-    process.state(Invocation).background = True
-    job = jobs(world).add(Job(" ".join(words), process))
-    print(f"[{job.number}] {process.pid}")
-    world.sim.settle()
-    return 0
+
+def commands_of_text(text: str) -> list[tuple[str, list[str]]]:
+    """The commands of a shell's text, each with the sign before it.
+
+    Raises:
+        UnknownCommand: if there is none, or one that uses more of a shell than `&&`, `||` and `;`.
+    """
+    try:
+        plan = list(pipelines(list(tokens(text))))
+    except (UnfinishedError, ShellSyntaxError) as mistake:
+        raise UnknownCommand(f"syntax error in the command {text!r}: {mistake}") from None
+    found = []
+    for sign, pipeline in plan:
+        command = pipeline[0]
+        if len(pipeline) > 1 or command.stdout or command.stderr or command.given or command.background:
+            raise ForeignCommand(
+                f"the command {text!r}",
+                "it uses '|', '>' or '&', which launched commands cannot use here",
+                "Only one command, or several with '&&' or ';' between them, can be run.",
+            )
+        found.append((sign, [part for word in command.words for part in expand(word, home=Path.home(), exit_code=0)]))
+    if not found:
+        raise UnknownCommand("there is no command in cmd=[…]")
+    return found
+
+
+def run_arguments(words: list[str]) -> Any:
+    """The arguments of `ros2 run …`. UnknownCommand if it would complain about them."""
+    try:
+        return parse(words).arguments
+    except Stop as stop:
+        raise UnknownCommand(stop.text) from None

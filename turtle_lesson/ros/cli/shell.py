@@ -21,10 +21,9 @@ from ..idl.names import did_you_mean
 from ..runtime import files
 from ..runtime.console import FileOutput
 from . import terminal_files
+from .arguments import cut
 from .command_hints import advice
 from .jobs import cell_streams
-from .parser import cut
-from .run_command import INTERRUPTED
 from .run_command import run as run_ros2
 from .script import (
     NOT_EXECUTABLE,
@@ -43,6 +42,7 @@ from .script import (
 )
 from .terminal import BUILTINS
 from .terminal_io import Terminal, before_a_command, export, set_for_now
+from .verb import INTERRUPTED
 
 if TYPE_CHECKING:
     from ..runtime.world import World

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from array import array
 from collections import deque
 from collections.abc import Callable
@@ -12,24 +12,21 @@ from math import sqrt
 from typing import TYPE_CHECKING, Any
 
 from ..runtime.world import current_process
-from .typed_values import add_qos_arguments, is_chosen, matching_profile, message_class, profile_of
+from .arguments import NODE, NODE_WITHOUT_DAEMON, Argument, arg, duration, flag, positive_int, unsigned_int
+from .typed_values import class_of, is_chosen, matching_profile, profile_of, qos_arguments
 from .verb import (
     CommandError,
     Interrupted,
-    add_duration,
-    add_node_arguments,
     direct_node,
     end_of_stretch,
     expanded,
-    flag,
     now,
-    positive_int,
     publishers,
     spin_for,
     stretch_of,
     suggest,
     topics,
-    unsigned_int,
+    verb,
 )
 
 if TYPE_CHECKING:
@@ -38,42 +35,43 @@ if TYPE_CHECKING:
     from rclpy.task import Future
 
 
+# -- echo --------------------------------------------------------------------------------------------------------------
+
 TRUNCATE = 128
 PRESET = "sensor_data"
 
 
-def arguments(parser: ArgumentParser) -> None:
-    """The arguments, in the real tool's order."""
-    add_node_arguments(parser)
-    parser.add_argument("topic_name", help="Name of the topic, such as /turtle1/pose")
-    parser.add_argument("message_type", nargs="?", help="Type of its messages, such as turtlesim/msg/Pose")
-    add_qos_arguments(parser, "subscribe", PRESET, automatic=True)
-    flag(parser, "--csv", "Print each message as one line, with commas between values")
-    parser.add_argument("--field", help="Print only this field; a dot leads to a field of a field, as in header.stamp")
-    flag(parser, "--full-length -f", "Do not cut off long arrays and texts")
-    parser.add_argument(
-        "--truncate-length",
-        "-l",
+@verb(
+    "topic echo",
+    "Print the messages of a topic",
+    *NODE,
+    arg("topic_name", "Name of the topic, such as /turtle1/pose"),
+    arg("message_type", "Type of its messages, such as turtlesim/msg/Pose", nargs="?"),
+    *qos_arguments("subscribe", PRESET, automatic=True),
+    flag("--csv", "Print each message as one line, with commas between values"),
+    arg("--field", "Print only this field; a dot leads to a field of a field, as in header.stamp"),
+    flag("--full-length -f", "Do not cut off long arrays and texts"),
+    arg(
+        "--truncate-length -l",
+        "How much of long arrays and texts is printed (default: %(default)s)",
         type=unsigned_int,
         default=TRUNCATE,
-        help="How much of long arrays and texts is printed (default: %(default)s)",
-    )
-    flag(parser, "--no-arr", "Print the type and length of arrays instead of them")
-    flag(parser, "--no-str", "Print the length of texts instead of them")
-    flag(parser, "--flow-style", "Print an array in one line, in brackets")
-    flag(parser, "--lost-messages", "Deprecated, and without effect")
-    flag(parser, "--no-lost-messages", "Do not report lost messages")
-    flag(parser, "--raw", "Print the bytes as they are sent")
-    parser.add_argument(
+    ),
+    flag("--no-arr", "Print the type and length of arrays instead of them"),
+    flag("--no-str", "Print the length of texts instead of them"),
+    flag("--flow-style", "Print an array in one line, in brackets"),
+    flag("--lost-messages", "Deprecated, and without effect"),
+    flag("--no-lost-messages", "Do not report lost messages"),
+    flag("--raw", "Print the bytes as they are sent"),
+    arg(
         "--filter",
+        "Print a message m only where this Python expression is true, as in 'm.x > 5'",
         dest="filter_expr",
         metavar="FILTER_EXPR",
-        help="Print a message m only where this Python expression is true, as in 'm.x > 5'",
-    )
-    flag(parser, "--once", "End after the first message")
-    add_duration(parser)
-
-
+    ),
+    flag("--once", "End after the first message"),
+    duration(),
+)
 def echo(args: Namespace) -> None:
     """`ros2 topic echo`."""
     from rclpy.task import Future
@@ -81,7 +79,9 @@ def echo(args: Namespace) -> None:
     if args.lost_messages:
         print("WARNING: '--lost-messages' is deprecated; lost messages are reported by default", file=sys.stderr)
     done = Future() if args.once else None
-    path = _path(args.field)
+    path = [name for name in (args.field or "").split(".") if name]
+    if args.field is not None and not path:
+        raise CommandError(f"Invalid field value '{args.field}'")
     wanted = filter_of(args.filter_expr)
     show = _printer(args)
 
@@ -94,16 +94,12 @@ def echo(args: Namespace) -> None:
             done.set_result(True)
 
     with direct_node(args) as node:
-        kind, given = None, args.message_type
         profile = profile_of(args, PRESET) if is_chosen(args) else matching_profile(node, args.topic_name, PRESET)
-        if given is None:
-            kind = class_of_topic(node, args.topic_name)
-            if kind is None:
-                print(not_published(args.topic_name))
-                hint = suggest(expanded(node, args.topic_name), topics(node, include_hidden=True))
-                raise CommandError("Could not determine the type for the passed topic", hint)
-        else:
-            kind = message_class(given)
+        kind = class_of(args.message_type, "msg") if args.message_type else class_of_topic(node, args.topic_name)
+        if kind is None:
+            print(not_published(args.topic_name))
+            hint = suggest(expanded(node, args.topic_name), topics(node, include_hidden=True))
+            raise CommandError("Could not determine the type for the passed topic", hint)
         lost = None if args.no_lost_messages else _say_what_was_lost
         listen(node, args.topic_name, kind, print_message, profile, args, raw=args.raw, done=done, lost=lost)
 
@@ -113,29 +109,18 @@ def _say_what_was_lost(event: Any) -> None:
     print(f"A message was lost!!!\n\t{counts}", end="---\n")
 
 
-def _path(field: str | None) -> list[str]:
-    """The names that lead to the field to print."""
-    path = [name for name in (field or "").split(".") if name]
-    if field is not None and not path:
-        raise CommandError(f"Invalid field value '{field}'")
-    return path
-
-
 def part_of(message: Any, path: list[str]) -> Any:
     """The field of a message that some names lead to. Raises CommandError with the real tool's sentence."""
     part = message
     for name in path:
         fields = list(getattr(part, "get_fields_and_field_types", dict)())
         if name not in fields:
-            error = f"'{_type_name(part)}' object has no attribute '{name}'"
+            # As in Python's own errors, which name the module of `array.array`.
+            kind = "array.array" if isinstance(part, array) else type(part).__name__
+            error = f"'{kind}' object has no attribute '{name}'"
             raise CommandError(f"Invalid field '{'.'.join(path)}': {error}", suggest(name, fields))
         part = getattr(part, name)
     return part
-
-
-def _type_name(part: Any) -> str:
-    """The name of a value's type as in Python's own errors, which name the module of `array.array`."""
-    return "array.array" if isinstance(part, array) else type(part).__name__
 
 
 def filter_of(expression: str | None) -> Callable[[Any], bool]:
@@ -177,7 +162,7 @@ def _printer(args: Namespace) -> Callable[[Any], None]:
     return show
 
 
-# -- what the verbs that listen to a topic share: finding its type, and saying why nothing comes -------------------
+# -- listening to a topic: finding its type, and saying why nothing comes ----------------------------------------------
 
 LOOK_AGAIN = 0.1
 
@@ -190,7 +175,7 @@ def class_of_topic(node: Node, topic: str) -> Any:
     if len(types) > 1:
         listed = ", ".join(types)
         raise CommandError(f"Cannot echo topic '{topic}', as it contains more than one type: [{listed}]")
-    return message_class(types[0])
+    return class_of(types[0], "msg")
 
 
 def not_published(topic: str) -> str:
@@ -216,22 +201,18 @@ def wait_for_class(node: Node, topic: str, seconds: float | None) -> Any:
 def why_silent(node: Node, topic: str, kind: Any, seconds: float | None) -> tuple[str, str]:
     """Why no message has come for so long (s), and a hint. `kind` is the class that was listened for."""
     name = expanded(node, topic)
-    known = {each: types for each, types in topics(node, include_hidden=True).items() if publishers(node, each)}
+    known = [each for each in topics(node, include_hidden=True) if publishers(node, each)]
     waited = f"No message came on {name} in {seconds:g} s of robot time"
     if name not in known:
         return f"{waited}: no node publishes it", suggest(name, known) or "`ros2 topic list` shows the topics."
     types = {info.topic_type for info in node.get_publishers_info_by_topic(name)}
     if kind is not None and kind._TYPE_NAME not in types:
         return f"{waited}: it is of type {', '.join(sorted(types))}, not {kind._TYPE_NAME}", ""
-    if any(_heard(node, name)):
+    if any(each.get_publisher_count() for each in node.subscriptions if each.topic_name == name):
         return f"{waited}, although a node publishes it", "--for SECONDS waits longer."
     return f"{waited}: its publishers do not offer the quality of service that was requested", (
         f"`ros2 topic info -v {name}` shows what they offer."
     )
-
-
-def _heard(node: Node, name: str) -> list[int]:
-    return [each.get_publisher_count() for each in node.subscriptions if each.topic_name == name]
 
 
 def listen(
@@ -245,13 +226,11 @@ def listen(
     raw: bool = False,
     done: Future | None = None,
     lost: Callable[[Any], object] | None = None,
-    period: float | None = None,
-    report: Callable[[], object] | None = None,
 ) -> None:
     """Have `callback` called for every message until `done`, or until the stretch of robot time is over.
 
-    Whenever messages turn out to be lost, `lost` is called; every `period` seconds `report` is. Raises Interrupted at
-    the end of the stretch, and CommandError if nothing has come until then.
+    Whenever messages turn out to be lost, `lost` is called. Raises Interrupted at the end of the stretch, and CommandError
+    if nothing has come until then.
     """
     from rclpy.event_handler import SubscriptionEventCallbacks
 
@@ -265,8 +244,6 @@ def listen(
 
     events = SubscriptionEventCallbacks(message_lost=lost)
     node.create_subscription(kind, topic, hear, profile, raw=raw, event_callbacks=events)
-    if period is not None and report is not None:
-        node.create_timer(period, report)
     if spin_for(node, seconds, done):
         return
     if seconds is None:
@@ -277,107 +254,117 @@ def listen(
     raise end_of_stretch(seconds)
 
 
-# -- hz, bw and delay ---------------------------------------------------------------------------------------------
+# -- hz, bw and delay --------------------------------------------------------------------------------------------------
 # What is counted when follows recordings of the real tools: `hz` reports at a message that comes a second or more
 # after the last report, `bw` and `delay` report every second.
 
 SECOND = 1_000_000_000
 
 
-def statistics(values: deque[int]) -> tuple[float, int, int, float]:
-    """Mean, least, greatest and standard deviation."""
-    mean = sum(values) / len(values)
-    return mean, min(values), max(values), sqrt(sum((value - mean) ** 2 for value in values) / len(values))
+class Measure:
+    """Looks at what is heard on a topic, and prints what comes of it.
+
+    Attributes:
+        raw: whether it hears bytes, not messages.
+    """
+
+    raw = False
+
+    def __init__(self, window: int) -> None:
+        self.values: deque[Any] = deque(maxlen=window)
+
+    def count(self, message: Any) -> None:
+        """A message comes now."""
+        raise NotImplementedError
+
+    def report(self) -> None:
+        """Print what there is to say; called every second."""
+
+    def print_times(self, title: Callable[[float], str]) -> None:
+        """Print what the mean of the times (ns) amounts to, and their least, greatest and standard deviation."""
+        mean = sum(self.values) / len(self.values)
+        deviation = sqrt(sum((value - mean) ** 2 for value in self.values) / len(self.values))
+        least, greatest = min(self.values) / SECOND, max(self.values) / SECOND
+        print(
+            f"{title(mean / SECOND)}\n\tmin: {least:.3f}s max: {greatest:.3f}s "
+            f"std dev: {deviation / SECOND:.5f}s window: {len(self.values)}"
+        )
+
+
+def _measure(measure: Measure, topic: str, args: Namespace, begin: str = "") -> None:
+    """Listen to a topic for a measure. `begin` is printed before the first message."""
+    from rclpy.qos import qos_profile_sensor_data
+
+    with direct_node(args) as node:
+        kind = wait_for_class(node, topic, stretch_of(args))
+        print(begin, end="")
+        node.create_timer(1.0, measure.report)
+        listen(node, topic, kind, measure.count, qos_profile_sensor_data, args, raw=measure.raw)
 
 
 def _now() -> int:
     return current_process().simulation.now
 
 
-def _window_arguments(parser: ArgumentParser, topic: str, about: str, window: int) -> None:
-    parser.add_argument(topic, help=f"Name of the topic, {about}")
+def _window(default: int) -> Argument:
     text = "How many messages to average over (default: %(default)s)"
-    parser.add_argument("--window", "-w", metavar="WINDOW", type=positive_int, default=window, help=text)
+    return arg("--window -w", text, metavar="WINDOW", type=positive_int, default=default)
 
 
-def hz_arguments(parser: ArgumentParser) -> None:
-    """The arguments of hz."""
-    _window_arguments(parser, "topic_name", "such as /turtle1/pose", 10_000)
-    parser.add_argument(
-        "--filter", dest="filter_expr", metavar="EXPR", help="Count a message m only where this expression is true"
-    )
-    flag(parser, "--wall-time", "Accepted; there is only one clock here", dest="use_wtime")
-    add_node_arguments(parser, daemon=False)
-    add_duration(parser)
+class Rate(Measure):
+    """How often messages come that pass a filter."""
 
-
-class Rate:
-    """Counts messages, and prints how often they come."""
-
-    def __init__(self, window: int) -> None:
-        self._gaps: deque[int] = deque(maxlen=window)
+    def __init__(self, window: int, wanted: Callable[[Any], bool]) -> None:
+        super().__init__(window)
+        self._wanted = wanted
         self._last: int | None = None
         self._printed: int | None = None
 
-    def count(self, time: int) -> None:
-        """A message comes at this time (ns)."""
+    def count(self, message: Any) -> None:
+        """A message comes now: it may be the one to report at."""
+        if not self._wanted(message):
+            return
+        time = _now()
         if self._last is not None:
-            self._gaps.append(time - self._last)
+            self.values.append(time - self._last)
         self._last = time
-        if self._gaps and self._printed is None:
+        if self.values and self._printed is None:
             self._printed = time
         elif self._printed is not None and time >= self._printed + SECOND:
             self._printed = time
-            self._print()
-
-    def _print(self) -> None:
-        mean, least, greatest, deviation = (value / SECOND for value in statistics(self._gaps))
-        print(
-            f"average rate: {1 / mean if mean else 0:.3f}\n"
-            f"\tmin: {least:.3f}s max: {greatest:.3f}s std dev: {deviation:.5f}s window: {len(self._gaps)}"
-        )
+            self.print_times(lambda mean: f"average rate: {1 / mean if mean else 0:.3f}")
 
 
+@verb(
+    "topic hz",
+    "How many messages a second arrive on a topic",
+    arg("topic_name", "Name of the topic, such as /turtle1/pose"),
+    _window(10_000),
+    arg("--filter", "Count a message m only where this expression is true", dest="filter_expr", metavar="EXPR"),
+    flag("--wall-time", "Accepted; there is only one clock here", dest="use_wtime"),
+    *NODE_WITHOUT_DAEMON,
+    duration(),
+)
 def hz(args: Namespace) -> None:
     """`ros2 topic hz`."""
-    from rclpy.qos import qos_profile_sensor_data
-
-    rate, wanted = Rate(args.window), filter_of(args.filter_expr)
-    with direct_node(args) as node:
-        kind = wait_for_class(node, args.topic_name, stretch_of(args))
-        listen(
-            node,
-            args.topic_name,
-            kind,
-            lambda message: rate.count(_now()) if wanted(message) else None,
-            qos_profile_sensor_data,
-            args,
-        )
+    _measure(Rate(args.window, filter_of(args.filter_expr)), args.topic_name, args)
 
 
-def bw_arguments(parser: ArgumentParser) -> None:
-    """The arguments of bw."""
-    _window_arguments(parser, "topic", "such as /turtle1/pose", 100)
-    add_node_arguments(parser, daemon=False)
-    add_duration(parser)
+class Bandwidth(Measure):
+    """How many bytes come a second."""
 
+    raw = True
 
-class Bandwidth:
-    """Counts bytes, and prints how many come a second."""
-
-    def __init__(self, window: int) -> None:
-        self._messages: deque[tuple[int, int]] = deque(maxlen=window)
-
-    def count(self, data: bytes) -> None:
-        """A message comes now."""
-        self._messages.append((_now(), len(data)))
+    def count(self, message: bytes) -> None:
+        """So many bytes come now."""
+        self.values.append((_now(), len(message)))
 
     def report(self) -> None:
         """Print, if there is enough to say."""
-        if len(self._messages) < 2:
+        if len(self.values) < 2:
             return
-        sizes = [size for _, size in self._messages]
-        rate = sum(sizes) * SECOND / (_now() - self._messages[0][0])
+        sizes = [size for _, size in self.values]
+        rate = sum(sizes) * SECOND / (_now() - self.values[0][0])
         shown = [_bytes(size, rate) for size in (rate, sum(sizes) / len(sizes), min(sizes), max(sizes))]
         print(
             f"{shown[0]}/s from {len(sizes)} messages\n\tMessage size mean: {shown[1]} min: {shown[2]} max: {shown[3]}"
@@ -391,31 +378,23 @@ def _bytes(size: float, rate: float) -> str:
     return f"{size / 1e3:.2f} KB" if rate < 1e6 else f"{size / 1e6:.2f} MB"
 
 
+@verb(
+    "topic bw",
+    "How many bytes a second arrive on a topic",
+    arg("topic", "Name of the topic, such as /turtle1/pose"),
+    _window(100),
+    *NODE_WITHOUT_DAEMON,
+    duration(),
+)
 def bw(args: Namespace) -> None:
     """`ros2 topic bw`."""
-    from rclpy.qos import qos_profile_sensor_data
-
-    count = Bandwidth(args.window)
-    with direct_node(args) as node:
-        kind = wait_for_class(node, args.topic, stretch_of(args))
-        print(f"Subscribed to [{args.topic}]")
-        profile = qos_profile_sensor_data
-        listen(node, args.topic, kind, count.count, profile, args, raw=True, period=1.0, report=count.report)
+    _measure(Bandwidth(args.window), args.topic, args, f"Subscribed to [{args.topic}]\n")
 
 
-def delay_arguments(parser: ArgumentParser) -> None:
-    """The arguments of delay."""
-    _window_arguments(parser, "topic", "whose messages have a header", 10_000)
-    add_node_arguments(parser, daemon=False)
-    add_duration(parser)
+class Delay(Measure):
+    """How long ago the times in messages' headers were."""
 
-
-class Delay:
-    """Looks at the times in messages' headers, and prints how long ago they were."""
-
-    def __init__(self, window: int) -> None:
-        self._delays: deque[int] = deque(maxlen=window)
-        self._begun = self._news = False
+    _begun = _news = False
 
     def count(self, message: Any) -> None:
         """A message comes now; the first one only begins the count."""
@@ -425,30 +404,28 @@ class Delay:
             raise CommandError("msg does not have header")
         stamp = message.header.stamp
         if self._begun:
-            self._delays.append(EPOCH + _now() - (stamp.sec * SECOND + stamp.nanosec))
+            self.values.append(EPOCH + _now() - (stamp.sec * SECOND + stamp.nanosec))
         self._begun = self._news = True
 
     def report(self) -> None:
         """Print, if there is something to say."""
-        if not self._delays:
+        if not self.values:
             return
         if not self._news:
             print("no new messages")
             return
         self._news = False
-        mean, least, greatest, deviation = (value / SECOND for value in statistics(self._delays))
-        print(
-            f"average delay: {mean:.3f}\n"
-            f"\tmin: {least:.3f}s max: {greatest:.3f}s std dev: {deviation:.5f}s window: {len(self._delays)}"
-        )
+        self.print_times(lambda mean: f"average delay: {mean:.3f}")
 
 
+@verb(
+    "topic delay",
+    "How old the messages of a topic are when they arrive, judged by the stamp in their header",
+    arg("topic", "Name of the topic, whose messages have a header"),
+    _window(10_000),
+    *NODE_WITHOUT_DAEMON,
+    duration(),
+)
 def delay(args: Namespace) -> None:
     """`ros2 topic delay`."""
-    from rclpy.qos import qos_profile_sensor_data
-
-    count = Delay(args.window)
-    with direct_node(args) as node:
-        kind = wait_for_class(node, args.topic, stretch_of(args))
-        profile = qos_profile_sensor_data
-        listen(node, args.topic, kind, count.count, profile, args, period=1.0, report=count.report)
+    _measure(Delay(args.window), args.topic, args)

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import sys
 import warnings
-from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from argparse import Namespace
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from ..idl.model import InvalidDefinition
 from ..idl.names import did_you_mean
 from ..idl.registry import FOLDERS, registry
-from .verb import MOST, CommandError, direct_node, expanded, flag, suggest
+from .arguments import Argument, arg, depth, flag
+from .verb import CommandError, direct_node, expanded, suggest, verb
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -22,34 +22,20 @@ if TYPE_CHECKING:
 # -- types -----------------------------------------------------------------------------------------------------------
 
 
-def message_class(name: str) -> Any:
-    """The class of a message. Raises CommandError with the real tool's sentence, and what was meant perhaps."""
-    from rosidl_runtime_py.utilities import get_message
+def class_of(name: str, folder: str) -> Any:
+    """The class of a message ("msg"), a service ("srv") or an action ("action").
 
-    return _found(get_message, name, "The passed message type is invalid", "msg")
+    Raises CommandError with the real tool's sentence, and what was meant perhaps.
+    """
+    from rosidl_runtime_py import utilities
 
-
-def service_class(name: str) -> Any:
-    """The class of a service. Raises CommandError with the real tool's sentence, and what was meant perhaps."""
-    from rosidl_runtime_py.utilities import get_interface, get_service
-
-    is_other = name.count("/") == 2 and _find(get_interface, name) is not None
-    sentence = "The passed type is not a service" if is_other else "The passed service type is invalid"
-    return _found(get_service, name, sentence, "srv")
-
-
-def action_class(name: str) -> Any:
-    """The class of an action. Raises CommandError with the real tool's sentence, and what was meant perhaps."""
-    from rosidl_runtime_py.utilities import get_action
-
-    return _found(get_action, name, "The passed action type is invalid", "action")
-
-
-def _found(get: Callable[[str], Any], name: str, sentence: str, folder: str) -> Any:
-    found = _find(get, name)
-    if found is None:
-        raise CommandError(sentence, suggest_type(name, folder))
-    return found
+    kind = {"msg": "message", "srv": "service"}.get(folder, folder)
+    found = _find(getattr(utilities, f"get_{kind}"), name)
+    if found is not None:
+        return found
+    is_other = folder == "srv" and name.count("/") == 2 and _find(utilities.get_interface, name) is not None
+    sentence = "The passed type is not a service" if is_other else f"The passed {kind} type is invalid"
+    raise CommandError(sentence, suggest_type(name, folder))
 
 
 def _find(get: Callable[[str], Any], name: str) -> Any:
@@ -76,12 +62,7 @@ def unknown_type(name: str, folder: str) -> str:
 
 def suggest_type(name: str, folder: str) -> str:
     """`Did you mean 'std_msgs/msg/String'?`, or nothing if no type is like that."""
-    known = [
-        f"{package}/{interface}"
-        for package in registry.packages()
-        for interface in registry.interface_names(package)
-        if interface.startswith(f"{folder}/")
-    ]
+    known = [each for each in interface_names() if each.split("/")[1] == folder]
     package, _, last = name.replace(".", "/").rpartition("/")
     same_name = [each for each in known if each.rpartition("/")[2].lower() == last.lower() and each != name]
     if same_name and not registry.knows(package.partition("/")[0]):
@@ -90,57 +71,55 @@ def suggest_type(name: str, folder: str) -> str:
     return did_you_mean(full, [each for each in known if each != name])
 
 
+def interface_names() -> list[str]:
+    """The full names of all interfaces."""
+    return [f"{package}/{name}" for package in registry.packages() for name in registry.interface_names(package)]
+
+
 # -- values ----------------------------------------------------------------------------------------------------------
 
 MAX_LENGTH = 100_000
 """How many characters of YAML are read at most."""
 
 
-class NoYaml(CommandError):
-    """A text is no YAML that can be read."""
-
-
-class Unparsable(NoYaml):
+class Unparsable(CommandError):
     """The brackets, commas or colons of a text make no YAML; `ros2 param set` takes such a text as it is."""
 
 
 def read_yaml(text: str, what: str = "The passed value") -> Any:
-    """The value of a YAML text. Raises NoYaml, in one line, for anything that is none or could be a trap."""
+    """The value of a YAML text. Raises CommandError, in one line, for anything that is none or could be a trap."""
     import yaml
 
     from ..runtime.files import safe_load
 
     if len(text) > MAX_LENGTH:
-        raise NoYaml(f"{what} is too long: at most {MAX_LENGTH} characters of YAML are read")
+        raise CommandError(f"{what} is too long: at most {MAX_LENGTH} characters of YAML are read")
     try:
         return safe_load(text)
-    except yaml.MarkedYAMLError as error:
-        kind = Unparsable if isinstance(error, yaml.parser.ParserError) else NoYaml
-        raise kind(f"{what} is not valid YAML: {_in_one_line(error)}") from None
     except (yaml.YAMLError, ValueError, OverflowError) as error:
-        raise NoYaml(f"{what} is not valid YAML: {' '.join(str(error).split())}") from None
+        reason = str(error)
+        if isinstance(error, yaml.MarkedYAMLError):
+            reason = ", ".join(filter(None, (error.context, error.problem)))
+            if mark := error.problem_mark:
+                reason += f" (line {mark.line + 1}, column {mark.column + 1})"
+        kind = Unparsable if isinstance(error, yaml.parser.ParserError) else CommandError
+        raise kind(f"{what} is not valid YAML: {' '.join(reason.split())}") from None
 
 
-def _in_one_line(error: Any) -> str:
-    parts = [part for part in (error.context, error.problem) if part]
-    mark = error.problem_mark
-    place = f" (line {mark.line + 1}, column {mark.column + 1})" if mark else ""
-    return ", ".join(" ".join(part.split()) for part in parts) + place
-
-
-def populate(message: Any, values: Any) -> list[Callable[[Any], None]]:
-    """Set the fields of a message (or request) to values as YAML gives them, or raise CommandError with a sentence.
+def populate(message: Any, values: Any, *, is_goal: bool = False) -> list[Callable[[Any], None]]:
+    """Set the fields of a message, a request or a goal to values as YAML gives them, or raise CommandError with a sentence.
 
     Returns:
-        Functions that want the time of sending: they set what was typed as `header: auto` or `stamp: now`.
+        Functions that want the time of sending: they set what was typed as `header: auto` or `stamp: now`; none for a goal.
     """
     from rosidl_runtime_py.set_message import set_message_fields
 
     try:
-        return set_message_fields(message, values, expand_header_auto=True, expand_time_now=True)
+        return set_message_fields(message, values, expand_header_auto=not is_goal, expand_time_now=not is_goal)
     except (TypeError, AttributeError, ValueError, AssertionError, OverflowError, RecursionError) as error:
-        notes = getattr(error, "__notes__", []) if isinstance(error, (AttributeError, TypeError)) else []
-        raise CommandError(f"Failed to populate field: {error}", "\n".join(notes)) from None
+        what = f"message fields: {error!r}" if is_goal else f"field: {error}"
+        notes = getattr(error, "__notes__", ()) if isinstance(error, (AttributeError, TypeError)) else ()
+        raise CommandError(f"Failed to populate {what}", "\n".join(notes)) from None
 
 
 def stamp(setters: list[Callable[[Any], None]], node: Node) -> None:
@@ -151,87 +130,76 @@ def stamp(setters: list[Callable[[Any], None]], node: Node) -> None:
             set_stamp(now)
 
 
-# -- names in the graph ---------------------------------------------------------------------------------------------
+# -- names in the graph ----------------------------------------------------------------------------------------------
+
+Known = Callable[["Node", bool], dict[str, list[str]]]
+"""All names of a kind that are there with their types, also hidden ones if wanted."""
 
 
-@dataclass(frozen=True)
-class Names:
-    """The names of one kind in the graph, such as topics: what their `list`, `type` and `find` have alike.
+def name_argument(kind: str, example: str) -> Argument:
+    """The argument that names a topic, service or action which is there."""
+    return arg(f"{kind}_name", f"Full name of the {kind}, such as {example}")
 
-    Attributes:
+
+def list_arguments(kind: str, use: str = "list") -> tuple[Argument, ...]:
+    """The arguments with which `list` and `find` count names, and include hidden ones; there are no hidden actions."""
+    count = flag(f"-c --count-{kind}s", "Print only how many there are")
+    hidden = flag(f"--include-hidden-{kind}s", f"Also {use} {kind}s with a hidden name")
+    return (count,) if kind == "action" else (count, hidden)
+
+
+def types_of(kind: str, name: str, known: dict[str, list[str]]) -> list[str]:
+    """The types of a name. Raises CommandError if there is no such name."""
+    if name not in known:
+        raise CommandError(f"Unknown {kind} '{name}'", suggest(name, known))
+    return known[name]
+
+
+def add_type_and_find(kind: str, folder: str, examples: tuple[str, str], known: Known, *common: Argument) -> None:
+    """Add the verbs `type` and `find` of topics, services or actions.
+
+    Args:
         kind: "topic", "service" or "action".
         folder: the kind of their types: "msg", "srv" or "action".
         examples: the name of one, and of a type.
-        known: all that are there with their types, also hidden ones if wanted.
-        common: adds the arguments that each of the verbs has.
+        known: finds those that are there.
+        common: arguments of both verbs.
     """
+    article = "An" if kind == "action" else "A"
 
-    kind: str
-    folder: str
-    examples: tuple[str, str]
-    known: Callable[[Node, bool], dict[str, list[str]]]
-    common: Callable[[ArgumentParser], object] = lambda parser: None
-
-    def list_arguments(self, parser: ArgumentParser) -> None:
-        """The arguments of `list`."""
-        self.common(parser)
-        flag(parser, "-t --show-types", f"Show each {self.kind}'s type beside it")
-        self._add_count(parser, "list")
-
-    def _add_count(self, parser: ArgumentParser, verb: str) -> None:
-        flag(parser, f"-c --count-{self.kind}s", "Print only how many there are")
-        if self.kind != "action":
-            flag(parser, f"--include-hidden-{self.kind}s", f"Also {verb} {self.kind}s with a hidden name")
-
-    def _chosen(self, args: Namespace) -> tuple[dict[str, list[str]], bool]:
-        """The names that `list` and `find` look through, and whether only their number is wanted."""
-        with direct_node(args) as node:
-            known = self.known(node, getattr(args, f"include_hidden_{self.kind}s", False))
-        return known, getattr(args, f"count_{self.kind}s")
-
-    def print_list(self, args: Namespace) -> None:
-        """Print the names, or how many there are."""
-        found, count = self._chosen(args)
-        if count:
-            print(len(found))
-            return
-        for name, types in found.items():
-            print(f"{name} [{', '.join(types)}]" if args.show_types else name)
-
-    def type_arguments(self, parser: ArgumentParser) -> None:
-        """The arguments of `type`."""
-        self.common(parser)
-        parser.add_argument(f"{self.kind}_name", help=f"Full name of the {self.kind}, such as {self.examples[0]}")
-
-    def print_type(self, args: Namespace) -> None:
+    @verb(f"{kind} type", f"{article} {kind}'s type", *common, name_argument(kind, examples[0]))
+    def print_type(args: Namespace) -> None:
         """Print the types of a name. For an unknown one the real tool says nothing, and ends with exit code 1."""
         with direct_node(args) as node:
-            known = self.known(node, True)
-        print(*self.types_of(getattr(args, f"{self.kind}_name"), known), sep="\n")
+            there = known(node, True)
+        print(*types_of(kind, getattr(args, f"{kind}_name"), there), sep="\n")
 
-    def types_of(self, name: str, known: dict[str, list[str]]) -> list[str]:
-        """The types of a name. Raises CommandError if there is no such name."""
-        if name not in known:
-            raise CommandError(f"Unknown {self.kind} '{name}'", suggest(name, known))
-        return known[name]
+    wanted = arg(f"{kind}_type", f"Name of the type, such as {examples[1]}")
 
-    def find_arguments(self, parser: ArgumentParser) -> None:
-        """The arguments of `find`."""
-        self.common(parser)
-        parser.add_argument(f"{self.kind}_type", help=f"Name of the type, such as {self.examples[1]}")
-        self._add_count(parser, "find")
-
-    def print_found(self, args: Namespace) -> None:
+    @verb(f"{kind} find", f"The {kind}s of a type", *common, wanted, *list_arguments(kind, "find"))
+    def print_found(args: Namespace) -> None:
         """Print the names that have a type, or how many these are."""
-        known, count = self._chosen(args)
-        wanted = getattr(args, f"{self.kind}_type")
-        found = [name for name, types in known.items() if wanted in types]
-        if count:
+        with direct_node(args) as node:
+            there = known(node, getattr(args, f"include_hidden_{kind}s", False))
+        type_name = getattr(args, f"{kind}_type")
+        found = [name for name, types in there.items() if type_name in types]
+        if getattr(args, f"count_{kind}s"):
             print(len(found))
         elif found:
             print(*found, sep="\n")
-        elif about := unknown_type(wanted, self.folder):
+        elif about := unknown_type(type_name, folder):
             print(about, file=sys.stderr)
+
+
+def print_names(kind: str, known: Known, args: Namespace) -> None:
+    """Print the names that `list` is to show, or how many there are."""
+    with direct_node(args) as node:
+        found = known(node, getattr(args, f"include_hidden_{kind}s", False))
+    if getattr(args, f"count_{kind}s"):
+        print(len(found))
+        return
+    for name, types in found.items():
+        print(f"{name} [{', '.join(types)}]" if args.show_types else name)
 
 
 # -- quality of service ----------------------------------------------------------------------------------------------
@@ -255,33 +223,18 @@ FALL_BACK = (
 )
 
 
-def add_qos_arguments(parser: ArgumentParser, verb: str, preset: str, automatic: bool) -> None:
-    """Add the options. `verb`: subscribe or publish; `automatic`: defaults follow the publishers that are there."""
+def qos_arguments(use: str, preset: str, *, automatic: bool) -> tuple[Argument, ...]:
+    """The options. `use`: subscribe or publish; `automatic`: defaults follow the publishers that are there."""
     reliability, durability = ("as the publishers offer",) * 2 if automatic else ("reliable", "transient_local")
-    parser.add_argument("--qos-profile", choices=PRESETS, help=f"Profile to {verb} with (default: {preset})")
-    parser.add_argument("--qos-depth", metavar="N", type=_depth, help="Length of the queue; overrides the profile's")
-    parser.add_argument("--qos-history", choices=HISTORIES, help="Which messages the queue keeps (default: keep_last)")
-    parser.add_argument(
-        "--qos-reliability",
-        choices=RELIABILITIES,
-        help=f"Whether lost messages are sent again; overrides the profile's (default: {reliability})",
+    again = f"Whether lost messages are sent again; overrides the profile's (default: {reliability})"
+    late = f"Whether late subscriptions get earlier messages; overrides the profile's (default: {durability})"
+    return (
+        arg("--qos-profile", f"Profile to {use} with (default: {preset})", choices=PRESETS),
+        arg("--qos-depth", "Length of the queue; overrides the profile's", metavar="N", type=depth),
+        arg("--qos-history", "Which messages the queue keeps (default: keep_last)", choices=HISTORIES),
+        arg("--qos-reliability", again, choices=RELIABILITIES),
+        arg("--qos-durability", late, choices=DURABILITIES),
     )
-    parser.add_argument(
-        "--qos-durability",
-        choices=DURABILITIES,
-        help=f"Whether late subscriptions get earlier messages; overrides the profile's (default: {durability})",
-    )
-
-
-def _depth(text: str) -> int:
-    """A length; a negative one is accepted, and without effect."""
-    try:
-        depth = int(text)
-    except ValueError:
-        raise ArgumentTypeError(f"invalid int value: '{text}'") from None
-    if depth > MOST:
-        raise ArgumentTypeError(f"value must be at most {MOST}")
-    return depth
 
 
 def is_chosen(args: Namespace) -> bool:
@@ -292,59 +245,49 @@ def is_chosen(args: Namespace) -> bool:
 
 def profile_of(args: Namespace, preset: str, **defaults: str) -> QoSProfile:
     """The profile that the options ask for; `defaults` are policies by short name, used if no preset was given."""
-    from rclpy.qos import QoSDurabilityPolicy, QoSHistoryPolicy, QoSPresetProfiles, QoSReliabilityPolicy
+    from rclpy.qos import QoSDurabilityPolicy, QoSHistoryPolicy, QoSReliabilityPolicy
 
-    profile = _copy(QoSPresetProfiles.get_from_short_key(args.qos_profile or preset))
-    if args.qos_profile is not None:
-        defaults = {}
+    profile = _preset(args.qos_profile or preset)
     if args.qos_depth is not None and args.qos_depth >= 0:
-        _set_depth(profile, args.qos_depth)
-    policies = {
-        "history": QoSHistoryPolicy,
-        "reliability": QoSReliabilityPolicy,
-        "durability": QoSDurabilityPolicy,
-    }
-    for name, policy in policies.items():
-        chosen = getattr(args, f"qos_{name}") or defaults.get(name)
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            profile.depth = args.qos_depth
+        for warning in caught:  # of a depth of 0: a line that names no file of ours
+            print(f"WARNING: {warning.message}", file=sys.stderr)
+    for name, policy in (
+        ("history", QoSHistoryPolicy),
+        ("reliability", QoSReliabilityPolicy),
+        ("durability", QoSDurabilityPolicy),
+    ):
+        chosen = getattr(args, f"qos_{name}") or (defaults.get(name) if args.qos_profile is None else None)
         if chosen:
             setattr(profile, name, policy.get_from_short_key(chosen))
     return profile
 
 
-def _set_depth(profile: QoSProfile, depth: int) -> None:
-    """Set the depth; rclpy's warning of a depth of 0 becomes a line that names no file of ours."""
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        profile.depth = depth
-    for warning in caught:
-        print(f"WARNING: {warning.message}", file=sys.stderr)
-
-
 def matching_profile(node: Node, topic: str, preset: str) -> QoSProfile:
-    """The preset, changed so that a subscription hears every publisher that is there."""
-    from rclpy.qos import QoSDurabilityPolicy, QoSPresetProfiles, QoSReliabilityPolicy
+    """The preset, changed so that a subscription hears every publisher that is there.
 
-    profile = _copy(QoSPresetProfiles.get_from_short_key(preset))
+    A policy is the strong one if all of them offer it, else the weak one, which is said where some offer the strong one.
+    """
+    from rclpy.qos import QoSDurabilityPolicy, QoSReliabilityPolicy
+
+    profile = _preset(preset)
     offers = [info.qos_profile for info in node.get_publishers_info_by_topic(expanded(node, topic))]
-    if offers:
-        reliability, durability = QoSReliabilityPolicy, QoSDurabilityPolicy
-        weak, strong = reliability.BEST_EFFORT, reliability.RELIABLE
-        profile.reliability = _common([each.reliability for each in offers], strong, weak)
-        weak_durability, latched = durability.VOLATILE, durability.TRANSIENT_LOCAL
-        profile.durability = _common([each.durability for each in offers], latched, weak_durability)
+    for name, strong, weak in (
+        ("reliability", QoSReliabilityPolicy.RELIABLE, QoSReliabilityPolicy.BEST_EFFORT),
+        ("durability", QoSDurabilityPolicy.TRANSIENT_LOCAL, QoSDurabilityPolicy.VOLATILE),
+    ):
+        offered = {getattr(each, name) for each in offers}
+        if offered:
+            setattr(profile, name, strong if offered == {strong} else weak)
+        if strong in offered and offered != {strong}:
+            print(FALL_BACK.format(policy=f"QoS{type(strong).__name__}", strong=strong.name, weak=weak.name))
     return profile
 
 
-def _common(offered: list[Any], strong: Any, weak: Any) -> Any:
-    """The strong policy if all offer it, else the weak one, said where some do."""
-    if all(each == strong for each in offered):
-        return strong
-    if strong in offered:
-        print(FALL_BACK.format(policy=f"QoS{type(strong).__name__}", strong=strong.name, weak=weak.name))
-    return weak
+def _preset(name: str) -> QoSProfile:
+    """A profile of its own, which may be changed."""
+    from rclpy.qos import QoSPresetProfiles, QoSProfile
 
-
-def _copy(profile: QoSProfile) -> QoSProfile:
-    from rclpy.qos import QoSProfile
-
-    return QoSProfile(**vars(profile))
+    return QoSProfile(**vars(QoSPresetProfiles.get_from_short_key(name)))

@@ -1,114 +1,36 @@
-"""What the verbs of `ros2` share: their arguments, their node, their limits in robot time, and how they end.
+"""What a verb of `ros2` is, and what verbs share: their node, their limits in robot time, and how they end.
 
 Each command is a simulated process; a verb is ordinary blocking rclpy code in it. It prints to `sys.stdout` and
-`sys.stderr` as the real tool does, and `main` returns the exit code: 0, 1 after an error, 2 for wrong usage and for
-what would go on forever in a terminal (as after a Ctrl-C there).
+`sys.stderr` as the real tool does. The exit code is 0, 1 after an error, 2 for wrong usage and for what would go on
+forever in a terminal (as after a Ctrl-C there).
 """
 
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from argparse import Namespace
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from ..idl.names import did_you_mean, is_hidden
 from ..runtime.world import current_process
-from .parser import Invocation
+from .arguments import DISCOVERY, STRETCH, Argument, Parser, cut
 
 if TYPE_CHECKING:
     from rclpy.node import Node
     from rclpy.task import Future
     from rclpy.topic_endpoint_info import TopicEndpointInfo
 
-
-# -- numbers as arguments, within what makes sense in a simulated world ----------------------------------------------
-
-LONGEST = 86_400.0
-"""How long, in s of robot time, a command can be told to go on: a day."""
-
-FASTEST = 10_000.0
-"""How often a second a command can be told to do something."""
-
-MOST = 2**31 - 1
-"""The greatest whole number that a command takes."""
-
-
-def positive_float(text: str) -> float:
-    """An argument that is a number above 0."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = 0.0
-    if not 0 < value < float("inf"):
-        raise ArgumentTypeError(f"'{text}' is not a number above 0")
-    return value
-
-
-def frequency(text: str) -> float:
-    """An argument that says how often a second; more often than `FASTEST` no robot could.
-
-    Anything but a number above 0 is refused in the words that argparse has for ros2topic's `positive_float`.
-    """
-    try:
-        value = positive_float(text)
-    except ArgumentTypeError as error:
-        raise ArgumentTypeError(f"invalid positive_float value: '{text}'\n{error}") from None
-    if value > FASTEST:
-        raise ArgumentTypeError(f"'{text}' times a second is too often; at most {FASTEST:g}")
-    if value < 1 / LONGEST:
-        raise ArgumentTypeError(f"'{text}' times a second is too rare; at least once a day")
-    return value
-
-
-def seconds(text: str) -> float:
-    """An argument that is a number of seconds, 0 or more, up to a day."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = -1.0
-    if not 0 <= value < float("inf"):
-        raise ArgumentTypeError(f"'{text}' is not a number of seconds")
-    if value > LONGEST:
-        raise ArgumentTypeError(f"'{text}' is too long; at most {LONGEST:.0f} s, a day")
-    return value
-
-
-def stretch(text: str) -> float:
-    """An argument that is a stretch of time: more than 0 s, up to a day."""
-    positive_float(text)
-    return seconds(text)
-
-
-def positive_int(text: str) -> int:
-    """An argument that is a whole number above 0."""
-    if not text.isdigit() or not text.strip("0"):
-        raise ArgumentTypeError("value must be a positive integer")
-    return unsigned_int(text)
-
-
-def unsigned_int(text: str) -> int:
-    """An argument that is a whole number, 0 or above."""
-    if not (text.isascii() and text.isdigit() and len(text) < 19):
-        raise ArgumentTypeError("value must be non-negative integer")
-    if int(text) > MOST:
-        raise ArgumentTypeError(f"value must be at most {MOST}")
-    return int(text)
-
-
-STRETCH = 5.0
-"""How long, in s of robot time, goes on what never ends in a terminal, unless `--for` tells otherwise."""
-
 PATIENCE = 5.0
 """How long, in s of robot time, a command waits for what the real one waits for in silence, before it says so."""
 
-DISCOVERY = 0.1
-"""How long, in s of robot time, a command looks around first, so that what was just started can appear."""
-
 HIDDEN_PREFIX = "_ros2cli"
+
 INTERRUPTED = 2
+"""The exit code of a `ros2` command that was ended by Ctrl-C."""
 
 
 class CommandError(Exception):
@@ -122,64 +44,77 @@ class Interrupted(Exception):
     """Ends a command as Ctrl-C does in a terminal: the exit code is 2. Its text, if any, is a remark, not an error."""
 
 
+@dataclass
+class Invocation:
+    """How the command of a process is run."""
+
+    background: bool = False
+    """Whether it goes on in the background: its verb never ends by itself."""
+    shown: bool = False
+    """Whether its output is shown in the cell: it goes to no file and to no pipe."""
+
+
 @dataclass(frozen=True)
-class Command:
-    """A verb made of two functions: one adds the arguments, one does the work and returns an exit code or None."""
+class Verb:
+    """One verb of a command, such as `list` of `ros2 topic`; or a command without verbs, such as `ros2 run`.
 
+    Attributes:
+        words: the words by which it is called, such as "topic list".
+        help: one line on what it does.
+        arguments: what adds its arguments to a parser, in the real tool's order.
+        work: does it, and returns an exit code or None.
+        in_cell: whether it needs neither robot time nor a node, and so runs in the cell itself, not as a process.
+    """
+
+    words: str
     help: str
-    arguments: Callable[[ArgumentParser], object]
+    arguments: tuple[Argument, ...]
     work: Callable[[Namespace], int | None]
+    in_cell: bool = False
 
-    def add_arguments(self, parser: ArgumentParser) -> None:
-        """Add what may be typed after the verb."""
-        self.arguments(parser)
+    @property
+    def prog(self) -> str:
+        """How it is called, from the first word on."""
+        return f"ros2 {self.words}"
+
+    @cached_property
+    def parser(self) -> Parser:
+        """The parser of its arguments."""
+        return Parser(self.prog, self.help, self.arguments)
 
     def main(self, args: Namespace) -> int:
-        """Do the work. Errors that the real tool tells in a sentence are told in one, on stderr."""
+        """Do the work. Errors that the real tool tells in a sentence are told in one, on stderr, and so are all others."""
         from rclpy.exceptions import NameValidationException
 
         try:
             return self.work(args) or 0
-        except (CommandError, NameValidationException) as error:
-            print(error, file=sys.stderr)
-            return 1
         except Interrupted as error:
             if str(error):
                 remark(str(error))
             return INTERRUPTED
+        except (CommandError, NameValidationException) as error:
+            print(error, file=sys.stderr)
+        except Exception as error:
+            print(f"{self.prog}: {type(error).__name__}: {cut(str(error))}", file=sys.stderr)
+        return 1
 
 
-# -- arguments that several verbs have ---------------------------------------------------------------------------
+VERBS: dict[str, dict[str, Verb]] = {}
+"""The verbs of the modules that are imported, by command and name. A command without verbs has one without a name."""
 
 
-def no_arguments(parser: ArgumentParser) -> None:
-    """For a verb that takes none."""
+def verb(words: str, help_text: str, *arguments: Argument, in_cell: bool = False) -> Callable[[Any], Any]:
+    """Make a function that does a verb's work known by the words that call it; the function stays as it is."""
+
+    def add(work: Callable[[Namespace], int | None]) -> Callable[[Namespace], int | None]:
+        command, _, name = words.partition(" ")
+        VERBS.setdefault(command, {})[name] = Verb(words, help_text, arguments, work, in_cell)
+        return work
+
+    return add
 
 
-def flag(parser: Any, options: str, text: str, **more: Any) -> None:
-    """Add an option without a value, which is false unless it is given; `options` are its spellings."""
-    parser.add_argument(*options.split(), action="store_true", help=text, **more)
-
-
-def add_node_arguments(parser: ArgumentParser, *, daemon: bool = True) -> None:
-    """Arguments of every verb that looks at the graph. A simulated world needs no daemon and no simulated clock."""
-    parser.add_argument(
-        "--spin-time",
-        type=seconds,
-        help=f"Seconds of robot time to spend on discovery first (default: {DISCOVERY})",
-    )
-    flag(parser, "-s --use-sim-time", "Accepted; all time here is simulated")
-    if daemon:
-        flag(parser, "--no-daemon", "Accepted; no daemon is needed here")
-
-
-def add_duration(parser: ArgumentParser, text: str = "", kind: Callable[[str], float] = stretch) -> None:
-    """`--for SECONDS`, for a verb that never ends in a terminal. The real tool has no such option."""
-    usual = f"End after this many seconds of robot time (default: {STRETCH:g}; only here)"
-    parser.add_argument("--for", dest="seconds", type=kind, metavar="SECONDS", help=text or usual)
-
-
-# -- robot time --------------------------------------------------------------------------------------------------
+# -- robot time --------------------------------------------------------------------------------------------------------
 
 
 def stretch_of(args: Namespace) -> float | None:
@@ -209,31 +144,6 @@ def now() -> float:
     return current_process().simulation.now / 1e9
 
 
-def answer_of(node: Node, future: Future, seconds: float | None = None) -> Any:
-    """Spin the node until the future has a result, and return that; None if it has none within the time (s)."""
-    import rclpy
-
-    rclpy.spin_until_future_complete(node, future, timeout_sec=seconds)
-    return future.result() if future.done() else None
-
-
-def ask(node: Node, kind: Any, service: str, not_there: str, request: dict[str, Any]) -> Any:
-    """The answer of a node's own service, such as /turtlesim/get_parameters.
-
-    Raises CommandError, with `not_there` if the node has no such service: the real tool waits forever for a busy node.
-    """
-    client = node.create_client(kind, service)
-    if not client.wait_for_service(timeout_sec=PATIENCE):
-        raise CommandError(not_there)
-    response = answer_of(node, client.call_async(kind.Request(**request)), PATIENCE)
-    if response is None:
-        name = service.rpartition("/")[0]
-        raise CommandError(
-            f"No answer from {name} in {PATIENCE:g} s of robot time: is it busy in a callback, or not spinning?"
-        )
-    return response
-
-
 def spin_for(node: Node, seconds: float | None, done: Future | None = None) -> bool:
     """Spin the node for some robot time (s, or None forever) or until `done` is; whether `done` is."""
     import rclpy
@@ -244,7 +154,27 @@ def spin_for(node: Node, seconds: float | None, done: Future | None = None) -> b
     return future.done()
 
 
-# -- the command's own node --------------------------------------------------------------------------------------
+# -- asking other nodes ------------------------------------------------------------------------------------------------
+
+
+def ask(node: Node, kind: Any, service: str, not_there: str, request: dict[str, Any]) -> Any:
+    """The answer of a node's own service, such as /turtlesim/get_parameters.
+
+    Raises CommandError, with `not_there` if the node has no such service: the real tool waits forever for a busy node.
+    """
+    client = node.create_client(kind, service)
+    if not client.wait_for_service(timeout_sec=PATIENCE):
+        raise CommandError(not_there)
+    future = client.call_async(kind.Request(**request))
+    if not spin_for(node, PATIENCE, future):
+        name = service.rpartition("/")[0]
+        raise CommandError(
+            f"No answer from {name} in {PATIENCE:g} s of robot time: is it busy in a callback, or not spinning?"
+        )
+    return future.result()
+
+
+# -- the command's own node --------------------------------------------------------------------------------------------
 
 
 @contextmanager
@@ -266,13 +196,23 @@ def direct_node(args: Namespace | None = None, name: str | None = None) -> Itera
         rclpy.try_shutdown()
 
 
-# -- what there is in the graph ----------------------------------------------------------------------------------
+# -- what there is in the graph ----------------------------------------------------------------------------------------
 
 
 def node_names(node: Node, include_hidden: bool = False) -> list[str]:
     """The full names of the nodes that are there, sorted; one that is there twice is listed twice."""
     names = node.get_fully_qualified_node_names()
     return sorted(name for name in names if include_hidden or not name.rpartition("/")[2].startswith("_"))
+
+
+def find_node(node: Node, args: Namespace, known: list[str] | None = None) -> str:
+    """The full name of the node that was named. Raises CommandError if it is not among those known, or there at all."""
+    name, names = absolute(args.node_name), node_names(node, args.include_hidden_nodes)
+    if name in (names if known is None else known):
+        return name
+    if name in names:
+        raise CommandError("Node not found", f"{name} is not a managed node.")
+    raise CommandError("Node not found", suggest(name, names if known is None else known))
 
 
 def topics(node: Node, include_hidden: bool = False, *, ears: bool = False) -> dict[str, list[str]]:
@@ -321,7 +261,7 @@ def expanded(node: Node, name: str, *, is_service: bool = False) -> str:
     except ValueError as error:
         raise CommandError(str(error).rstrip()) from None
     validate_full_topic_name(full_name, is_service=is_service)
-    return node.resolve_service_name(name) if is_service else node.resolve_topic_name(name)
+    return full_name
 
 
 def absolute(node_name: str) -> str:
@@ -331,14 +271,7 @@ def absolute(node_name: str) -> str:
 
 def suggest(name: str, known: Iterable[str]) -> str:
     """`Did you mean '/navigator'?`, or nothing if nothing known is like that; a missing slash is found as well."""
-    known = list(known)
-    for candidate in known:
-        if candidate.lower().strip("/") == name.lower().strip("/") and candidate != name:
-            return f"Did you mean '{candidate}'?"
-    return did_you_mean(name, [each for each in known if each != name])
-
-
-class CellCommand(Command):
-    """A command that needs neither robot time nor a node: it runs in the cell itself, not as a process."""
-
-    in_cell = True
+    known = [each for each in known if each != name]
+    bare = name.lower().strip("/")
+    same = next((each for each in known if each.lower().strip("/") == bare), None)
+    return f"Did you mean '{same}'?" if same else did_you_mean(name, known)

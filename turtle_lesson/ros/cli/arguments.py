@@ -1,0 +1,242 @@
+"""The arguments of a verb: how they are declared, which numbers they may be, and how argparse reads and describes them."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import sys
+from argparse import ArgumentTypeError
+from collections.abc import Callable, Iterable
+from contextlib import suppress
+from functools import partial
+from typing import Any, NoReturn
+
+from ..idl.names import did_you_mean
+
+# The shape of usage and error texts follows recordings of ros2cli of Humble; help texts are our own words. Options
+# that only this simulation has (`--for`) stand in the help of a verb, but not in its usage line.
+
+OURS = ("--for",)
+"""Options that the real tool does not have."""
+
+WIDTH = 78
+
+
+class Stop(Exception):
+    """The words ask for no verb: a help text or a usage error is to be printed instead.
+
+    Attributes:
+        text: what to print, without the last line end.
+        code: the exit code: 0 for help, which goes to stdout, 2 for a mistake, which goes to stderr.
+    """
+
+    def __init__(self, text: str, code: int) -> None:
+        super().__init__(text, code)
+        self.text = text
+        self.code = code
+
+    def print(self, stdout: Any, stderr: Any) -> int:
+        """Print the text where it belongs; returns the exit code."""
+        print(self.text, file=stderr if self.code else stdout)
+        return self.code
+
+
+def cut(text: str, limit: int = 1500) -> str:
+    """A text that is fit to be printed: not endless, and without control characters."""
+    shown = "".join(char if char.isprintable() or char in "\n\t" else repr(char)[1:-1] for char in text[:limit])
+    return shown if len(text) <= limit else f"{shown[:60]}… ({len(text)} characters)"
+
+
+class _Formatter(argparse.HelpFormatter):
+    """Help without the options that only we have in its usage line, and with an option's value once for each spelling."""
+
+    def add_usage(self, usage: Any, actions: Iterable[argparse.Action], groups: Any, prefix: Any = None) -> None:
+        """The usage line."""
+        real = [action for action in actions if not set(OURS) & set(action.option_strings)]
+        super().add_usage(usage, real, groups, prefix)
+
+    def _format_action_invocation(self, action: argparse.Action) -> str:
+        if not action.option_strings or action.nargs == 0:
+            return super()._format_action_invocation(action)
+        value = self._format_args(action, action.dest.upper())
+        return ", ".join(f"{option} {value}" for option in action.option_strings)
+
+
+class Parser(argparse.ArgumentParser):
+    """An ArgumentParser that raises `Stop` instead of printing and exiting.
+
+    Its help is laid out as by argparse of Python 3.11, 80 columns wide, whatever the Python and the terminal.
+    """
+
+    def __init__(self, prog: str, description: str, arguments: Iterable[Argument]) -> None:
+        more: dict[str, Any] = {"color": False} if sys.version_info >= (3, 14) else {}
+        layout: Any = partial(_Formatter, width=WIDTH, max_help_position=24)
+        super().__init__(prog=prog, description=description, formatter_class=layout, add_help=False, **more)
+        self.add_argument("-h", "--help", action="help", help="show this help and do nothing")
+        for add in arguments:
+            add(self)
+
+    def print_help(self, file: Any = None) -> NoReturn:
+        """Ask for the help to be printed."""
+        raise Stop(self.format_help().rstrip("\n"), 0)
+
+    def error(self, message: str) -> NoReturn:
+        """Say what is wrong with the arguments."""
+        raise Stop(f"{self.format_usage().rstrip()}\n{self.prog}: error: {cut(message)}", 2)
+
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        if action.choices is None or value in action.choices:
+            return
+        choices = [str(choice) for choice in action.choices]
+        text = f"invalid choice: {cut(repr(value))} (choose from {', '.join(map(repr, choices))})"
+        raise argparse.ArgumentError(action, f"{text}\n{did_you_mean(cut(str(value)), choices)}".rstrip())
+
+    def option_names(self) -> list[str]:
+        """All its options."""
+        shown = [action for action in self._actions if action.help != argparse.SUPPRESS]
+        return [name for action in shown for name in action.option_strings]
+
+    @property
+    def actions(self) -> list[argparse.Action]:
+        """All its arguments, in order."""
+        return list(self._actions)
+
+
+# -- declaring arguments -----------------------------------------------------------------------------------------------
+
+Argument = Callable[[Any], object]
+"""Adds an argument, or several, to a parser."""
+
+
+def arg(names: str, text: str, **more: Any) -> Argument:
+    """An argument, or an option by all its spellings; `more` is what argparse's `add_argument` takes."""
+    return lambda parser: parser.add_argument(*names.split(), help=text, **more)
+
+
+def flag(names: str, text: str, **more: Any) -> Argument:
+    """An option without a value, which is false unless it is given."""
+    return arg(names, text, action="store_true", **more)
+
+
+def either(*arguments: Argument) -> Argument:
+    """Options of which only one may be given."""
+
+    def add(parser: Any) -> None:
+        group = parser.add_mutually_exclusive_group()
+        for each in arguments:
+            each(group)
+
+    return add
+
+
+# -- numbers, within what makes sense in a simulated world -------------------------------------------------------------
+
+LONGEST = 86_400.0
+"""How long, in s of robot time, a command can be told to go on: a day."""
+
+FASTEST = 10_000.0
+"""How often a second a command can be told to do something; more often no robot could."""
+
+MOST = 2**31 - 1
+"""The greatest whole number that a command takes."""
+
+
+def number(text: str) -> float:
+    """The finite number that a text says; NaN, which fails every comparison, if it says none."""
+    with suppress(ValueError):
+        value = float(text)
+        return value if math.isfinite(value) else math.nan
+    return math.nan
+
+
+def positive_float(text: str) -> float:
+    """An argument that is a number above 0."""
+    if not number(text) > 0:
+        raise ArgumentTypeError(f"'{text}' is not a number above 0")
+    return number(text)
+
+
+def frequency(text: str) -> float:
+    """An argument that says how often a second.
+
+    Anything but a number above 0 is refused in the words that argparse has for ros2topic's `positive_float`.
+    """
+    value = number(text)
+    if not value > 0:
+        raise ArgumentTypeError(f"invalid positive_float value: '{text}'\n'{text}' is not a number above 0")
+    if value > FASTEST:
+        raise ArgumentTypeError(f"'{text}' times a second is too often; at most {FASTEST:g}")
+    if value < 1 / LONGEST:
+        raise ArgumentTypeError(f"'{text}' times a second is too rare; at least once a day")
+    return value
+
+
+def seconds(text: str) -> float:
+    """An argument that is a number of seconds, 0 or more, up to a day."""
+    value = number(text)
+    if not value >= 0:
+        raise ArgumentTypeError(f"'{text}' is not a number of seconds")
+    if value > LONGEST:
+        raise ArgumentTypeError(f"'{text}' is too long; at most {LONGEST:.0f} s, a day")
+    return value
+
+
+def stretch(text: str) -> float:
+    """An argument that is a stretch of time: more than 0 s, up to a day."""
+    positive_float(text)
+    return seconds(text)
+
+
+def positive_int(text: str) -> int:
+    """An argument that is a whole number above 0."""
+    if not text.isdigit() or not text.strip("0"):
+        raise ArgumentTypeError("value must be a positive integer")
+    return unsigned_int(text)
+
+
+def unsigned_int(text: str) -> int:
+    """An argument that is a whole number, 0 or above."""
+    if not (text.isascii() and text.isdigit() and len(text) < 19):
+        raise ArgumentTypeError("value must be non-negative integer")
+    return _not_too_great(int(text))
+
+
+def depth(text: str) -> int:
+    """An argument that is the length of a queue; a negative one is accepted, and without effect."""
+    try:
+        return _not_too_great(int(text))
+    except ValueError:
+        raise ArgumentTypeError(f"invalid int value: '{text}'") from None
+
+
+def _not_too_great(value: int) -> int:
+    if value > MOST:
+        raise ArgumentTypeError(f"value must be at most {MOST}")
+    return value
+
+
+# -- arguments that several verbs have ---------------------------------------------------------------------------------
+
+STRETCH = 5.0
+"""How long, in s of robot time, goes on what never ends in a terminal, unless `--for` tells otherwise."""
+
+DISCOVERY = 0.1
+"""How long, in s of robot time, a command looks around first, so that what was just started can appear."""
+
+
+def duration(text: str = "", kind: Callable[[str], float] = stretch) -> Argument:
+    """`--for SECONDS`, for a verb that never ends in a terminal. The real tool has no such option."""
+    usual = f"End after this many seconds of robot time (default: {STRETCH:g}; only here)"
+    return arg("--for", text or usual, dest="seconds", type=kind, metavar="SECONDS")
+
+
+NODE_WITHOUT_DAEMON = (
+    arg("--spin-time", f"Seconds of robot time to spend on discovery first (default: {DISCOVERY})", type=seconds),
+    flag("-s --use-sim-time", "Accepted; all time here is simulated"),
+)
+NODE = (*NODE_WITHOUT_DAEMON, flag("--no-daemon", "Accepted; no daemon is needed here"))
+"""Arguments of every verb that looks at the graph. A simulated world needs no daemon and no simulated clock."""
+
+HIDDEN_NODES = flag("--include-hidden-nodes", "Also use nodes with a hidden name")
+ALL_NODES = flag("-a --all", "Also list nodes with a hidden name")
+COUNT_NODES = flag("-c --count-nodes", "Print only how many there are")

@@ -1,0 +1,313 @@
+"""`ros2 service` and `ros2 action`: which ones there are, which nodes offer and use them, calling them and sending goals.
+
+Texts are those of ros2service and ros2action of Humble.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from argparse import Namespace
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from .arguments import arg, duration, flag, frequency
+from .typed_values import (
+    add_type_and_find,
+    class_of,
+    list_arguments,
+    name_argument,
+    populate,
+    print_names,
+    read_yaml,
+    stamp,
+    types_of,
+)
+from .verb import (
+    HIDDEN_PREFIX,
+    PATIENCE,
+    CommandError,
+    Interrupted,
+    direct_node,
+    end_of_stretch,
+    expanded,
+    now,
+    of_the_simulator,
+    services,
+    spin_for,
+    stretch_of,
+    suggest,
+    verb,
+)
+
+if TYPE_CHECKING:
+    from rclpy.action.client import ClientGoalHandle
+    from rclpy.node import Node
+    from rclpy.task import Future
+
+
+LONGEST_ANSWER = 600.0
+"""How long, in s of robot time, an answer may take unless `--for` tells otherwise. The real tools wait forever."""
+
+LOOK_AGAIN = 1.0
+
+SERVICES = ("/spawn", "std_srvs/srv/Empty")
+ACTIONS = ("/turtle1/rotate_absolute", "turtlesim/action/RotateAbsolute")
+
+
+# -- waiting for a server, and for what it answers -----------------------------------------------------------------------
+
+
+def _not_offered(what: str, name: str, own: str, known: dict[str, list[str]]) -> CommandError:
+    """The error for a service or an action of a type that no node has offered in time. The real tools wait forever.
+
+    Args:
+        what: "service" or "action".
+        name: the one that was named.
+        own: its type.
+        known: those that are there, with their types.
+    """
+    waited = f"Gave up after {PATIENCE:g} s of robot time"
+    others = [each for each in known.get(name, []) if each != own]
+    if others:
+        return CommandError(f"{waited}: {name} is of type {', '.join(others)}, not {own}")
+    hint = suggest(name, known) or f"Is its node running (`ros2 node list`)? `ros2 {what} list` shows the {what}s."
+    return CommandError(f"{waited}: no node offers {name}", hint)
+
+
+def _outcome(
+    node: Node,
+    future: Future,
+    doing: str,
+    server: tuple[str, Callable[[], bool]],
+    until: float,
+    too_late: Callable[[], Exception],
+) -> Any:
+    """What a future brings; until then, look whether the server is still there.
+
+    Args:
+        node: the node to spin.
+        future: what is waited for.
+        doing: what fails if the future has an exception.
+        server: the name of the service or action, and whether it is there.
+        until: when to give up, in s of robot time.
+        too_late: gives the exception to raise then.
+    """
+    name, is_there = server
+    while not spin_for(node, min(LOOK_AGAIN, until - now()), future):
+        if not is_there():
+            raise CommandError(f"{name} went away before it answered: did its node end, or did an error stop it?")
+        if now() >= until - 1e-9:
+            raise too_late()
+    if future.exception() is not None:
+        raise CommandError(f"Exception while {doing}: {future.exception()!r}")
+    return future.result()
+
+
+# -- service -----------------------------------------------------------------------------------------------------------
+
+add_type_and_find("service", "srv", SERVICES, services)
+
+
+@verb(
+    "service list",
+    "The names of the services that are offered",
+    flag("-t --show-types", "Show each service's type beside it"),
+    *list_arguments("service"),
+)
+def list_services(args: Namespace) -> None:
+    """`ros2 service list`."""
+    print_names("service", services, args)
+
+
+@verb(
+    "service info", "A service's type, and how many servers and clients it has", name_argument("service", SERVICES[0])
+)
+def service_info(args: Namespace) -> None:
+    """`ros2 service info`, which Humble lacks and newer releases have."""
+    with direct_node(args) as node:
+        name = args.service_name
+        types = types_of("service", name, services(node, include_hidden=True))
+        ours = [where for where in node.get_node_names_and_namespaces() if of_the_simulator(where[0])]
+        clients = sum(name in dict(node.get_client_names_and_types_by_node(*where)) for where in ours)
+        print(f"Type: {types[0] if len(types) == 1 else types}")
+        print(f"Clients count: {node.count_clients(name) - clients}")
+        print(f"Services count: {node.count_services(name)}")
+
+
+@verb(
+    "service call",
+    "Call a service and print its answer",
+    arg("service_name", "Name of the service, such as /spawn"),
+    arg("service_type", "Its type, such as turtlesim/srv/Spawn"),
+    arg("values", "Values for the request's fields, in YAML", nargs="?", default="{}"),
+    arg("-r --rate", "Call repeatedly, this many times a second", metavar="N", type=frequency),
+    duration(),
+)
+def call(args: Namespace) -> None:
+    """`ros2 service call`."""
+    kind = class_of(args.service_type, "srv")
+    values = read_yaml(args.values)
+    package, _, base = kind._TYPE_NAME.replace("/srv/", "/").partition("/")
+    with direct_node(args, f"{HIDDEN_PREFIX}_requester_{package}_{base}") as node:
+        client = node.create_client(kind, expanded(node, args.service_name, is_service=True))
+        name, request, longest = client.service_name, kind.Request(), args.seconds or LONGEST_ANSWER
+        setters = populate(request, values)
+        if not client.service_is_ready():
+            print("waiting for service to become available...")
+            if not client.wait_for_service(timeout_sec=PATIENCE):
+                raise _not_offered("service", name, kind._TYPE_NAME, services(node, include_hidden=True))
+        too_late = CommandError(
+            f"No answer from {name} in {longest:g} s of robot time: "
+            "is its node busy with something else, or did an error end its callback?"
+        )
+        seconds = stretch_of(args) if args.rate else None
+        deadline = None if seconds is None else now() + seconds
+        while True:
+            begun = now()
+            stamp(setters, node)
+            print(f"requester: making request: {request!r}\n")
+            future, server = client.call_async(request), (name, client.service_is_ready)
+            answer = _outcome(node, future, "calling service", server, begun + longest, lambda: too_late)
+            print(f"response:\n{answer!r}\n")
+            if args.rate is None:
+                return
+            following = begun + 1 / args.rate
+            if deadline is not None and seconds is not None and following >= deadline:
+                time.sleep(max(0.0, deadline - now()))
+                raise end_of_stretch(seconds)
+            time.sleep(max(0.0, following - now()))
+
+
+# -- action ------------------------------------------------------------------------------------------------------------
+
+
+def actions(node: Node, include_hidden: bool = False) -> dict[str, list[str]]:
+    """The actions that are there, with their types; none of them is hidden."""
+    return dict(node.get_action_names_and_types())
+
+
+add_type_and_find("action", "action", ACTIONS, actions)
+
+
+@verb(
+    "action list",
+    "The names of the actions that nodes offer or use",
+    flag("-t --show-types", "Show each action's type beside it"),
+    *list_arguments("action"),
+)
+def list_actions(args: Namespace) -> None:
+    """`ros2 action list`."""
+    print_names("action", actions, args)
+
+
+@verb(
+    "action info",
+    "Which nodes offer and use an action",
+    arg("action_name", f"Name of the action, such as {ACTIONS[0]}"),
+    flag("-t --show-types", "Also show each node's type of the action"),
+    flag("-c --count", "Print only how many clients and servers there are"),
+)
+def action_info(args: Namespace) -> None:
+    """`ros2 action info`. Of an action that does not exist the real one says that no node offers or uses it."""
+    with direct_node(args) as node:
+        name = expanded(node, args.action_name)
+        known = actions(node)
+        clients, servers = _ends(node, name, "client"), _ends(node, name, "server")
+    print(f"Action: {args.action_name}")
+    for title, ends in (("clients", clients), ("servers", servers)):
+        print(f"Action {title}: {len(ends)}")
+        for node_name, types in ends if not args.count else ():
+            print(f"    {node_name} [{', '.join(types)}]" if args.show_types else f"    {node_name}")
+    if name not in known and (hint := suggest(name, known)):
+        print(hint, file=sys.stderr)
+
+
+def _ends(node: Node, action: str, role: str) -> list[tuple[str, list[str]]]:
+    """The nodes that are this for an action: "client" or "server"."""
+    look = getattr(node, f"get_action_{role}_names_and_types_by_node")
+    found = []
+    for name, namespace in node.get_node_names_and_namespaces():
+        types = dict(look(name, namespace)).get(action)
+        if types is not None:
+            found.append((f"{namespace.rstrip('/')}/{name}", types))
+    return found
+
+
+@verb(
+    "action send_goal",
+    "Send a goal and print its outcome",
+    arg("action_name", f"Name of the action, such as {ACTIONS[0]}"),
+    arg("action_type", f"Its type, such as {ACTIONS[1]}"),
+    arg("values", "Values for the goal's fields, in YAML", metavar="goal"),
+    flag("-f --feedback", "Print the feedback messages, too"),
+    duration(f"Cancel the goal after this many seconds of robot time (default: {LONGEST_ANSWER:g}; only here)"),
+)
+def send_goal(args: Namespace) -> None:
+    """`ros2 action send_goal`."""
+    from rosidl_runtime_py.convert import message_to_yaml
+
+    kind = class_of(args.action_type, "action")
+    values = read_yaml(args.values)
+    with direct_node(args, f"{HIDDEN_PREFIX}_send_goal_{args.action_type.replace('/', '_')}") as node:
+        from rclpy.action import ActionClient
+
+        client = ActionClient(node, kind, expanded(node, args.action_name, is_service=True))
+        goal, server = kind.Goal(), (client._name, client.server_is_ready)
+        populate(goal, values, is_goal=True)
+        print("Waiting for an action server to become available...")
+        if not client.wait_for_server(timeout_sec=PATIENCE):
+            raise _not_offered("action", client._name, kind._TYPE_NAME, actions(node))
+        print(f"Sending goal:\n     {message_to_yaml(goal)}")
+        until = now() + (args.seconds or LONGEST_ANSWER)
+        future = client.send_goal_async(goal, _print_feedback if args.feedback else None)
+        handle = _outcome(
+            node,
+            future,
+            "sending goal",
+            server,
+            until,
+            lambda: CommandError(
+                "The server has not said whether it accepts the goal: is its node busy with something else?"
+            ),
+        )
+        if not handle.accepted:
+            print("Goal was rejected.")
+            return
+        print(f"Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n")
+        future = handle.get_result_async()
+        try:
+            with_result = _outcome(node, future, "getting result", server, until, lambda: _cancelled(node, handle))
+        except KeyboardInterrupt:
+            print("Canceling goal...")
+            handle.cancel_goal_async()  # nothing can wait for the answer any more
+            raise
+        print(f"Result:\n    {message_to_yaml(with_result.result)}")
+        print(f"Goal finished with status: {_status(with_result.status)}")
+
+
+def _print_feedback(message: Any) -> None:
+    from rosidl_runtime_py.convert import message_to_yaml
+
+    print(f"Feedback:\n    {message_to_yaml(message.feedback)}")
+
+
+def _status(status: int) -> str:
+    from action_msgs.msg import GoalStatus
+
+    names = ("ACCEPTED", "EXECUTING", "CANCELING", "SUCCEEDED", "CANCELED", "ABORTED")
+    return next((name for name in names if getattr(GoalStatus, f"STATUS_{name}") == status), "UNKNOWN")
+
+
+def _cancelled(node: Node, handle: ClientGoalHandle) -> Exception:
+    """Cancel a goal that takes too long; how that ended is the exception to raise."""
+    print("Canceling goal...")
+    future = handle.cancel_goal_async()
+    if not spin_for(node, PATIENCE, future):
+        return CommandError("No answer to the cancel request: is the server's node busy with something else?")
+    if not future.result().goals_canceling:
+        return CommandError(
+            "Failed to cancel goal", "The server continues: its cancel_callback did not accept the cancel request."
+        )
+    print("Goal canceled.")
+    return Interrupted("(the goal took too long; --for SECONDS gives it more robot time, or less)")
