@@ -605,6 +605,23 @@ def test_a_forgotten_goals_number_is_free_again(run: Run) -> None:
     assert run(serving(at_once, result_timeout=1), program) == [True, False, True]
 
 
+def test_a_busy_server_answers_requests_about_goals_that_it_forgets_meanwhile(run: Run) -> None:
+    def serve(found: list[Any]) -> None:
+        rclpy.init()
+        node = rclpy.create_node("server")
+        ActionServer(node, Fibonacci, "fibonacci", at_once, cancel_callback=accept, result_timeout=2)
+        node.create_timer(1.5, lambda: time.sleep(1.4))
+        rclpy.spin(node)
+
+    def program(found: list[Any]) -> None:
+        node, client = start()
+        goals = [send(node, client) for _ in range(2)]
+        time.sleep(1.7)
+        found.append(wait(node, goals[0]._action_client._cancel_client.call_async(CancelGoal.Request())).return_code)
+
+    assert run(serve, program, seconds=10) == [CancelGoal.Response.ERROR_NONE]
+
+
 # ---------------------------------------------------------------- what is behind it
 
 

@@ -71,10 +71,14 @@ def no_message(value: object, kind: Any) -> TypeError:
     return error
 
 
+def is_raised_by_the_call(error: Exception) -> bool:
+    """Whether the call in the innermost `try` raised an error, and not the code that it called."""
+    return error.__traceback__ is not None and error.__traceback__.tb_next is None
+
+
 def explain_call(entity: Any, arguments: tuple[Any, ...] | None, error: TypeError) -> None:
     """Add to an error that calling a callback raised (not one from inside it) how the callback is called."""
-    trace = error.__traceback__
-    if trace is None or trace.tb_next is not None:
+    if not is_raised_by_the_call(error):
         return
     if entity.callback is None or not callable(entity.callback):
         error.add_note(

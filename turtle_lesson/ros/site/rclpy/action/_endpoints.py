@@ -18,7 +18,7 @@ from unique_identifier_msgs.msg import UUID
 from turtle_lesson.ros.runtime.world import current_process
 
 from .._entity import WAITABLE, Entity
-from .._hints import no_node
+from .._hints import is_raised_by_the_call, no_node
 from ..exceptions import NameValidationException
 from ..type_support import check_for_type_support
 
@@ -201,14 +201,8 @@ async def call_back(role: str, callback: Callable[[Any], Any], argument: Any) ->
     try:
         result = callback(argument)
     except TypeError as error:
-        _explain(role, error)
+        if is_raised_by_the_call(error):
+            name = ARGUMENTS[role]
+            error.add_note(f"The {role} of an action is called with one argument: def {role}(self, {name}).")
         raise
     return await result if inspect.iscoroutinefunction(callback) else result
-
-
-def _explain(role: str, error: TypeError) -> None:
-    """Add to an error that the call itself raised, not the callback, how the callback is called."""
-    trace = error.__traceback__
-    if trace is not None and trace.tb_next is None:
-        name = ARGUMENTS[role]
-        error.add_note(f"The {role} of an action is called with one argument: def {role}(self, {name}).")

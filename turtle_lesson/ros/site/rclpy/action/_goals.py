@@ -211,7 +211,7 @@ def goals_to_cancel(goal_info: Any, goals: dict[bytes, ServerGoalHandle]) -> tup
         goal
         for key, goal in goals.items()
         if (everything or key == wanted or _nanoseconds(goal._goal_info.stamp) <= until)
-        and (goal.status, GoalEvent.CANCEL_GOAL) in _NEXT
+        and (goal._for_all.status, GoalEvent.CANCEL_GOAL) in _NEXT
     ]
     if found or until or everything:
         return CancelGoal.Response.ERROR_NONE, found
