@@ -71,7 +71,7 @@ launched = lesson.launch("robot_controller", "start_system.launch.py", source="w
 lesson.run(1)"""
 WIDGETS = {
     "Dashboard": ("lesson.dashboard()", ".tl-root:has(.tl-dashboard:not(.tl-pad))"),
-    "LabView": ("lesson.goal_pad()", ".tl-root:has(.tl-pad)"),
+    "GoalPad": ("lesson.goal_pad()", ".tl-root:has(.tl-pad)"),
     "Teleop": ("lesson.teleop()", ".tl-teleop"),
     "Form": ('lesson.form("/turtle1/cmd_vel")', ".tl-form"),
     "LivePlot": ('lesson.live_plot("/turtle1/pose/x")', ".tl-live"),
@@ -251,7 +251,7 @@ def test_a_window_that_opens_the_saved_page_is_in_step(
 def test_all_orders_are_carried_out_in_the_main_thread_wherever_they_arrive(board: Board) -> None:
     page = board.page
     board.button("Play").click()
-    widget(page, "LabView").get_by_role("button", name="Send", exact=True).click()
+    widget(page, "GoalPad").get_by_role("button", name="Send", exact=True).click()
     widget(page, "Teleop").locator(".tl-stick").press("w")
     widget(page, "Form").get_by_role("button", name="Publish once").click()
     widget(page, "ParametersPanel").locator('input[type="range"]').first.press("ArrowLeft")

@@ -9,7 +9,7 @@ import pytest
 from lab_fakes import order
 
 from turtle_lesson import Lesson, start
-from turtle_lesson.lab.widgets.parameter_client import (
+from turtle_lesson.lab.widgets.parameters import (
     BOOL,
     DOUBLE,
     DOUBLES,
@@ -19,6 +19,7 @@ from turtle_lesson.lab.widgets.parameter_client import (
     STRINGS,
     read,
     shown,
+    to_python,
 )
 
 
@@ -209,8 +210,6 @@ def test_a_change_while_time_goes_on_needs_no_step() -> None:
     ],
 )
 def test_values_are_read_by_their_type(typed: Any, kind: int, value: Any) -> None:
-    from turtle_lesson.lab.widgets.parameter_client import to_python
-
     assert to_python(read(typed, kind)) == value
 
 
@@ -218,9 +217,9 @@ def test_values_are_read_by_their_type(typed: Any, kind: int, value: Any) -> Non
     ("typed", "kind", "said"),
     [
         ("yes", BOOL, "expected true or false, got"),
-        ("1.5", INTEGER, "expected a whole number, got"),
-        (str(2**64), INTEGER, "64 bits"),
-        ("x", DOUBLE, 'expected a number, got "x"'),
+        ("1.5", INTEGER, "a whole number such as 3 is wanted, got"),
+        (str(2**64), INTEGER, "to 9223372036854775807 fits here"),
+        ("x", DOUBLE, 'a number such as 1.5 is wanted, got "x"'),
         ("1, 2", DOUBLES, "a list of numbers is expected, such as [1, 2]"),
         ("[1, a]", DOUBLES, "'a' is none"),
         ("[1", DOUBLES, "is not valid YAML"),

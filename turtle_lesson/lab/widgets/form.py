@@ -10,7 +10,7 @@ import traitlets
 from ...ros.idl.names import is_hidden
 from ..words import count, did_you_mean, enumerated, listed
 from .backend import Backend
-from .form_fields import FieldError, Group, Rows, Single, find_part
+from .form_fields import Group, Rows, Single, find_part
 from .lazy_endpoints import LazyClient, LazyPublisher, let_time_go_on
 from .live_widget import LiveWidget
 from .message_types import find_class
@@ -59,7 +59,7 @@ class Form(LiveWidget):
     def __init__(self, backend: Backend, name: str) -> None:
         full, kind, type_name = _look_up(backend.node, name)
         message_class = find_class(type_name)
-        self._whole = Group("", "", message_class if kind == "topic" else message_class.Request)
+        self._whole = Group(message_class if kind == "topic" else message_class.Request)
         self._publisher = LazyPublisher(backend, full, message_class, type_name)
         self._client = LazyClient(backend, message_class, full)
         self._timer: Any = None
@@ -96,7 +96,7 @@ class Form(LiveWidget):
 
     def do_reset(self) -> None:
         """Put the defaults into all fields."""
-        self._whole = Group("", "", self._whole.message_class)
+        self._whole = Group(self._whole.message_class)
         self._bring_up_to_date(fields_too=True)
 
     def do_options(self, rate: float | None = None, timeout: float | None = None) -> None:
@@ -234,7 +234,7 @@ def _look_up(node: Any, name: str) -> tuple[str, str, str]:
 def _error_of(single: Single) -> str:
     try:
         single.value()
-    except FieldError as error:
+    except ValueError as error:
         return str(error)
     return ""
 

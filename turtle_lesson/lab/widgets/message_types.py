@@ -7,6 +7,7 @@ attributes in capitals), so it works alike with the simulated ones and with the 
 from __future__ import annotations
 
 import importlib
+import math
 import re
 from dataclasses import dataclass
 from typing import Any
@@ -15,7 +16,7 @@ import numpy as np
 
 INTEGERS = {f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)}
 FLOATS = {"float", "double"}
-NUMBERS = INTEGERS | FLOATS | {"octet", "char"}
+WHOLE = INTEGERS | {"octet", "char"}
 NAMES = {"float": "float32", "double": "float64", "boolean": "bool", "octet": "byte"}
 """How a .msg file calls what a Python class calls by its IDL name."""
 
@@ -44,7 +45,7 @@ class Kind:
     @property
     def is_number(self) -> bool:
         """Whether it is one number, or true and false, that can be drawn as one."""
-        return not self.array and (self.base in NUMBERS or self.base == "boolean")
+        return not self.array and self.base in WHOLE | FLOATS | {"boolean"}
 
     @property
     def element(self) -> Kind:
@@ -86,6 +87,39 @@ def constants_of(message_class: Any) -> dict[str, Any]:
             if isinstance(value, (bool, int, float, str)):
                 found[name] = value
     return found
+
+
+LARGEST_FLOAT32 = 3.402823466e38
+
+
+def read_float(text: str, base: str) -> float:
+    """The number that was typed. Raises ValueError, in words, for what is none or does not fit in this type."""
+    try:
+        value = float(text.strip().replace("−", "-"))
+    except ValueError:
+        raise ValueError(_no_number(text.strip(), "a number such as 1.5")) from None
+    if base == "float" and math.isfinite(value) and abs(value) > LARGEST_FLOAT32:
+        raise ValueError("a float32 goes up to 3.4e38")
+    return value
+
+
+def read_integer(text: str, base: str) -> int:
+    """The whole number that was typed. Raises ValueError, in words, for what is none or does not fit in this type."""
+    try:
+        value = int(text.strip().replace("−", "-"))
+    except ValueError:
+        raise ValueError(_no_number(text.strip(), "a whole number such as 3")) from None
+    low, high = limits_of(base)
+    if not low <= value <= high:
+        raise ValueError(f"a whole number from {low} to {high} fits here, not {value}".replace("-", "−"))
+    return value
+
+
+def _no_number(text: str, wanted: str) -> str:
+    if not text:
+        return f"{wanted} is missing"
+    shown = text if len(text) <= 30 else f"{text[:30]}…"
+    return f'{wanted} is wanted, got "{shown}"' + (": write a point, not a comma" if "," in text else "")
 
 
 def limits_of(base: str) -> tuple[int, int]:

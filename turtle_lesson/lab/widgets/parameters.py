@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 import traitlets
@@ -9,12 +11,50 @@ import traitlets
 from ...ros.idl.names import is_hidden
 from ..words import count, did_you_mean, enumerated
 from .backend import Backend
+from .lazy_endpoints import DISCOVERY, in_a_moment
 from .live_widget import LiveWidget
-from .parameter_client import BOOL, DOUBLE, INTEGER, TYPES, Found, ParameterClient, node_names, read, shown
+from .message_types import read_float, read_integer
+
+SERVICES = {
+    "list": "ListParameters",
+    "describe": "DescribeParameters",
+    "get": "GetParameters",
+    "set": "SetParameters",
+}
+"""What is asked of the node, and the type of each service in rcl_interfaces; its name is /node/<what>_parameters."""
+
+ARRAYS = ("byte array", "bool array", "integer array", "double array", "string array")
+TYPES = ("not set", "bool", "integer", "double", "string", *ARRAYS)
+"""By number of rcl_interfaces/msg/ParameterType."""
+
+NOT_SET, BOOL, INTEGER, DOUBLE, STRING, BYTES, BOOLS, INTEGERS, DOUBLES, STRINGS = range(10)
+ELEMENTS = {
+    BYTES: (int, "whole numbers"),
+    BOOLS: (bool, "true and false"),
+    INTEGERS: (int, "whole numbers"),
+    DOUBLES: (float, "numbers"),
+    STRINGS: (str, "texts"),
+}
+
+
+@dataclass(slots=True)
+class Found:
+    """One parameter: what its node says of it, and what became of setting it here."""
+
+    name: str
+    value: Any = None
+    """None if it is not set."""
+    type: int = NOT_SET
+    descriptor: Any = None
+    error: str = ""
+    """Why it was not set the last time; "" if it was."""
+    answers: int = 0
+    """How often the node answered."""
+    pending: bool = False
 
 
 class ParametersPanel(LiveWidget):
-    """Shows a node's parameters, sets them through the node's own service, and follows what others set."""
+    """Shows a node's parameters, sets them through the node's own services, and follows what others set."""
 
     SCRIPTS = ("dom", "small", "parameter_controls", "parameters")
     STYLES = ("base", "small", "parameters")
@@ -29,68 +69,176 @@ class ParametersPanel(LiveWidget):
 
     def __init__(self, backend: Backend, node: str) -> None:
         name = _look_up(backend.node, node)
-        self._client = ParameterClient(backend, name, self._show)
-        self._errors: dict[str, str] = {}
-        self._answers: dict[str, int] = {}
-        self._pending: set[str] = set()
+        self._found: dict[str, Found] = {}
+        self._events: Any = None
+        self._clients: dict[str, Any] = {}
+        self._found_by = 0.0
+        self._round = 0  # of questions
+        self._known = False
+        self._trouble = ""
         self._there = True
         super().__init__(backend, node_name=name)
-        self._client.listen()
+        self.opened()
         self._show()
 
+    def opened(self) -> None:
+        from rcl_interfaces import srv
+        from rcl_interfaces.msg import ParameterEvent
+
+        if not self._clients:
+            node = self.backend.node
+            self._events = node.create_subscription(ParameterEvent, "/parameter_events", self._follow, 100)
+            for name, kind in SERVICES.items():
+                self._clients[name] = node.create_client(getattr(srv, kind), f"{self.node_name}/{name}_parameters")
+            self._found_by = self.backend.now + DISCOVERY
+        self._ask()
+
+    def left(self) -> None:
+        if self._clients:
+            self._round += 1
+            self.backend.node.destroy_subscription(self._events)
+            self._events = None
+        while self._clients:
+            self.backend.node.destroy_client(self._clients.popitem()[1])
+
+    def tick(self) -> None:
+        if not self.due("node", 3):
+            return
+        there = self.node_name in node_names(self.backend.node)
+        if self._clients and there and (not self._there or (self._trouble and not self._known)):
+            self._ask()
+        self._there = there
+        self._show()
+
+    # -- questions and answers -------------------------------------------------------------------------------------------
+
+    def _ask(self) -> None:
+        """Ask for names, descriptions and values anew."""
+        self._round += 1
+        if not self._is_ready():
+            return
+        turn = self._round
+
+        def describe(answer: Any) -> None:
+            names = list(answer.result.names)
+            self._call("describe", lambda told: get(names, list(told.descriptors)), turn, names=names)
+
+        def get(names: list[str], descriptors: list[Any]) -> None:
+            self._call("get", lambda told: self._take(names, descriptors, list(told.values)), turn, names=names)
+
+        self._call("list", describe, turn)
+
+    def _is_ready(self) -> bool:
+        """Whether the node's services are there; else the trouble is told."""
+        self._trouble = ""
+        if not all(client.service_is_ready() for client in self._clients.values()):
+            if self.backend.clock is None and self.backend.now < self._found_by:
+                self._trouble = f"Looking for the services of {self.node_name}."
+            elif self.node_name not in node_names(self.backend.node):
+                self._trouble = f"{self.node_name} is gone."
+            else:
+                self._trouble = (
+                    f"{self.node_name} offers no services for its parameters (start_parameter_services=False)."
+                )
+        self._show()
+        return not self._trouble
+
+    def _call(self, what: str, take: Callable[[Any], object], turn: int | None = None, **content: Any) -> Any:
+        """Call one of the services; `take` is given the answer, unless it is one to an older round of questions (`turn`)."""
+
+        def answered(future: Any) -> None:
+            if turn not in (None, self._round):
+                return
+            try:
+                take(future.result())
+            except Exception as error:
+                self._trouble = f"{self.node_name} could not be asked: {error}"
+            self._show()
+
+        client = self._clients[what]
+        future = client.call_async(client.srv_type.Request(**content))
+        future.add_done_callback(answered)
+        return future
+
+    def _take(self, names: list[str], descriptors: list[Any], values: list[Any]) -> None:
+        """One that is not set makes some nodes give no value at all; then every value counts as not set."""
+        from rcl_interfaces.msg import ParameterDescriptor, ParameterValue
+
+        values += [ParameterValue()] * (len(names) - len(values))
+        descriptors += [ParameterDescriptor()] * (len(names) - len(descriptors))
+        self._found = {name: self._found.get(name) or Found(name) for name in names}
+        for found, value, descriptor in zip(self._found.values(), values, descriptors, strict=True):
+            found.value, found.type, found.descriptor = to_python(value), value.type, descriptor
+        self._known = True
+
+    def _follow(self, event: Any) -> None:
+        if event.node != self.node_name:
+            return
+        for parameter in event.changed_parameters:
+            if found := self._found.get(parameter.name):
+                found.value, found.type = to_python(parameter.value), parameter.value.type
+        for parameter in event.deleted_parameters:
+            self._found.pop(parameter.name, None)
+        if any(parameter.name not in self._found for parameter in event.new_parameters):
+            self._ask()  # for a new one there is a description, too
+        self._show()
+
+    # -- orders ----------------------------------------------------------------------------------------------------------
+
     def do_set(self, name: str, value: Any) -> None:
-        """Have the node set a parameter to what was typed (true or false, for a checkbox)."""
-        found = self._client.found.get(name)
+        """Have the node set a parameter to what was typed (true or false, for a checkbox).
+
+        Where robot time stands still, a moment of it passes, so that the node can answer.
+        """
+        from rcl_interfaces.msg import Parameter
+
+        found = self._found.get(name)
         if found is None:
             raise ValueError(f"{self.node_name} has no parameter {name!r}.")
         try:
             wanted = read(value, found.type or found.descriptor.type, found.descriptor.dynamic_typing)
         except ValueError as error:
-            self._told(name, f"Not asked: {error}")
+            self._told(found, f"Not asked: {error}")
             return
-        self._pending.add(name)
-        self._client.set(name, wanted, lambda reason: self._told(name, reason and f"Refused: {reason}"))
-        if name in self._pending:
+        if not self._is_ready():
+            self._told(found, f"Not asked: {self._trouble}")
+            return
+
+        def told(answer: Any) -> None:
+            result = next(iter(answer.results), None)
+            if result is not None and result.successful:
+                found.value, found.type = to_python(wanted), wanted.type
+                self._told(found, "")
+            else:
+                self._told(found, f"Refused: {(result.reason if result else '') or 'refused, without a reason'}")
+
+        found.pending = True
+        future = self._call("set", told, parameters=[Parameter(name=name, value=wanted)])
+        in_a_moment(self.backend, future.done)
+        if found.pending:
             self.words = f"Asked {self.node_name} to set {name}; its answer comes once robot time passes."
         self._show()
 
     def do_ask(self) -> None:
-        """Ask the node for all its parameters anew."""
-        self._client.ask_in_a_moment()
+        """Ask the node for all its parameters anew, and let a moment of robot time pass if it stands still."""
+        self._ask()
+        in_a_moment(self.backend, lambda: bool(self._known or self._trouble))
         self._show()
 
-    def _told(self, name: str, trouble: str) -> None:
+    def _told(self, found: Found, trouble: str) -> None:
         """The node has answered, or was not asked: `trouble` says why nothing changed, "" if it did."""
-        self._pending.discard(name)
-        self._answers[name] = self._answers.get(name, 0) + 1
-        found = self._client.found.get(name)
-        now = shown(found.value) if found is not None else "gone"
-        self._errors.pop(name, None)
-        if trouble:
-            self._errors[name] = trouble
-        self.words = f"{name} stays {now}. {trouble}" if trouble else f"{name} is {now} now."
+        found.pending, found.error = False, trouble
+        found.answers += 1
+        now = shown(found.value)
+        self.words = f"{found.name} stays {now}. {trouble}" if trouble else f"{found.name} is {now} now."
         self._show()
 
-    def tick(self) -> None:
-        """See whether the node is still there, and ask again when it has come back."""
-        if not self.due("node", 3):
-            return
-        there = self._client.is_there
-        if there and (not self._there or (self._client.problem and not self._client.known)):
-            self._client.ask()
-        self._there = there
-        self._show()
-
-    def opened(self) -> None:
-        self._client.listen()
-
-    def left(self) -> None:
-        self._client.close()
+    # -- what is shown ---------------------------------------------------------------------------------------------------
 
     def _show(self) -> None:
         clock = self.backend.clock
         with self.hold_sync():
-            self.items = [self._item(found) for found in self._client.found.values()]
+            self.items = [_item(found) for found in self._found.values()]
             self.problem = self._why_nothing()
             self.standing = bool(self.problem) and self._there and clock is not None and not clock.playing
 
@@ -98,51 +246,48 @@ class ParametersPanel(LiveWidget):
         if not self._there:
             others = [each for each in node_names(self.backend.node) if not is_hidden(each)]
             return f"{self.node_name} is gone. The nodes now: {enumerated(others)}."
-        if self._client.problem:
-            return self._client.problem
-        if not self._client.known:
+        if self._trouble:
+            return self._trouble
+        if not self._known:
             return f"Asked {self.node_name}; it answers once robot time passes."
-        return "" if self._client.found else f"{self.node_name} has no parameters."
-
-    def _item(self, found: Found) -> dict[str, Any]:
-        descriptor = found.descriptor
-        limits = _limits(found)
-        item = {
-            "name": found.name,
-            "type": TYPES[found.type],
-            "control": _control(found, limits),
-            "value": found.value if isinstance(found.value, bool) else shown(found.value),
-            "help": " ".join(filter(None, (descriptor.description, descriptor.additional_constraints))),
-            "error": self._errors.get(found.name, ""),
-            "pending": found.name in self._pending,
-            "answers": self._answers.get(found.name, 0),
-            "locked": "read-only: its node sets it when it starts" if descriptor.read_only else "",
-        }
-        return {**item, **limits}
+        return "" if self._found else f"{self.node_name} has no parameters."
 
     def text(self) -> str:
         """All parameters with their values."""
         problem = self._why_nothing()
         if problem:
             return f"Parameters of {self.node_name}: {problem}"
-        found = [f"{each.name} = {shown(each.value)}" for each in self._client.found.values()]
+        found = [f"{each.name} = {shown(each.value)}" for each in self._found.values()]
         return f"{self.node_name} has {count(len(found), 'parameter')}: {', '.join(found)}."
 
 
-def _limits(found: Found) -> dict[str, float]:
-    """Lowest, highest and step that the node allows, if it says so."""
-    ranges = {INTEGER: found.descriptor.integer_range, DOUBLE: found.descriptor.floating_point_range}
-    for each in ranges.get(found.type, ()):
-        return {"low": each.from_value, "high": each.to_value, "step": each.step}
-    return {}
+def _item(found: Found) -> dict[str, Any]:
+    descriptor = found.descriptor
+    ranges = {INTEGER: descriptor.integer_range, DOUBLE: descriptor.floating_point_range}
+    limits = [{"low": each.from_value, "high": each.to_value, "step": each.step} for each in ranges.get(found.type, ())]
+    control = "number" if found.type in ranges else "text"
+    if found.type == BOOL and not descriptor.dynamic_typing:
+        control = "checkbox"
+    elif limits and 0 < limits[0]["high"] - limits[0]["low"] < 1e15:
+        control = "slider"
+    item = {
+        "name": found.name,
+        "type": TYPES[found.type],
+        "control": control,
+        "value": found.value if isinstance(found.value, bool) else shown(found.value),
+        "help": " ".join(filter(None, (descriptor.description, descriptor.additional_constraints))),
+        "error": found.error,
+        "pending": found.pending,
+        "answers": found.answers,
+        "locked": "read-only: its node sets it when it starts" if descriptor.read_only else "",
+    }
+    return item | (limits[0] if limits else {})
 
 
-def _control(found: Found, limits: dict[str, float]) -> str:
-    if found.type == BOOL and not found.descriptor.dynamic_typing:
-        return "checkbox"
-    if limits and limits["high"] > limits["low"] and abs(limits["high"] - limits["low"]) < 1e15:
-        return "slider"
-    return "number" if found.type in (INTEGER, DOUBLE) else "text"
+def node_names(node: Any) -> list[str]:
+    """The full names of all nodes in the graph, sorted."""
+    names = node.get_node_names_and_namespaces()
+    return sorted({f"{namespace.rstrip('/')}/{name}" for name, namespace in names})
 
 
 def _look_up(node: Any, name: str) -> str:
@@ -156,3 +301,87 @@ def _look_up(node: Any, name: str) -> str:
     visible = [each for each in names if not is_hidden(each)]
     hint = did_you_mean(full, visible) or f"The nodes: {enumerated(visible)}."
     raise ValueError(f'there is no node called "{name}" now. {hint}')
+
+
+def to_python(value: Any) -> Any:
+    """What an rcl_interfaces/msg/ParameterValue holds, bytes as numbers; None if it is not set."""
+    if not NOT_SET < value.type < len(TYPES):
+        return None
+    found = getattr(value, _field(value.type))
+    return [each[0] if isinstance(each, bytes) else each for each in found] if value.type >= BYTES else found
+
+
+def _field(kind: int) -> str:
+    return f"{TYPES[kind].replace(' ', '_')}_value"
+
+
+def shown(value: Any) -> str:
+    """A value as it stands in a field: YAML for arrays."""
+    if value is None:
+        return ""
+    if isinstance(value, list):
+        import yaml
+
+        return yaml.safe_dump(value, default_flow_style=True, width=float("inf"), allow_unicode=True).strip()
+    return value if isinstance(value, str) else repr(value)
+
+
+def read(typed: Any, kind: int, dynamic: bool = False) -> Any:
+    """An rcl_interfaces/msg/ParameterValue from what was typed. Raises ValueError, in words, for what it cannot be.
+
+    `kind` is the number of the type; a dynamically typed parameter, and one that is not set, takes what YAML makes of it.
+    """
+    from rcl_interfaces.msg import ParameterValue
+
+    if dynamic or kind == NOT_SET:
+        value, kind = _guessed(typed)
+    else:
+        value = _converted(typed, kind)
+    message = ParameterValue(type=kind)
+    setattr(message, _field(kind), [bytes([each]) for each in value] if kind == BYTES else value)
+    return message
+
+
+def _guessed(typed: Any) -> tuple[Any, int]:
+    """A value of any type, and which: as `ros2 param set` reads it."""
+    value = typed if isinstance(typed, bool) else _yaml(str(typed))
+    for element, kind in ((bool, BOOL), (int, INTEGER), (float, DOUBLE)):
+        if type(value) is element:
+            return value, kind
+    for kind in (BOOLS, INTEGERS, DOUBLES, STRINGS):
+        if isinstance(value, list) and all(type(each) is ELEMENTS[kind][0] for each in value):
+            return value, kind
+    return str(typed), STRING
+
+
+def _converted(typed: Any, kind: int) -> Any:
+    if kind == BOOL and not isinstance(typed, bool):
+        raise ValueError(f"expected true or false, got {typed!r}")
+    if kind == BOOL:
+        return typed
+    if kind == INTEGER:
+        return read_integer(str(typed), "int64")
+    if kind == DOUBLE:
+        return read_float(str(typed), "double")
+    if kind == STRING:
+        return str(typed)
+    value = _yaml(str(typed))
+    element, words = ELEMENTS[kind]
+    if not isinstance(value, list):
+        raise ValueError(f"a list of {words} is expected, such as [{'a, b' if element is str else '1, 2'}]")
+    made: list[Any] = [float(each) if element is float and type(each) is int else each for each in value]
+    for each in made:
+        if type(each) is not element:
+            raise ValueError(f"a list of {words} is expected, and {each!r} is none")
+    return made
+
+
+def _yaml(text: str) -> Any:
+    import yaml
+
+    from ...ros.runtime.files import safe_load
+
+    try:
+        return safe_load(text)
+    except yaml.YAMLError:
+        raise ValueError(f'"{text}" is not valid YAML: lists are written [1, 2, 3]') from None
