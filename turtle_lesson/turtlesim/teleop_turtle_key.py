@@ -15,7 +15,7 @@ from rclpy.node import Node
 from turtlesim.action import RotateAbsolute
 
 from ..ros.runtime.world import current_process
-from ..ros.stdlib.program_input import ProgramInput
+from ..ros.stdlib.terminals import ProgramInput
 
 HELP = """\
 Reading from keyboard

@@ -1,4 +1,8 @@
-"""An asyncio loop that waits in virtual time: Python's own in all but what it waits with."""
+"""An asyncio loop that waits in virtual time: Python's own in all but what it waits with.
+
+It runs in a strand and holds up that one alone. A round of the loop that has something to do takes 1 µs, so that a loop that
+never waits lets time pass all the same. Each thread of a simulated process has its own loop, as in Python.
+"""
 
 from __future__ import annotations
 
@@ -17,12 +21,6 @@ from ..sim.simulation import CLOCK_READ, NANOSECONDS
 from ..sim.strand import Strand, running_strand
 from .deadlock import LOOP, look_for_hope
 from .locks import nanoseconds
-
-# -- loops --------------------------------------------------------------------------------------------------------
-# An asyncio loop that waits in virtual time: Python's own in all but what it waits with.
-# It runs in a strand and holds up that one alone. A round of the loop that has something to do takes 1 µs, so that a
-# loop that never waits lets time pass all the same. Sockets and child processes it does not have: they are of the
-# real computer.
 
 
 class Waiting:
@@ -162,65 +160,46 @@ def _refused(name: str) -> Callable[..., Any]:
 
 
 for _name in (
-    "add_reader",
-    "add_writer",
-    "connect_read_pipe",
-    "connect_write_pipe",
-    "create_connection",
-    "create_datagram_endpoint",
-    "create_server",
-    "create_unix_connection",
-    "create_unix_server",
-    "remove_reader",
-    "remove_writer",
-    "sock_accept",
-    "sock_connect",
-    "sock_recv",
-    "sock_sendall",
-    "subprocess_exec",
-    "subprocess_shell",
+    *("add_reader", "add_writer", "connect_read_pipe", "connect_write_pipe", "create_connection"),
+    *("create_datagram_endpoint", "create_server", "create_unix_connection", "create_unix_server", "remove_reader"),
+    *(
+        "remove_writer",
+        "sock_accept",
+        "sock_connect",
+        "sock_recv",
+        "sock_sendall",
+        "subprocess_exec",
+        "subprocess_shell",
+    ),
 ):
     setattr(VirtualEventLoop, _name, _refused(_name))
 
 
-# -- loop functions -----------------------------------------------------------------------------------------------
-# Which asyncio loop is whose: each thread of a simulated process has its own, as in Python.
+# -- loop functions ----------------------------------------------------------------------------------------------------
 
 
-def new_event_loop(real: Any) -> Any:
-    """A new loop: in a simulated process one that waits in virtual time."""
-    strand = running_strand()
-    return real() if strand is None else VirtualEventLoop(strand.process)
+def new_event_loop(strand: Strand) -> Any:
+    """A new loop."""
+    return VirtualEventLoop(strand.process)
 
 
-def set_event_loop(real: Any, loop: Any) -> None:
+def set_event_loop(strand: Strand, loop: Any) -> None:
     """Set the loop of the running thread."""
-    strand = running_strand()
-    if strand is None:
-        real(loop)
-    else:
-        _loops(strand)[strand] = loop
+    strand.process.state(_Asyncio).loops[strand] = loop
 
 
-def get_event_loop(real: Any) -> Any:
+def get_event_loop(strand: Strand) -> Any:
     """The loop that runs, or else that of the running thread; in a main thread one is made where there is none."""
-    strand = running_strand()
-    if strand is None:
-        return real()
     loop = asyncio._get_running_loop()
     if loop is not None:
         return loop
-    loops = _loops(strand)
+    loops = strand.process.state(_Asyncio).loops
     if strand is strand.process.main_strand and strand not in loops:
         loops[strand] = VirtualEventLoop(strand.process)
     if loops.get(strand) is None:
         name = threading.current_thread().name
         raise RuntimeError(f"There is no current event loop in thread {name!r}.")
     return loops[strand]
-
-
-def _loops(strand: Strand) -> dict[Strand, Any]:
-    return strand.process.state(_Asyncio).loops
 
 
 REPLACEMENTS: tuple[Callable[..., Any], ...] = (new_event_loop, set_event_loop, get_event_loop)

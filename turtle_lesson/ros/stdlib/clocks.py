@@ -1,4 +1,8 @@
-"""`time` and `datetime` tell virtual time inside a simulated process, and only there."""
+"""`time` and `datetime` tell virtual time inside a simulated process, and only there.
+
+Jupyter, the event loop and other threads get the real time. A robot's clock is in UTC here, whatever the computer's is, so that
+a program prints the same text everywhere.
+"""
 
 from __future__ import annotations
 
@@ -13,11 +17,6 @@ from greenlet import getcurrent
 
 from ..sim.simulation import EPOCH, NANOSECONDS
 from ..sim.strand import Strand
-
-# -- virtual time -------------------------------------------------------------------------------------------------
-# `time.time()` and its kin mean virtual time inside a simulated process, and only there.
-# The functions of the standard `time` module are replaced by ones that look at what is running: a strand of a
-# simulated process gets virtual time, everybody else (Jupyter, the event loop, other threads) gets the real one.
 
 real_sleep = time.sleep
 real_monotonic = time.monotonic
@@ -54,85 +53,43 @@ CLOCKS: dict[str, Callable[..., Any]] = {
 """By name in `time`, the clocks; `time.sleep` is in `threads.py`."""
 
 
-# -- time of day --------------------------------------------------------------------------------------------------
-# The functions of `time` that tell the date: in a simulated process they tell the robot's.
-# A robot's clock is in UTC here, whatever the computer's is, so that a program prints the same text everywhere.
+# -- time of day -------------------------------------------------------------------------------------------------------
 
-_gmtime, _asctime = time.gmtime, time.asctime
-_CLOCK_IDS = {getattr(time, name, None): name for name in ("CLOCK_REALTIME", "CLOCK_MONOTONIC")}
+_gmtime, _asctime, _strftime = time.gmtime, time.asctime, time.strftime
+_CLOCK_IDS = {getattr(time, "CLOCK_REALTIME", None): "time", getattr(time, "CLOCK_MONOTONIC", None): "monotonic"}
 
 
-def gmtime(real: Callable[..., Any], seconds: float | None = None, /) -> time.struct_time:
-    """Seconds since 1970, or now, as date and time in UTC."""
-    if seconds is None and type(getcurrent()) is Strand:
-        seconds = time.time()
-    return real(seconds)
+def _utc(strand: Strand, seconds: float | None = None, /) -> time.struct_time:
+    return _gmtime(time.time() if seconds is None else seconds)
 
 
-def localtime(real: Callable[..., Any], seconds: float | None = None, /) -> time.struct_time:
-    """Seconds since 1970, or now, as local date and time."""
-    if type(getcurrent()) is Strand:
-        return _gmtime(time.time() if seconds is None else seconds)
-    return real(seconds)
+def _clock_gettime(unit: str) -> Callable[..., Any]:
+    other = getattr(time, f"clock_gettime{unit}", None)  # Windows has none
+
+    def clock_gettime(strand: Strand, clk_id: int, /) -> Any:
+        assert other is not None
+        return getattr(time, _CLOCK_IDS[clk_id] + unit)() if clk_id in _CLOCK_IDS else other(clk_id)
+
+    return clock_gettime
 
 
-def asctime(real: Callable[..., str], moment: Any = None, /) -> str:
-    """Date and time, or now, as a text."""
-    if moment is None and type(getcurrent()) is Strand:
-        moment = _gmtime(time.time())
-    return real() if moment is None else real(moment)
+DATES: dict[str, Callable[..., Any]] = {
+    "gmtime": _utc,
+    "localtime": _utc,
+    "asctime": lambda strand, moment=None, /: _asctime(_utc(strand) if moment is None else moment),
+    "ctime": lambda strand, seconds=None, /: _asctime(_utc(strand, seconds)),
+    "strftime": lambda strand, form, moment=None, /: _strftime(form, _utc(strand) if moment is None else moment),
+    "mktime": lambda strand, moment, /: float(calendar.timegm(moment)),
+    "clock_gettime": _clock_gettime(""),
+    "clock_gettime_ns": _clock_gettime("_ns"),
+}
+"""By name in `time`, what tells the date in a simulated process."""
 
 
-def ctime(real: Callable[..., str], seconds: float | None = None, /) -> str:
-    """Seconds since 1970, or now, as a text in local time."""
-    if type(getcurrent()) is Strand:
-        return _asctime(_gmtime(time.time() if seconds is None else seconds))
-    return real(seconds)
-
-
-def strftime(real: Callable[..., str], form: str, moment: Any = None, /) -> str:
-    """Date and time, or now, as a text of a given form."""
-    if moment is None and type(getcurrent()) is Strand:
-        moment = _gmtime(time.time())
-    return real(form) if moment is None else real(form, moment)
-
-
-def mktime(real: Callable[..., float], moment: Any, /) -> float:
-    """The inverse of `localtime`."""
-    return float(calendar.timegm(moment)) if type(getcurrent()) is Strand else real(moment)
-
-
-def clock_gettime(real: Callable[[int], float], clk_id: int, /) -> float:
-    """What a clock of the system shows, in s."""
-    if clk_id in _CLOCK_IDS and type(getcurrent()) is Strand:
-        return time.time() if _CLOCK_IDS[clk_id] == "CLOCK_REALTIME" else time.monotonic()
-    return real(clk_id)
-
-
-def clock_gettime_ns(real: Callable[[int], int], clk_id: int, /) -> int:
-    """What a clock of the system shows, in ns."""
-    if clk_id in _CLOCK_IDS and type(getcurrent()) is Strand:
-        return time.time_ns() if _CLOCK_IDS[clk_id] == "CLOCK_REALTIME" else time.monotonic_ns()
-    return real(clk_id)
-
-
-REPLACEMENTS: tuple[Callable[..., Any], ...] = (
-    gmtime,
-    localtime,
-    asctime,
-    ctime,
-    strftime,
-    mktime,
-    clock_gettime,
-    clock_gettime_ns,
-)
-
-
-# -- dates --------------------------------------------------------------------------------------------------------
-# The module `datetime` as simulated programs see it: `datetime.now()` and `date.today()` tell the robot's time.
-# The real classes are made in C and cannot be changed. So the import statements of a program get a module with two
-# classes derived from them; `isinstance(…, datetime)` gives the same answer for both. A robot's clock is in UTC:
-# moments without a time zone are taken for that, and not for the computer's.
+# -- dates -------------------------------------------------------------------------------------------------------------
+# The real classes of `datetime` are made in C and cannot be changed. So the import statements of a program get a module
+# with two classes derived from them; `isinstance(…, datetime)` gives the same answer for both. Moments without a time zone
+# are taken for UTC, and not for the computer's.
 
 UTC = real.UTC
 
@@ -149,7 +106,19 @@ class _Date(type):
         return issubclass(subclass, cls._behind) if "_behind" in vars(cls) else super().__subclasscheck__(subclass)
 
 
-class date(real.date, metaclass=_Date):
+class _Robots:
+    """What both classes have in common: objects of them, and not of a program's subclass, pass for those of the real ones."""
+
+    def __repr__(self) -> str:
+        return f"datetime.{super().__repr__()}" if "_behind" in vars(type(self)) else super().__repr__()
+
+    def __reduce_ex__(self, protocol: Any, /) -> Any:
+        reduced: tuple[Any, ...] = super().__reduce_ex__(protocol)  # type: ignore[assignment]
+        kind, *rest = reduced
+        return (vars(kind).get("_behind", kind), *rest)
+
+
+class date(_Robots, real.date, metaclass=_Date):
     """A day."""
 
     _behind = real.date
@@ -166,14 +135,8 @@ class date(real.date, metaclass=_Date):
         moment = real.datetime.fromtimestamp(timestamp, UTC)
         return cls(moment.year, moment.month, moment.day)
 
-    def __repr__(self) -> str:
-        return f"datetime.{super().__repr__()}" if type(self) is date else super().__repr__()
 
-    def __reduce_ex__(self, protocol: Any, /) -> Any:
-        return _as_real(super().__reduce_ex__(protocol))
-
-
-class datetime(real.datetime, metaclass=_Date):
+class datetime(_Robots, real.datetime, metaclass=_Date):
     """A moment."""
 
     _behind = real.datetime
@@ -185,14 +148,11 @@ class datetime(real.datetime, metaclass=_Date):
         return cls.fromtimestamp(time.time(), tz)
 
     @classmethod
-    def utcnow(cls) -> datetime:
-        """The robot's time in UTC, without naming it."""
-        return cls.fromtimestamp(time.time())
-
-    @classmethod
     def today(cls) -> datetime:
         """As `now()`."""
         return cls.fromtimestamp(time.time())
+
+    utcnow = today
 
     @classmethod
     def fromtimestamp(cls, timestamp: float, tz: real.tzinfo | None = None) -> datetime:
@@ -218,21 +178,9 @@ class datetime(real.datetime, metaclass=_Date):
         """Its day."""
         return date(self.year, self.month, self.day)
 
-    def __repr__(self) -> str:
-        return f"datetime.{super().__repr__()}" if type(self) is datetime else super().__repr__()
-
-    def __reduce_ex__(self, protocol: Any, /) -> Any:
-        return _as_real(super().__reduce_ex__(protocol))
-
-
-def _as_real(reduced: Any) -> Any:
-    """How an object is pickled and copied: as one of the real class, which everybody knows."""
-    kind, *rest = reduced
-    return (kind._behind if "_behind" in vars(kind) else kind, *rest)
-
 
 def make_module() -> ModuleType:
-    """The module that the programs' import statements get."""
+    """The module `datetime` that the programs' import statements get."""
     module = ModuleType("datetime", real.__doc__)
     module.__dict__.update({name: value for name, value in vars(real).items() if name != "__name__"})
     module.__dict__.update(date=date, datetime=datetime)

@@ -172,7 +172,7 @@ _PUBLIC = {
     "VirtualSimpleQueue.get": "SimpleQueue.get",
     "_RLock.acquire": LOCK,
     "_wait_for_notice": "Condition.wait",
-    "join.<locals>.join": "Thread.join",
+    "join": "Thread.join",
 }
 """By what a frame's code is called: the documented function that it stands for."""
 

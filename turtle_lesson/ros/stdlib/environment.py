@@ -1,8 +1,9 @@
-"""Environment variables and imported modules: each simulated process has its own."""
+"""What each simulated process has for itself: environment variables, imported modules and random numbers."""
 
 from __future__ import annotations
 
 import os
+import zlib
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
@@ -10,11 +11,6 @@ from greenlet import getcurrent
 
 from ..sim.strand import Strand
 from .program import running_modules
-
-# -- environment --------------------------------------------------------------------------------------------------
-# Environment variables: each simulated process has its own, as it found them when it began.
-# They are a copy of the notebook's, or what the launch file says that starts it.
-
 
 _RealEnviron: Any = type(os.environ)
 
@@ -67,8 +63,7 @@ def _own() -> dict[Any, Any] | None:
     return strand.process.environ if type(strand) is Strand else None
 
 
-# -- own modules --------------------------------------------------------------------------------------------------
-# Functions of the standard library that look into `sys.modules` for a module of the program that runs.
+# -- modules -----------------------------------------------------------------------------------------------------------
 
 LOOKS_INTO_SYS_MODULES = (
     ("importlib", "import_module"),
@@ -79,6 +74,7 @@ LOOKS_INTO_SYS_MODULES = (
     ("dataclasses", "dataclass"),
     ("inspect", "getfile"),
 )
+"""Functions of the standard library that look into `sys.modules` for a module of the program that runs."""
 
 
 def showing() -> Callable[..., Any]:
@@ -91,3 +87,56 @@ def showing() -> Callable[..., Any]:
         return real(*arguments, **keywords)
 
     return show_and_call
+
+
+# -- random numbers ----------------------------------------------------------------------------------------------------
+# They are drawn from a source of the process, seeded by the world's seed and the process's name. So one program's draws
+# never shift another's, and a run can be repeated.
+
+NUMPY = (
+    *("choice", "normal", "permutation", "rand", "randint", "randn", "random", "random_sample", "seed", "shuffle"),
+    *("standard_normal", "uniform"),
+)
+"""The functions of `numpy.random` that draw from one state of the whole program."""
+
+
+def drawing(name: str) -> Callable[..., Any]:
+    """A function of the standard `random` module that draws from the source of the process."""
+
+    def draw(strand: Strand, *arguments: Any, **keywords: Any) -> Any:
+        return getattr(strand.process.random, name)(*arguments, **keywords)
+
+    return draw
+
+
+def random(real: Callable[[], float]) -> float:
+    """`random.random`, which is by far the most used, and so is spelled out."""
+    strand = getcurrent()
+    return strand.process.random.random() if type(strand) is Strand else real()
+
+
+class _NumpyState:
+    """The numpy RandomState of a process."""
+
+    def __init__(self, seed: str) -> None:
+        import numpy
+
+        self.source = numpy.random.RandomState(zlib.crc32(seed.encode()))
+
+
+def numpy_drawing(name: str) -> Callable[..., Any]:
+    """One of numpy's old global functions that draws from a state of the process."""
+
+    def draw(strand: Strand, *arguments: Any, **keywords: Any) -> Any:
+        source = strand.process.state(_NumpyState, strand.process.seed).source
+        return getattr(source, name)(*arguments, **keywords)
+
+    return draw
+
+
+def default_rng(real: Callable[..., Any], seed: Any = None) -> Any:
+    """`numpy.random.default_rng`: without a seed, it is seeded by the process's own random numbers."""
+    strand = getcurrent()
+    if seed is None and type(strand) is Strand:
+        seed = strand.process.random.getrandbits(64)
+    return real(seed)

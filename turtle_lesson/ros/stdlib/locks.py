@@ -167,16 +167,12 @@ class _OwnedLock(VirtualLock):
         return taken
 
 
-def condition_wait(real: Any) -> Any:
+def condition_wait(real: Any, self: Any, timeout: float | None = None) -> bool:
     """`threading.Condition.wait`, with a waiter that is a virtual lock where one is needed."""
-
-    def wait(self: Any, timeout: float | None = None) -> bool:
-        virtual = isinstance(self._lock, (VirtualLock, VirtualRLock))
-        if virtual or (type(getcurrent()) is Strand and not is_for_everybody(sys._getframe(1))):
-            return _wait_for_notice(self, timeout)
-        return real(self, timeout)
-
-    return wait
+    virtual = isinstance(self._lock, (VirtualLock, VirtualRLock))
+    if virtual or (type(getcurrent()) is Strand and not is_for_everybody(sys._getframe(1))):
+        return _wait_for_notice(self, timeout)
+    return real(self, timeout)
 
 
 def _wait_for_notice(condition: Any, timeout: float | None) -> bool:

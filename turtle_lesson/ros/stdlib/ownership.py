@@ -1,4 +1,14 @@
-"""Whether a thread belongs to a simulated process, and classes of the standard library of which there are two."""
+"""Whose is it? What a simulated process or a learner's cell makes belongs to the simulation, all else is Python's own.
+
+Locks, threads and their kin belong to the simulation if they are made
+
+- by code that runs in a simulated process, whatever code that is, except for what the module of a library makes while it is
+  imported, which is there for everybody, and except for Jupyter's own modules, which wait for Jupyter's threads; or
+- in the notebook, while a world is open and in the thread that the world lives in, directly by code of a cell (of the module
+  `__main__`) or of a file of the learner's own.
+
+So Jupyter's own threads, those of tornado, matplotlib, asyncio, and whatever any other library starts, stay Python's own.
+"""
 
 from __future__ import annotations
 
@@ -21,18 +31,6 @@ if TYPE_CHECKING:
     from ..sim.process import Process
 
 
-# -- home ---------------------------------------------------------------------------------------------------------
-# Whose thread is it? What a simulated process or a learner's cell makes belongs to the simulation, all else is real.
-# Locks, threads and their kin belong to the simulation if they are made
-# - by code that runs in a simulated process, whatever code that is, except for what the module of a library makes
-# while it is imported: it is there for everybody; and except for Jupyter's own modules, which wait for Jupyter's
-# threads; or - in the notebook, while a world is open and in the thread that the world lives in, directly by code of
-# a cell (of the module `__main__`) or of a file of the learner's own. What the modules `threading`, `queue` and
-# `concurrent.futures`, and the listener of tf2_ros, make on the way counts as made by their caller.
-# Code of a cell sleeps in robot time as long as a thread lives that cells have started: else that would never go on.
-# So Jupyter's own threads, those of tornado, matplotlib, asyncio, and whatever any other library starts, stay
-# Python's own.
-
 _ON_THE_WAY = {
     "threading",
     "queue",
@@ -41,24 +39,15 @@ _ON_THE_WAY = {
     "_threading_local",
     "tf2_ros.transform_listener",
 }
+"""Modules that make things for their callers, as all of this folder do."""
 _OURS = f"{__package__}."
-
-
-def nobody() -> Process | None:
-    """No notebook: no world is open."""
-    return None
-
-
-def no_file(filename: str) -> bool:
-    """No file is known to be the learner's own."""
-    return False
 
 
 class Notebook:
     """What the world tells about the notebook that it lives in: its process, and which files are the learner's own."""
 
-    process: Callable[[], Process | None] = staticmethod(nobody)
-    is_learners: Callable[[str], bool] = staticmethod(no_file)
+    process: Callable[[], Process | None] = staticmethod(lambda: None)
+    is_learners: Callable[[str], bool] = staticmethod(lambda filename: False)
 
 
 def process_here() -> Process | None:
@@ -108,31 +97,28 @@ def maker(frame: FrameType | None) -> FrameType | None:
     return None
 
 
-def in_no_strand(real: Callable[..., Any]) -> Callable[..., Any]:
-    """A function that does as in plain code, also where a strand calls it: it waits for real threads, in real time."""
-
-    def call(*arguments: Any, **keywords: Any) -> Any:
-        if type(getcurrent()) is not Strand:
-            return real(*arguments, **keywords)
-        aside = greenlet(real)
-        aside.gr_context = copy_context()
-        return aside.switch(*arguments, **keywords)
-
-    return call
+def in_no_strand(real: Callable[..., Any], *arguments: Any, **keywords: Any) -> Any:
+    """Do as in plain code, also where a strand calls: it waits for real threads, in real time."""
+    if type(getcurrent()) is not Strand:
+        return real(*arguments, **keywords)
+    aside = greenlet(real)
+    aside.gr_context = copy_context()
+    return aside.switch(*arguments, **keywords)
 
 
-# -- facade -------------------------------------------------------------------------------------------------------
-# A class of the standard library of which there are two now: Python's own, and one that waits in virtual time.
-# A caller of the class gets an object of one or the other, depending on whose it is to be. A subclass derives from
-# that one. Objects of both are its instances, so that callers need not know the difference.
+# -- classes of which there are two: Python's own, and one that waits in virtual time ----------------------------------
 
 
 class _Facade(type):
-    """The type of such classes."""
+    """The type of a class that stands before both.
+
+    A call makes an object of one or the other, depending on whose it is to be. A subclass derives from that one. Objects of
+    both are its instances, so that callers need not know the difference.
+    """
 
     _real: Any
-    _virtual: Callable[..., Any]
-    _base: type | None
+    _virtual: type
+    _kinds: tuple[type, ...]
 
     def __call__(cls, *arguments: Any, **keywords: Any) -> Any:
         make = cls._real if process_here() is None else cls._virtual
@@ -153,7 +139,7 @@ class _Facade(type):
         return type(real_bases[0])(name, real_bases, namespace, **keywords)
 
     def _behind(cls, virtual: bool) -> Any:
-        return cls._virtual if virtual and isinstance(cls._virtual, type) else cls._real
+        return cls._virtual if virtual else cls._real
 
     def __init__(cls, name: str, bases: tuple[type, ...], namespace: dict[str, Any], **keywords: Any) -> None:
         super().__init__(name, bases, namespace)
@@ -165,22 +151,20 @@ class _Facade(type):
         return getattr(cls._real, name)
 
 
-def facade(real: Any, virtual: Callable[..., Any], kinds: tuple[type, ...]) -> Any:
-    """The class that stands before `real` and `virtual`; `kinds` are the types of the objects that they make."""
+def facade(real: Any, virtual: type, made: type | None = None) -> Any:
+    """The class that stands before `real` and `virtual`; `made` is the type of what `real` makes, if it is no class itself."""
     namespace = {
         "__module__": getattr(real, "__module__", None),
         "__qualname__": real.__qualname__,
         "__doc__": real.__doc__,
         "_real": staticmethod(real),
-        "_virtual": staticmethod(virtual),
-        "_kinds": kinds,
+        "_virtual": virtual,
+        "_kinds": (made or real, virtual),
     }
     return _Facade(real.__name__, (), namespace)
 
 
-# -- local --------------------------------------------------------------------------------------------------------
-# `threading.local` in a simulated process: each of its threads sees attributes of its own.
-# It is the class that Python keeps for systems whose threads have none in C: it goes by `threading.current_thread`.
-
 module: Any = importlib.import_module("_threading_local")
 VirtualLocal: Any = module.local
+"""`threading.local` in a simulated process: Python keeps it for systems whose threads have none in C, and it goes by
+`threading.current_thread`."""

@@ -4,16 +4,12 @@ A row names an attribute of a module, class or object, what makes ours from the 
 very originals back, and a later `install` puts ours in again. Outside simulated processes and a learner's cells all
 replacements behave as the real ones do, so modules that took a name out of the standard library (`from threading import
 Lock`) before, meanwhile or afterwards go on working.
-
-Some rows come with `import turtle_lesson`, so that a program that begins with `from time import sleep` has ours; most
-come with the first world; a few only when a program imports the module that they change.
 """
 
 from __future__ import annotations
 
 import atexit
 import importlib
-import os
 import queue
 import random
 import sys
@@ -26,8 +22,11 @@ from pkgutil import resolve_name
 from types import MethodType, ModuleType
 from typing import Any, NamedTuple
 
+from greenlet import getcurrent
+
 from ..idl import finder
 from ..sim import interrupts
+from ..sim.strand import Strand
 from . import (
     asyncio_loops,
     clocks,
@@ -36,24 +35,22 @@ from . import (
     ownership,
     polling,
     pools,
-    random_numbers,
     signals,
     subprocesses,
     terminals,
     threads,
-    unsupported,
 )
 from .ownership import facade, in_no_strand
 from .program import ProgramFinder, on_import
 
-__all__ = ["FINDERS", "PRIVATE_NAMES", "TABLE", "Finder", "Patch", "Stage", "install", "original", "uninstall"]
+__all__ = ["FINDERS", "PRIVATE_NAMES", "TABLE", "Patch", "Stage", "install", "original", "uninstall"]
 
 
 class Stage(IntEnum):
     """When a row is put in."""
 
     IMPORT = 1
-    """By `import turtle_lesson`."""
+    """By `import turtle_lesson`, so that a program that begins with `from time import sleep` has ours."""
     WORLD = 2
     """By the first world."""
     USE = 3
@@ -68,19 +65,6 @@ class Patch(NamedTuple):
     ours: Callable[[Any], Any]
     why: str
     stage: Stage = Stage.WORLD
-
-
-class Finder(NamedTuple):
-    """One entry of `sys.meta_path`."""
-
-    name: str
-    add: Callable[[], object]
-    remove: Callable[[], object]
-    why: str
-    stage: Stage
-
-
-# -- what stands in for an original ----------------------------------------------------------------------------------
 
 
 def named(function: Any, name: str, real: Any) -> Any:
@@ -99,17 +83,45 @@ def _function(owner: str, function: Callable[..., Any], why: str, name: str = ""
     return Patch(owner, name, lambda real: MethodType(named(function, name, real), real), why, stage)
 
 
-def _method(owner: str, name: str, make: Callable[[Any], Any], why: str, stage: Stage = Stage.WORLD) -> Patch:
-    """A row for a method of a class, made from the real one."""
-    return Patch(owner, name, lambda real: named(make(real), name, real), why, stage)
+def _in_process(
+    owner: str,
+    function: Callable[..., Any],
+    why: str,
+    name: str = "",
+    stage: Stage = Stage.WORLD,
+    *,
+    cells: bool = True,
+) -> Patch:
+    """A row for a function that takes the real one's place in a simulated process alone, and gets the strand that calls first.
+
+    Without `cells` the real one is also called for a cell that waits.
+    """
+
+    def call(real: Any, *arguments: Any, **keywords: Any) -> Any:
+        strand = getcurrent()
+        if type(strand) is Strand and (cells or not strand.process.is_notebook):
+            return function(strand, *arguments, **keywords)
+        return real(*arguments, **keywords)
+
+    return _function(owner, call, why, name or function.__name__, stage)
+
+
+def _method(owner: str, name: str, function: Callable[..., Any], why: str, stage: Stage = Stage.WORLD) -> Patch:
+    """A row for a method of a class; the function gets the real method first, and then the object."""
+
+    def ours(real: Any) -> Any:
+        def method(self: Any, *arguments: Any, **keywords: Any) -> Any:
+            return function(real, self, *arguments, **keywords)
+
+        return named(method, name, real)
+
+    return Patch(owner, name, ours, why, stage)
 
 
 def _now(owner: str, name: str) -> Callable[[Any], Any]:
     """What an attribute in a row above is by now: for a second name of the same thing."""
     return lambda real: getattr(resolve_name(owner), name)
 
-
-# -- the table -------------------------------------------------------------------------------------------------------
 
 TIME = "virtual time in a simulated process"
 DATE = "the robot's date, in UTC, in a simulated process"
@@ -122,49 +134,53 @@ SIGNAL = "handlers are those of the simulated process"
 REFUSED = "what only a real operating system can do is refused to a simulated process"
 MODULES = "looks into sys.modules, where the running program's modules must be"
 AT_EXIT = "is called when the simulated process ends"
+CHILD = "ros2 commands and Python files run in the world"
+WAITS = "waits in virtual time"
 
 TABLE: tuple[Patch, ...] = (
     *(_function("time", each, TIME, name, Stage.IMPORT) for name, each in clocks.CLOCKS.items()),
     _function("time", threads.sleep, TIME, stage=Stage.IMPORT),
-    *(_function("time", each, DATE) for each in clocks.REPLACEMENTS),
+    *(_in_process("time", each, DATE, name) for name, each in clocks.DATES.items()),
     Patch("logging:Formatter", "converter", _now("time", "localtime"), DATE),
+    _function("random", environment.random, DRAW, stage=Stage.IMPORT),
     *(
-        Patch("random", name, partial(random_numbers.drawing, name), DRAW, Stage.IMPORT)
+        _in_process("random", environment.drawing(name), DRAW, name, Stage.IMPORT)
         for name in random.__all__
-        if type(getattr(getattr(random, name), "__self__", None)) is random.Random
+        if name != "random" and type(getattr(getattr(random, name), "__self__", None)) is random.Random
     ),
-    *(Patch("numpy.random", name, partial(random_numbers.numpy_drawing, name), DRAW) for name in random_numbers.NUMPY),
-    Patch("numpy.random", "default_rng", random_numbers.default_rng, DRAW),
-    Patch(
-        "threading",
-        "Lock",
-        lambda real: facade(real, locks.VirtualLock, (locks.RealLock, locks.VirtualLock)),
-        "waits in virtual time",
-    ),
-    _function("threading", locks.rlock, "waits in virtual time", "RLock"),
-    _method("threading:Event", "is_set", lambda real: polling.is_set, "polling takes time, or would never end"),
-    _method("threading:Condition", "wait", locks.condition_wait, "waits in virtual time"),
+    *(_in_process("numpy.random", environment.numpy_drawing(name), DRAW, name) for name in environment.NUMPY),
+    _function("numpy.random", environment.default_rng, DRAW),
+    Patch("threading", "Lock", lambda real: facade(real, locks.VirtualLock, locks.RealLock), WAITS),
+    _function("threading", locks.rlock, WAITS, "RLock"),
+    Patch("threading:Event", "is_set", lambda real: polling.is_set, "polling takes time, or would never end"),
+    _method("threading:Condition", "wait", locks.condition_wait, WAITS),
     _function("threading", locks.peek, PEEK, "_time"),
     _function("queue", locks.peek, PEEK, "time"),
     Patch(
         "queue",
         "SimpleQueue",
-        lambda real: facade(real, pools.VirtualSimpleQueue, (real, pools.VirtualSimpleQueue)),
+        lambda real: facade(real, pools.VirtualSimpleQueue),
         "Python's is made in C, on a lock of its own",
     ),
-    _method("threading:Thread", "start", threads.start, THREAD),
-    _method("threading:Thread", "join", threads.join, THREAD),
-    _method("threading:Thread", "is_alive", threads.is_alive, THREAD),
-    _method("threading:Thread", "__repr__", threads.representation, THREAD),
-    *(_function("threading", each, THREAD) for each in threads.REPLACEMENTS),
+    *(
+        _method("threading:Thread", name, function, THREAD)
+        for name, function in (
+            ("start", threads.start),
+            ("join", threads.join),
+            ("is_alive", threads.is_alive),
+            ("__repr__", threads.representation),
+        )
+    ),
+    *(_in_process("threading", function, THREAD, name) for name, function in threads.IDENTITY.items()),
+    *(_function("threading", each, THREAD) for each in (threads.main_thread, threads.enumerate, threads.active_count)),
     _function("threading", threads.newname, NAMES, "_newname"),
-    _function("_thread", threads.start_new_thread, THREAD),
+    _in_process("_thread", threads.start_new_thread, THREAD),
     Patch("_threading_local", "current_thread", _now("threading", "current_thread"), "local values go by strand"),
-    Patch("_threading_local", "RLock", _now("threading", "RLock"), "waits in virtual time"),
+    Patch("_threading_local", "RLock", _now("threading", "RLock"), WAITS),
     Patch(
         "threading",
         "local",
-        lambda real: facade(real, ownership.VirtualLocal, (real, ownership.VirtualLocal)),
+        lambda real: facade(real, ownership.VirtualLocal),
         "Python's is made in C, and goes by real threads",
     ),
     _method("concurrent.futures.thread:ThreadPoolExecutor", "__init__", pools.init, "eight threads on every computer"),
@@ -176,16 +192,17 @@ TABLE: tuple[Patch, ...] = (
         "a strand must not wait for another one with it",
     ),
     Patch("concurrent.futures.thread", "_threads_queues", pools.Queues, "Python would join simulated threads at exit"),
-    *(_function("asyncio.events", each, LOOPS) for each in asyncio_loops.REPLACEMENTS),
+    *(_in_process("asyncio.events", each, LOOPS) for each in asyncio_loops.REPLACEMENTS),
     *(Patch("asyncio", e.__name__, _now("asyncio.events", e.__name__), LOOPS) for e in asyncio_loops.REPLACEMENTS),
-    *(_function("signal", each, SIGNAL) for each in signals.REPLACEMENTS),
+    *(_in_process("signal", each, SIGNAL, cells=False) for each in signals.REPLACEMENTS),
+    _in_process("signal", signals.pause, SIGNAL),
     _function("os", signals.kill, SIGNAL),
-    _function("_thread", signals.interrupt_main, SIGNAL),
-    _function("os", signals.exit_now, "ends the simulated process alone", "_exit"),
+    _in_process("_thread", signals.interrupt_main, SIGNAL, cells=False),
+    _in_process("os", signals.exit_now, "ends the simulated process alone", "_exit", cells=False),
     _function("os", terminals.read, "reads the program's own terminal"),
-    *(_function("os", unsupported.processes(f"os.{name}()"), REFUSED, name) for name in ("fork", "forkpty")),
+    *(_in_process("os", subprocesses.refusing(f"os.{name}()"), REFUSED, name) for name in ("fork", "forkpty")),
     *(
-        _function("signal", unsupported.signals(f"signal.{name}()"), REFUSED, name)
+        _in_process("signal", signals.refusing(f"signal.{name}()"), REFUSED, name)
         for name in ("setitimer", "sigwait", "sigwaitinfo", "sigtimedwait", "set_wakeup_fd", "pthread_kill")
     ),
     *(_function(owner, environment.showing(), MODULES, name) for owner, name in environment.LOOKS_INTO_SYS_MODULES),
@@ -193,30 +210,22 @@ TABLE: tuple[Patch, ...] = (
     Patch("os:environ", "__class__", lambda real: environment.ProcessEnviron, "variables are a process's own"),
     _function("atexit", signals.register, AT_EXIT),
     _function("atexit", signals.unregister, AT_EXIT),
-    Patch(
-        "subprocess", "Popen", lambda real: subprocesses.WorldPopen, "ros2 commands and Python files run in the world"
-    ),
-    _function("os", subprocesses.system, "ros2 commands and Python files run in the world"),
-    _method("multiprocessing.process:BaseProcess", "start", unsupported.start_process, REFUSED, Stage.USE),
-    _method("tkinter:Tk", "__init__", unsupported.first_window, "a program here has no screen", Stage.USE),
+    Patch("subprocess", "Popen", lambda real: subprocesses.WorldPopen, CHILD),
+    _function("os", subprocesses.system, CHILD),
+    _method("multiprocessing.process:BaseProcess", "start", subprocesses.start_process, REFUSED, Stage.USE),
+    _method("tkinter:Tk", "__init__", subprocesses.first_window, "a program here has no screen", Stage.USE),
 )
 
-FINDERS: tuple[Finder, ...] = (
-    Finder(
-        "InterfaceFinder",
-        finder.install,
-        finder.uninstall,
-        "makes the modules of message packages when they are imported",
-        Stage.IMPORT,
-    ),
-    Finder(
-        "ProgramFinder",
+FINDERS: tuple[tuple[Callable[[], object], Callable[[], object], Stage], ...] = (
+    (finder.install, finder.uninstall, Stage.IMPORT),
+    (
         lambda: sys.meta_path.insert(0, ProgramFinder),
         lambda: sys.meta_path.remove(ProgramFinder),
-        "gives each program modules of its own",
         Stage.WORLD,
     ),
 )
+"""How entries of `sys.meta_path` are added and removed, and when: one makes the modules of message packages when they are
+imported, the other gives each program modules of its own."""
 
 PROVED_ON = ((3, 11), (3, 14))
 """The oldest and the newest Python with which the names below were seen to do what is expected of them."""
@@ -226,15 +235,10 @@ PRIVATE_NAMES: tuple[tuple[Any, str, str], ...] = (
     (queue, "time", "time limits of queues"),
     (threading, "_newname", "names of threads"),
     (threading, "_RLock", "the RLock that is written in Python, to run on a virtual lock"),
-    (threading.Condition(), "_waiters", "waiting for a condition"),
-    (threading.Condition(), "_is_owned", "waiting for a condition"),
-    (threading.Condition(), "_release_save", "waiting for a condition"),
-    (threading.Condition(), "_acquire_restore", "waiting for a condition"),
+    (threading.Condition(), "_waiters _is_owned _release_save _acquire_restore", "waiting for a condition"),
     (threading.Event(), "_flag", "looking at an event without its lock"),
-    (threading.Thread(name="unused"), "_initialized", "starting a thread"),
-    (threading.Thread(name="unused"), "_started", "starting a thread"),
-    (threading.Thread(name="unused"), "_ident", "the number of a thread"),
-    (threading.Thread(name="unused"), "_native_id", "the number of a thread"),
+    (threading.Thread(name="unused"), "_initialized _started", "starting a thread"),
+    (threading.Thread(name="unused"), "_ident _native_id", "the number of a thread"),
     (threading.Thread(name="unused"), "_target", "telling a pool's threads from others"),
     (ownership.module, "local", "the `threading.local` that is written in Python"),
     (pools.pool, "_worker", "telling a pool's threads from others"),
@@ -243,7 +247,7 @@ PRIVATE_NAMES: tuple[tuple[Any, str, str], ...] = (
     (pools.pool.ThreadPoolExecutor, "_counter", "names of a pool's threads"),
     (asyncio_loops.asyncio.BaseEventLoop, "_run_once", "a loop that waits in virtual time"),
 )
-"""What is used of the standard library without being documented: owner, name and purpose.
+"""What is used of the standard library without being documented: owner, names and purpose.
 
 `asyncio._enter_task` and its kin are not among them: their underscore notwithstanding, they are documented.
 (https://docs.python.org/3/library/asyncio-extending.html)
@@ -260,7 +264,8 @@ def _check_python(version: tuple[int, int] = sys.version_info[:2]) -> None:
         return
     known = "Python " + " to ".join(f"{major}.{minor}" for major, minor in PROVED_ON)
     here = f"Python {version[0]}.{version[1]}"
-    gone = [f"{name} ({purpose})" for owner, name, purpose in PRIVATE_NAMES if not hasattr(owner, name)]
+    needed = [(owner, name, purpose) for owner, names, purpose in PRIVATE_NAMES for name in names.split()]
+    gone = [f"{name} ({purpose})" for owner, name, purpose in needed if not hasattr(owner, name)]
     if gone:
         raise NotImplementedError(
             f"turtle_lesson runs on {known}; {here} has changed what simulated programs need: {', '.join(gone)}"
@@ -273,7 +278,6 @@ def _check_python(version: tuple[int, int] = sys.version_info[:2]) -> None:
 _NOT_THERE = object()
 _replaced: list[tuple[Any, str, Any]] = []
 """Owner, name and original of what is replaced now, the oldest first; an attribute that a class inherits is `_NOT_THERE`."""
-_finders: list[Finder] = []
 _stages: set[Stage] = set()
 
 
@@ -295,10 +299,9 @@ def install(stage: Stage = Stage.WORLD) -> None:
     for patch in TABLE:
         if patch.stage is stage:
             _put_in(patch)
-    for each in FINDERS:
-        if each.stage is stage:
-            _finders.append(each)
-            each.add()
+    for add, _, when in FINDERS:
+        if when is stage:
+            add()
 
 
 def uninstall() -> None:
@@ -321,10 +324,10 @@ def _take_out() -> None:
             delattr(owner, name)
         else:
             setattr(owner, name, real)
-    for each in _finders:
-        each.remove()
+    for _, remove, stage in FINDERS:
+        if stage in _stages:
+            remove()
     _replaced.clear()
-    _finders.clear()
     _stages.clear()
     on_import.clear()
 
@@ -355,12 +358,8 @@ def _at_exit() -> None:
     ours = __name__.partition(".")[0]
     for name, module in list(sys.modules.items()):
         if name.startswith(ours) and name != "turtle_lesson.ros.sim.strand" and hasattr(module, "getcurrent"):
-            module.getcurrent = _nothing  # type: ignore[attr-defined]
+            module.getcurrent = lambda: None  # type: ignore[attr-defined]
     _take_out()
-
-
-def _nothing() -> None:
-    """No strand runs any more."""
 
 
 # -- modules that programs get instead of the real ones --------------------------------------------------------------
@@ -368,14 +367,10 @@ def _nothing() -> None:
 
 def _put_in_place_of_modules() -> None:
     """What import statements of simulated programs, and of nobody else, get or cause."""
-    termios = terminals.make_termios()
-    own = [clocks.make_module(), termios, terminals.make_tty(termios), terminals.make_select(), terminals.make_fcntl()]
-    if os.name == "nt":  # elsewhere programs find out by its absence that they are not on Windows
-        own.append(terminals.make_msvcrt())
-    on_import.update({module.__name__: partial(_itself, module) for module in own})
-    on_import.update({toolkit: partial(unsupported.windows, toolkit) for toolkit in unsupported.WINDOWS})
-    on_import["curses"] = partial(_made, "curses_screen")
-    on_import["pynput"] = partial(_made, "pynput_keyboard")
+    for module in (clocks.make_module(), *terminals.make_modules()):
+        on_import[module.__name__] = partial(_itself, module)
+    on_import.update({toolkit: partial(subprocesses.no_window, toolkit) for toolkit in subprocesses.WINDOWS})
+    on_import.update({name: partial(_key_library, f"make_{name}") for name in ("curses", "pynput")})
     on_import["tkinter"] = partial(_put_in_late, "tkinter")
     on_import["multiprocessing"] = on_import["concurrent"] = partial(_put_in_late, "multiprocessing.process")
 
@@ -385,9 +380,12 @@ def _itself(module: ModuleType) -> ModuleType:
 
 
 @cache
-def _made(name: str) -> ModuleType:
-    """What a module beside this one makes for programs, once one of them asks for it: few do."""
-    return importlib.import_module(f".{name}", __package__).make_module()
+def _key_library(maker: str) -> ModuleType:
+    """A library that reads keys, made once a program asks for it: few do."""
+    from . import key_libraries
+
+    module: ModuleType = getattr(key_libraries, maker)()
+    return module
 
 
 def _put_in_late(module: str) -> None:

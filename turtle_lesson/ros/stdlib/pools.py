@@ -7,8 +7,8 @@ its names by process. When the main program ends, pools finish what they have be
 from __future__ import annotations
 
 import queue
-from collections import deque
-from collections.abc import Iterator, MutableMapping
+from collections import UserDict, deque
+from collections.abc import MutableMapping
 from concurrent.futures import thread as pool
 from dataclasses import dataclass, field
 from threading import Semaphore
@@ -105,15 +105,11 @@ class NotInStrands:
             self._lock.release()
 
 
-def init(real: Any) -> Any:
+def init(real: Any, self: Any, max_workers: int | None = None, *arguments: Any, **keywords: Any) -> None:
     """`ThreadPoolExecutor.__init__`."""
-
-    def init(self: Any, max_workers: int | None = None, *arguments: Any, **keywords: Any) -> None:
-        if max_workers is None and process_here() is not None:
-            max_workers = MOST_WORKERS
-        real(self, max_workers, *arguments, **keywords)
-
-    return init
+    if max_workers is None and process_here() is not None:
+        max_workers = MOST_WORKERS
+    real(self, max_workers, *arguments, **keywords)
 
 
 def is_worker(thread: threading.Thread) -> bool:
@@ -131,10 +127,10 @@ def remember(process: Process) -> None:
 
 def end_pools(process: Process) -> None:
     """Have the pools of a process do what they have been given, and end their threads."""
-    workers = _workers(process)
+    queues = process.state(_Pools).queues
+    workers = [(thread, work) for thread, work in queues.items() if thread.is_alive()]
     for thread, work in workers:
-        reference = thread._args[0]  # type: ignore[attr-defined]
-        executor = reference()
+        executor = thread._args[0]()  # type: ignore[attr-defined]  # a weak reference
         if executor is not None:
             executor._shutdown = True
         work.put(None)
@@ -142,33 +138,16 @@ def end_pools(process: Process) -> None:
         thread.join()
 
 
-def _workers(process: Process) -> list[tuple[threading.Thread, Any]]:
-    queues = process.state(_Pools).queues
-    return [(thread, work) for thread, work in queues.items() if thread.is_alive()]
-
-
-class Queues(MutableMapping[Any, Any]):
+class Queues(UserDict[Any, Any]):
     """By thread, the queue from which it gets its work. Python waits for these threads when it ends.
 
     It need not wait for those of simulated processes: they are kept by the process. The others are in the `real` one.
     """
 
     def __init__(self, real: MutableMapping[Any, Any]) -> None:
-        self._real = real
+        self.data = real  # type: ignore[assignment]  # it is shared, and goes by weak references
 
     def __setitem__(self, thread: Any, work: Any) -> None:
         strand = vars(thread).get("_strand")
-        own = self._real if strand is None else strand.process.state(_Pools).queues
+        own = self.data if strand is None else strand.process.state(_Pools).queues
         own[thread] = work
-
-    def __getitem__(self, thread: Any) -> Any:
-        return self._real[thread]
-
-    def __delitem__(self, thread: Any) -> None:
-        del self._real[thread]
-
-    def __iter__(self) -> Iterator[Any]:
-        return iter(self._real)
-
-    def __len__(self) -> int:
-        return len(self._real)

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..sim.strand import running_strand
 from .polling import NAME, another_look, without_busy_loops
-from .program_input import ProgramInput
+from .terminals import ProgramInput
 
 if TYPE_CHECKING:
     from ..sim.process import Process

@@ -1,4 +1,9 @@
-"""`signal` and `atexit` in a simulated process: handlers are those of its own process."""
+"""`signal` and `atexit` in a simulated process: handlers are those of its own, and are called in its main thread.
+
+A handler is called where the main thread waits, at the instant at which the signal comes, and the waiting goes on after it.
+SIGINT comes from Ctrl-C and from launch, SIGTERM from launch; a process may send itself any signal. In a cell that waits all
+these are the real ones: its signals are the kernel's.
+"""
 
 from __future__ import annotations
 
@@ -9,36 +14,20 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from greenlet import getcurrent
-
 from ..sim.asyncio_context import be_careful
 from ..sim.errors import is_library
 from ..sim.process import Process
 from ..sim.simulation import NANOSECONDS
 from ..sim.strand import Strand, running_strand
 
-# -- signals ------------------------------------------------------------------------------------------------------
-# `signal` in a simulated process: handlers are those of its own process, and are called in its main thread.
-# A handler is called where the main thread waits, at the instant at which the signal comes, and the waiting goes on
-# after it. SIGINT comes from Ctrl-C and from launch, SIGTERM from launch; a process may send itself any signal.
-
 _UNTOUCHABLE = {getattr(module, "SIGKILL", -1), getattr(module, "SIGSTOP", -1)}
 _IGNORED_BY_DEFAULT = {getattr(module, name, -1) for name in ("SIGCHLD", "SIGURG", "SIGWINCH", "SIGCONT")}
 
 
-def _process() -> Process | None:
-    """The running process, if it is no notebook, whose signals are the kernel's."""
-    strand = getcurrent()
-    return strand.process if type(strand) is Strand and not strand.process.is_notebook else None
-
-
-def signal(real: Any, signalnum: int, handler: Any) -> Any:
+def signal(strand: Strand, signalnum: int, handler: Any) -> Any:
     """Set the handler of a signal; returns the one before."""
-    process = _process()
-    if process is None:
-        return real(signalnum, handler)
-    number = module.Signals(signalnum)
-    if running_strand() is not process.main_strand:
+    process, number = strand.process, module.Signals(signalnum)
+    if strand is not process.main_strand:
         raise ValueError("signal only works in main thread of the main interpreter")
     if not callable(handler) and handler not in (module.SIG_IGN, module.SIG_DFL):
         raise TypeError("signal handler must be signal.SIG_IGN, signal.SIG_DFL, or a callable object")
@@ -70,29 +59,24 @@ def _handler_of(process: Process, number: int) -> Any:
     return module.SIG_IGN if found is _ignore else found
 
 
-def getsignal(real: Any, signalnum: int) -> Any:
+def getsignal(strand: Strand, signalnum: int) -> Any:
     """The handler of a signal."""
-    process = _process()
-    return real(signalnum) if process is None else _handler_of(process, module.Signals(signalnum))
+    return _handler_of(strand.process, module.Signals(signalnum))
 
 
-def raise_signal(real: Any, signalnum: int, /) -> None:
+def raise_signal(strand: Strand, signalnum: int, /) -> None:
     """Send this process a signal."""
-    process = _process()
-    if process is None:
-        real(signalnum)
-    else:
-        _send(process, signalnum)
+    _send(strand.process, signalnum)
 
 
-def interrupt_main(real: Any, signum: int = module.SIGINT, /) -> None:
+def interrupt_main(strand: Strand, signum: int = module.SIGINT, /) -> None:
     """Send this process SIGINT, or another signal."""
-    raise_signal(real, signum)
+    _send(strand.process, signum)
 
 
 def kill(real: Any, pid: int, signal: int, /) -> None:
     """Send a process a signal: a program that was read from a file itself, all others whom they want."""
-    process = _process()
+    process = _own_process()
     if process is not None and process.modules is not None and pid in (os.getpid(), process.pid):
         _send(process, signal)
     else:
@@ -105,24 +89,17 @@ def _send(process: Process, number: int) -> None:
         process.send_signal(number)
 
 
-def pause(real: Callable[[], None]) -> None:
+def pause(strand: Strand) -> None:
     """Wait until a signal comes that is handled."""
-    strand = running_strand()
-    if strand is None:
-        real()
-        return
     be_careful(strand.simulation)
     before = strand.process.signals_handled
     while strand.process.signals_handled == before:
         strand.park()
 
 
-def alarm(real: Callable[[int], int], seconds: int, /) -> int:
+def alarm(strand: Strand, seconds: int, /) -> int:
     """SIGALRM after some seconds of robot time; returns what was left of an earlier one."""
-    process = _process()
-    if process is None:
-        return real(seconds)
-    return process.state(_Alarm, process).set(seconds)
+    return strand.process.state(_Alarm, strand.process).set(seconds)
 
 
 class _Alarm:
@@ -147,19 +124,29 @@ class _Alarm:
             self._process.send_signal(module.SIGALRM)
 
 
-REPLACEMENTS: tuple[Callable[..., Any], ...] = (signal, getsignal, raise_signal, pause, alarm)
+REPLACEMENTS: tuple[Callable[..., Any], ...] = (signal, getsignal, raise_signal, alarm)
 
 
-# -- exits --------------------------------------------------------------------------------------------------------
-# `atexit` in a simulated process: what a program registers is called when that process ends.
-# What a library registers while a program imports it is left to Python itself: the library is there for all
-# processes.
+def refusing(what: str) -> Callable[..., Any]:
+    """A function that refuses what only a real operating system can do with signals."""
+
+    def refused(strand: Strand, *arguments: Any, **keywords: Any) -> Any:
+        raise NotImplementedError(
+            f"{what} is not available here; signal.signal, signal.alarm, signal.pause and signal.raise_signal are"
+        )
+
+    return refused
+
+
+# -- exits -------------------------------------------------------------------------------------------------------------
+# What a program gives to `atexit` is called when its process ends. What a library registers while a program imports it is
+# left to Python itself: the library is there for all processes.
 
 
 def register(real: Any, func: Any, /, *args: Any, **kwargs: Any) -> Any:
     """Have a function called at the end."""
-    process = _exiting_process()
-    if process is None:
+    process = _own_process()
+    if process is None or is_library(sys._getframe(1).f_code.co_filename):
         return real(func, *args, **kwargs)
     if not callable(func):
         raise TypeError("the first argument must be callable")
@@ -169,26 +156,20 @@ def register(real: Any, func: Any, /, *args: Any, **kwargs: Any) -> Any:
 
 def unregister(real: Any, func: Any, /) -> None:
     """No longer have it called."""
-    process = _exiting_process()
-    if process is None:
+    process = _own_process()
+    if process is None or is_library(sys._getframe(1).f_code.co_filename):
         real(func)
     else:
         kept = [each for each in process.exit_functions if not isinstance(each, partial) or each.func != func]
         process.exit_functions[:] = kept
 
 
-def exit_now(real: Any, status: int) -> None:
+def exit_now(strand: Strand, status: int) -> None:
     """`os._exit`: the process ends here and now, and nothing is cleaned up."""
-    strand = getcurrent()
-    if type(strand) is not Strand or strand.process.is_notebook:
-        real(status)
-    else:
-        strand.process.end_now(status)
+    strand.process.end_now(status)
 
 
-def _exiting_process() -> Process | None:
-    """The running process, if it is its own program that calls."""
-    strand = getcurrent()
-    if type(strand) is not Strand or strand.process.is_notebook:
-        return None
-    return None if is_library(sys._getframe(2).f_code.co_filename) else strand.process
+def _own_process() -> Process | None:
+    """The running process, if it is no notebook."""
+    strand = running_strand()
+    return None if strand is None or strand.process.is_notebook else strand.process

@@ -2,7 +2,8 @@
 
 What they can start in it is what a launch file's ExecuteProcess can: `ros2 …`, Python files, echo, sleep. All else is run by
 the computer itself, and takes no robot time; so it is for code outside simulated processes, except for `ros2 …` in a cell or
-a launch file.
+a launch file. Other processes of the real computer would run beside virtual time, and the loops of windows would hold it up:
+both are refused.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ import os
 import signal
 import subprocess
 from collections.abc import Callable
+from importlib.util import find_spec
 from typing import Any
 
 from .. import hooks
@@ -204,4 +206,47 @@ def system(real: Any, command: Any) -> int:
     return code << 8 if code >= 0 else -code
 
 
-__all__ = ["WorldPopen", "system"]
+# -- what a simulated process cannot have ------------------------------------------------------------------------------
+
+WINDOWS = ("PyQt5", "PyQt6", "PySide2", "PySide6", "customtkinter", "kivy", "pygame", "wx")
+"""The modules of window toolkits. (tkinter is imported by mistake so often, by editors, that only its window is refused.)"""
+
+_NO_WINDOW = "{} opens windows, and a program here has no screen for them: lesson.dashboard() may show the same"
+
+
+def no_window(toolkit: str) -> None:
+    """Refuse the import of a window toolkit by a program; one that is not installed is left to Python's own words.
+
+    Raises:
+        ImportError: if it is installed.
+    """
+    if find_spec(toolkit) is not None:
+        raise ImportError(_NO_WINDOW.format(toolkit), name=toolkit)
+
+
+def first_window(real: Any, self: Any, *arguments: Any, **keywords: Any) -> None:
+    """`tkinter.Tk.__init__`, which refuses a simulated process its first window."""
+    if running_strand() is not None:
+        raise RuntimeError(_NO_WINDOW.format("tkinter"))
+    real(self, *arguments, **keywords)
+
+
+def refusing(what: str) -> Callable[..., Any]:
+    """A function that refuses a simulated process another process."""
+
+    def refused(strand: Strand, *arguments: Any, **keywords: Any) -> Any:
+        raise NotImplementedError(
+            f"{what} is not possible here: another process of the computer would know nothing about the simulation and its "
+            "time. Threads can be used (threading, concurrent.futures.ThreadPoolExecutor), and further nodes by a launch file."
+        )
+
+    return refused
+
+
+def start_process(real: Any, self: Any) -> None:
+    """`multiprocessing.Process.start`, which is what all of multiprocessing comes down to."""
+    strand = running_strand()
+    if strand is None:
+        real(self)
+    else:
+        refusing("multiprocessing")(strand)

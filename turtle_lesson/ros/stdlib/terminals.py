@@ -1,8 +1,10 @@
-"""What a program asks of its terminal to read keys: `termios`, `tty`, `select`, `fcntl`, `msvcrt` and `os.read`.
+"""A program's terminal: `sys.stdin` and `input()`, and the modules by which it reads keys, from `termios` to `msvcrt`.
 
-The modules are those that a program's import statements get. For `sys.stdin` they work on the program's own terminal, whose
-keys are pressed in the notebook, and they wait in robot time; all else they leave to the real ones. The flags are Linux's,
-on every computer (`man 3 termios`; Python's documentation of termios, tty and msvcrt).
+A program reads whole lines. Once it turns its terminal's line mode off (termios, tty, curses) it reads keys: whatever is
+pressed in the notebook, as soon as it is pressed. It waits in robot time.
+
+The modules are those that a program's import statements get. For any other file they call the real ones. The flags are
+Linux's, on every computer (`man 3 termios`; Python's documentation of termios, tty and msvcrt).
 """
 
 from __future__ import annotations
@@ -11,14 +13,164 @@ import errno
 import importlib
 import os
 import select as real_select
+import signal
+import sys
 from collections.abc import Callable, Iterable
+from io import TextIOBase
 from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from greenlet import getcurrent
+from ..sim.keyboard import END, SENT, KeyReader
+from ..sim.strand import running_strand
 
-from ..sim.strand import Strand
-from .program_input import ProgramInput
+if TYPE_CHECKING:
+    from ..sim.process import Process
+
+
+class ProgramInput(TextIOBase):
+    """The standard input of a program.
+
+    Attributes:
+        keys: the keys that were pressed for it.
+        raw: whether it reads keys instead of lines.
+        signals: whether Ctrl-C interrupts the program; else it is a key like any other.
+        returns: whether the enter key gives "\\r" instead of "\\n".
+        patience: how long it waits for a key, in s; None: until there is one.
+        attributes: the terminal's settings, for termios; None: as they are at first.
+        typed: characters that were typed and not read.
+    """
+
+    name = "<stdin>"
+    mode = "r"
+    encoding = "utf-8"
+    errors = "strict"
+
+    def __init__(self, process: Process) -> None:
+        self.process = process
+        self.keys = KeyReader(process, has_terminal=True)
+        self.raw = False
+        self.signals = True
+        self.returns = False
+        self.patience: float | None = None
+        self.attributes: list[Any] | None = None
+        self.typed = ""
+        self._given = 0
+
+    def ask(self, prompt: object = "", /) -> str:
+        """What `input(prompt)` gives: the next line.
+
+        Raises:
+            EOFError: if there is none.
+        """
+        return self._next(str(prompt))
+
+    def _next(self, prompt: str) -> str:
+        source = self.process.stdin
+        if source is None:
+            return self.process.simulation.keyboard.line(self.process, prompt)
+        print(prompt, end="", file=self.process.stdout or sys.stdout, flush=True)
+        line = source.readline()
+        if not line:
+            error = EOFError(END)
+            lines = "1 line" if self._given == 1 else f"{self._given} lines"
+            error.add_note(f"The program asked for another line after it had read all of its input ({lines}).")
+            raise error
+        self._given += 1
+        return line.removesuffix("\n")
+
+    def readable(self) -> bool:
+        """Always."""
+        return True
+
+    def isatty(self) -> bool:
+        """Whether it is a keyboard."""
+        return self.process.stdin is None
+
+    def fileno(self) -> int:
+        """0, as everywhere."""
+        return 0
+
+    def readline(self, size: int | None = -1, /) -> str:  # type: ignore[override]
+        """The next line with its line end; nothing at the end of the input."""
+        while "\n" not in self.typed and self._read_more():
+            pass
+        end = self.typed.find("\n") + 1 or len(self.typed)
+        return self._take(end if size is None or size < 0 else min(end, size))
+
+    def read(self, size: int | None = -1, /) -> str:
+        """All that comes until the end of the input, or so many characters."""
+        wanted = -1 if size is None else size
+        while (wanted < 0 or len(self.typed) < wanted) and self._read_more():
+            pass
+        return self._take(len(self.typed) if wanted < 0 else wanted)
+
+    def is_ready(self, seconds: float | None) -> bool:
+        """Whether something can be read, now or within `seconds` of robot time; None: wait for it."""
+        if self.typed or not self.isatty():
+            return True
+        simulation = self.process.simulation
+        end = None if seconds is None else simulation.now + round(seconds * 1e9)
+        while not (self.process.simulation.keyboard.lines and not self.raw):
+            left = None if end is None else max(0.0, (end - simulation.now) / 1e9)
+            if not self.keys.wait(left):
+                return False
+            self._take_keys()
+            if self.typed and (self.raw or "\n" in self.typed):
+                return True
+        return True
+
+    def read_there(self, size: int) -> str:
+        """So many characters at most, of those that are there without waiting."""
+        if self.isatty():
+            self._take_keys()
+            return self._take(min(size, len(self.typed)))
+        return self.read(size)
+
+    def next_key(self, seconds: float | None) -> str | None:
+        """The name of the next key, None if none is pressed within `seconds` of robot time (None: wait for it)."""
+        while self.keys.wait(seconds):
+            name, _ = self.keys.events.popleft()
+            if not self._interrupts(name) and SENT.get(name, name):
+                return name
+        return None
+
+    def _read_more(self) -> bool:
+        """Read one more line, or a key; whether there is one."""
+        if self.raw and self.isatty():
+            if self.keys.wait(self.patience):
+                self._take_keys()
+                return True
+            return False
+        try:
+            self.typed += self._next("") + "\n"
+        except EOFError:
+            return False
+        return True
+
+    def _take_keys(self) -> None:
+        while self.keys.events:
+            name, _ = self.keys.events.popleft()
+            if not self._interrupts(name):
+                self.typed += "\r" if self.returns and name == "enter" else SENT.get(name, name)
+
+    def _interrupts(self, name: str) -> bool:
+        """Whether a key is Ctrl-C, and the terminal interrupts the program with it."""
+        if name != "ctrl+c" or not self.signals:
+            return False
+        self.process.send_signal(signal.SIGINT)
+        return True
+
+    def _take(self, count: int) -> str:
+        taken, self.typed = self.typed[:count], self.typed[count:]
+        return taken
+
+    def flush_keys(self) -> None:
+        """Forget what was pressed and not read."""
+        self.typed = ""
+        self.keys.events.clear()
+
+
+# -- the modules -------------------------------------------------------------------------------------------------------
 
 FLAGS = {
     "BRKINT": 0x2, "INPCK": 0x10, "ISTRIP": 0x20, "ICRNL": 0x100, "IXON": 0x400, "OPOST": 0x1, "ONLCR": 0x4, "CSIZE": 0x30,
@@ -27,8 +179,9 @@ FLAGS = {
     "TCSANOW": 0, "TCSADRAIN": 1, "TCSAFLUSH": 2, "TCIFLUSH": 0, "TCOFLUSH": 1, "TCIOFLUSH": 2, "B9600": 13, "B38400": 15,
     "NCCS": 32, "TIOCGWINSZ": 0x5413, "FIONREAD": 0x541B,
 }  # fmt: skip
-IFLAG, OFLAG, CFLAG, LFLAG, ISPEED, OSPEED, CC = range(7)
+PLACES = {"IFLAG": 0, "OFLAG": 1, "CFLAG": 2, "LFLAG": 3, "ISPEED": 4, "OSPEED": 5, "CC": 6}
 """The places of the settings in a terminal's list of them."""
+IFLAG, OFLAG, _, LFLAG, _, _, CC = PLACES.values()
 
 
 def settings(*names: str) -> int:
@@ -43,13 +196,20 @@ def terminal_of(file: Any) -> ProgramInput | None:
     """The running program's terminal, if a file, or its number, is one; None for any other file."""
     if isinstance(file, ProgramInput):
         return file
-    strand = getcurrent()
-    modules = strand.process.modules if type(strand) is Strand else None
-    if modules is None:
+    strand = running_strand()
+    modules = None if strand is None else strand.process.modules
+    if strand is None or modules is None:
         return None
     if isinstance(file, int):
         return modules.stdin if 0 <= file <= 2 else None
     return modules.stdin if file in (strand.process.stdout, strand.process.stderr) else None
+
+
+def make_modules() -> list[ModuleType]:
+    """`termios`, `tty`, `select`, `fcntl`, and on Windows `msvcrt`, by whose absence programs know that they are elsewhere."""
+    termios = make_termios()
+    modules = [termios, make_tty(termios), make_select(), make_fcntl()]
+    return [*modules, make_msvcrt()] if os.name == "nt" else modules
 
 
 def make_termios() -> ModuleType:
@@ -85,7 +245,7 @@ def make_termios() -> ModuleType:
         """Wait until all is written, which it is."""
         terminal(fd)
 
-    return _module("termios", FLAGS, error=error, **_named(tcgetattr, tcsetattr, tcflush, tcdrain))
+    return _module("termios", {**FLAGS, "error": error}, tcgetattr, tcsetattr, tcflush, tcdrain)
 
 
 def _at_first() -> list[Any]:
@@ -137,16 +297,7 @@ def make_tty(termios: ModuleType) -> ModuleType:
         """Give every key but Ctrl-C, which interrupts. Returns the settings before."""
         return change(fd, when, settings("ECHO", "ICANON"), False)
 
-    places = {
-        "IFLAG": IFLAG,
-        "OFLAG": OFLAG,
-        "CFLAG": CFLAG,
-        "LFLAG": LFLAG,
-        "ISPEED": ISPEED,
-        "OSPEED": OSPEED,
-        "CC": CC,
-    }
-    return _module("tty", {**vars(termios), **places}, **_named(setraw, setcbreak))
+    return _module("tty", {**vars(termios), **PLACES}, setraw, setcbreak)
 
 
 def make_select() -> ModuleType:
@@ -165,7 +316,7 @@ def make_select() -> ModuleType:
             timeout = 0
         return (own if terminal.is_ready(timeout) else []) + found[0], found[1], found[2]
 
-    return _module("select", vars(real_select), select=select)
+    return _module("select", vars(real_select), select)
 
 
 def make_fcntl() -> ModuleType:
@@ -188,7 +339,7 @@ def make_fcntl() -> ModuleType:
             return 0
         return not_waiting if cmd == names["F_GETFL"] and terminal.patience == 0.0 else 0
 
-    return _module("fcntl", names, fcntl=fcntl)
+    return _module("fcntl", names, fcntl)
 
 
 def make_msvcrt() -> ModuleType:
@@ -212,24 +363,20 @@ def make_msvcrt() -> ModuleType:
         """The next key's character, as bytes."""
         return getwch().encode()
 
-    return _module("msvcrt", {}, **_named(kbhit, getch, getwch), getche=getch, getwche=getwch)
+    return _module("msvcrt", {"getche": getch, "getwche": getwch}, kbhit, getch, getwch)
+
+
+def _module(name: str, names: dict[str, Any], *functions: Callable[..., Any]) -> ModuleType:
+    module = ModuleType(name)
+    module.__dict__.update({key: value for key, value in names.items() if not key.startswith("__")})
+    for each in functions:
+        each.__module__ = name
+        module.__dict__[each.__name__] = each
+    return module
 
 
 def read(real: Callable[[int, int], bytes], fd: int, n: int, /) -> bytes:
     """Read from a file descriptor. Returns a bytes object."""
-    if fd != 0 or type(getcurrent()) is not Strand or (terminal := terminal_of(0)) is None:
+    if fd != 0 or (terminal := terminal_of(0)) is None:
         return real(fd, n)
     return (terminal.read(1) + terminal.read_there(n - 1)).encode() if n else b""
-
-
-def _module(name: str, names: dict[str, Any], **functions: Any) -> ModuleType:
-    module = ModuleType(name)
-    own = {key: value for key, value in names.items() if not key.startswith("__")}
-    module.__dict__.update({**own, **functions})
-    for each in functions.values():
-        each.__module__ = name
-    return module
-
-
-def _named(*functions: Callable[..., Any]) -> dict[str, Callable[..., Any]]:
-    return {function.__name__: function for function in functions}

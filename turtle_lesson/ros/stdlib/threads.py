@@ -8,7 +8,7 @@ import time
 from collections import Counter
 from collections.abc import Callable
 from traceback import format_exception_only
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from greenlet import GreenletExit, getcurrent
 
@@ -26,66 +26,49 @@ if TYPE_CHECKING:
     from ..sim.process import Process
 
 
-# -- threads ------------------------------------------------------------------------------------------------------
-# `threading.Thread` in a simulated process: a strand of it, in virtual time.
-# The class stays Python's own; its `start` decides whose thread it is. A thread begins at once: its starter continues
-# when it waits for the first time, as in Python, where `start` waits until the thread runs. In the notebook it begins
-# at this instant of robot time, and lives on whenever the simulation runs.
+def start(real: Any, self: Any) -> None:
+    """`Thread.start`: a simulated thread is a strand, and begins at once.
+
+    Its starter continues when it waits for the first time, as in Python, where `start` waits until the thread runs. In the
+    notebook it begins at this instant of robot time, and lives on whenever the simulation runs.
+    """
+    process = process_here()
+    if process is None:
+        real(self)
+        return
+    if not self._initialized:
+        raise RuntimeError("thread.__init__() not called")
+    if self._started.is_set():
+        raise RuntimeError("threads can only be started once")
+    _begin(self, process)
 
 
-def start(real: Any) -> Any:
-    """`Thread.start`."""
-
-    def start(self: Any) -> None:
-        process = process_here()
-        if process is None:
-            real(self)
-            return
-        if not self._initialized:
-            raise RuntimeError("thread.__init__() not called")
-        if self._started.is_set():
-            raise RuntimeError("threads can only be started once")
-        _begin(self, process)
-
-    return start
-
-
-def join(real: Any) -> Any:
+def join(real: Any, self: Any, timeout: float | None = None) -> None:
     """`Thread.join`."""
-
-    def join(self: Any, timeout: float | None = None) -> None:
-        handle = _handle_of(self)
-        if handle is None:
-            real(self, timeout)
-        elif self is threading.current_thread():
-            raise RuntimeError("cannot join current thread")
-        else:
-            handle.join(timeout)
-
-    return join
+    handle = _handle_of(self)
+    if handle is None:
+        real(self, timeout)
+    elif self is threading.current_thread():
+        raise RuntimeError("cannot join current thread")
+    elif handle.lock.acquire(True, -1 if timeout is None else max(timeout, 0)):
+        handle.lock.release()
 
 
-def is_alive(real: Any) -> Any:
+def is_alive(real: Any, self: Any) -> bool:
     """`Thread.is_alive`."""
-
-    def is_alive(self: Any) -> bool:
-        handle = _handle_of(self)
-        return real(self) if handle is None else not handle.is_done()
-
-    return is_alive
+    handle = _handle_of(self)
+    if handle is None:
+        return real(self)
+    return handle.lock.locked() and not looked_in_vain()
 
 
-def representation(real: Any) -> Any:
+def representation(real: Any, self: Any) -> str:
     """`Thread.__repr__`."""
-
-    def __repr__(self: Any) -> str:
-        handle = _handle_of(self)
-        if handle is None:
-            return real(self)
-        state = "started" if handle.lock.locked() else "stopped"
-        return f"<{type(self).__name__}({self.name}, {state}{' daemon' if self.daemon else ''} {handle.ident})>"
-
-    return __repr__
+    handle = _handle_of(self)
+    if handle is None:
+        return real(self)
+    state = "started" if handle.lock.locked() else "stopped"
+    return f"<{type(self).__name__}({self.name}, {state}{' daemon' if self.daemon else ''} {handle.ident})>"
 
 
 def _handle_of(thread: threading.Thread) -> Handle | None:
@@ -156,62 +139,47 @@ def _sleep_of_a_cell(seconds: float) -> bool:
     return True
 
 
-def start_new_thread(real: Any, function: Any, args: tuple[Any, ...], kwargs: dict[str, Any] | None = None, /) -> int:
+def start_new_thread(
+    strand: Strand, function: Any, args: tuple[Any, ...], kwargs: dict[str, Any] | None = None, /
+) -> int:
     """`_thread.start_new_thread`, which is older and does less."""
-    if running_strand() is None:
-        return real(function, args, kwargs or {})
     thread = threading.Thread(target=function, args=args, kwargs=kwargs, daemon=True)
     thread.start()
     return thread.ident or 0
 
 
-# -- identity -----------------------------------------------------------------------------------------------------
-# Which thread is this? Strands of a simulated process have `threading.Thread` objects and numbers of their own.
+# -- which thread is this? ---------------------------------------------------------------------------------------------
 
 
-class Handle:
-    """Knows whether a simulated thread has ended, and waits for that."""
+class Handle(NamedTuple):
+    """The number of a simulated thread, and a lock that it holds until it ends."""
 
-    def __init__(self, ident: int) -> None:
-        self.ident = ident
-        self.lock = VirtualLock()
-
-    def is_done(self) -> bool:
-        """Whether it has ended."""
-        return not self.lock.locked() or looked_in_vain()
-
-    def join(self, timeout: float | None = None) -> None:
-        """Wait until it has, at most `timeout` s."""
-        if self.lock.acquire(True, -1 if timeout is None else max(timeout, 0)):
-            self.lock.release()
+    ident: int
+    lock: VirtualLock
 
 
 class _MainThread(threading.Thread):
     """The main thread of a simulated process."""
 
-    def __init__(self) -> None:
-        super().__init__(name="MainThread", daemon=False)
-
 
 class _DummyThread(threading.Thread):
     """A thread that nobody has started by `threading`, such as a worker of an executor."""
-
-    def __init__(self, name: str) -> None:
-        super().__init__(name=name, daemon=True)
 
 
 def thread_of(strand: Strand) -> threading.Thread:
     """The thread object of a strand, made when it is first asked for."""
     if strand.thread is None:
-        kind = _MainThread() if strand is strand.process.main_strand else _DummyThread(strand.name or "Dummy")
-        become(kind, strand)
+        if strand is strand.process.main_strand:
+            become(_MainThread(name="MainThread", daemon=False), strand)
+        else:
+            become(_DummyThread(name=strand.name or "Dummy", daemon=True), strand)
     return strand.thread
 
 
 def become(thread: threading.Thread, strand: Strand) -> None:
     """Let a thread object stand for a strand, as if it had been started."""
     process, state = strand.process, vars(thread)
-    handle = Handle(process.next_ident())
+    handle = Handle(process.next_ident(), VirtualLock())
     handle.lock.acquire(False)
     handle.lock.owner, handle.lock.surely = strand, True
     strand.thread, state["_strand"] = thread, strand
@@ -227,25 +195,12 @@ def end(thread: threading.Thread) -> None:
         handle.lock.release()
 
 
-# -- what programs ask ---------------------------------------------------------------------------------------------------
-
-
-def get_ident(real: Any) -> int:
-    """The number of the running thread."""
-    strand = getcurrent()
-    return real() if type(strand) is not Strand else thread_of(strand).ident or 0
-
-
-def get_native_id(real: Any) -> int:
-    """The same number."""
-    strand = getcurrent()
-    return real() if type(strand) is not Strand else thread_of(strand).native_id or 0
-
-
-def current_thread(real: Any) -> threading.Thread:
-    """The running thread."""
-    strand = getcurrent()
-    return real() if type(strand) is not Strand else thread_of(strand)
+IDENTITY: dict[str, Callable[[Strand], Any]] = {
+    "get_ident": lambda strand: thread_of(strand).ident or 0,
+    "get_native_id": lambda strand: thread_of(strand).native_id or 0,
+    "current_thread": thread_of,
+}
+"""By name in `threading`, what tells of the running thread; the number of the system is the same number."""
 
 
 def main_thread(real: Any) -> threading.Thread:
@@ -270,8 +225,10 @@ def active_count(real: Any) -> int:
     return len(threading.enumerate())
 
 
-def _threads(process: Process) -> list[threading.Thread]:
-    threads = [thread_of(strand) for strand in process.strands if not strand.dead]
+def _threads(process: Process, *, made: bool = False) -> list[threading.Thread]:
+    """The simulated threads of a process that live; with `made`, only those whose object was asked for."""
+    strands = [strand for strand in process.strands if not strand.dead and not (made and strand.thread is None)]
+    threads = [thread_of(strand) for strand in strands]
     return [thread for thread in threads if "_virtual" in vars(thread) and thread.is_alive()]
 
 
@@ -289,24 +246,15 @@ def newname(real: Any, name_template: str) -> str:
     return name_template % counts[name_template]
 
 
-REPLACEMENTS: tuple[Callable[..., Any], ...] = (
-    get_ident,
-    get_native_id,
-    current_thread,
-    main_thread,
-    enumerate,
-    active_count,
-)
-
-
-# -- ending -------------------------------------------------------------------------------------------------------
-# What Python does between the end of a main program and that of its process: it waits for threads, and tidies up.
-# The order is CPython's: pools end their work, then the threads that are no daemons are waited for, then comes what
-# was given to `atexit.register`. Daemons end with the process, wherever they stand.
+# -- ending ------------------------------------------------------------------------------------------------------------
 
 
 def wind_down(process: Process) -> None:
-    """Wait for what is still at work in a process whose main program has ended; its main strand calls this."""
+    """Wait for what is still at work in a process whose main program has ended; its main strand calls this.
+
+    The order is CPython's: pools end their work, then the threads that are no daemons are waited for, then comes what was given
+    to `atexit.register`. Daemons end with the process, wherever they stand.
+    """
     try:
         while process.before_exit:
             process.before_exit.pop()()
@@ -320,16 +268,10 @@ def wind_down(process: Process) -> None:
 def _wait_for_threads(process: Process) -> None:
     if all(strand.thread is None for strand in process.strands):
         return  # by far the most programs have none
-    main = process.main_strand
-    if main is not None:
-        end(thread_of(main))
-    while waited_for := _living(process):
+    if process.main_strand is not None:
+        end(thread_of(process.main_strand))
+    while waited_for := [thread for thread in _threads(process, made=True) if not thread.daemon]:
         waited_for[0].join()
-
-
-def _living(process: Process) -> list[threading.Thread]:
-    threads = [strand.thread for strand in process.strands if strand.thread is not None and not strand.dead]
-    return [thread for thread in threads if not thread.daemon and thread.is_alive()]
 
 
 def _call(function: Callable[[], object]) -> None:

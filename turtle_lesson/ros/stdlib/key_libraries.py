@@ -1,19 +1,24 @@
-"""`curses` as programs see it: keys that are pressed in the notebook, and a screen whose changed lines are printed.
+"""Libraries by which programs read keys, `curses` and `pynput.keyboard`, as such programs see them: in robot time.
 
-Names and behaviour: Python's documentation of curses (https://docs.python.org/3/library/curses.html).
+The keys are those pressed in the notebook; of a curses screen the lines that change are printed. Names and behaviour:
+https://docs.python.org/3/library/curses.html and https://pynput.readthedocs.io/en/latest/keyboard.html.
 """
 
 from __future__ import annotations
 
+import enum
 import sys
+import threading
 import time
 from collections.abc import Callable
 from types import ModuleType
 from typing import Any
 
-from ..sim.keyboard import SENT
-from .program_input import ProgramInput
-from .terminals import terminal_of
+from ..sim.keyboard import SENT, KeyReader
+from ..sim.strand import running_strand
+from .terminals import ProgramInput, terminal_of
+
+# -- curses ------------------------------------------------------------------------------------------------------------
 
 LINES, COLUMNS = 24, 80
 
@@ -46,8 +51,6 @@ class Window:
         self._place = (0, 0)
         self._patience: float | None = None
         self._keypad = False
-
-    # -- keys ----------------------------------------------------------------------------------------------------------
 
     def nodelay(self, flag: bool) -> None:
         """Whether not to wait for a key."""
@@ -88,7 +91,7 @@ class Window:
     def _next(self) -> str | None:
         """The next key as `getkey` has it."""
         self.refresh()
-        if self._terminal.is_ready_text:
+        if self._terminal.typed:
             return self._terminal.read_there(1)
         name = self._terminal.next_key(self._patience)
         if name is None:
@@ -96,10 +99,8 @@ class Window:
         if name in _NAMED and self._keypad:
             return _NAMED[name]
         text = SENT.get(name, name)
-        self._terminal.put_back(text[1:])
+        self._terminal.typed = text[1:] + self._terminal.typed
         return text[0]
-
-    # -- text ----------------------------------------------------------------------------------------------------------
 
     def addstr(self, *arguments: Any) -> None:
         """Write a text: `addstr([y, x,] text[, attribute])`."""
@@ -205,14 +206,17 @@ def _begin() -> ProgramInput:
     return terminal
 
 
+def _changing(**attributes: bool) -> Callable[[], None]:
+    """A function that changes how the terminal reads."""
+    return lambda: vars(_begin()).update(attributes)
+
+
 def initscr() -> Window:
     """Begin; the whole screen."""
     return Window(_begin())
 
 
-def endwin() -> None:
-    """The end: read lines again."""
-    _begin().raw = False
+_endwin = _changing(raw=False)
 
 
 def wrapper(function: Callable[..., Any], /, *arguments: Any, **options: Any) -> Any:
@@ -222,60 +226,38 @@ def wrapper(function: Callable[..., Any], /, *arguments: Any, **options: Any) ->
     try:
         return function(screen, *arguments, **options)
     finally:
-        endwin()
+        _endwin()
 
 
-def newwin(lines: int = LINES, columns: int = COLUMNS, *place: int) -> Window:
-    """A window of its own."""
-    return Window(_begin(), lines, columns)
-
-
-def raw() -> None:
-    """Read Ctrl-C as a key."""
-    _begin().signals = False
-
-
-def cbreak() -> None:
-    """Have Ctrl-C interrupt the program."""
-    _begin().signals = True
-
-
-def flushinp() -> None:
-    """Forget what was pressed and not read."""
-    _begin().flush_keys()
-
-
-def napms(ms: int) -> None:
-    """Wait for so many ms of robot time."""
-    time.sleep(ms / 1000)
-
-
-def color_pair(number: int) -> int:
-    """The attribute of a pair of colours."""
-    return number << 8
-
-
-def make_module() -> ModuleType:
+def make_curses() -> ModuleType:
     """`curses`, as far as simple programs use it."""
-    module = ModuleType("curses", __doc__)
-    own = (error, initscr, endwin, wrapper, newwin, raw, cbreak, flushinp, napms, color_pair)
+    module = ModuleType("curses", "Keys and text of a simulated terminal.")
     quiet = (
-        "noecho echo nocbreak noraw curs_set start_color use_default_colors init_pair init_color beep flash nl nonl doupdate "
-        "def_prog_mode reset_prog_mode reset_shell_mode set_escdelay mousemask intrflush meta typeahead savetty resetty"
+        "noecho echo nocbreak noraw curs_set start_color use_default_colors init_pair init_color beep flash nl nonl "
+        "def_prog_mode reset_prog_mode reset_shell_mode set_escdelay mousemask intrflush meta typeahead savetty resetty "
+        "doupdate halfdelay"
     )
     module.__dict__.update(
-        {function.__name__: function for function in own},
-        **dict.fromkeys(quiet.split(), _nothing),
+        dict.fromkeys(quiet.split(), _nothing),
         **KEYS,
         **{f"A_{name}": 1 << number for number, name in enumerate(_LOOKS, 16)},
         **{f"COLOR_{name}": number for number, name in enumerate(_COLOURS)},
         **{"LINES": LINES, "COLS": COLUMNS, "COLORS": 8, "COLOR_PAIRS": 64, "ERR": -1, "OK": 0},
+        error=error,
+        window=Window,
+        initscr=initscr,
+        endwin=_endwin,
+        wrapper=wrapper,
+        newwin=lambda lines=LINES, columns=COLUMNS, *place: Window(_begin(), lines, columns),
+        raw=_changing(signals=False),
+        cbreak=_changing(signals=True),
+        flushinp=lambda: _begin().flush_keys(),
+        napms=lambda ms: time.sleep(ms / 1000),
+        color_pair=lambda number: number << 8,
         has_colors=lambda: True,
         can_change_color=lambda: False,
-        halfdelay=_nothing,
         isendwin=lambda: False,
-        window=Window,
-        __getattr__=_refuse,
+        __getattr__=_refusing(AttributeError, "the simulated curses has no {!r}: it has keys and text"),
         __path__=[],
     )
     for each in (error, Window):
@@ -283,7 +265,122 @@ def make_module() -> ModuleType:
     return module
 
 
-def _refuse(name: str) -> Any:
-    if name.startswith("__"):
-        raise AttributeError(name)
-    raise AttributeError(f"the simulated curses has no {name!r}: it has keys and text", name=name)
+def _refusing(kind: type[AttributeError | ImportError], sentence: str) -> Callable[[str], Any]:
+    """The `__getattr__` of a module that has no more than this."""
+
+    def refuse(name: str) -> Any:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        raise kind(sentence.format(name), name=name)
+
+    return refuse
+
+
+# -- pynput ------------------------------------------------------------------------------------------------------------
+
+
+class KeyCode:
+    """A key that gives a character."""
+
+    def __init__(self, vk: int | None = None, char: str | None = None, is_dead: bool = False) -> None:
+        self.vk, self.char, self.is_dead = vk, char, is_dead
+
+    @classmethod
+    def from_char(cls, char: str, **details: Any) -> KeyCode:
+        """The key of a character."""
+        return cls(char=char, **details)
+
+    @classmethod
+    def from_vk(cls, vk: int, **details: Any) -> KeyCode:
+        """The key with a number."""
+        return cls(vk=vk, **details)
+
+    def __repr__(self) -> str:
+        return repr(self.char) if self.char is not None else f"<{self.vk}>"
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, KeyCode) and (self.char, self.vk) == (other.char, other.vk)
+
+    def __hash__(self) -> int:
+        return hash((self.char, self.vk))
+
+
+_SIDES = ("alt_l", "alt_r", "alt_gr", "cmd_l", "cmd_r", "ctrl_l", "ctrl_r", "shift_l", "shift_r")
+_NAMES = [name for name in (*SENT, *_SIDES) if "+" not in name]
+Key = enum.Enum("Key", {name: (name, SENT.get(name, "")) for name in _NAMES}, module="pynput.keyboard")  # type: ignore[misc]
+"""The keys that have a name."""
+
+Callback = Callable[[Any], object]
+
+
+class Listener(threading.Thread):
+    """A thread that calls functions as keys are pressed and let go of, until one of them returns False.
+
+    Args:
+        on_press: called with each key that is pressed: a `KeyCode`, or a `Key` for those with a name.
+        on_release: called with each key that is let go of.
+        options: such as `suppress`; they have no effect here.
+    """
+
+    def __init__(
+        self,
+        on_press: Callback | None = None,
+        on_release: Callback | None = None,
+        **options: Any,
+    ) -> None:
+        super().__init__(daemon=True)
+        self._callbacks = {True: on_press, False: on_release}
+        self._reader: KeyReader | None = None
+        self._stopped = False
+
+    def run(self) -> None:
+        """Listen until it is stopped."""
+        strand = running_strand()
+        if strand is None:
+            raise RuntimeError("a Listener hears keys in a program (ros2 run, python3 FILE) only, not in a cell")
+        self._reader = reader = KeyReader(strand.process, has_terminal=False)
+        while not self._stopped and reader.wait():
+            name, down = reader.events.popleft()
+            callback = self._callbacks[down]
+            key = Key[name] if name in SENT else KeyCode.from_char(name)
+            if callback is not None and callback(key) is False:
+                self.stop()
+
+    def stop(self) -> None:
+        """End it. It cannot be started once more."""
+        self._stopped = True
+        if self._reader is not None:
+            self._reader.closed = True
+            self._reader.tell()
+
+    @property
+    def running(self) -> bool:
+        """Whether it listens."""
+        return self.is_alive() and not self._stopped
+
+    def wait(self) -> None:
+        """Wait until it listens, which it does as soon as it is started."""
+
+    def canonical(self, key: Any) -> Any:
+        """A key as it is without shift and its kin."""
+        return KeyCode.from_char(key.char.lower()) if isinstance(key, KeyCode) and key.char else key
+
+    def __enter__(self) -> Listener:
+        self.start()
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.stop()
+
+
+def make_pynput() -> ModuleType:
+    """`pynput`, with `keyboard` in it."""
+    lacking = "{}.{{}} is not available here: of pynput a program has keyboard.Listener, Key and KeyCode"
+    pynput, keyboard = (ModuleType(name) for name in ("pynput", "pynput.keyboard"))
+    for module in (pynput, keyboard):
+        module.__dict__["__getattr__"] = _refusing(ImportError, lacking.format(module.__name__))
+    keyboard.__dict__.update(Key=Key, KeyCode=KeyCode, Listener=Listener)
+    pynput.__dict__.update(keyboard=keyboard, __path__=[])
+    for each in (KeyCode, Listener):
+        each.__module__ = "pynput.keyboard"
+    return pynput
