@@ -15,7 +15,7 @@ import yaml
 
 from ..sim.simulation import NANOSECONDS
 from . import BagError
-from .scan import Contents, TooLargeError, scanned, unpack_message
+from .scan import Contents, scanned
 
 if TYPE_CHECKING:
     from rosbags.interfaces import Qos
@@ -81,7 +81,7 @@ class Bag:
         self.end: int | None = times[-1] if times else None
         self.message_count = len(times)
         self.size = sum(file.stat().st_size for file in files)
-        self.storage = STORAGES[_kind(files[0])]
+        self.storage = STORAGES[files[0].suffix]
         self.topics = [
             BagTopic(key.name, key.type_name, each.count, each.serialization, each.definition, each.offered)
             for key, each in contents.topics.items()
@@ -89,8 +89,6 @@ class Bag:
         self._flaws = contents.flaws
         promised = metadata.get("message_count")
         self._expected = promised if isinstance(promised, int) else contents.expected
-        mode = str(metadata.get("compression_mode") or "").lower()
-        self.compression = "file" if files[0].suffix == ".zstd" else mode if mode == "message" else ""
 
     def __repr__(self) -> str:
         damage = ", damaged" if self.damage else ""
@@ -124,7 +122,6 @@ class Bag:
             for time, key, file, where in contents.entries:
                 try:
                     data = file.read(where)
-                    data = unpack_message(data) if self.compression == "message" else data
                 except Exception as error:
                     raise BagError(f"the bag '{self.path}' cannot be read to its end: {error}") from error
                 yield Message(key.name, time, key.type_name, data)
@@ -148,11 +145,6 @@ def open_bag(path: str | Path, *, listed_only: bool = True) -> Bag:
         return Bag(path, files, contents, metadata)
 
 
-def _kind(file: Path) -> str:
-    """`.mcap` of `run_0.mcap` and of `run_0.mcap.zstd`."""
-    return Path(file.stem).suffix if file.suffix == ".zstd" else file.suffix
-
-
 def _read_metadata(path: Path) -> tuple[dict[str, Any], list[str]]:
     """What metadata.yaml says, and what is wrong with it: it is not read if it could grow far beyond what recorders write."""
     file = path / METADATA
@@ -160,15 +152,15 @@ def _read_metadata(path: Path) -> tuple[dict[str, Any], list[str]]:
         return {}, []
     try:
         if file.is_file() and file.stat().st_size > LONGEST:
-            raise TooLargeError(f"it has more than {LONGEST:,} bytes")
+            raise BagError(f"it has more than {LONGEST:,} bytes")
         text, depth = file.read_text("utf-8"), 0
         for event in yaml.parse(text, LOADER):
             depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
             if depth > DEEPEST or isinstance(event, yaml.AliasEvent):
-                raise TooLargeError("it has aliases, or is nested more deeply than any recorder writes it")
+                raise BagError("it has aliases, or is nested more deeply than any recorder writes it")
         found = yaml.load(text, LOADER)["rosbag2_bagfile_information"]
         return dict(found.items()), []
-    except TooLargeError as error:
+    except BagError as error:
         return {}, [f"{METADATA} cannot be read: {error}"]
     except FileNotFoundError:
         return {}, [f"there is no {METADATA} (was the recording not stopped?)"]
@@ -178,16 +170,21 @@ def _read_metadata(path: Path) -> tuple[dict[str, Any], list[str]]:
 
 def _files_of(path: Path, metadata: dict[str, Any]) -> tuple[list[Path], list[str]]:
     """The data files of a bag, and a sentence for each one that is missing."""
-    if path.is_file():
-        if _kind(path) not in STORAGES:
-            raise BagError(f"'{path}' is not a bag: a bag is a folder with {METADATA}, or an .mcap or .db3 file")
-        return [path], []
     named = metadata.get("relative_file_paths")
     named = [path / PurePath(str(name)).name for name in named] if isinstance(named, list) else []
     missing = [f"the file {file.name} is missing" for file in named if not file.is_file()]
-    for files in (named, sorted(path.iterdir())):
-        if found := [file for file in files if file.is_file() and _kind(file) in STORAGES]:
+    files = [path] if path.is_file() else sorted(path.iterdir())
+    mode = str(metadata.get("compression_mode") or "none").lower()
+    if mode != "none" or any(file.suffix == ".zstd" for file in files):
+        raise BagError(
+            f"the bag '{path}' was recorded with --compression-mode, which is not read here: record it without, or convert "
+            "it with `ros2 bag convert` on a real ROS 2"
+        )
+    for some in (named, files):
+        if found := [file for file in some if file.is_file() and file.suffix in STORAGES]:
             return found, missing
+    if path.is_file():
+        raise BagError(f"'{path}' is not a bag: a bag is a folder with {METADATA}, or an .mcap or .db3 file")
     raise BagError(f"'{path}' is not a bag: there is no .mcap or .db3 file in it")
 
 
@@ -202,8 +199,8 @@ def reindex(folder: Path) -> Bag:
         "storage_identifier": bag.storage,
         **_extent(bag),
         "topics_with_message_count": [_described(topic) for topic in bag.topics],
-        "compression_format": "zstd" if bag.compression else "",
-        "compression_mode": bag.compression,
+        "compression_format": "",
+        "compression_mode": "",
         "relative_file_paths": [file.name for file in bag.files],
         "files": [{"path": file.name, **_extent(open_bag(file))} for file in bag.files],
     }

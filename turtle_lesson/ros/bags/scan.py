@@ -16,7 +16,6 @@ from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
 BROKEN = (sqlite3.Error, UnicodeError)
@@ -83,10 +82,6 @@ class Contents:
         self.flaws += other.flaws
 
 
-class TooLargeError(ValueError):
-    """Compressed data would become more than the limit."""
-
-
 class _Spoiled(Exception):
     """A part of the file makes no sense."""
 
@@ -98,17 +93,11 @@ def scanned(files: list[Path]) -> Iterator[Contents]:
     with ExitStack() as stack:
         for file in files:
             try:
-                plain = file
-                if file.suffix == ".zstd":
-                    plain = Path(stack.enter_context(TemporaryDirectory())) / file.stem
-                    unpack_file(file, plain)
-                data_file = DATA_FILES[plain.suffix](plain)
+                data_file = DATA_FILES[file.suffix](file)
                 stack.callback(data_file.close)
                 total.add(data_file.scan())
             except (OSError, *BROKEN) as error:
                 total.add(Contents(flaws=[f"{file.name}: it cannot be read ({_told(error)})"]))
-            except TooLargeError as error:
-                total.add(Contents(flaws=[str(error)]))
         total.entries.sort(key=lambda entry: entry[0])
         yield total
 
@@ -123,7 +112,7 @@ class McapFile:
     def __init__(self, path: Path) -> None:
         self._name = path.name
         self._size = path.stat().st_size
-        self._left = limit(self._size)
+        self._left = self._limit = max(ALWAYS, MOST_TIMES * self._size)
         self._found = Contents()
         self._file = path.open("rb")
         self.close = self._file.close
@@ -153,7 +142,7 @@ class McapFile:
             self._flaw(str(error))
         except (struct.error, UnicodeDecodeError):
             self._flaw(f"the record before byte {self._file.tell()} is damaged")
-        self._left = limit(self._size)
+        self._left = self._limit
         for key, contents in channels.values():
             self._found.topics.setdefault(key, contents)
         for time, number, where in messages:
@@ -219,15 +208,20 @@ class McapFile:
         """The records of the chunk at a place: fewer if it is cut short, none if it is damaged, which becomes a flaw."""
         _, _, size, checksum = CHUNK_HEAD.unpack_from(body)
         compression, at = _text(memoryview(body), CHUNK_HEAD.size)
-        data, cut_short = body[at + 8 :], len(body) < length
-        if compression == "":
-            records, more = data[:size], False
-        elif compression not in DECOMPRESSORS:
-            raise _Spoiled(f"its chunks are compressed in an unknown way ({compression[:20]})")
-        elif size > self._left:
-            raise _Spoiled(str(_too_large(f"the chunk at byte {place}", self._size)))
-        else:
-            records, more = _unpack(compression, data, size)
+        records, more, cut_short = body[at + 8 :], False, len(body) < length
+        if compression:
+            if compression not in DECOMPRESSORS:
+                raise _Spoiled(f"its chunks are compressed in an unknown way ({compression[:20]})")
+            if size > self._left:
+                most = f"{self._limit >> 20} MiB, which is no usual recording"
+                raise _Spoiled(f"the chunk at byte {place} is not unpacked: it would become more than {most}")
+            decompressor = DECOMPRESSORS[compression]()
+            try:
+                records = bytes(decompressor.decompress(records, size + 1))
+            except Exception:
+                records = b""  # spoiled
+            more = len(records) > size or bool(decompressor.unused_data)
+        records = records[:size]
         whole = len(records) == size
         if more or (whole and checksum and zlib.crc32(records) != checksum) or not (whole or cut_short):
             why = "it holds more than it says" if more else "its checksum is wrong"
@@ -339,57 +333,12 @@ DataFile = McapFile | SqliteFile
 DATA_FILES: dict[str, Callable[[Path], DataFile]] = {".mcap": McapFile, ".db3": SqliteFile}
 
 
-def limit(packed: int) -> int:
-    """How many bytes may come of so many compressed ones."""
-    return max(ALWAYS, MOST_TIMES * packed)
-
-
-def _too_large(what: str, packed: int) -> TooLargeError:
-    most = f"{limit(packed) >> 20} MiB"
-    return TooLargeError(f"{what} is not unpacked: it would become more than {most}, which is no usual recording")
-
-
-def _unpack(compression: str, data: bytes, most: int) -> tuple[bytes, bool]:
-    """The first bytes of what was compressed, at most so many, and whether more follows.
-
-    They are fewer where the data is cut short, and none where it is spoiled.
-    """
-    decompressor = DECOMPRESSORS[compression]()
-    try:
-        found = bytes(decompressor.decompress(data, most + 1))
-    except Exception:
-        return b"", False
-    return found[:most], len(found) > most or bool(decompressor.unused_data)
-
-
-def unpack_message(data: bytes) -> bytes:
-    """A message that was compressed by zstd on its own. Raises ValueError if it is spoiled, or becomes too large."""
-    found, more = _unpack("zstd", data, limit(len(data)))
-    if more:
-        raise _too_large(f"a message of {len(data)} bytes", len(data))
-    if data and not found:
-        raise ValueError("a message is not compressed by zstd, as metadata.yaml says that it is")
-    return found
-
-
-def unpack_file(source: Path, target: Path) -> None:
-    """Write what was compressed by zstd, as far as it can be read, into another file. Raises TooLargeError, OSError."""
-    size = source.stat().st_size
-    left = limit(size)
-    with _zstd().open(source, "rb") as packed, target.open("wb") as unpacked, suppress(EOFError, _zstd().ZstdError):
-        while piece := packed.read(1 << 20):
-            left -= len(piece)
-            if left < 0:
-                raise _too_large(source.name, size)
-            unpacked.write(piece)
-
-
 def _zstd() -> Any:
     if sys.version_info >= (3, 14):
-        from compression import zstd
+        from compression.zstd import ZstdDecompressor
     else:
-        from backports import zstd
-    return zstd
+        from backports.zstd import ZstdDecompressor
+    return ZstdDecompressor()
 
 
 def _lz4() -> Any:
@@ -398,4 +347,4 @@ def _lz4() -> Any:
     return LZ4FrameDecompressor()
 
 
-DECOMPRESSORS: dict[str, Callable[[], Any]] = {"zstd": lambda: _zstd().ZstdDecompressor(), "lz4": _lz4}
+DECOMPRESSORS: dict[str, Callable[[], Any]] = {"zstd": _zstd, "lz4": _lz4}
