@@ -147,7 +147,6 @@ class _Build:
             stdout=stdout,
             items=items,
             dependencies=self.found.runtime_dependencies,
-            paths=[_SITE] if self.python else [],
             left_out=[*cmake.compiled, *(entry.name for entry in foreign)],
             lacking=self.lacking,
         )
@@ -289,12 +288,14 @@ class _Build:
 
     def _on_ament_python_install_package(self, command: Command, where: str) -> None:
         name = "".join(command.args[:1])
-        folder = self.found.path / (command.after("PACKAGE_DIR") or name)
+        shown = command.after("PACKAGE_DIR") or name
+        folder = self.found.path / shown
         if not (folder / "__init__.py").is_file():
-            shown = folder.relative_to(self.found.path).as_posix()
             text = f"ament_python_install_package() the Python package folder '{shown}' doesn't exist"
             raise refused(text, where, f"Make {shown}/__init__.py, which may be empty.")
-        self.python.append(Item(f"{_SITE}/{name}", folder))
+        self.python += [
+            Item(f"{_SITE}/{name}/{file.relative_to(folder).as_posix()}", file) for file in files_in(folder)
+        ]
         self._check_python_packages(where)
         self.commands |= COMMANDS_OF["ament_cmake_core"]  # which it finds (ament_cmake_python-extras.cmake)
 
@@ -305,7 +306,7 @@ class _Build:
         target of one name (ros2/rosidl_python, issue 141).
         """
         name = self.found.name
-        if not self.checks or all(item.target != f"{_SITE}/{name}" for item in self.python):
+        if not self.checks or all(item.target != f"{_SITE}/{name}/__init__.py" for item in self.python):
             return
         text = (
             f'add_custom_target cannot create target "ament_cmake_python_copy_{name}" because another target with the '

@@ -17,7 +17,7 @@ from typing import Any
 from ..idl.names import did_you_mean
 from ..sim.errors import shown_path
 from .errors import BuildFailure
-from .install_tree import PYTHON, PYTHON_FOLDERS, Environment, Item, Outcome, check_targets, with_hint
+from .install_tree import PYTHON, PYTHON_FOLDERS, Environment, Item, Outcome, check_targets, files_in, with_hint
 from .manifest import Found, hint_for
 from .setup_py import SetupError, install_scripts, read_setup
 
@@ -67,7 +67,7 @@ class _Build:
         check_targets(items)
         seconds = 1.7 if self.environment.symlink else 1.3
         text = with_hint("".join(self.warnings), self.hints)
-        return Outcome(0, text, [], seconds, items, self.found.runtime_dependencies, [SITE])
+        return Outcome(0, text, [], seconds, items, self.found.runtime_dependencies)
 
     def _check(self) -> None:
         if self.found.xml_error:
@@ -93,7 +93,11 @@ class _Build:
                 text = f"error: package directory '{place}' does not exist\n"
                 raise BuildFailure(text, f"setup.py names it in packages=…; make {place}/__init__.py.", seconds=0.5)
         if self.environment.symlink:  # colcon then puts the whole source folder on the path
-            items += [Item(f"{SITE}/{name}", self._folder(name)) for name in sorted(top)]
+            for name in sorted(top):
+                folder = self._folder(name)
+                items += [
+                    Item(f"{SITE}/{name}/{file.relative_to(folder).as_posix()}", file) for file in files_in(folder)
+                ]
         else:
             items += [item for name in dict.fromkeys(packages) for item in self._files_of(name)]
         for module in self._names("py_modules"):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
@@ -25,6 +25,7 @@ from .install_tree import (
     Outcome,
     install_package,
     installed_names,
+    needs_of,
     prefix_of,
     prepare,
     read_installed,
@@ -48,33 +49,29 @@ DEFAULTS = {
     "console_stderr": True,
     "summary": True,
 }
-OTHERS = {
-    "compile_commands", "desktop_notification", "event_log", "log", "log_command", "status", "store_result",
-    "terminal_title",
-}  # fmt: skip
-"""Handlers that exist, and of which nothing is seen in a page."""
+"""Colcon's event handlers, and whether each is on without a word."""
 
 
 @dataclass
 class Plan:
     """What one `colcon build` was asked for."""
 
-    base: Path
     packages: list[Found]
     workspace: list[Found]
     install: Path
     build: Path
     log: Path
-    symlink: bool = False
-    merged: bool = False
-    go_on: bool = False
-    workers: int = 4
-    handlers: dict[str, bool] = field(default_factory=dict)
+    symlink: bool
+    merged: bool
+    go_on: bool
+    workers: int
+    handlers: dict[str, bool]
 
 
 @dataclass
 class _Job:
     found: Found
+    environment: Environment
     outcome: Outcome
     began: float
 
@@ -85,29 +82,30 @@ class _Job:
 
 def build(world: World, plan: Plan, *, stdout: TextIO, stderr: TextIO) -> int:
     """Build the plan's packages; return colcon's exit code."""
-    return _Builder(world, plan, Console(plan.handlers, stdout, stderr)).run()
+    return _Builder(world, plan, stdout, stderr).run()
 
 
 class _Builder:
     """One run of `colcon build`."""
 
-    def __init__(self, world: World, plan: Plan, console: Console) -> None:
+    def __init__(self, world: World, plan: Plan, out: TextIO, err: TextIO) -> None:
         self.world = world
         self.plan = plan
-        self.console = console
+        self.out, self.err = out, err
+        self.handlers = {**DEFAULTS, **plan.handlers}
         self.now = 0.0
         self.code = 0
         self.log: dict[str, Outcome] = {}
         self.waiting = [found for found in in_order(plan.packages) if found.buildable]
         self.running: list[_Job] = []
-        self.done: set[str] = set()
+        self.ended: dict[str, list[str]] = {"finished": [], "failed": [], "aborted": [], "had stderr output": []}
 
     def run(self) -> int:
         layout = "merged" if self.plan.merged else "isolated"
         prepare(self.plan.install, self.plan.build, self.plan.log, layout)
-        queued = len(self.waiting)
+        queued = [found.name for found in self.waiting]
         self._pass(_BEGIN)
-        self.console.queued([found.name for found in self.waiting])
+        self._say("console_package_list", "\n- ".join(["Topological order", *queued]))
         while self.waiting or self.running:
             self._start()
             if not self.running:
@@ -115,72 +113,128 @@ class _Builder:
             self._end(min(self.running, key=lambda job: job.ends))
             if self.code and not self.plan.go_on:
                 for job in self.running:
-                    self.console.aborted(job.found.name, self.now - job.began + 0.05)
+                    self.ended["aborted"].append(job.found.name)
+                    seconds = as_seconds(self.now - job.began + 0.05)
+                    self._say("console_start_end", f"Aborted  <<< {job.found.name} [{seconds}]")
                 break
         write_setup_files(self.plan.install, installed_names(self.plan.install))
         self._pass(_END)
-        self.console.summary(self.now, queued)
+        self._summarise(len(queued))
         self._warn_of_cpp()
         self._write_log()
         return self.code
 
     def _pass(self, seconds: float) -> None:
+        """Let robot time pass, in a simulated process as well as in a cell."""
         self.now += seconds
-        pass_time(self.world, seconds)
+        if running_strand() is not None:
+            time.sleep(seconds)
+        else:
+            self.world.sim.run_until(self.world.now + round(seconds * NANOSECONDS))
+
+    def _say(self, handler: str, text: str, stream: TextIO | None = None) -> None:
+        if self.handlers[handler]:
+            print(text, file=stream or self.out)
+
+    # -- one package -----------------------------------------------------------------------------------------------
 
     def _start(self) -> None:
         own = {found.name for found in self.plan.packages if found.buildable}
         for found in list(self.waiting):
             if len(self.running) >= self.plan.workers:
                 return
-            if set(found.dependencies) & own - {found.name} <= self.done:
+            if set(found.dependencies) & own - {found.name} <= {*self.ended["finished"]}:
                 self.waiting.remove(found)
-                self.console.started(found.name)
-                self.running.append(_Job(found, self._outcome(found), self.now))
-
-    def _outcome(self, found: Found) -> Outcome:
-        if missing := self._missing(found):
-            return Outcome(1, seconds=0.01, colcon_error=missing)
-        environment = self._environment(found)
-        return (build_ament_python if found.is_python else build_ament_cmake)(found, environment)
+                self._say("console_start_end", f"Starting >>> {found.name}")
+                environment = self._environment(found)
+                if missing := self._missing(found):
+                    outcome = Outcome(1, seconds=0.01, colcon_error=missing)
+                else:
+                    outcome = (build_ament_python if found.is_python else build_ament_cmake)(found, environment)
+                self.running.append(_Job(found, environment, outcome, self.now))
 
     def _missing(self, found: Found) -> str:
         """What colcon says where packages of this workspace are needed and neither built nor sourced."""
-        needed = needed_by(self.plan.workspace, [found.name]) - {found.name, *self.world.packages.names()}
-        order = [each.name for each in self.plan.workspace if each.name in needed]
-        there = set(installed_names(self.plan.install))
-        lacking = [name for name in order if name not in there]
+        there = {found.name, *self.world.packages.names(), *installed_names(self.plan.install)}
+        needed = needed_by(self.plan.workspace, [found.name]) - there
+        lacking = [each.name for each in self.plan.workspace if each.name in needed]
         if not lacking:
             return ""
-        files = [shown_path(str(prefix_of(self.plan.install, name) / f"share/{name}/package.sh")) for name in lacking]
-        text = "\n- ".join(["Failed to find the following files:", *files])
+        scripts = [shown_path(str(prefix_of(self.plan.install, name) / f"share/{name}/package.sh")) for name in lacking]
+        text = "\n- ".join(["Failed to find the following files:", *scripts])
         text += "\n- ".join(["\nCheck that the following packages have been built:", *lacking])
         return f"{text}\nHint: colcon build --packages-up-to {found.name} builds them first."
+
+    def _environment(self, found: Found) -> Environment:
+        """What the package may use: what is sourced, and those of this workspace that package.xml names."""
+        install = self.plan.install
+        installed = {*installed_names(install)} - {found.name}
+        needed: set[str] = set()
+        waiting = list(found.dependencies)
+        while waiting:
+            name = waiting.pop()
+            if name in installed - needed:
+                needed.add(name)
+                waiting += needs_of(prefix_of(install, name), name)
+        packages = [read_installed(install, name) for name in sorted(needed)]
+        types = types_for(
+            found, {each.name: (each.share, tuple(each.interfaces)) for each in packages if each.interfaces}
+        )
+        # Packages that are sourced are found, too, but not an older build of the package itself.
+        findable = frozenset({*self.world.packages.names(), *needed} - {found.name})
+        return Environment(install, self.plan.build, findable, types, self.plan.symlink)
 
     def _end(self, job: _Job) -> None:
         self._pass(max(0.0, job.ends - self.now))
         self.running.remove(job)
-        found, outcome = job.found, job.outcome
+        name, outcome = job.found.name, job.outcome
         if outcome.code == 0:
-            self._install(found, outcome)
-        self.log[found.name] = outcome
+            try:
+                outcome.stdout += install_package(job.found, outcome, job.environment)
+            except OSError as error:
+                outcome.code = 1
+                outcome.stderr += f"error: {name} cannot be installed: {error.strerror or error}: {error.filename}\n"
+            else:
+                resource(self.world, self.plan.install, name)
+        self.log[name] = outcome
         self.code = self.code or outcome.code
         if outcome.colcon_error:
-            task = "python" if found.is_python else "cmake"
-            where = f"colcon.colcon_{'cmake' if task == 'cmake' else 'core'}.task.{task}.build"
-            self.console.error(f"[{self.now + _BEGIN:.3f}s] ERROR:{where}:{outcome.colcon_error}")
-        self.console.finished(found.name, outcome.seconds, outcome.code, outcome.stdout, outcome.stderr)
+            task = "core.task.python" if job.found.is_python else "cmake.task.cmake"
+            where = f"{self.now + _BEGIN:.3f}s] ERROR:colcon.colcon_{task}.build"
+            print(f"[{where}:{outcome.colcon_error}", file=self.err)
+        self._show_output(name, outcome)
+        if outcome.stderr:
+            self.ended["had stderr output"].append(name)
+        self.ended["failed" if outcome.code else "finished"].append(name)
+        seconds = as_seconds(outcome.seconds)
+        if outcome.code:
+            text = f"Failed   <<< {name} [{seconds}, exited with code {outcome.code}]"
+            self._say("console_start_end", text, self.err)
+        else:
+            self._say("console_start_end", f"Finished <<< {name} [{seconds}]")
 
-    def _install(self, found: Found, outcome: Outcome) -> None:
-        environment = self._environment(found)
-        try:
-            outcome.stdout += install_package(found, outcome, environment)
-        except OSError as error:
-            outcome.code = 1
-            outcome.stderr += f"error: {found.name} cannot be installed: {error.strerror or error}: {error.filename}\n"
-            return
-        self.done.add(found.name)
-        resource(self.world, self.plan.install, found.name)
+    def _show_output(self, name: str, outcome: Outcome) -> None:
+        stdout, stderr = outcome.stdout, outcome.stderr
+        for line in stdout:
+            self._say("console_direct", line)
+        if stderr:
+            self._say("console_direct", stderr, self.err)
+        if self.handlers["console_cohesion"]:
+            text = "\n".join([f"--- output: {name}", *stdout, *([stderr] if stderr else []), "---"])
+            self._say("console_cohesion", text)
+        elif stderr and not self.handlers["console_direct"]:
+            self._say("console_stderr", f"--- stderr: {name}\n{stderr}\n---", self.err)
+
+    # -- at the end ------------------------------------------------------------------------------------------------
+
+    def _summarise(self, queued: int) -> None:
+        finished, *others = self.ended.items()
+        lines = [f"\nSummary: {_packages(len(finished[1]))} finished [{as_seconds(self.now)}]"]
+        lines += [f"  {_packages(len(names))} {how}: {' '.join(sorted(names))}" for how, names in others if names]
+        left = queued - sum(len(self.ended[how]) for how in ("finished", "failed", "aborted"))
+        if left:
+            lines.append(f"  {_packages(left)} not processed")
+        self._say("summary", "\n".join(lines))
 
     def _warn_of_cpp(self) -> None:
         """Name in one warning all that was left out because it is C++, and the packages that depend on it."""
@@ -196,19 +250,7 @@ class _Builder:
                 lines.append(f"  {name}: {'; '.join(filter(None, parts))}")
         if lines:
             head = "Warning: C++ is not compiled here. All else of these packages was built"
-            self.console.error("\n".join([f"{head} (interfaces, launch files, parameters, Python programs):", *lines]))
-
-    def _environment(self, found: Found) -> Environment:
-        """What the package may use: what is sourced, and those of this workspace that package.xml names."""
-        installed = set(installed_names(self.plan.install))
-        needed = _recursive(found, self.plan.install, installed)
-        packages = [read_installed(self.plan.install, name) for name in sorted(needed)]
-        types = types_for(
-            found, {each.name: (each.share, tuple(each.interfaces)) for each in packages if each.interfaces}
-        )
-        # Packages that are sourced are found, too, but not an older build of the package itself.
-        findable = frozenset({*self.world.packages.names(), *needed} - {found.name})
-        return Environment(self.plan.install, self.plan.build, findable, types, self.plan.symlink)
+            print(f"{head} (interfaces, launch files, parameters, Python programs):", *lines, sep="\n", file=self.err)
 
     def _write_log(self) -> None:
         stamp = time.strftime("%Y-%m-%d_%H-%M-%S", time.gmtime(1_800_000_000 + self.world.now // NANOSECONDS))
@@ -241,18 +283,6 @@ def _point(link: Path, target: str) -> None:
         link.write_text(target, encoding="utf-8")
 
 
-def _recursive(found: Found, install: Path, installed: set[str]) -> set[str]:
-    needed: set[str] = set()
-    waiting = list(found.dependencies)
-    while waiting:
-        name = waiting.pop()
-        if name in installed and name not in needed and name != found.name:
-            needed.add(name)
-            file = prefix_of(install, name) / "share" / "colcon-core" / "packages" / name
-            waiting += file.read_text(encoding="utf-8").split(":") if file.is_file() else []
-    return needed
-
-
 def types_for(found: Found, others: Mapping[str, tuple[Path, tuple[str, ...] | None]]) -> Registry:
     """The interfaces that a package's build sees: the built-in ones, what is sourced, `others`, and its own files."""
     built_in = Registry().packages()
@@ -268,103 +298,12 @@ def types_for(found: Found, others: Mapping[str, tuple[Path, tuple[str, ...] | N
     return types
 
 
-def pass_time(world: World, seconds: float) -> None:
-    """Let robot time pass, in a simulated process as well as in a cell."""
-    if running_strand() is not None:
-        time.sleep(seconds)
-    else:
-        world.sim.run_until(world.now + round(seconds * NANOSECONDS))
-
-
 def as_seconds(seconds: float) -> str:
     """A duration as colcon writes it: `5.90s`, `1min 2s`."""
     if seconds < 60:
         return f"{seconds:.2f}s"
     minutes, rest = divmod(round(seconds), 60)
     return f"{minutes}min {rest}s"
-
-
-@dataclass
-class Ended:
-    """The packages by how their build ended."""
-
-    finished: list[str] = field(default_factory=list)
-    failed: list[str] = field(default_factory=list)
-    aborted: list[str] = field(default_factory=list)
-    with_stderr: list[str] = field(default_factory=list)
-
-
-class Console:
-    """Prints what happens. `handlers` says which of colcon's event handlers are on."""
-
-    def __init__(self, handlers: dict[str, bool], out: TextIO, err: TextIO) -> None:
-        self.handlers = {**DEFAULTS, **handlers}
-        self.out, self.err = out, err
-        self.ended = Ended()
-
-    def _say(self, handler: str, text: str, stream: TextIO | None = None) -> None:
-        if self.handlers[handler]:
-            print(text, file=stream or self.out)
-
-    def queued(self, names: list[str]) -> None:
-        """All that will be built."""
-        if self.handlers["console_package_list"]:
-            self._say("console_package_list", "Topological order")
-            for name in names:
-                self._say("console_package_list", f"- {name}")
-
-    def started(self, name: str) -> None:
-        """A package's build begins."""
-        self._say("console_start_end", f"Starting >>> {name}")
-
-    def error(self, text: str) -> None:
-        """What colcon itself finds wrong."""
-        print(text, file=self.err)
-
-    def finished(self, name: str, seconds: float, code: int, stdout: list[str], stderr: str) -> None:
-        """A package's build ended, with what it printed."""
-        self._output(name, stdout, stderr)
-        if stderr:
-            self.ended.with_stderr.append(name)
-        if code:
-            self.ended.failed.append(name)
-            text = f"Failed   <<< {name} [{as_seconds(seconds)}, exited with code {code}]"
-            self._say("console_start_end", text, self.err)
-        else:
-            self.ended.finished.append(name)
-            self._say("console_start_end", f"Finished <<< {name} [{as_seconds(seconds)}]")
-
-    def _output(self, name: str, stdout: list[str], stderr: str) -> None:
-        for line in stdout:
-            self._say("console_direct", line)
-        if stderr:
-            self._say("console_direct", stderr, self.err)
-        if self.handlers["console_cohesion"]:
-            text = "\n".join([f"--- output: {name}", *stdout, *([stderr] if stderr else []), "---"])
-            self._say("console_cohesion", text)
-        elif stderr and not self.handlers["console_direct"]:
-            self._say("console_stderr", f"--- stderr: {name}\n{stderr}\n---", self.err)
-
-    def aborted(self, name: str, seconds: float) -> None:
-        """A package's build was given up because another failed."""
-        self.ended.aborted.append(name)
-        self._say("console_start_end", f"Aborted  <<< {name} [{as_seconds(seconds)}]")
-
-    def summary(self, seconds: float, queued: int) -> None:
-        """What came of it all."""
-        ended = self.ended
-        lines = [f"\nSummary: {_packages(len(ended.finished))} finished [{as_seconds(seconds)}]"]
-        for how, names in (
-            ("failed", ended.failed),
-            ("aborted", ended.aborted),
-            ("had stderr output", ended.with_stderr),
-        ):
-            if names:
-                lines.append(f"  {_packages(len(names))} {how}: {' '.join(sorted(names))}")
-        left = queued - len(ended.finished) - len(ended.failed) - len(ended.aborted)
-        if left:
-            lines.append(f"  {_packages(left)} not processed")
-        self._say("summary", "\n".join(lines))
 
 
 def _packages(count: int) -> str:

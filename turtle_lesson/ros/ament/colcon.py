@@ -11,10 +11,10 @@ from ..idl.names import did_you_mean
 from ..idl.registry import INSTALLED_SEPARATELY, Registry
 from ..sim.errors import shown_path
 from ..sim.simulation import NANOSECONDS
-from .build import DEFAULTS, OTHERS, Plan, build
+from .build import DEFAULTS, Plan, build
 from .catalog import CMAKE_PACKAGES, PYTHON_PACKAGES
 from .errors import ColconError
-from .install_tree import prefix_of
+from .install_tree import needs_of, prefix_of
 from .manifest import Found, build_type_hint, discover, in_order, needed_by
 
 if TYPE_CHECKING:
@@ -31,9 +31,11 @@ _INSTEAD = {
     "test": "run a package's tests with pytest: !python -m pytest src/<package>/test",
     "test-result": "pytest itself says how the tests went.",
 }
-_USAGE = (
-    "usage: colcon [-h] [--log-base LOG_BASE] [--log-level LOG_LEVEL]\n              {{{verbs}}}\n              ...\n"
-)
+_USAGE = f"""\
+usage: colcon [-h] [--log-base LOG_BASE] [--log-level LOG_LEVEL]
+              {{{",".join(VERBS)}}}
+              ...
+"""
 _HELP = """\
 
 Build the packages of a workspace, each one after those that it depends on.
@@ -57,6 +59,13 @@ If you understand the risks and want to override a package anyways, add the foll
 \t--allow-overriding {names}
 
 This may be promoted to an error in a future release of colcon-override-check."""
+
+
+_SILENT = {
+    "compile_commands", "desktop_notification", "event_log", "log", "log_command", "status", "store_result",
+    "terminal_title",
+}  # fmt: skip
+"""Event handlers that exist, and of which nothing is seen in a page."""
 
 
 class _Exit(Exception):
@@ -84,11 +93,7 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """Say what is wrong with the arguments."""
-        self.refuse(f"{self.format_usage()}{self.prog}: error: {message[:300]}")
-
-    def refuse(self, text: str, hint: str = "") -> NoReturn:
-        """End with a text, and with what to try."""
-        self.err.write(f"{text}\n{hint}\n" if hint else f"{text}\n")
+        self.err.write(f"{self.format_usage()}{self.prog}: error: {message[:300]}\n")
         raise _Exit(2)
 
     def parse_all(self, words: list[str]) -> argparse.Namespace:
@@ -96,30 +101,29 @@ class _Parser(argparse.ArgumentParser):
         args, unknown = self.parse_known_args(words)
         if unknown:
             options = [each for action in self._actions for each in action.option_strings if each.startswith("--")]
-            text = f"{_USAGE.format(verbs=','.join(VERBS))}colcon: error: unrecognized arguments: {' '.join(unknown)[:300]}"
-            hint = did_you_mean(unknown[0].partition("=")[0][:60], options)
-            self.refuse(text, hint or f"{self.prog} -h lists what it takes.")
+            hint = did_you_mean(unknown[0].partition("=")[0][:60], options) or f"{self.prog} -h lists what it takes."
+            self.err.write(f"{_USAGE}colcon: error: unrecognized arguments: {' '.join(unknown)[:300]}\n{hint}\n")
+            raise _Exit(2)
         return args
 
 
 def run(world: World, words: list[str], *, stdout: TextIO, stderr: TextIO, cwd: Path | None = None) -> int:
     """Carry out `colcon WORDS…` in a folder; return the exit code."""
-    usage = _USAGE.format(verbs=",".join(VERBS))
     while words and words[0].partition("=")[0] in {"--log-base", "--log-level"}:
         words = words[1 if "=" in words[0] else 2 :]  # accepted, but without effect here
     if not words:
-        stdout.write(usage + "\n")
+        stdout.write(_USAGE + "\n")
         stderr.write("Error: No verb provided\n")
         return 1
     if words[0] in {"-h", "--help"}:
-        stdout.write(usage + _HELP)
+        stdout.write(_USAGE + _HELP)
         return 0
     verb = words[0]
     if verb not in VERBS:
         choices = ", ".join(map(repr, VERBS))
         said = f"colcon: error: argument verb_name: invalid choice: {verb[:60]!r} (choose from {choices})\n"
         close = did_you_mean(verb[:60], VERBS)
-        stderr.write(usage + said + (f"{close}\n" if close else ""))
+        stderr.write(_USAGE + said + (f"{close}\n" if close else ""))
         return 2
     if verb not in _HERE:
         instead = _INSTEAD.get(verb, "build, list and graph are.")
@@ -130,14 +134,13 @@ def run(world: World, words: list[str], *, stdout: TextIO, stderr: TextIO, cwd: 
         return command.run(words[1:])
     except _Exit as end:
         return end.code
-    except ColconError as error:
-        stderr.write(f"[{command.clock()}s] ERROR:colcon:colcon {verb}: {error}\n")
-        return 1
-    except (OSError, ValueError, RuntimeError) as error:  # an unusable folder, or a loop of links
-        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        named = f": {str(error.filename)[:100]}" if isinstance(error, OSError) and error.filename else ""
-        stderr.write(f"[{command.clock()}s] ERROR:colcon:colcon {verb}: {reason}{named}\n")
-        return 1
+    except OSError as error:
+        named = f": {str(error.filename)[:100]}" if error.filename else ""
+        reason = f"{error.strerror or error}{named}"
+    except (ColconError, ValueError, RuntimeError) as error:  # also an unusable folder, or a loop of links
+        reason = str(error)
+    stderr.write(f"[{command.clock()}s] ERROR:colcon:colcon {verb}: {reason}\n")
+    return 1
 
 
 class _Command:
@@ -259,7 +262,10 @@ class _Command:
         ordered = in_order(chosen)
         width = max((len(each.name) for each in ordered), default=0) + 2
         for place, each in enumerate(ordered):
-            marks = "".join(_mark(each, other, chosen) for other in ordered[place + 1 :])
+            marks = ""
+            for other in ordered[place + 1 :]:  # which depends on it itself, through others, or not at all
+                through_others = each.name in needed_by(chosen, [other.name])
+                marks += "*" if each.name in other.dependencies else "." if through_others else " "
             self.out.write(f"{each.name.ljust(width + place)}+{marks}\n")
         return 0
 
@@ -279,7 +285,6 @@ class _Command:
         if text := overridden(self.world, chosen, self.cwd / args.install_base, args.allow_overriding):
             self._warn(text)
         plan = Plan(
-            base=self.cwd,
             packages=chosen,
             install=self.cwd / args.install_base,
             build=self.cwd / args.build_base,
@@ -306,21 +311,14 @@ class _Command:
         handlers = {}
         for word in words:
             name, sign = word[:-1], word[-1:]
-            if sign not in {"+", "-"} or name not in {*DEFAULTS, *OTHERS}:
-                known = sorted({*DEFAULTS, *OTHERS})
+            known = sorted({*DEFAULTS, *_SILENT})
+            if sign not in {"+", "-"} or name not in known:
                 text = f"--event-handlers: '{word[:60]}' is not NAME+ or NAME-."
                 hint = did_you_mean(name if sign in {"+", "-"} else word, known) or f"Known are {', '.join(known)}."
                 raise ColconError(f"{text} {hint}")
             if name in DEFAULTS:
                 handlers[name] = sign == "+"
         return handlers
-
-
-def _mark(each: Found, other: Found, chosen: list[Found]) -> str:
-    """How `other` depends on a package: itself, through others, or not at all."""
-    if each.name in other.dependencies:
-        return "*"
-    return "." if each.name in needed_by(chosen, [other.name]) else " "
 
 
 _DESCRIPTIONS = {
@@ -423,8 +421,7 @@ def _needed_in_underlays(world: World, install: Path) -> dict[str, str]:
     }
     places = {}
     for name, prefix in outside.items():
-        file = prefix / "share" / "colcon-core" / "packages" / name
-        for other in file.read_text(encoding="utf-8").split(":") if file.is_file() else []:
+        for other in needs_of(prefix, name):
             if other in outside:
                 places[other] = shown_path(str(outside[other]))
     return places

@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import shutil
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 
@@ -22,7 +23,9 @@ from .package import Package
 PYTHON = "python3.10"
 """The Python of ROS 2 Humble, which is in the names of installed folders, whatever Python runs here."""
 
-SHELLS = ("bash", "sh", "zsh")
+SHELLS = {"bash": "${BASH_SOURCE[0]}", "sh": "$0", "zsh": "${(%):-%x}"}
+"""The shells for which there are setup files, and what each calls the file that it reads."""
+
 LAYOUT = ".colcon_install_layout"
 """The file in which an install folder says `isolated` (a folder a package) or `merged` (one for all)."""
 PYTHON_FOLDERS = {"python": f"lib/{PYTHON}/site-packages", "cmake": f"local/lib/{PYTHON}/dist-packages"}
@@ -32,11 +35,11 @@ _INDEX = "share/ament_index/resource_index"
 
 @dataclass(frozen=True)
 class Item:
-    """One file or folder to install.
+    """One file to install.
 
     Attributes:
         target: its place below the package's install prefix, with `/`.
-        source: the file or folder that is copied; None where `text` is written.
+        source: the file that is copied; None where `text` is written.
         text: the content of a file that the build makes.
         program: whether it can be run.
         copied: whether it is copied even by `--symlink-install`.
@@ -60,7 +63,6 @@ class Outcome:
         seconds: how long it takes, in robot time.
         items: what is installed if it went well.
         dependencies: the packages that are needed when it runs.
-        paths: folders below the prefix that hold Python packages of the learner's.
         colcon_error: what colcon itself says where it does not even begin.
         left_out: the C++ programs and libraries that are not built here, and scripts that are not Python.
         lacking: the packages that these need and that are not here.
@@ -72,7 +74,6 @@ class Outcome:
     seconds: float = 1.0
     items: list[Item] = field(default_factory=list)
     dependencies: list[str] = field(default_factory=list)
-    paths: list[str] = field(default_factory=list)
     colcon_error: str = ""
     left_out: list[str] = field(default_factory=list)
     lacking: list[str] = field(default_factory=list)
@@ -129,24 +130,17 @@ def prepare(install: Path, build: Path, log: Path, layout: str = "isolated") -> 
 def install_package(found: Found, outcome: Outcome, environment: Environment) -> list[str]:
     """Write a package's files in place of those of its last build; return the lines `-- Installing: …`."""
     prefix = prefix_of(environment.install, found.name)
-    manifest = environment.build / found.name / "install_manifest.txt"
+    build = environment.build / found.name
+    manifest = build / "install_manifest.txt"
     _uninstall(prefix, manifest)
-    lines = []
-    items = [*outcome.items, *_index(found, outcome), *_environment(found, outcome)]
-    files.save(manifest, "".join(f"{target}\n" for item in items for target in _targets(item)))
+    items = [*outcome.items, *_index(found, outcome), *_hooks(found, outcome)]
+    files.save(manifest, "".join(f"{item.target}\n" for item in items))
     for item in items:
         _write(item, prefix / item.target, environment.symlink)
-        lines.append(f"-- Installing: {shown_path(str(prefix))}/{item.target}")
-    _note_build(found, environment)
-    return lines
-
-
-def _targets(item: Item) -> Iterator[str]:
-    """The files that come of an item."""
-    if item.source is not None and item.source.is_dir():
-        yield from (f"{item.target}/{path.relative_to(item.source).as_posix()}" for path in files_in(item.source))
-    else:
-        yield item.target
+    # There is no CMakeCache.txt: a real colcon, to which this folder may be taken, runs CMake where there is none.
+    files.save(build / "colcon_build.rc", "0\n")
+    files.save(build / "source_folder.txt", f"{found.path.resolve()}\n")
+    return [f"-- Installing: {shown_path(str(prefix))}/{item.target}" for item in items]
 
 
 def _uninstall(prefix: Path, manifest: Path) -> None:
@@ -164,32 +158,20 @@ def _uninstall(prefix: Path, manifest: Path) -> None:
 
 
 def _write(item: Item, target: Path, symlink: bool) -> None:
+    """A link is made where the computer allows one (Windows may not), otherwise a copy."""
     if item.source is None:
         files.save(target, item.text)
-    elif symlink and not item.copied:
-        _link(item.source, target)
-        return
-    elif item.source.is_dir():
-        files.copy(item.source, target, shutil.ignore_patterns("__pycache__", "*.pyc"))
     else:
-        files.check(target).parent.mkdir(parents=True, exist_ok=True)
+        links = symlink and not item.copied
+        files.check(target, follow=not links).parent.mkdir(parents=True, exist_ok=True)
+        target.unlink(missing_ok=True)
+        if links:
+            with suppress(OSError):
+                target.symlink_to(item.source.resolve())
+                return
         shutil.copyfile(item.source, target)
     if item.program:
         target.chmod(0o755)
-
-
-def _link(source: Path, target: Path) -> None:
-    """A link where the computer allows one (Windows may not), otherwise a copy. Folders stay folders, as with colcon."""
-    if source.is_dir():
-        for inner in files_in(source):
-            _link(inner, target / inner.relative_to(source))
-        return
-    files.check(target, follow=False).parent.mkdir(parents=True, exist_ok=True)
-    target.unlink(missing_ok=True)
-    try:
-        target.symlink_to(source.resolve())
-    except OSError:
-        shutil.copyfile(source, target)
 
 
 def files_in(folder: Path) -> Iterator[Path]:
@@ -202,63 +184,43 @@ def files_in(folder: Path) -> Iterator[Path]:
 def _index(found: Found, outcome: Outcome) -> Iterator[Item]:
     """The entries in the ament index, by which ROS 2 finds the package."""
     name = found.name
-    index = "share/ament_index/resource_index"
-    targets = {item.target for item in outcome.items}
     if not found.is_python:
-        yield Item(f"{index}/packages/{name}")
-        yield Item(f"{index}/package_run_dependencies/{name}", text=";".join(outcome.dependencies))
-        yield Item(f"{index}/parent_prefix_path/{name}", text="/opt/ros/humble")
-        yield Item(f"share/{name}/cmake/{name}Config.cmake", text=_CONFIG.format(name=name))
-    if f"share/{name}/package.xml" not in targets:
+        yield Item(f"{_INDEX}/packages/{name}")
+        yield Item(f"{_INDEX}/package_run_dependencies/{name}", text=";".join(outcome.dependencies))
+        yield Item(f"{_INDEX}/parent_prefix_path/{name}", text="/opt/ros/humble")
+        config = f"# By this file find_package({name}) finds the package.\nset({name}_FOUND TRUE)\n"
+        yield Item(f"share/{name}/cmake/{name}Config.cmake", text=config)
+    if all(item.target != f"share/{name}/package.xml" for item in outcome.items):
         yield Item(f"share/{name}/package.xml", found.path / "package.xml")
     yield Item(f"share/colcon-core/packages/{name}", text=":".join(sorted(set(outcome.dependencies))))
 
 
-_CONFIG = "# By this file find_package({name}) finds the package.\nset({name}_FOUND TRUE)\n"
-
-
-def _environment(found: Found, outcome: Outcome) -> Iterator[Item]:
-    """What the package adds to the environment, one line a variable, as colcon's own .dsv files have it."""
+def _hooks(found: Found, outcome: Outcome) -> Iterator[Item]:
+    """What the package adds to the environment: a .dsv file a variable, as of colcon, and scripts for real shells."""
     share = f"share/{found.name}"
-    hooks = {"ament_prefix_path": "prepend-non-duplicate;AMENT_PREFIX_PATH;"}
-    made = [item.target.partition("/dist-packages/")[0] for item in outcome.items if "/dist-packages/" in item.target]
-    for folder in outcome.paths or [f"{place}/dist-packages" for place in made[:1]]:
-        hooks["pythonpath"] = f"prepend-non-duplicate;PYTHONPATH;{folder}"
-    place = "hook" if found.is_python else "environment"
-    for name, line in hooks.items():
-        yield Item(f"{share}/{place}/{name}.dsv", text=line)
-    sources = [f"source;{share}/{place}/{name}.dsv\n" for name in hooks]
-    yield Item(f"{share}/package.dsv", text="".join(sources))
+    place = f"{share}/{'hook' if found.is_python else 'environment'}"
+    variables = {"AMENT_PREFIX_PATH": ""}
+    for folder in PYTHON_FOLDERS.values():
+        if any(item.target.startswith(folder) for item in outcome.items):
+            variables["PYTHONPATH"] = folder
+    script = f"# What the package {found.name} adds to the environment; COLCON_CURRENT_PREFIX is its folder.\n"
+    for variable, folder in variables.items():
+        yield Item(f"{place}/{variable.lower()}.dsv", text=f"prepend-non-duplicate;{variable};{folder}")
+        path = "/".join(filter(None, ("$COLCON_CURRENT_PREFIX", folder)))
+        script += f'export {variable}="{path}${{{variable}:+:${variable}}}"\n'
+    sources = "".join(f"source;{place}/{variable.lower()}.dsv\n" for variable in variables)
+    yield Item(f"{share}/package.dsv", text=sources)
     for shell in SHELLS:
-        yield Item(f"{share}/package.{shell}", text=_shell_lines(found.name, hooks, "$COLCON_CURRENT_PREFIX"))
-
-
-def _shell_lines(name: str, hooks: dict[str, str], prefix: str) -> str:
-    lines = [f"# What the package {name} adds to the environment; COLCON_CURRENT_PREFIX is its folder.\n"]
-    for line in hooks.values():
-        _, variable, folder = line.split(";")
-        place = f"{prefix}/{folder}" if folder else prefix
-        lines.append(f'export {variable}="{place}${{{variable}:+:${variable}}}"\n')
-    return "".join(lines)
-
-
-def _note_build(found: Found, environment: Environment) -> None:
-    """The build folder, which remembers where the source is and that it went well.
-
-    There is no CMakeCache.txt in it: a real colcon, to which this folder may be taken, runs CMake where there is none.
-    """
-    folder = environment.build / found.name
-    files.save(folder / "colcon_build.rc", "0\n")
-    files.save(folder / "source_folder.txt", f"{found.path.resolve()}\n")
+        yield Item(f"{share}/package.{shell}", text=script)
 
 
 def write_setup_files(install: Path, names: Iterable[str]) -> None:
     """`setup.bash`, `local_setup.bash` and the others, which overlay the packages in the order of `names`."""
-    for shell in SHELLS:
-        place = "${BASH_SOURCE[0]}" if shell == "bash" else "${(%):-%x}" if shell == "zsh" else "$0"
+    for shell, place in SHELLS.items():
+        folder = f'"$(cd "$(dirname "{place}")" > /dev/null && pwd)'
         lines = [
             "# Made by colcon build. In a page `source` reads the folder itself; a real terminal can run this, too.\n",
-            f'_folder="$(cd "$(dirname "{place}")" > /dev/null && pwd)"\n',
+            f'_folder={folder}"\n',
         ]
         for name in names:
             inner = "" if prefix_of(install, name) == install else f"/{name}"
@@ -266,8 +228,10 @@ def write_setup_files(install: Path, names: Iterable[str]) -> None:
             lines.append(f'. "$COLCON_CURRENT_PREFIX/share/{name}/package.{shell}"\n')
         lines.append("unset COLCON_CURRENT_PREFIX _folder\n")
         files.save(install / f"local_setup.{shell}", "".join(lines))
-        chain = f'. "$(cd "$(dirname "{place}")" > /dev/null && pwd)/local_setup.{shell}"\n'
-        files.save(install / f"setup.{shell}", f"# Made by colcon build.\n{chain}")
+        files.save(install / f"setup.{shell}", f'# Made by colcon build.\n. {folder}/local_setup.{shell}"\n')
+
+
+# -- read back -----------------------------------------------------------------------------------------------------------
 
 
 def layout_of(install: Path) -> str:
@@ -281,11 +245,17 @@ def prefix_of(install: Path, name: str) -> Path:
     return install if layout_of(install) == "merged" else install / name
 
 
+def needs_of(prefix: Path, name: str) -> list[str]:
+    """The packages that an installed one needs when it runs."""
+    file = prefix / "share" / "colcon-core" / "packages" / name
+    return file.read_text(encoding="utf-8").split(":") if file.is_file() else []
+
+
 def installed_names(install: Path) -> list[str]:
     """The packages in an install folder, each after those it needs."""
     pattern = "share/colcon-core/packages/*" if layout_of(install) == "merged" else "*/share/colcon-core/packages/*"
-    files = {file.name: file for file in install.glob(pattern) if file.is_file()}
-    needs = {name: set(file.read_text(encoding="utf-8").split(":")) & set(files) for name, file in files.items()}
+    names = {file.name for file in install.glob(pattern) if file.is_file()}
+    needs = {name: names.intersection(needs_of(prefix_of(install, name), name)) for name in names}
     ordered: list[str] = []
     while needs:
         ready = sorted(name for name, others in needs.items() if others <= {*ordered, name}) or sorted(needs)
@@ -300,6 +270,8 @@ def read_installed(install: Path, name: str) -> Package:
     libexec, listed = prefix / "lib" / name, prefix / _INDEX / "rosidl_interfaces" / name
     lying = sorted(libexec.iterdir()) if libexec.is_dir() else []
     lines = listed.read_text(encoding="utf-8").splitlines() if listed.is_file() else []
+    note = install.parent / "build" / name / "source_folder.txt"
+    source = Path(note.read_text(encoding="utf-8").strip()) if note.is_file() else None
     return Package(
         name=name,
         share=prefix / "share" / name,
@@ -307,18 +279,9 @@ def read_installed(install: Path, name: str) -> Package:
             path.name: path for path in lying if path.is_file() and (os.name == "nt" or os.access(path, os.X_OK))
         },
         interfaces=[line for line in lines if "_Re" not in line.rpartition("/")[2] and not line.endswith(".idl")],
-        source=source_of(install, name),
+        source=source if source and source.is_dir() else None,
         prefix=prefix,
     )
-
-
-def source_of(install: Path, name: str) -> Path | None:
-    """The folder that an installed package was built from, if it is still there."""
-    file = install.parent / "build" / name / "source_folder.txt"
-    if not file.is_file():
-        return None
-    folder = Path(file.read_text(encoding="utf-8").strip())
-    return folder if folder.is_dir() else None
 
 
 def python_folders(prefix: Path) -> list[Path]:

@@ -8,6 +8,7 @@ import sys
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass, field
+from fnmatch import fnmatchcase
 from pathlib import Path
 
 from ..runtime import files
@@ -51,13 +52,8 @@ class Package:
         """The installed files of this name, anywhere in the share folder."""
         if self.installed is None:
             return sorted(path for path in self.share.rglob(file_name) if path.is_file())
-        found = []
-        for path, place in self.installed.items():
-            if place.is_dir():
-                found += [inner for inner in place.rglob(file_name) if inner.is_file()]
-            elif Path(path).name == file_name:
-                found.append(place)
-        return sorted(set(found))
+        found = {place for path, place in self.installed.items() if fnmatchcase(Path(path).name, file_name)}
+        return sorted(found)
 
 
 @dataclass(frozen=True)

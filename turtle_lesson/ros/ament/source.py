@@ -178,7 +178,11 @@ def read_source_package(folder: Path | str) -> Package:
     environment = Environment(folder / "install", folder / "build", symlink=found.is_python, compiles=False)
     outcome = checked_build(found, environment)
     share, libexec, site = f"share/{found.name}/", f"lib/{found.name}/", PYTHON_FOLDERS["python"]
-    modules = {item.source.parent for item in outcome.items if item.source and item.target.startswith(f"{site}/")}
+    modules = {
+        item.source.parents[item.target.removeprefix(site).count("/") - 1]
+        for item in outcome.items
+        if item.source and item.target.startswith(f"{site}/")
+    }
     executables: dict[str, Target] = {}
     for item in outcome.items:
         if item.program and item.target.startswith(libexec):
