@@ -5,8 +5,7 @@ Facts: rclpy's lifecycle package, rcl_lifecycle's default_state_machine.c, https
 
 # ruff: noqa: F401
 
-from ._states import TransitionCallbackReturnType as TransitionCallbackReturn
-from .managed_entity import ManagedEntity, SimpleManagedEntity
+from .managed_entity import ManagedEntity, SimpleManagedEntity, TransitionCallbackReturn
 from .node import LifecycleNode, LifecycleNodeMixin, LifecycleState
 from .publisher import LifecyclePublisher
 

@@ -3,13 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from enum import Enum
 from functools import wraps
 from typing import TYPE_CHECKING, Any
 
-from ._states import TransitionCallbackReturnType as TransitionCallbackReturn
-
 if TYPE_CHECKING:
     from .node import LifecycleState
+
+
+class TransitionCallbackReturnType(Enum):
+    """What a transition's callback returns: `rclpy.lifecycle.TransitionCallbackReturn`."""
+
+    SUCCESS = 97
+    FAILURE = 98
+    ERROR = 99
+
+    def __int__(self) -> int:
+        return self.value
+
+    def to_label(self) -> str:
+        """The label of the transition that follows."""
+        return f"transition_{self.name.lower()}"
+
+
+TransitionCallbackReturn = TransitionCallbackReturnType
 
 
 class ManagedEntity:
