@@ -50,8 +50,6 @@ class CvBridge:
         self.cvtype_to_name = {self.encoding_to_cvtype2(name): name for name in names}
         self.numpy_type_to_cvtype = {**{name: depth for depth, name in TYPES.items()}, **TYPES}
 
-    # -- types ---------------------------------------------------------------------------------------------------------
-
     def dtype_with_channels_to_cvtype2(self, dtype: np.dtype[Any], n_channels: int) -> str:
         """The name of OpenCV's type for arrays of this type, such as "8UC3"."""
         return f"{self.numpy_type_to_cvtype[dtype.name]}C{n_channels}"
@@ -81,8 +79,6 @@ class CvBridge:
     def encoding_to_dtype_with_channels(self, encoding: str) -> tuple[str, int]:
         """numpy's type, and the number of channels, of an encoding."""
         return self.cvtype2_to_dtype_with_channels(self.encoding_to_cvtype2(encoding))
-
-    # -- images --------------------------------------------------------------------------------------------------------
 
     def imgmsg_to_cv2(self, img_msg: Image, desired_encoding: str = "passthrough") -> Array:
         """The image of a message, as it is encoded there or in another encoding.
@@ -125,26 +121,25 @@ class CvBridge:
             return image.copy()
         kind, channels = self.encoding_to_dtype_with_channels(target)
         same = channels == (image.shape[2] if image.ndim > 2 else 1)
+        refusal = ""
         if not is_colour(source) and is_colour(target):
-            raise CvBridgeError(
-                f"[{source}] is not a color format. but [{target}] is. The conversion does not make sense"
-            )
-        if not is_colour(source) and not same:
-            raise CvBridgeError(f"[{source}] and [{target}] do not have the same number of channel")
-        if not is_colour(target) and not same:
-            raise CvBridgeError(
-                f"[{source}] is a color format but [{target}] is not so they must have the same OpenCV type, CV_8UC3, "
-                "CV16UC1 ...."
-            )
+            refusal = f"[{source}] is not a color format. but [{target}] is. The conversion does not make sense"
+        elif not is_colour(source) and not same:
+            refusal = f"[{source}] and [{target}] do not have the same number of channel"
+        elif not is_colour(target) and not same:
+            types = "they must have the same OpenCV type, CV_8UC3, CV16UC1 ...."
+            refusal = f"[{source}] is a color format but [{target}] is not so {types}"
         for encoding in (source, target):
             if is_colour(encoding) and not _COLOURS.fullmatch(encoding):
-                raise CvBridgeError(
-                    f"[{encoding}] to or from other colours is available with OpenCV's own cv_bridge only; here rgb, bgr, "
-                    "rgba, bgra and mono can be converted"
+                others = (
+                    "is available with OpenCV's own cv_bridge only; here rgb, bgr, rgba, bgra and mono can be converted"
                 )
-        return convert(image, source, target, np.dtype(kind))
-
-    # -- compressed images -----------------------------------------------------------------------------------------------
+                refusal = refusal or f"[{encoding}] to or from other colours {others}"
+        if refusal:
+            raise CvBridgeError(refusal)
+        if is_colour(source) and is_colour(target):
+            image = _with_channels(image, _channels(source), _channels(target))
+        return _with_depth(image, np.dtype(kind))
 
     def compressed_imgmsg_to_cv2(self, cmprs_img_msg: CompressedImage, desired_encoding: str = "passthrough") -> Array:
         """The image of a compressed message.
@@ -181,19 +176,9 @@ def _opencv() -> Any:
         raise ImportError(f"compressed images need OpenCV, which is not installed: {install}", name="cv2") from None
 
 
-# -- colours, as OpenCV's cvtColor and convertTo convert them; weights of grey as its code rounds them -----------------
-
-
 def is_colour(encoding: str) -> bool:
     """Whether an encoding says what its channels mean: grey, colours, a Bayer pattern; "8UC3" does not."""
     return encoding.startswith(("rgb", "bgr", "mono", "bayer_", "yuv422"))
-
-
-def convert(image: Array, source: str, target: str, dtype: np.dtype[Any]) -> Array:
-    """An image in another encoding, whose channels have this type."""
-    if is_colour(source) and is_colour(target):
-        image = _with_channels(image, _channels(source), _channels(target))
-    return _with_depth(image, dtype)
 
 
 def _channels(encoding: str) -> str:
@@ -209,13 +194,9 @@ def _with_channels(image: Array, source: str, target: str) -> Array:
         for name, weight in GREY.items():
             weighted += image[..., source.index(name)].astype(np.int64) * weight
         return ((weighted + (1 << 14)) >> 15).astype(image.dtype)
-    opaque = np.full(image.shape[:2], np.iinfo(image.dtype).max, image.dtype)
-    grey = image if source == "y" else None
-    planes = [
-        grey if grey is not None and name != "a" else opaque if name not in source else image[..., source.index(name)]
-        for name in target
-    ]
-    return np.stack(planes, axis=-1)
+    channels = {"a": np.full(image.shape[:2], np.iinfo(image.dtype).max, image.dtype)}
+    channels |= dict.fromkeys("rgb", image) if source == "y" else {name: image[..., i] for i, name in enumerate(source)}
+    return np.stack([channels[name] for name in target], axis=-1)
 
 
 def _with_depth(image: Array, dtype: np.dtype[Any]) -> Array:

@@ -52,8 +52,6 @@ class BufferCore:
         self._frames: dict[str, TimeCache | None] = {}
         self._authorities: dict[str, str] = {}
 
-    # -- telling -------------------------------------------------------------------------------------------
-
     def set_transform(self, transform: TransformStamped, authority: str) -> None:
         """Keep the transform of a frame that moves. One that cannot be right is ignored, with a line on stderr."""
         self._set(transform, authority, self._cache_time)
@@ -83,8 +81,6 @@ class BufferCore:
         for cache in self._frames.values():
             if cache is not None:
                 cache.clear()
-
-    # -- asking --------------------------------------------------------------------------------------------
 
     def lookup_transform_core(self, target_frame: str, source_frame: str, time: Any) -> TransformStamped:
         """Where the source frame is, seen from the target frame, at a time.
@@ -157,8 +153,6 @@ class BufferCore:
             check_frame(self._frames, frame, "get_latest_common_time")
         return Time(nanoseconds=latest_common_time(self._frames, target_frame, source_frame))
 
-    # -- all frames ----------------------------------------------------------------------------------------
-
     def all_frames_as_string(self) -> str:
         """A sentence for each frame that has a parent."""
         return frames_as_string(self._frames)
@@ -216,9 +210,6 @@ def _as_message(pair: Pair, stamp: int, target: str, source: str) -> TransformSt
     translation = Vector3(x=place[0], y=place[1], z=place[2])
     message.transform = Transform(translation=translation, rotation=Quaternion(x=x, y=y, z=z, w=w))
     return message
-
-
-# -- what may be given: times, frames and transforms -------------------------------------------------------------------
 
 
 def nanoseconds(value: Any, what: str = "time") -> int:

@@ -42,9 +42,6 @@ class TimeoutException(TransformException):
     """Nothing came in time."""
 
 
-# -- one frame ----------------------------------------------------------------------------------------------------------
-
-
 class Kept(NamedTuple):
     """One transform: where a frame is, seen from its parent, at a time (ns)."""
 
@@ -142,8 +139,6 @@ class TimeCache:
             known = f"Requested time {wanted} but the earliest data is at time {shown_time(oldest)}"
             raise Unreachable(f"Lookup would require extrapolation into the past.  {known}")
 
-
-# -- ways ---------------------------------------------------------------------------------------------------------------
 
 Frames = Mapping[str, TimeCache | None]
 """What is kept of each frame; None for one that is only known as the parent of others."""

@@ -61,8 +61,6 @@ class Buffer(BufferCore, BufferInterface):
                 try_again()
             self._waiting = [(future, again) for future, again in self._waiting if not _is_over(future)]
 
-    # -- looking up ----------------------------------------------------------------------------------------
-
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Time, timeout: Duration = AT_ONCE
     ) -> TransformStamped:
@@ -102,8 +100,6 @@ class Buffer(BufferCore, BufferInterface):
         await self.wait_for_transform_full_async(target_frame, target_time, source_frame, source_time, fixed_frame)
         return self.lookup_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame)
 
-    # -- can it be looked up? ------------------------------------------------------------------------------
-
     def can_transform(
         self,
         target_frame: str,
@@ -130,8 +126,6 @@ class Buffer(BufferCore, BufferInterface):
         asked = (target_frame, target_time, source_frame, source_time, fixed_frame)
         found = wait_until(self.can_transform_full_core, asked, timeout)
         return found if return_debug_tuple else found[0]
-
-    # -- waiting -------------------------------------------------------------------------------------------
 
     def wait_for_transform_async(self, target_frame: str, source_frame: str, time: Time) -> Future:
         """A future whose result is the transform, as soon as it can be looked up."""

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from tf2_py import _rotation as turns
 
 _OTHERS = """
     Arcball arcball_constrain_to_axis arcball_map_to_sphere arcball_nearest_axis clip_matrix compose_matrix
@@ -20,20 +21,22 @@ _OTHERS = """
 
 
 def __getattr__(name: str) -> Any:
+    text = f"module 'tf_transformations' has no attribute {name!r}"
     if name in _OTHERS.split():
-        raise AttributeError(
-            f"tf_transformations.{name} is not available here; a real ROS 2 has it, and "
-            "numpy can do the same with the 4 × 4 matrix"
+        text = (
+            f"tf_transformations.{name} is not available here; a real ROS 2 has it, and numpy can do the same with the "
+            "4 × 4 matrix"
         )
-    raise AttributeError(f"module 'tf_transformations' has no attribute {name!r}")
+    raise AttributeError(text)
 
 
-# -- angles -------------------------------------------------------------------------------------------------------
 # Three angles about three axes, in 24 ways: `sxyz` is roll, pitch, yaw about fixed axes; `rzyx` about turning ones.
 # The letters name the axes in the order of the angles; `s` means axes that stay, `r` axes that are turned along.
 
 Angles = tuple[float, float, float]
-_LETTERS = "xyz"
+Numbers = tuple[float, float, float, float]
+Matrix = npt.NDArray[np.float64]
+EPSILON = float(np.finfo(float).eps) * 4.0
 
 
 def _axes(axes: Any) -> tuple[bool, tuple[int, int, int]]:
@@ -44,7 +47,7 @@ def _axes(axes: Any) -> tuple[bool, tuple[int, int, int]]:
         third = first if repeated else 3 - first - second
         fixed = (first, second, third)
         return bool(turning), fixed[::-1] if turning else fixed
-    numbers = tuple(_LETTERS.find(letter) for letter in axes[1:])
+    numbers = tuple("xyz".find(letter) for letter in axes[1:])
     if len(axes) != 4 or axes[0] not in "sr" or -1 in numbers or numbers[1] in (numbers[0], numbers[2]):
         raise ValueError(f"axes must be such as 'sxyz' or 'rzyx', got {axes!r}")
     return axes[0] == "r", (numbers[0], numbers[1], numbers[2])
@@ -60,7 +63,7 @@ def quaternion_from_euler(ai: float, aj: float, ak: float, axes: Any = "sxyz") -
     return found
 
 
-def euler_matrix(ai: float, aj: float, ak: float, axes: Any = "sxyz") -> npt.NDArray[np.float64]:
+def euler_matrix(ai: float, aj: float, ak: float, axes: Any = "sxyz") -> Matrix:
     """The 4 × 4 matrix of three angles: by default roll, pitch and yaw."""
     return quaternion_matrix(quaternion_from_euler(ai, aj, ak, axes))
 
@@ -79,7 +82,7 @@ def euler_from_matrix(matrix: Any, axes: Any = "sxyz") -> Angles:
     return angles if turning else angles[::-1]
 
 
-def _turning_angles(turn: npt.NDArray[np.float64], axes: tuple[int, ...]) -> Angles:
+def _turning_angles(turn: Matrix, axes: tuple[int, ...]) -> Angles:
     a, b, c = axes
     if a == c:
         return _with_repeated_axis(turn, a, b)
@@ -92,7 +95,7 @@ def _turning_angles(turn: npt.NDArray[np.float64], axes: tuple[int, ...]) -> Ang
     return first, middle, math.atan2(-sign * turn[a, b], turn[a, a])
 
 
-def _with_repeated_axis(turn: npt.NDArray[np.float64], a: int, b: int) -> Angles:
+def _with_repeated_axis(turn: Matrix, a: int, b: int) -> Angles:
     other = 3 - a - b
     sign = 1.0 if (b - a) % 3 == 1 else -1.0
     sine = math.hypot(turn[a, b], turn[a, other])
@@ -101,9 +104,6 @@ def _with_repeated_axis(turn: npt.NDArray[np.float64], a: int, b: int) -> Angles
         return 0.0, middle, math.atan2(-sign * turn[b, other], turn[b, b])
     first = math.atan2(turn[b, a], -sign * turn[other, a])
     return first, middle, math.atan2(turn[a, b], sign * turn[a, other])
-
-
-Matrix = npt.NDArray[np.float64]
 
 
 def identity_matrix() -> Matrix:
@@ -145,10 +145,6 @@ def concatenate_matrices(*matrices: Any) -> Matrix:
     return product
 
 
-Numbers = tuple[float, float, float, float]
-EPSILON = float(np.finfo(float).eps) * 4.0
-
-
 def _four(quaternion: Any) -> Numbers:
     if hasattr(quaternion, "w") and hasattr(quaternion, "x"):
         kind = type(quaternion).__name__
@@ -165,58 +161,36 @@ def quaternion_about_axis(angle: float, axis: Any) -> Numbers:
 
 def quaternion_multiply(quaternion1: Any, quaternion0: Any) -> Numbers:
     """The turn by `quaternion0`, then by `quaternion1`."""
-    ax, ay, az, aw = _four(quaternion1)
-    bx, by, bz, bw = _four(quaternion0)
-    return (
-        aw * bx + ax * bw + ay * bz - az * by,
-        aw * by - ax * bz + ay * bw + az * bx,
-        aw * bz + ax * by - ay * bx + az * bw,
-        aw * bw - ax * bx - ay * by - az * bz,
-    )
+    return turns.multiply(_four(quaternion1), _four(quaternion0))
 
 
-def quaternion_conjugate(quaternion: Any) -> npt.NDArray[np.float64]:
+def quaternion_conjugate(quaternion: Any) -> Matrix:
     """With the signs of x, y and z changed: for one of length 1 the turn back."""
     x, y, z, w = _four(quaternion)
     return np.array((-x, -y, -z, w))
 
 
-def quaternion_inverse(quaternion: Any) -> npt.NDArray[np.float64]:
+def quaternion_inverse(quaternion: Any) -> Matrix:
     """The turn back."""
     numbers = np.array(_four(quaternion))
     return quaternion_conjugate(numbers) / np.dot(numbers, numbers)
 
 
-def quaternion_matrix(quaternion: Any) -> npt.NDArray[np.float64]:
+def quaternion_matrix(quaternion: Any) -> Matrix:
     """The turn as a 4 × 4 matrix; a quaternion of any length counts as if it had length 1."""
-    x, y, z, w = _four(quaternion)
-    length = x * x + y * y + z * z + w * w
+    numbers = _four(quaternion)
     matrix = np.identity(4)
-    if length < EPSILON:
-        return matrix
-    vector = np.array((x, y, z))
-    cross = np.array(((0.0, -z, y), (z, 0.0, -x), (-y, x, 0.0)))
-    matrix[:3, :3] += 2.0 / length * (w * cross + np.outer(vector, vector) - np.dot(vector, vector) * np.identity(3))
+    if np.dot(numbers, numbers) >= EPSILON:
+        matrix[:3, :3] = turns.matrix_of(numbers)
     return matrix
 
 
 def quaternion_from_matrix(matrix: Any) -> Numbers:
     """The turn in a matrix, with w not negative."""
     turn = np.array(matrix, dtype=np.float64)[:3, :3]
-    turn = turn / np.linalg.norm(turn, axis=0)
-    trace = float(np.trace(turn))
-    diagonal = (*np.diag(turn), trace)
-    largest = int(np.argmax(diagonal))
-    if largest == 3:
-        parts = [turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1], 1.0 + trace]
-    else:
-        i, j, k = largest, (largest + 1) % 3, (largest + 2) % 3
-        parts = [0.0, 0.0, 0.0, turn[k, j] - turn[j, k]]
-        parts[i] = 1.0 + turn[i, i] - turn[j, j] - turn[k, k]
-        parts[j], parts[k] = turn[j, i] + turn[i, j], turn[k, i] + turn[i, k]
-    unit = unit_vector(parts)
-    x, y, z, w = (float(part) for part in (-unit if unit[3] < 0.0 else unit))
-    return x, y, z, w
+    parts = unit_vector(turns.turn_of((turn / np.linalg.norm(turn, axis=0)).tolist()))
+    x, y, z, w = (float(part) for part in parts)
+    return (-x, -y, -z, -w) if w < 0.0 else (x, y, z, w)
 
 
 def quaternion_slerp(quat0: Any, quat1: Any, fraction: float, spin: int = 0, shortestpath: bool = True) -> Any:
