@@ -29,8 +29,15 @@ if TYPE_CHECKING:
     from ..qos import QoSProfile
 
 
-SERVICES = {"send_goal": "SendGoalService", "cancel_goal": "CancelGoalService", "get_result": "GetResultService"}
-TOPICS = {"feedback": "FeedbackMessage", "status": "GoalStatusMessage"}
+PARTS = {
+    "goal": ("send_goal", "SendGoalService"),
+    "cancel": ("cancel_goal", "CancelGoalService"),
+    "result": ("get_result", "GetResultService"),
+    "feedback": ("feedback", "FeedbackMessage"),
+    "status": ("status", "GoalStatusMessage"),
+}
+"""The parts, by what `execute` calls what comes from each: its name below the action's, and that of its type in `Impl`."""
+TOPICS = ("feedback", "status")
 
 ORDER = {
     "client": "The order is ActionClient(node, action_type, action_name).",
@@ -66,8 +73,8 @@ def full_names(role: str, node: Node, action_name: Any) -> dict[str, str]:
     try:
         whole = node._ros_full_name_of(action_name, is_service=True)
         return {"": whole} | {
-            part: node._ros_full_name_of(f"{whole}/_action/{part}", is_service=part in SERVICES)
-            for part in (*SERVICES, *TOPICS)
+            kind: node._ros_full_name_of(f"{whole}/_action/{name}", is_service=kind not in TOPICS)
+            for kind, (name, _) in PARTS.items()
         }
     except NameValidationException as error:
         raise ValueError(f"Failed to create action {role} due to invalid topic name '{action_name}': {error}") from None
@@ -76,7 +83,7 @@ def full_names(role: str, node: Node, action_name: Any) -> dict[str, str]:
 class ActionEndpoint(Entity):
     """Base class of action clients and servers. Its parts go with it: to an executor, and out of the graph.
 
-    Each `profiles` is of the part at the same place in SERVICES and TOPICS.
+    Each of the `profiles` is for the part at the same place in PARTS.
     """
 
     __class_getitem__: Any = classmethod(GenericAlias)  # newer releases: ActionClient[Goal, Result, Feedback] in a hint
@@ -94,6 +101,7 @@ class ActionEndpoint(Entity):
     ) -> None:
         check_action(role, node, action_type)
         self._parts: dict[str, Any] = {}
+        self._arrived: dict[str, Any] = {}
         super().__init__(self.execute, callback_group or node.default_callback_group)
         self._node = node
         self._action_type = action_type
@@ -101,16 +109,17 @@ class ActionEndpoint(Entity):
         names = full_names(role, node, action_name)
         self._name = names[""]
         try:
-            for (part, kind), profile in zip((SERVICES | TOPICS).items(), profiles, strict=True):
-                self._parts[part] = self._make_part(part, getattr(action_type.Impl, kind), names[part], profile)
-                _take_from_node(node, self._parts[part])
+            for (kind, (_, type_name)), profile in zip(PARTS.items(), profiles, strict=True):
+                part, queue = self._make_part(kind, getattr(action_type.Impl, type_name), names[kind], profile)
+                self._parts[kind] = part
+                _take_from_node(node, part)
+                if queue is not None:
+                    self._arrived[kind] = queue
+                    queue.wake = self._arrive
         except Exception:
             for made in self._parts.values():
                 made.destroy()
             raise
-        self._arrived = self._queues()
-        for end in self._arrived.values():
-            end.wake = self._arrive
         node._ros_keep(self)
 
     def __repr__(self) -> str:
@@ -119,12 +128,8 @@ class ActionEndpoint(Entity):
     def __exit__(self, *error: object) -> None:
         """Nothing is released: as in rclpy, the endpoint lives on."""
 
-    def _make_part(self, part: str, kind: Any, name: str, profile: QoSProfile) -> Any:
-        """Have the node make one of the five parts."""
-        raise NotImplementedError
-
-    def _queues(self) -> dict[str, Any]:
-        """Where things arrive, by what `execute` calls them."""
+    def _make_part(self, kind: str, part_type: Any, name: str, profile: QoSProfile) -> tuple[Any, Any]:
+        """Have the node make one of the five parts. Returns it, and its end in the graph if things arrive there, or None."""
         raise NotImplementedError
 
     def take_data(self) -> dict[str, Any]:

@@ -22,18 +22,16 @@ from ..callback_groups import CallbackGroup
 from ..client import Client
 from ..qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
 from ..task import Future
-from ._endpoints import SERVICES, TOPICS, ActionEndpoint, call_back, new_goal_id
+from ._endpoints import TOPICS, ActionEndpoint, call_back, new_goal_id
 from ._goals import ACTIVE, key_of
 
 if TYPE_CHECKING:
-    from turtle_lesson.ros.rmw.reader import Reader
-
     from ..node import Node
 
 ASK = {
-    "send_goal": "action_client.send_goal_async(goal)",
-    "cancel_goal": "goal_handle.cancel_goal_async()",
-    "get_result": "goal_handle.get_result_async()",
+    "goal": "action_client.send_goal_async(goal)",
+    "cancel": "goal_handle.cancel_goal_async()",
+    "result": "goal_handle.get_result_async()",
 }
 """What to do instead of a synchronous call of each service behind an action."""
 SUFFIX = "/_action/send_goal"
@@ -75,34 +73,23 @@ class ActionClient(ActionEndpoint):
             status_sub_qos_profile,
         )
         super().__init__("client", node, action_type, action_name, callback_group, profiles)
+        self._clients: list[Client] = [self._parts[kind] for kind in ASK]
         self._goal_client, self._cancel_client, self._result_client = self._clients
 
-    def _make_part(self, part: str, kind: Any, name: str, profile: QoSProfile) -> Any:
+    def _make_part(self, kind: str, part_type: Any, name: str, profile: QoSProfile) -> tuple[Any, Any]:
         node, group = self._node, self.callback_group
-        if part in TOPICS:
-            return node.create_subscription(kind, name, None, profile, callback_group=group)  # type: ignore[arg-type]
-        client = node.create_client(kind, name, qos_profile=profile, callback_group=group)
-        client._words = Words("action client", "action server", ASK[part], "ActionClient")
-        return client
-
-    def _queues(self) -> dict[str, Any]:
-        ends = [*(client._end for client in self._clients), *self._readers]
-        return dict(zip(("goal", "cancel", "result", "feedback", "status"), ends, strict=True))
-
-    @property
-    def _clients(self) -> list[Client]:
-        return [self._parts[part] for part in SERVICES]
-
-    @property
-    def _readers(self) -> list[Reader]:
-        return [self._parts[part]._reader for part in TOPICS]
+        if kind in TOPICS:
+            subscription = node.create_subscription(part_type, name, None, profile, callback_group=group)  # type: ignore[arg-type]
+            return subscription, subscription._reader
+        client = node.create_client(part_type, name, qos_profile=profile, callback_group=group)
+        client._words = Words("action client", "action server", ASK[kind], "ActionClient")
+        return client, client._end
 
     def server_is_ready(self) -> bool:
         """Whether somebody offers the action now."""
         self._check_alive()
-        return all(client._servers() for client in self._clients) and all(
-            reader.topic.writers for reader in self._readers
-        )
+        has_topics = all(self._arrived[kind].topic.writers for kind in TOPICS)
+        return has_topics and all(client._servers() for client in self._clients)
 
     @drives_the_simulation
     def wait_for_server(self, timeout_sec: float | None = None) -> bool:
@@ -186,9 +173,9 @@ class ActionClient(ActionEndpoint):
         if "goal" in taken_data:
             self._take_goal_response(*taken_data["goal"])
         if "cancel" in taken_data:
-            self._complete(self._cancel_client, "cancel", *taken_data["cancel"])
+            self._complete("cancel", *taken_data["cancel"])
         if "result" in taken_data:
-            self._complete(self._result_client, "result", *taken_data["result"])
+            self._complete("result", *taken_data["result"])
         if "feedback" in taken_data:
             message = taken_data["feedback"]
             callback = self._feedback_callbacks.get(key_of(message.goal_id))
@@ -207,9 +194,10 @@ class ActionClient(ActionEndpoint):
                 raise RuntimeError(f"Two goals were accepted with the same ID ({handle})")
             else:
                 self._goal_handles[key_of(goal_id)] = handle
-        self._complete(self._goal_client, "goal", number, handle)
+        self._complete("goal", number, handle)
 
-    def _complete(self, client: Client, kind: str, number: int, value: Any) -> None:
+    def _complete(self, kind: str, number: int, value: Any) -> None:
+        client = self._parts[kind]
         future = client._waiting.pop(number, None)
         if future is not None:
             client._set_result(future, value)

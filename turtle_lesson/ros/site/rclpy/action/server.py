@@ -28,7 +28,7 @@ from ..callback_groups import CallbackGroup
 from ..exceptions import RCLError
 from ..impl.logging_severity import LoggingSeverity
 from ..qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
-from ._endpoints import SERVICES, TOPICS, ActionEndpoint, call_back
+from ._endpoints import TOPICS, ActionEndpoint, call_back
 from ._goals import GoalEvent, ServerGoalHandle, goals_to_cancel, key_of
 
 if TYPE_CHECKING:
@@ -124,15 +124,12 @@ class ActionServer(ActionEndpoint):
         )
         super().__init__("server", node, action_type, action_name, callback_group, profiles)
 
-    def _make_part(self, part: str, kind: Any, name: str, profile: QoSProfile) -> Any:
+    def _make_part(self, kind: str, part_type: Any, name: str, profile: QoSProfile) -> tuple[Any, Any]:
         node, group = self._node, self.callback_group
-        if part in TOPICS:
-            return node.create_publisher(kind, name, profile)
-        return node.create_service(kind, name, None, qos_profile=profile, callback_group=group)  # type: ignore[arg-type]
-
-    def _queues(self) -> dict[str, Any]:
-        ends = [self._parts[part]._server for part in SERVICES]
-        return dict(zip(("goal", "cancel", "result"), ends, strict=True))
+        if kind in TOPICS:
+            return node.create_publisher(part_type, name, profile), None
+        service = node.create_service(part_type, name, None, qos_profile=profile, callback_group=group)  # type: ignore[arg-type]
+        return service, service._server
 
     @property
     def action_type(self) -> Any:
