@@ -47,20 +47,26 @@ def read_system(node: Any) -> list[NodeView]:
     found: dict[str, NodeView] = {}
     for name, namespace in sorted(node.get_node_names_and_namespaces()):
         full_name = f"{namespace.rstrip('/')}/{name}"
-        if is_hidden(full_name):
-            continue
         if full_name in found:
             found[full_name].copies += 1
-            continue
-        with suppress(NodeNameNonExistentError):  # gone since the list was made
-            found[full_name] = NodeView(
-                full_name,
-                publishes=_visible(node.get_publisher_names_and_types_by_node(name, namespace)),
-                hears=_visible(node.get_subscriber_names_and_types_by_node(name, namespace)),
-                offers=_visible(node.get_service_names_and_types_by_node(name, namespace)),
-                calls=_visible(node.get_client_names_and_types_by_node(name, namespace)),
-            )
+        elif not is_hidden(full_name):
+            with suppress(NodeNameNonExistentError):  # gone since the list was made
+                found[full_name] = NodeView(
+                    full_name,
+                    publishes=_visible(node.get_publisher_names_and_types_by_node(name, namespace)),
+                    hears=_visible(node.get_subscriber_names_and_types_by_node(name, namespace)),
+                    offers=_visible(node.get_service_names_and_types_by_node(name, namespace)),
+                    calls=_visible(node.get_client_names_and_types_by_node(name, namespace)),
+                )
     return [found[name] for name in sorted(found)]
+
+
+def _visible(names_and_types: list[tuple[str, list[str]]]) -> Ends:
+    return {
+        name: sorted(types)
+        for name, types in sorted(names_and_types)
+        if name not in EVERYWHERE and not is_hidden(name) and name.split("/")[-1] not in PARAMETER_SERVICES
+    }
 
 
 def topics_of(nodes: list[NodeView]) -> Ends:
@@ -71,14 +77,6 @@ def topics_of(nodes: list[NodeView]) -> Ends:
 def services_of(nodes: list[NodeView]) -> Ends:
     """All services of these nodes, sorted, with all types in use there."""
     return _merged([ends for node in nodes for ends in (node.offers, node.calls)])
-
-
-def _visible(names_and_types: list[tuple[str, list[str]]]) -> Ends:
-    return {
-        name: sorted(types)
-        for name, types in sorted(names_and_types)
-        if name not in EVERYWHERE and not is_hidden(name) and name.split("/")[-1] not in PARAMETER_SERVICES
-    }
 
 
 def _merged(several: list[Ends]) -> Ends:
@@ -117,34 +115,24 @@ def plot_graph(node: Any) -> GraphPicture:
     nodes = read_system(node)
     if not nodes:
         return GraphPicture("No node is running. Start some: ros2 run turtlesim turtlesim_node, or lesson.launch(…).")
-    text = describe(nodes)
-    title = f"ROS graph: {_summary(nodes)}"
-    return GraphPicture(text, flowchart(nodes, title, text), draw_graph(nodes, title, text))
-
-
-def describe(nodes: list[NodeView]) -> str:
-    """Return the graph in words: the numbers, then a sentence for each node."""
-    types = (topics_of(nodes) | services_of(nodes)).items()
-    sentences = [f"The ROS graph has {_summary(nodes)}.", *map(_node_sentence, nodes)]
-    if types:
-        sentences.append(f"Types: {', '.join(f'{name} {listed(kinds)}' for name, kinds in types)}.")
-    return " ".join(sentences)
-
-
-def _summary(nodes: list[NodeView]) -> str:
-    amount = sum(node.copies for node in nodes)
     topics, services = topics_of(nodes), services_of(nodes)
-    return listed([count(amount, "node"), count(len(topics), "topic"), count(len(services), "service")])
+    amount = sum(node.copies for node in nodes)
+    summary = listed([count(amount, "node"), count(len(topics), "topic"), count(len(services), "service")])
+    sentences = [f"The ROS graph has {summary}.", *map(_node_sentence, nodes)]
+    if types := [f"{name} {listed(kinds)}" for name, kinds in (topics | services).items()]:
+        sentences.append(f"Types: {', '.join(types)}.")
+    text, title = " ".join(sentences), f"ROS graph: {summary}"
+    columns, arrows = _boxes(nodes)
+    mermaid = flowchart(columns, arrows, title, text)
+    return GraphPicture(text, mermaid, draw_graph(columns, arrows, title, text))
 
 
 def _node_sentence(node: NodeView) -> str:
     verbs = {"publishes": node.publishes, "hears": node.hears, "offers": node.offers, "calls": node.calls}
     parts = [f"{verb} {listed(list(ends))}" for verb, ends in verbs.items() if ends]
-    return f"{_counted(node)} {'; '.join(parts) or 'uses no topic and no service'}."
+    name = node.name if node.copies == 1 else f"{node.name} ({node.copies} nodes of this name)"
+    return f"{name} {'; '.join(parts) or 'uses no topic and no service'}."
 
-
-# -- graph drawing --------------------------------------------------------------------------------------------------
-# Nodes stand in the middle, services to their left, topics to their right; arrows point where data goes.
 
 NAME, TYPE = 12.5, 10.5
 """Sizes of the texts in a box, in pixels."""
@@ -161,8 +149,12 @@ LOOKS = {
 
 @dataclass(eq=False)
 class Box:
-    """Names, and smaller below them what type they are of; `middle` is the height of its middle in the drawing."""
+    """Names, and smaller below them what type they are of; `middle` is the height of its middle in the drawing.
 
+    Nodes stand in the middle, services to their left, topics to their right; arrows point where data goes.
+    """
+
+    id: str
     names: Sequence[str]
     types: Sequence[str] = ()
     arrows: list[Arrow] = field(default_factory=list)
@@ -195,9 +187,8 @@ class Arrow:
         return self.node if box is self.used else self.used
 
 
-def draw_graph(nodes: list[NodeView], title: str, description: str) -> str:
-    """Return the drawing of these nodes as SVG; its title and description are for readers who cannot see it."""
-    columns, arrows = _boxes(nodes)
+def draw_graph(columns: dict[str, list[Box]], arrows: list[Arrow], title: str, description: str) -> str:
+    """Return the drawing as SVG; its title and description are for readers who cannot see it."""
     _arrange(columns)
     widths = {name: max(box.width for box in boxes) for name, boxes in columns.items()}
     lefts: dict[str, float] = {}
@@ -216,20 +207,21 @@ def draw_graph(nodes: list[NodeView], title: str, description: str) -> str:
 
 def _boxes(nodes: list[NodeView]) -> tuple[dict[str, list[Box]], list[Arrow]]:
     """The columns that have boxes, and all arrows. The services of a node that no node calls share one box."""
-    topics = {name: Box([name], types) for name, types in topics_of(nodes).items()}
+    topics = {name: Box(f"t{at}", [name], types) for at, (name, types) in enumerate(topics_of(nodes).items())}
     called = {service for node in nodes for service in node.calls}
-    services = {name: Box([name], types) for name, types in services_of(nodes).items() if name in called}
+    every = enumerate(services_of(nodes).items())
+    services = {name: Box(f"s{at}", [name], types) for at, (name, types) in every if name in called}
     columns: dict[str, list[Box]] = {"services": list(services.values()), "nodes": [], "topics": list(topics.values())}
     arrows: list[Arrow] = []
-    for view in nodes:
-        box = Box([view.name], [f"{view.copies} nodes of this name"] if view.copies > 1 else [])
+    for at, view in enumerate(nodes):
+        box = Box(f"n{at}", [view.name], [f"{view.copies} nodes of this name"] if view.copies > 1 else [])
         columns["nodes"].append(box)
         arrows += [Arrow(box, topics[name], inward=False) for name in view.publishes]
         arrows += [Arrow(box, topics[name], inward=True) for name in view.hears]
         arrows += [Arrow(box, services[name], inward=False, dashed=True) for name in view.calls]
         arrows += [Arrow(box, services[name], inward=True, dashed=True) for name in view.offers if name in called]
         if waiting := [name for name in view.offers if name not in called]:
-            shared = Box(waiting, view.offers[waiting[0]] if len(waiting) == 1 else [])
+            shared = Box(f"w{at}", waiting, view.offers[waiting[0]] if len(waiting) == 1 else [])
             columns["services"].append(shared)
             arrows.append(Arrow(box, shared, inward=True, dashed=True))
     for arrow in arrows:
@@ -313,12 +305,8 @@ def _port(box: Box, arrow: Arrow) -> float:
     return box.middle + box.height * 0.8 * ((beside.index(arrow) + 0.5) / len(beside) - 0.5)
 
 
-# -- mermaid --------------------------------------------------------------------------------------------------------
-# The same in Mermaid's language (https://mermaid.js.org/syntax/flowchart.html). Names are quoted, and everything but plain
-# letters becomes a character code, so that no name is taken for one of Mermaid's words.
-
 THEME = '"theme": "base", "themeVariables": {"lineColor": "#767b82", "signalColor": "#767b82", "signalTextColor": "#767b82"}'
-"""Lines and their texts that are seen on a light and on a dark page, also when the theme is changed later on."""
+"""Lines and their texts that are seen on a light and on a dark page, also when Mermaid's theme is changed later on."""
 
 SETTINGS = f'%%{{init: {{{THEME}, "flowchart": {{"nodeSpacing": 22, "rankSpacing": 32, "padding": 9}}}}}}%%'
 """Closer together than Mermaid's own 50 and 50, so that four nodes are legible in a narrow window."""
@@ -331,47 +319,32 @@ COLOURS = (
 """Fill, edge and text of each kind, all three given, so that a dark page shows them as a light one does."""
 
 
-def flowchart(nodes: list[NodeView], title: str, description: str) -> str:
-    """Return the Mermaid text for these nodes; `title` and `description` are for readers who cannot see it."""
+def flowchart(columns: dict[str, list[Box]], arrows: list[Arrow], title: str, description: str) -> str:
+    """Return the same in Mermaid's language (https://mermaid.js.org/syntax/flowchart.html).
+
+    Names are quoted, and everything but plain letters becomes a character code, so that no name is taken for one of
+    Mermaid's words.
+    """
+
+    def shape(box: Box, before: str, after: str, kind: str) -> str:
+        label = [*map(_escaped, box.names), *(f"<small>{_escaped(each)}</small>" for each in box.types)]
+        return f'{box.id}{before}"{"<br/>".join(label)}"{after}:::{kind}'
+
+    def line(arrow: Arrow) -> str:
+        begin, end = (arrow.used, arrow.node) if arrow.inward else (arrow.node, arrow.used)
+        return f"{begin.id} {'-.->' if arrow.dashed else '-->'} {end.id}"
+
     lines = [SETTINGS, "flowchart TD", f"accTitle: {plain_line(title)}", f"accDescr: {plain_line(description)}"]
-    lines += [f'n{number}(["{_label(_counted(node))}"]):::rosnode' for number, node in enumerate(nodes)]
-    topics = topics_of(nodes)
-    lines += [f'{_id("t", topics, topic)}["{_label(topic, *types)}"]:::rostopic' for topic, types in topics.items()]
-    for at, node in enumerate(nodes):
-        lines += [f"n{at} --> {_id('t', topics, topic)}" for topic in node.publishes]
-        lines += [f"{_id('t', topics, topic)} --> n{at}" for topic in node.hears]
-    lines += _services(nodes)
+    lines += [shape(box, "([", "])", "rosnode") for box in columns["nodes"]]
+    lines += [shape(box, "[", "]", "rostopic") for box in columns.get("topics", [])]
+    lines += [line(arrow) for arrow in arrows if not arrow.dashed]
+    services = {box.id: shape(box, "[[", "]]", "rosservice") for box in columns.get("services", [])}
+    lines += [services.pop(name) for name in list(services) if name.startswith("s")]
+    for arrow in arrows:
+        if arrow.dashed:  # the box of services that no node calls comes with its one arrow
+            lines += [services[arrow.used.id]] if arrow.used.id in services else []
+            lines.append(line(arrow))
     return "\n".join([*lines, *COLOURS, ""])
-
-
-def _services(nodes: list[NodeView]) -> list[str]:
-    """Services that a node calls have a box each; the others of a node share one."""
-    lines: list[str] = []
-    services = services_of(nodes)
-    called = {service for node in nodes for service in node.calls}
-    for service in sorted(called):
-        lines.append(f'{_id("s", services, service)}[["{_label(service, *services[service])}"]]:::rosservice')
-    for at, node in enumerate(nodes):
-        lines += [f"n{at} -.-> {_id('s', services, service)}" for service in node.calls]
-        lines += [f"{_id('s', services, service)} -.-> n{at}" for service in node.offers if service in called]
-        if waiting := [service for service in node.offers if service not in called]:
-            types = node.offers[waiting[0]] if len(waiting) == 1 else []
-            label = _label(waiting[0], *types) if types else "<br/>".join(map(_escaped, waiting))
-            lines += [f'w{at}[["{label}"]]:::rosservice', f"w{at} -.-> n{at}"]
-    return lines
-
-
-def _counted(node: NodeView) -> str:
-    return node.name if node.copies == 1 else f"{node.name} ({node.copies} nodes of this name)"
-
-
-def _label(name: str, *types: str) -> str:
-    small = [f"<small>{_escaped(kind)}</small>" for kind in types]
-    return "<br/>".join([_escaped(name), *small])
-
-
-def _id(letter: str, names: Ends, name: str) -> str:
-    return f"{letter}{list(names).index(name)}"
 
 
 def _escaped(text: str) -> str:

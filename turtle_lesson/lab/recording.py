@@ -156,9 +156,9 @@ class Recording:
         rows = table.array()
         chosen = np.ones(len(rows), bool)
         if since is not None:
-            chosen &= rows["stamp"] >= self._stamp("since", since)
+            chosen &= rows["stamp"] >= self.origin + nanoseconds("since", since)
         if until is not None:
-            chosen &= rows["stamp"] <= self._stamp("until", until)
+            chosen &= rows["stamp"] <= self.origin + nanoseconds("until", until)
         return rows[chosen]
 
     def span(self, table: Table) -> str:
@@ -170,9 +170,9 @@ class Recording:
         """A sentence on why nothing was heard on a topic, and what to try."""
         return f"No message has come on {topic} yet. Let robot time pass: lesson.run(1.0)."
 
-    def _stamp(self, name: str, seconds: float) -> int:
-        if not isinstance(seconds, Real) or not math.isfinite(seconds):
-            raise ValueError(
-                f"{name} must be a time in seconds since the lesson's start, got {seconds!r}: try {name}=10.0"
-            )
-        return self.origin + round(seconds * NANOSECONDS)
+
+def nanoseconds(name: str, seconds: Any) -> int:
+    """Return a time in ns that was given in s, as `name`. Raises ValueError for what is no time."""
+    if isinstance(seconds, bool) or not isinstance(seconds, Real) or not math.isfinite(seconds):
+        raise ValueError(f"{name} must be a time in seconds since the lesson's start, got {seconds!r}: try {name}=10.0")
+    return round(float(seconds) * NANOSECONDS)

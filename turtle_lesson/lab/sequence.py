@@ -6,8 +6,9 @@ import difflib
 import re
 import textwrap
 from collections.abc import Sequence
-from dataclasses import dataclass
-from operator import attrgetter
+from dataclasses import dataclass, field
+from itertools import chain
+from operator import attrgetter, itemgetter
 from typing import Any, NamedTuple
 
 from . import drawing, style
@@ -38,13 +39,17 @@ def plot_sequence(trace: Any, *services: str, since: float | None = None, until:
     if not calls:
         return GraphPicture(_nothing(trace, names, called, window))
     steps = [step_of(trace, call) for call in calls[-MOST:]]
-    text = _describe(steps, len(calls))
-    title = f"Calls of {listed(_services(steps))}"
-    return GraphPicture(text, sequence_diagram(steps, title, text), draw_sequence(steps, title, text))
-
-
-def _services(steps: Sequence[Step]) -> list[str]:
-    return list(dict.fromkeys(step.call.service for step in steps))
+    what = listed(list(dict.fromkeys(step.call.service for step in steps)))
+    shown = count(len(calls), "call")
+    if len(calls) > len(steps):
+        shown = f"The last {len(steps)} of {shown}"
+    text = " ".join([f"{shown} of {what}.", *map(_sentence, steps)])
+    programs = list(dict.fromkeys(name for step in steps for name in (step.call.caller, step.call.server) if name))
+    events = [event for _, event in sorted(chain(*map(_events, steps)), key=itemgetter(0))]
+    title = f"Calls of {what}"
+    return GraphPicture(
+        text, sequence_diagram(programs, events, title, text), draw_sequence(programs, events, title, text)
+    )
 
 
 def _nothing(trace: Any, names: list[str], called: Sequence[Any], window: Window) -> str:
@@ -56,11 +61,6 @@ def _nothing(trace: Any, names: list[str], called: Sequence[Any], window: Window
     close = difflib.get_close_matches(names[0], others, 1, 0.6) if names else []
     meant = f" Did you mean {close[0]}?" if close else ""
     return f"No node has called {what} yet.{meant} Try: ros2 service call {names[0] if names else '/navigate_to'} …"
-
-
-def _describe(steps: Sequence[Step], calls: int) -> str:
-    shown = count(calls, "call") if calls == len(steps) else f"The last {len(steps)} of {count(calls, 'call')}"
-    return " ".join([f"{shown} of {listed(_services(steps))}.", *map(_sentence, steps)])
 
 
 def _sentence(step: Step) -> str:
@@ -86,20 +86,15 @@ def _sentence(step: Step) -> str:
 
 @dataclass(frozen=True)
 class Step:
-    """One call, with what the trace of callbacks knows of it. Times are in ns since the lesson's start.
-
-    Attributes:
-        call: the call itself.
-        callback: the function that served it, if it has begun.
-        began: when that began; None if it has not.
-        waited: of the same program's other callbacks those that were ready meanwhile and had to wait: how often, in words,
-            and the longest wait.
-    """
+    """One call, with what the trace of callbacks knows of it. Times are in ns since the lesson's start."""
 
     call: Any
-    callback: str
-    began: int | None
-    waited: dict[str, tuple[str, int]]
+    callback: str = ""
+    """The function that served it, if it has begun."""
+    began: int | None = None
+    waited: dict[str, tuple[str, int]] = field(default_factory=dict)
+    """Of the same program's other callbacks those that were ready meanwhile and had to wait: how often, in words, and the
+    longest wait."""
 
 
 def step_of(trace: Any, call: Any) -> Step:
@@ -115,7 +110,7 @@ def step_of(trace: Any, call: Any) -> Step:
         if place < len(mine):
             began, ended = mine[place]
             return Step(call, callback.name, began, _waited(trace, callback, began, ended or trace.now))
-    return Step(call, "", None, {})
+    return Step(call)
 
 
 def _waited(trace: Any, server: Any, began: int, ended: int) -> dict[str, tuple[str, int]]:
@@ -162,7 +157,46 @@ def _value(value: Any) -> str:
     return str(value)
 
 
-# -- sequence drawing -----------------------------------------------------------------------------------------------
+class Event(NamedTuple):
+    """One line of the diagram. `kind` is "call", "answer", "lost", "note", "activate" or "deactivate".
+
+    <br/> separates the lines of `text`.
+    """
+
+    kind: str
+    of: str
+    to: str = ""
+    text: str = ""
+
+
+def _events(step: Step) -> list[tuple[int, Event]]:
+    """The events of one call with their times (ns), in the order in which those of one time stay."""
+    call = step.call
+    server = call.server
+    asked = f"{clock(call.asked)}: {call.service}<br/>{fields(call.request)}"
+    if not server:
+        events = [Event("lost", call.caller, text=asked), Event("note", call.caller, text="no node received it")]
+        return [(call.asked, event) for event in events]
+    question = call.asked, Event("call", call.caller, server, asked)
+    if step.began is None:
+        return [question, (call.asked, Event("note", server, text="waits: no callback has begun yet"))]
+    waited = step.began - call.received
+    begins = f"{step.callback} begins" + (f", after a wait of {after(0, waited)}" if waited >= SHORT else "")
+    last = [
+        Event("note", server, text=f"{name} waits {times}, at most {after(0, longest)}")
+        for name, (times, longest) in step.waited.items()
+    ]
+    if call.answered is None:
+        end = 2**62
+        last.append(Event("note", server, text="no answer yet"))
+    else:
+        end = call.answered
+        answer = f"{clock(end)}: answer after {after(call.asked, end)}<br/>{fields(call.response)}"
+        last.append(Event("answer", server, call.caller, answer))
+    first = [Event("activate", server), Event("note", server, text=begins)]
+    last.append(Event("deactivate", server))
+    return [question, *((step.began, event) for event in first), *((end, event) for event in last)]
+
 
 SIZE, LINE = 12.0, 15.0
 """Pixels of a text, and from line to line."""
@@ -172,13 +206,12 @@ LONGEST = 38
 """Characters of a line."""
 
 
-def draw_sequence(steps: Sequence[Step], title: str, description: str) -> str:
-    """Return the drawing of these calls as SVG; its title and description are for readers who cannot see it."""
-    programs = programs_of(steps)
+def draw_sequence(programs: Sequence[str], events: Sequence[Event], title: str, description: str) -> str:
+    """Return the drawing of these events as SVG; its title and description are for readers who cannot see it."""
     places = {name: EDGE + APART * at for at, name in enumerate(programs)}
     busy: dict[str, list[float]] = {}
     parts, bars, y = [], [], TOP
-    for event in events_of(steps):
+    for event in events:
         x = places[event.of]
         if event.kind == "activate":
             busy.setdefault(event.of, []).append(y)
@@ -236,9 +269,6 @@ def _box(x: float, top: float, width: float, height: float, lines: list[str], ki
     return f'<rect {frame} rx="4" fill="{fill}" stroke="{edge}"/>{written}'
 
 
-# -- sequence text --------------------------------------------------------------------------------------------------
-# https://mermaid.js.org/syntax/sequenceDiagram.html
-
 SETTINGS = (
     f'%%{{init: {{{THEME}, "sequence": {{"actorMargin": 60, "width": 150, "height": 44, "boxMargin": 6, "noteMargin": 8, '
     '"messageMargin": 34, "mirrorActors": false, "wrap": true}}}%%'
@@ -250,73 +280,16 @@ ARROWS = {"call": "{0}->>{1}: {2}", "answer": "{0}-->>{1}: {2}", "lost": "{0}-x{
 """How each kind of event is written, besides "activate" and "deactivate"."""
 
 
-class Event(NamedTuple):
-    """One line of the diagram. `kind` is "call", "answer", "lost", "note", "activate" or "deactivate".
-
-    <br/> separates the lines of `text`.
-    """
-
-    kind: str
-    of: str
-    to: str = ""
-    text: str = ""
-
-
-def sequence_diagram(steps: Sequence[Step], title: str, description: str) -> str:
-    """Return the Mermaid text: a lifeline for each program, an arrow for each message. `title` and `description` are for
-    readers who cannot see it.
-    """
-    letters = {name: f"p{place}" for place, name in enumerate(programs_of(steps))}
+def sequence_diagram(programs: Sequence[str], events: Sequence[Event], title: str, description: str) -> str:
+    """Return the same in Mermaid's language (https://mermaid.js.org/syntax/sequenceDiagram.html)."""
+    letters = {name: f"p{place}" for place, name in enumerate(programs)}
     lines = [SETTINGS, "sequenceDiagram", f"accTitle: {plain_line(title)}", f"accDescr: {plain_line(description)}"]
     lines += [f"participant {letters[name]} as {_escaped(name)}" for name in letters]
-    for kind, of, to, text in events_of(steps):
+    for kind, of, to, text in events:
         form = ARROWS.get(kind, f"{kind} {{0}}")
         label = "<br/>".join(_escaped(line) for line in text.split("<br/>"))
         lines.append(form.format(letters[of], letters.get(to), label))
     return "\n".join([*lines, ""])
-
-
-def programs_of(steps: Sequence[Step]) -> list[str]:
-    """The names of the programs that take part, in the order in which they first do."""
-    return list(dict.fromkeys(name for step in steps for name in (step.call.caller, step.call.server) if name))
-
-
-def events_of(steps: Sequence[Step]) -> list[Event]:
-    """All events in the order of their times; those of one call at the same time stay together."""
-    timed = [each for step in steps for each in _events(step)]
-    return [event for _, event in sorted(timed, key=lambda each: each[0])]
-
-
-def _events(step: Step) -> list[tuple[int, Event]]:
-    """The events of one call with their times (ns)."""
-    call = step.call
-    asked = f"{clock(call.asked)}: {call.service}<br/>{fields(call.request)}"
-    if not call.server:
-        lost = Event("lost", call.caller, text=asked)
-        return [(call.asked, lost), (call.asked, Event("note", call.caller, text="no node received it"))]
-    events = [(call.asked, Event("call", call.caller, call.server, asked))]
-    if step.began is None:
-        return [*events, (call.asked, Event("note", call.server, text="waits: no callback has begun yet"))]
-    waited = step.began - call.received
-    begins = f"{step.callback} begins" + (f", after a wait of {after(0, waited)}" if waited >= SHORT else "")
-    events.append((step.began, Event("activate", call.server)))
-    events.append((step.began, Event("note", call.server, text=begins)))
-    return events + _end(step)
-
-
-def _end(step: Step) -> list[tuple[int, Event]]:
-    call = step.call
-    end = call.answered if call.answered is not None else 2**62
-    events = [
-        Event("note", call.server, text=f"{name} waits {times}, at most {after(0, longest)}")
-        for name, (times, longest) in step.waited.items()
-    ]
-    if call.answered is None:
-        events.append(Event("note", call.server, text="no answer yet"))
-    else:
-        answer = f"{clock(call.answered)}: answer after {after(call.asked, call.answered)}<br/>{fields(call.response)}"
-        events.append(Event("answer", call.server, call.caller, answer))
-    return [(end, event) for event in [*events, Event("deactivate", call.server)]]
 
 
 def _escaped(text: str) -> str:

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import difflib
-import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
-from numbers import Real
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,7 +14,7 @@ from ..ros.rmw.trace import TOPICS
 from . import style
 from .graph import EVERYWHERE, PARAMETER_SERVICES
 from .picture import Picture
-from .recording import NANOSECONDS
+from .recording import NANOSECONDS, nanoseconds
 from .words import count, listed, number, rate
 
 if TYPE_CHECKING:
@@ -32,7 +30,9 @@ LANE, TOP, BOTTOM = 0.40, 0.70, 0.78
 MOST = 24
 """A picture with more lanes than that cannot be read."""
 
-PALE_ORANGE = style.ORANGE + "40"
+HOLDS: dict[str, Any] = {"facecolor": style.GREEN, "edgecolor": style.DARK_GREEN}
+AWAITS: dict[str, Any] = {"facecolor": style.ORANGE + "40", "edgecolor": style.DARK_ORANGE, "hatch": "////"}
+"""The bars of a callback that holds its thread, and of one that leaves it to others."""
 
 
 def plot_timeline(trace: Any, node: Any, *rows: str, since: float | None = None, until: float | None = None) -> Picture:
@@ -78,7 +78,10 @@ def _draw(lanes: list[Lane], window: Window) -> Figure:
     axes.set_xlabel("robot time in seconds")
     for place, lane in enumerate(lanes):
         _draw_lane(axes, place, lane)
-        _label(figure, place, lane, height)
+        middle = 1 - (TOP + LANE * (place + 0.5)) / height
+        left, line = 0.2 / WIDTH, 0.075 / height
+        figure.text(left, middle + line, _cut(lane.name, 26), fontsize=8.8, va="center")
+        figure.text(left, middle - line, _cut(lane.about, 30), fontsize=7.4, color=style.INK, va="center")
     _legend(figure, lanes)
     return figure
 
@@ -91,9 +94,7 @@ def _draw_lane(axes: Axes, place: int, lane: Lane) -> None:
         axes.plot([begin], [place + 0.37], color=style.VERMILLION, marker="o", markersize=3.0, zorder=2)
     if len(lane.bars):
         spans = [(begin, end - begin) for begin, end in lane.bars / NANOSECONDS]
-        look: dict[str, Any] = {"facecolors": style.GREEN, "edgecolors": style.DARK_GREEN}
-        if lane.awaits:
-            look = {"facecolors": PALE_ORANGE, "edgecolors": style.DARK_ORANGE, "hatch": "////"}
+        look = AWAITS if lane.awaits else HOLDS
         axes.broken_barh(spans, (place - 0.27, 0.54), linewidth=0.8, zorder=2.5, **look)
     if len(lane.marks):
         colour = style.GREEN if lane.callback else style.BLUE
@@ -110,13 +111,6 @@ def _mark_width(axes: Axes, marks: np.ndarray) -> float:
     return min(1.5, max(0.3, 0.5 * gap))
 
 
-def _label(figure: Figure, place: int, lane: Lane, height: float) -> None:
-    middle = 1 - (TOP + LANE * (place + 0.5)) / height
-    left, line = 0.2 / WIDTH, 0.075 / height
-    figure.text(left, middle + line, _cut(lane.name, 26), fontsize=8.8, va="center")
-    figure.text(left, middle - line, _cut(lane.about, 30), fontsize=7.4, color=style.INK, va="center")
-
-
 def _cut(text: str, most: int) -> str:
     return text if len(text) <= most else f"{text[: most - 1]}…"
 
@@ -126,29 +120,28 @@ def _legend(figure: Figure, lanes: list[Lane]) -> None:
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
 
-    look: dict[str, Any]
     tick: dict[str, Any] = {"linestyle": "none", "marker": "|", "markersize": 9, "markeredgewidth": 1.5}
     wait: dict[str, Any] = {"marker": "o", "markersize": 3, "linestyle": (0, (1.2, 1.2)), "linewidth": 1.6}
-    topics = [lane for lane in lanes if not lane.callback]
-    calls = [lane for lane in lanes if lane.callback]
-    signs: list[Any] = []
-    if any(len(lane.marks) for lane in topics):
-        signs.append(Line2D([], [], color=style.BLUE, label="a message", **tick))
-    if any(len(lane.marks) for lane in calls):
-        signs.append(Line2D([], [], color=style.GREEN, label="a short call", **tick))
-    if any(len(lane.bars) for lane in calls if not lane.awaits):
-        signs.append(Patch(facecolor=style.GREEN, edgecolor=style.DARK_GREEN, label="holds its thread"))
-    if any(len(lane.bars) for lane in calls if lane.awaits):
-        look = {"facecolor": PALE_ORANGE, "edgecolor": style.DARK_ORANGE, "hatch": "////"}
-        signs.append(Patch(label="awaits, thread free", **look))
-    if any(len(lane.waits) for lane in lanes):
-        signs.append(Line2D([], [], color=style.VERMILLION, label="ready, had to wait", **wait))
-    if signs:
-        look = {"frameon": False, "fontsize": 8.0, "handlelength": 1.6, "columnspacing": 1.3}
-        figure.legend(handles=signs, loc="lower left", bbox_to_anchor=(0.02, 0.0), ncols=len(signs), **look)
+    signs: list[tuple[bool, Any]] = [
+        (
+            any(len(lane.marks) for lane in lanes if not lane.callback),
+            Line2D([], [], color=style.BLUE, label="a message", **tick),
+        ),
+        (
+            any(len(lane.marks) for lane in lanes if lane.callback),
+            Line2D([], [], color=style.GREEN, label="a short call", **tick),
+        ),
+        (any(len(lane.bars) for lane in lanes if not lane.awaits), Patch(**HOLDS, label="holds its thread")),
+        (any(len(lane.bars) for lane in lanes if lane.awaits), Patch(**AWAITS, label="awaits, thread free")),
+        (
+            any(len(lane.waits) for lane in lanes),
+            Line2D([], [], color=style.VERMILLION, label="ready, had to wait", **wait),
+        ),
+    ]
+    if shown := [sign for is_there, sign in signs if is_there]:
+        look: dict[str, Any] = {"frameon": False, "fontsize": 8.0, "handlelength": 1.6, "columnspacing": 1.3}
+        figure.legend(handles=shown, loc="lower left", bbox_to_anchor=(0.02, 0.0), ncols=len(shown), **look)
 
-
-# -- lanes ----------------------------------------------------------------------------------------------------------
 
 SHORT = 1_000_000
 """What lasts less (ns) is told as no time: looking at a clock costs a microsecond, a message under way a tenth of this."""
@@ -173,48 +166,34 @@ class Window:
 
 @dataclass(frozen=True)
 class Lane:
-    """One row of a timeline.
-
-    Attributes:
-        name: a topic's full name, or a callback's.
-        about: what stands beneath it, smaller.
-        text: what it shows, as a sentence.
-        marks: when something happened that took no time (ns).
-        bars: from when to when something lasted (ns), one a row.
-        waits: from when to when something was ready and had to wait (ns), one a row.
-        awaits: whether the bars are those of an `async def`, which leaves its thread to others.
-        callback: whether it is one.
-    """
+    """One row of a timeline, for a topic or a callback."""
 
     name: str
     about: str
+    """What stands beneath the name, smaller."""
     text: str
+    """What it shows, as a sentence."""
     marks: np.ndarray
-    bars: np.ndarray
-    waits: np.ndarray
+    """When something happened that took no time, ns."""
+    bars: np.ndarray = field(default_factory=lambda: np.empty((0, 2), np.int64))
+    """From when to when something lasted, ns, one a row."""
+    waits: np.ndarray = field(default_factory=lambda: np.empty((0, 2), np.int64))
+    """From when to when something was ready and had to wait, ns, one a row."""
     awaits: bool = False
+    """Whether the bars are those of an `async def`, which leaves its thread to others."""
     callback: bool = False
-
-
-NOTHING = np.empty((0, 2), np.int64)
 
 
 def window_of(now: int, since: float | None, until: float | None) -> Window:
     """The stretch from `since` to `until` (s). Raises ValueError for what is no time, or no stretch."""
-    begin = 0 if since is None else _time("since", since)
-    end = now if until is None else min(now, _time("until", until))
+    begin = 0 if since is None else max(0, nanoseconds("since", since))
+    end = now if until is None else min(now, nanoseconds("until", until))
     if begin > end:
         raise ValueError(
             f"there is nothing to show from {begin / NANOSECONDS:g} s to {end / NANOSECONDS:g} s: "
             f"robot time is {now / NANOSECONDS:g} s now, and since must come before until"
         )
     return Window(begin, end)
-
-
-def _time(name: str, seconds: Any) -> int:
-    if isinstance(seconds, bool) or not isinstance(seconds, Real) or not math.isfinite(seconds) or seconds < 0:
-        raise ValueError(f"{name} must be a time in seconds since the lesson's start, got {seconds!r}: try {name}=10.0")
-    return round(float(seconds) * NANOSECONDS)
 
 
 def lanes_of(
@@ -243,16 +222,12 @@ def lanes_of(
         elif full in topics:
             lanes.append(_topic_lane(trace, full, window))
         else:
-            raise ValueError(_unknown(full, nodes, sorted(each for each in topics if not is_hidden(each))))
+            visible = sorted(each for each in topics if not is_hidden(each))
+            close = difflib.get_close_matches(full, [*nodes, *visible], 3, 0.6)
+            meant = f"Did you mean {' or '.join(close)}? " if close else ""
+            there = f"There are the nodes {listed(nodes) or 'none'} and the topics {listed(visible) or 'none'}"
+            raise ValueError(f"{full} is neither a topic nor a node that has run here. {meant}{there}.")
     return lanes
-
-
-def _unknown(name: str, nodes: list[str], topics: list[str]) -> str:
-    known = [*nodes, *topics]
-    close = difflib.get_close_matches(name, known, 3, 0.6)
-    meant = f"Did you mean {' or '.join(close)}? " if close else ""
-    there = f"There are the nodes {listed(nodes) or 'none'} and the topics {listed(topics) or 'none'}"
-    return f"{name} is neither a topic nor a node that has run here. {meant}{there}."
 
 
 def _topic_lane(trace: Any, topic: str, window: Window) -> Lane:
@@ -279,7 +254,7 @@ def _topic_lane(trace: Any, topic: str, window: Window) -> Lane:
         text += f", then nothing for {number(silent / NANOSECONDS)} s" if silent > usual else ""
         if times[-1] != times[0]:
             about += f", {number((len(times) - 1) / (times[-1] - times[0]) * NANOSECONDS, 1)} Hz"
-    return Lane(topic, about, f"{text}.", times, NOTHING, NOTHING)
+    return Lane(topic, about, f"{text}.", times)
 
 
 def _callback_lanes(trace: Any, node: str, function: str, window: Window, alive: bool) -> list[Lane]:
@@ -297,17 +272,14 @@ def _callback_lanes(trace: Any, node: str, function: str, window: Window, alive:
     for (name, called_by), callbacks in groups.items():
         runs = np.concatenate([callback.runs(trace.now) for callback in callbacks])
         shown = runs[(runs["ended"] >= window.begin) & (runs["ready"] <= window.end)]
-        waiting = _waiting(callbacks, trace.now, window) if alive else NOTHING
+        # messages and requests that no callback has taken yet
+        arrived = [time for callback in callbacks for time in callback.arrivals or () if alive and time <= window.end]
+        waits = [(time, trace.now) for time in arrived if trace.now - time >= SHORT]
+        waiting = np.array(waits, np.int64).reshape(-1, 2)
         # a node has many services that no node calls
         if len(shown) or len(waiting) or function or callbacks[0].kind != "service":
             lanes.append(_callback_lane(name, called_by, callbacks, shown, waiting, window))
     return lanes
-
-
-def _waiting(callbacks: list[Any], now: int, window: Window) -> np.ndarray:
-    """Since when messages and requests wait that no callback has taken yet, and until now (ns)."""
-    since = [time for callback in callbacks for time in callback.arrivals or () if time <= window.end]
-    return np.array([(time, now) for time in since if now - time >= SHORT], np.int64).reshape(-1, 2)
 
 
 def _callback_lane(
