@@ -8,9 +8,8 @@ import sys
 import pytest
 from interface_cases import write_package
 
-from turtle_lesson.ros.idl import finder
 from turtle_lesson.ros.idl.model import InvalidDefinition
-from turtle_lesson.ros.idl.registry import Registry
+from turtle_lesson.ros.idl.registry import Registry, install_finder, uninstall_finder
 
 DEMO = {
     "msg/Status.msg": "float32 battery\n",
@@ -25,9 +24,9 @@ def registry():
     """A registry of its own, found by import statements during one test."""
     before = set(sys.modules)
     registry = Registry()
-    finder.install(registry)
+    install_finder(registry)
     yield registry
-    finder.uninstall(registry)
+    uninstall_finder(registry)
     for name in set(sys.modules) - before:
         if name.partition(".")[0] in (*registry.packages(), "demo_msgs", "user_msgs"):
             del sys.modules[name]
@@ -136,7 +135,7 @@ def test_a_message_cannot_contain_itself(registry, tmp_path):
 
 def test_installing_twice_changes_nothing(registry):
     before = list(sys.meta_path)
-    finder.install(registry)
+    install_finder(registry)
     assert sys.meta_path == before
 
 
@@ -181,8 +180,8 @@ def test_importing_does_not_load_what_is_slow_to_load():
     code = """
 import turtle_lesson
 before = set(sys.modules)
-from turtle_lesson.ros.idl import finder
-finder.install()
+from turtle_lesson.ros.idl.registry import install_finder, uninstall_finder
+install_finder()
 from geometry_msgs.msg import Twist
 Twist()
 print(sorted({"numpy", "rosbags"} & (set(sys.modules) - before)))

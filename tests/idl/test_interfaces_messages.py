@@ -21,7 +21,6 @@ from interface_cases import (
     write_package,
 )
 
-from turtle_lesson.ros.idl import finder
 from turtle_lesson.ros.idl.message import (
     Array,
     BasicType,
@@ -32,7 +31,7 @@ from turtle_lesson.ros.idl.message import (
     UnboundedString,
 )
 from turtle_lesson.ros.idl.model import InvalidDefinition
-from turtle_lesson.ros.idl.registry import Registry, forget_modules
+from turtle_lesson.ros.idl.registry import Registry, forget_modules, install_finder, uninstall_finder
 
 RECORDED = recorded("interface_messages.json")
 
@@ -198,12 +197,12 @@ def test_two_messages_share_no_defaults():
 
 
 def test_pickle_and_deepcopy(robot):
-    finder.install(robot)
+    install_finder(robot)
     try:
         status = robot.get("robot_controller/msg/TurtleStatus")(x=1.0)
         assert pickle.loads(pickle.dumps(status)) == status
     finally:
-        finder.uninstall(robot)
+        uninstall_finder(robot)
     stamped = PoseStamped()
     again = copy.deepcopy(stamped)
     again.pose.position.x = 1.0

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Hashable
+from importlib.util import find_spec
+from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..ros.idl import finder
-from .ros_detection import real_ros
+from ..learner.story import HERE
+from ..ros.idl.registry import uninstall_finder
 from .views import Views, Widget
 
 if TYPE_CHECKING:
@@ -20,6 +22,14 @@ if TYPE_CHECKING:
 _newest: Robot | None = None
 
 
+def real_ros() -> str:
+    """Where the rclpy of a real ROS 2 is; "" where only the simulated one would be imported. Nothing is imported."""
+    found = find_spec("rclpy")
+    if found is None or found.origin is None:
+        return "nowhere"
+    return "" if Path(found.origin).resolve().is_relative_to(HERE) else found.origin
+
+
 def connect() -> Robot:
     """Join the ROS 2 system that runs here with a hidden node, `/_lab`, and return the `Robot` that shows it.
 
@@ -30,33 +40,25 @@ def connect() -> Robot:
     Raises RuntimeError where no real ROS 2 is sourced, and in a script, which has no event loop that goes on.
     """
     global _newest
-    _check_real_ros()
-    _check_loop()
-    finder.uninstall()  # or what is not installed on the real one would be imported from the simulated one, and not fit
-    from .robot_backend import RobotBackend
-
-    if _newest is not None:
-        _newest.close()
-    _newest = Robot(RobotBackend())
-    return _newest
-
-
-def _check_real_ros() -> None:
     if real_ros() in ("", "nowhere"):
         raise RuntimeError(
             "there is no real ROS 2 here to connect to, only the simulated one. In a terminal: source "
             "/opt/ros/jazzy/setup.bash (or that of your release), and start Jupyter from there. In the simulated world "
             "you get the same widgets from: from turtle_lesson import start; lesson = start()"
         )
-
-
-def _check_loop() -> None:
     try:
         asyncio.get_running_loop()
     except RuntimeError:
         raise RuntimeError(
             "connect() needs a notebook, whose event loop receives the messages; in a script use rclpy itself"
         ) from None
+    uninstall_finder()  # or what is not installed on the real one would be imported from the simulated one, and not fit
+    from .robot_backend import RobotBackend
+
+    if _newest is not None:
+        _newest.close()
+    _newest = Robot(RobotBackend())
+    return _newest
 
 
 class Robot(Views):

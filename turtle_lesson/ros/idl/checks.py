@@ -15,7 +15,7 @@ import os
 from array import array
 from collections import UserList, UserString
 from collections.abc import Callable, Collection, Sequence, Set
-from math import inf, isinf
+from math import isinf
 from struct import Struct
 from typing import Any
 
@@ -135,10 +135,15 @@ def integer_check(name: str, base: str) -> Check:
 
 def bool_check(name: str) -> Check:
     """Check of a bool field."""
+    return _as_given(bool, f"The '{name}' field must be of type 'bool'", "write True or False")
 
-    def check(value: Any) -> bool:
-        if not isinstance(value, bool):
-            raise refusal(f"The '{name}' field must be of type 'bool'", f"Got {shown(value)}; write True or False")
+
+def _as_given(kind: type, text: str, hint: str) -> Check:
+    """Check of a value that is stored as it is, and has to be of a kind."""
+
+    def check(value: Any) -> Any:
+        if not isinstance(value, kind):
+            raise refusal(text, f"Got {shown(value)}; {hint}")
         return value
 
     return check
@@ -158,20 +163,16 @@ def byte_check(name: str) -> Check:
 
 def string_check(name: str, bound: int | None) -> Check:
     """Check of a string field, bounded or not."""
-    limit = inf if bound is None else bound
+    if bound is None:
+        return _as_given(str, f"The '{name}' field must be of type 'str'", "str(...) makes a text")
 
     def check(value: Any) -> str:
-        if not isinstance(value, str):
-            raise refusal(f"The '{name}' field must be of type 'str'", f"Got {shown(value)}; str(...) makes a text")
-        return value
-
-    def check_bounded(value: Any) -> str:
-        if not (isinstance(value, str | UserString) and len(str(value)) <= limit):
+        if not (isinstance(value, str | UserString) and len(str(value)) <= bound):
             text = f"The '{name}' field must be string value not longer than {bound}"
             raise refusal(text, f"Got {shown(value)}")
         return str(value) if isinstance(value, UserString) else value
 
-    return check if bound is None else check_bounded
+    return check
 
 
 def message_check(name: str, message_class: type) -> Check:
@@ -203,7 +204,7 @@ def list_check(name: str, type_: FieldType, element_class: type) -> Check:
                 return value
             if all(map(is_element, value)):
                 return value
-        raise refusal(_collection_text(name, type_, element_class.__name__), _culprit(value, is_element))
+        raise _no_collection(name, type_, element_class, value, is_element)
 
     return check
 
@@ -217,14 +218,20 @@ def sequence_check(name: str, type_: FieldType) -> Check:
 
     def check(value: Any) -> array[Any]:
         if isinstance(value, array):
-            return _check_array(name, type_, code, value)
+            text = f"The '{name}' array.array() must have "
+            if value.typecode != code:
+                note = f"Got the type code '{value.typecode}'; write array.array('{code}', [...])"
+                raise refusal(f"{text}the type code of '{code}'", note)
+            if not _fits(type_, len(value)):
+                raise refusal(f"{text}a size <= {type_.size}", f"Got a size of {len(value)}")
+            return value
         if _is_collection(value) and _fits(type_, len(value)):
             quick = _quick_array(code, value) if set(map(type, value)) <= allowed else None
             if quick is not None:
                 return quick
             if all(map(is_element, value)):
                 return array(code, value)
-        raise refusal(_collection_text(name, type_, number.__name__), _culprit(value, is_element))
+        raise _no_collection(name, type_, number, value, is_element)
 
     return check
 
@@ -248,7 +255,7 @@ def numpy_check(name: str, type_: FieldType) -> Check:
             return value
         if _is_collection(value) and len(value) == type_.size and all(map(is_element, value)):
             return numpy.array(list(value), dtype=dtype)
-        raise refusal(_collection_text(name, type_, number.__name__), _culprit(value, is_element))
+        raise _no_collection(name, type_, number, value, is_element)
 
     return check
 
@@ -272,15 +279,6 @@ def numpy_constructor(name: str, type_: FieldType) -> Check:
 def numpy_name(base: str) -> str:
     """numpy's name of a primitive type: char is a uint8."""
     return "uint8" if base == "char" else base
-
-
-def _check_array(name: str, type_: FieldType, code: str, value: array[Any]) -> array[Any]:
-    if value.typecode != code:
-        text = f"The '{name}' array.array() must have the type code of '{code}'"
-        raise refusal(text, f"Got the type code '{value.typecode}'; write array.array('{code}', [...])")
-    if type_.is_bounded and type_.size is not None and len(value) > type_.size:
-        raise refusal(f"The '{name}' array.array() must have a size <= {type_.size}", f"Got a size of {len(value)}")
-    return value
 
 
 def _quick_array(code: str, value: Collection[Any]) -> array[Any] | None:
@@ -314,28 +312,24 @@ def _fits(type_: FieldType, length: int) -> bool:
     return length == type_.size if type_.is_fixed else length <= type_.size
 
 
-def _collection_text(name: str, type_: FieldType, element: str) -> str:
+def _no_collection(
+    name: str, type_: FieldType, element: type, value: Any, is_element: Callable[[Any], bool]
+) -> AssertionError:
+    """The refusal of a collection, with what is wrong: its kind, one of its elements, or else its length."""
     words = [f"The '{name}' field must be a set or sequence"]
     if type_.size is not None:
         words.append(f"with length {type_.size}" if type_.is_fixed else f"with length <= {type_.size}")
     if type_.string_bound is not None:
         words.append(f"and each string value not longer than {type_.string_bound}")
-    words.append(f"and each value of type '{element}'")
+    words.append(f"and each value of type '{element.__name__}'")
     if type_.base in FLOAT_BOUNDS:
         bound = FLOAT_BOUNDS[type_.base]
         words.append(f"and each {FLOAT_WORDS[type_.base]} in [{-bound:f}, {bound:f}]")
     elif type_.base in TYPE_CODES:
         low, high = integer_bounds(type_.base)
         words.append(f"and each {'integer' if low else 'unsigned integer'} in [{low}, {high}]")
-    return " ".join(words)
-
-
-def _culprit(value: Any, is_element: Callable[[Any], bool]) -> str:
-    """Say what is wrong with a refused collection: its kind, one of its elements, or else its length."""
-    if not _is_collection(value):
-        hint = "; .tolist() makes a list of it" if hasattr(value, "tolist") else ""
-        return f"Got {shown(value)}{hint}"
-    for index, element in enumerate(value):
-        if not is_element(element):
-            return f"Element {index} is {shown(element)}"
-    return f"Got {len(value)} elements"
+    note = f"Got {shown(value)}" + ("; .tolist() makes a list of it" if hasattr(value, "tolist") else "")
+    if _is_collection(value):
+        wrong = (f"Element {index} is {shown(each)}" for index, each in enumerate(value) if not is_element(each))
+        note = next(wrong, f"Got {len(value)} elements")
+    return refusal(" ".join(words), note)

@@ -24,7 +24,7 @@ from typing import Any, NamedTuple
 
 from greenlet import getcurrent
 
-from ..idl import finder
+from ..idl.registry import install_finder, uninstall_finder
 from ..sim import interrupts
 from ..sim.strand import Strand
 from . import (
@@ -217,7 +217,7 @@ TABLE: tuple[Patch, ...] = (
 )
 
 FINDERS: tuple[tuple[Callable[[], object], Callable[[], object], Stage], ...] = (
-    (finder.install, finder.uninstall, Stage.IMPORT),
+    (install_finder, uninstall_finder, Stage.IMPORT),
     (
         lambda: sys.meta_path.insert(0, ProgramFinder),
         lambda: sys.meta_path.remove(ProgramFinder),
