@@ -84,7 +84,7 @@ def test_presets_are_found_by_short_key() -> None:
     ],
 )
 def test_which_profiles_the_graph_connects(offered: dict[str, Any], requested: dict[str, Any], together: bool) -> None:
-    refusal = profile(**offered).quality().refusal(profile(**requested).quality())
+    refusal = profile(**offered).quality("publisher").refusal(profile(**requested).quality("subscription"))
     assert (refusal is None) == together
 
 

@@ -15,7 +15,7 @@ from .event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks, 
 from .exceptions import RCLError, not_valid
 from .guard_condition import GuardCondition
 from .publisher import Publisher
-from .qos import QoSProfile, checked_profile, qos_profile_services_default, usable_quality
+from .qos import QoSProfile, checked_profile, qos_profile_services_default
 from .service import Service
 from .subscription import Subscription
 from .timer import Rate, Timer, period_ns
@@ -74,7 +74,7 @@ class NodeEntities(NodeGraph):
         callbacks = checked_callbacks(event_callbacks, PublisherEventCallbacks)
         full_name = self._ros_full_name_of(topic)
         profile = checked_profile(qos_profile)
-        quality = usable_quality(profile, "publisher")
+        quality = profile.quality("publisher")
         type_support.check_is_valid_msg_type(msg_type)
         self._ros_check_one_type("publisher", full_name, msg_type)
         kind = msg_type if isinstance(msg_type, type) else type(msg_type)
@@ -110,7 +110,7 @@ class NodeEntities(NodeGraph):
         callbacks = checked_callbacks(event_callbacks, SubscriptionEventCallbacks)
         full_name = self._ros_full_name_of(topic)
         profile = checked_profile(qos_profile)
-        quality = usable_quality(profile, "subscription")
+        quality = profile.quality("subscription")
         type_support.check_is_valid_msg_type(msg_type)
         self._ros_check_one_type("subscription", full_name, msg_type)
         reader = self._ros_graph.add_reader(self._ros_entry, full_name, msg_type._TYPE_NAME, quality)

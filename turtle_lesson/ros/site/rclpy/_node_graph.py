@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import zlib
+from collections.abc import Iterable
 from typing import Any
 
 from turtle_lesson.ros.rmw.graph import NodeEntry
@@ -137,11 +138,13 @@ class NodeGraph:
 
     def get_service_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
         """The services that a node offers. Raises NodeNameNonExistentError."""
-        return _types_by_service(self._ros_entry_of("service", node_name, node_namespace).servers)
+        ends = self._ros_entry_of("service", node_name, node_namespace).servers
+        return _types_by_name((end.name, end.type_name) for end in ends)
 
     def get_client_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
         """The services that a node is a client of. Raises NodeNameNonExistentError."""
-        return _types_by_service(self._ros_entry_of("client", node_name, node_namespace).clients)
+        ends = self._ros_entry_of("client", node_name, node_namespace).clients
+        return _types_by_name((end.name, end.type_name) for end in ends)
 
     def get_action_names_and_types(self) -> NamesAndTypes:
         """All actions, with their types (newer releases)."""
@@ -214,18 +217,16 @@ def _check_text(name: object, is_service: bool) -> None:
 
 
 def _types_by_topic(ends: list[Any]) -> NamesAndTypes:
-    found: dict[str, set[str]] = {}
-    for end in ends:
-        for other, type_name in [*end.topic.writers, *end.topic.readers]:
-            if other is end:
-                found.setdefault(end.topic.name, set()).add(type_name)
-    return [(name, sorted(types)) for name, types in sorted(found.items())]
+    """The topics of some publishers or subscriptions, of which the topics know the types."""
+    topics = {end.topic: None for end in ends}
+    pairs = [pair for topic in topics for pair in (*topic.writers, *topic.readers)]
+    return _types_by_name((end.topic.name, type_name) for end, type_name in pairs if end in ends)
 
 
-def _types_by_service(ends: list[Any]) -> NamesAndTypes:
+def _types_by_name(pairs: Iterable[tuple[str, str]]) -> NamesAndTypes:
     found: dict[str, set[str]] = {}
-    for end in ends:
-        found.setdefault(end.name, set()).add(end.type_name)
+    for name, type_name in pairs:
+        found.setdefault(name, set()).add(type_name)
     return [(name, sorted(types)) for name, types in sorted(found.items())]
 
 

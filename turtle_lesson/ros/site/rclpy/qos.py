@@ -44,12 +44,6 @@ class _OldName:
         return kind[self._name]
 
 
-def _with_old_names(kind: Any, prefix: str) -> None:
-    for policy in list(kind):
-        old = f"RMW_QOS_POLICY_{prefix}_{policy.name}"
-        setattr(kind, old, _OldName(old, policy.name))
-
-
 class HistoryPolicy(QoSPolicyEnum):
     """How many messages a queue keeps."""
 
@@ -86,13 +80,10 @@ class LivelinessPolicy(QoSPolicyEnum):
     UNKNOWN = 4
 
 
-for _kind, _prefix in (
-    (HistoryPolicy, "HISTORY"),
-    (ReliabilityPolicy, "RELIABILITY"),
-    (DurabilityPolicy, "DURABILITY"),
-    (LivelinessPolicy, "LIVELINESS"),
-):
-    _with_old_names(_kind, _prefix)
+for _kind in (HistoryPolicy, ReliabilityPolicy, DurabilityPolicy, LivelinessPolicy):
+    for _policy in list(_kind):
+        _old = f"RMW_QOS_POLICY_{_kind.__name__.removesuffix('Policy').upper()}_{_policy.name}"
+        setattr(_kind, _old, _OldName(_old, _policy.name))
 
 
 class QoSPolicyKind(IntEnum):
@@ -208,9 +199,18 @@ class QoSProfile:
 
     __str__ = __repr__
 
-    def quality(self) -> Quality:
-        """What of this profile decides about delivery in the simulated graph."""
+    def quality(self, what: str) -> Quality:
+        """What of this profile decides about delivery. Raises RCLError if no publisher or subscription (`what`) can have it."""
         policies = vars(self)
+        unknown = [name for name in _MEANT if policies[name].name == "UNKNOWN"]
+        past = [name for name, value in policies.items() if isinstance(value, Duration) and value.nanoseconds < 0]
+        if unknown:
+            reason = f"the policy {unknown[0]} of its QoS profile is UNKNOWN, which stands for none: choose one"
+            raise RCLError(f"Failed to create {what}: {reason}")
+        if past:
+            raise RCLError(
+                f"Failed to create {what}: the {past[0]} of its QoS profile is negative: {policies[past[0]]}"
+            )
         keep_all = policies["history"] == HistoryPolicy.KEEP_ALL
         return Quality(
             depth=None if keep_all else max(1, policies["depth"]),
@@ -247,20 +247,6 @@ def _expectation(name: str, kind: type, value: object) -> str:
         close = [word for word in words if str(value).upper().endswith(word.rpartition(".")[2])]
         example = (close or words)[0]
     return f"QoS policy {name!r} must be of type {kind.__name__}, got {value!r}: try {name}={example}"
-
-
-def usable_quality(profile: QoSProfile, what: str) -> Quality:
-    """What a profile means for delivery. Raises RCLError where no publisher or subscription (`what`) can be made of it."""
-    policies = vars(profile)
-    unknown = [name for name in _MEANT if policies[name].name == "UNKNOWN"]
-    past = [name for name, value in policies.items() if isinstance(value, Duration) and value.nanoseconds < 0]
-    if unknown:
-        reason = f"the policy {unknown[0]} of its QoS profile is UNKNOWN, which stands for none: choose one"
-    elif past:
-        reason = f"the {past[0]} of its QoS profile is negative: {policies[past[0]]}"
-    else:
-        return profile.quality()
-    raise RCLError(f"Failed to create {what}: {reason}")
 
 
 def checked_profile(profile: Any) -> QoSProfile:
