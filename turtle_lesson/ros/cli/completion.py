@@ -17,7 +17,6 @@ from .. import launching
 from ..idl.names import is_hidden
 from ..idl.registry import registry
 from ..runtime.world import current_world
-from .arguments import Parser
 from .cells import COMMANDS, inner_places
 from .group_pkg import package_names
 from .jobs import jobs
@@ -78,35 +77,21 @@ def _colcon(words: Sequence[str]) -> list[str]:
 
 def _arguments(world: World, verb: Verb, words: list[str], begun: str) -> Iterable[str]:
     parser = verb.parser
-    if begun.startswith("-"):
+    given: list[str] = []  # the words that are neither options nor their values
+    option: argparse.Action | None = None  # the option that the next word is the value of
+    for word in words:
+        if word.startswith("-"):
+            option = next((each for each in parser.actions if word in each.option_strings and each.nargs != 0), None)
+        else:
+            given += [word] if option is None else []
+            option = None
+    places = [action for action in parser.actions if not action.option_strings]
+    is_full = len(given) >= len(places) and (not places or places[-1].nargs not in ("*", "+", argparse.REMAINDER))
+    if begun.startswith("-") or (option is None and is_full):
         return parser.option_names()
-    option = _waiting_option(parser, words)
     if option is not None:
         return _values(world, option, words, begun)
-    given = _positional(parser, words)
-    places = [action for action in parser.actions if not action.option_strings]
-    if not places:
-        return parser.option_names()
-    place = places[min(len(given), len(places) - 1)]
-    if len(given) >= len(places) and place.nargs not in ("*", "+", argparse.REMAINDER):
-        return parser.option_names()
-    return _values(world, place, given, begun)
-
-
-def _waiting_option(parser: Parser, words: Sequence[str]) -> argparse.Action | None:
-    """The option that the next word is the value of."""
-    if not words or not words[-1].startswith("-"):
-        return None
-    return next((a for a in parser.actions if words[-1] in a.option_strings and a.nargs != 0), None)
-
-
-def _positional(parser: Parser, words: Sequence[str]) -> list[str]:
-    """The words that are neither options nor their values."""
-    given: list[str] = []
-    for place, word in enumerate(words):
-        if not word.startswith("-") and _waiting_option(parser, words[:place]) is None:
-            given.append(word)
-    return given
+    return _values(world, places[min(len(given), len(places) - 1)], given, begun)
 
 
 def _values(world: World, action: argparse.Action, given: Sequence[str], begun: str) -> Iterable[str]:

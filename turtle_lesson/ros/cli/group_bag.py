@@ -100,16 +100,8 @@ READER = (
 
 @verb(
     "bag record",
-    "Record published messages in a bag",
     arg("topics", "The topics to record", nargs="*", default=[]),
-    arg(
-        "--topics",
-        "The same, as newer releases spell it",
-        dest="more_topics",
-        nargs="+",
-        default=[],
-        metavar="topic",
-    ),
+    arg("--topics", "The same, as newer releases spell it", dest="more_topics", nargs="+", default=[], metavar="topic"),
     flag("-a --all --all-topics", "Record all topics but the hidden ones"),
     arg("-e --regex", "Record the topics that match this pattern", default=""),
     arg("-x --exclude --exclude-regex", "Leave out the topics that match this pattern", default=""),
@@ -130,6 +122,7 @@ READER = (
     *_refuse("a bag holds what is published on topics", "--services", "--all-services", "--actions", "--all-actions"),
 )
 def _record(args: Namespace) -> int:
+    """Record published messages in a bag."""
     if problem := _contradiction(args):
         return _error(problem)
     from ..bags.recorder import Selection, checked_names, record
@@ -187,12 +180,13 @@ def _name_by_time() -> str:
 
 @verb(
     "bag info",
-    "Describe what a bag contains",
     *READER,
     flag("-t --topic-name", "Print only the names of the topics"),
     *_refuse("there are no further details of a bag", "-v --verbose", "--sort"),
 )
 def _info(args: Namespace) -> int:
+    """Describe what a bag contains."""
+
     from ..bags.bag import info_text, open_bag
 
     try:
@@ -205,7 +199,6 @@ def _info(args: Namespace) -> int:
 
 @verb(
     "bag play",
-    "Publish recorded messages again",
     *READER,
     arg("-r --rate", "How many times as fast as recorded", type=positive_rate, default=1.0),
     arg("--topics", "Play only these topics", nargs="+", default=[]),
@@ -231,6 +224,8 @@ def _info(args: Namespace) -> int:
     *_refuse("say how far to play with --playback-duration", "--playback-until-sec", "--playback-until-nsec"),
 )
 def _play(args: Namespace) -> int:
+    """Publish recorded messages again."""
+
     from ..bags.bag import open_bag
     from ..bags.player import Playback, parse_remaps, play
 
@@ -262,8 +257,10 @@ def _play(args: Namespace) -> int:
     return 1 if bag.damage else 0
 
 
-@verb("bag reindex", "Rebuild a bag's lost metadata.yaml", *READER)
+@verb("bag reindex", *READER)
 def _reindex(args: Namespace) -> int:
+    """Rebuild a bag's lost metadata.yaml."""
+
     from ..bags.bag import METADATA, reindex
 
     folder = Path(args.bag_path).expanduser()
@@ -289,7 +286,7 @@ def _all_words(parser: ArgumentParser) -> None:
 def _not_here(name: str, reason: str) -> None:
     """Add a verb of the real tool that is not here."""
 
-    @verb(f"bag {name}", f"Not available in this simulation: {reason}", _all_words)
+    @verb(f"bag {name}", _all_words, help_text=f"Not available in this simulation: {reason}")
     def work(args: Namespace) -> int:
         print(f"ros2 bag {name}: not available in this simulation: {reason}. A real ROS 2 has it.", file=sys.stderr)
         return 2

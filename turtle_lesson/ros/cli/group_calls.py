@@ -109,22 +109,18 @@ def _outcome(
 add_type_and_find("service", "srv", SERVICES, services)
 
 
-@verb(
-    "service list",
-    "The names of the services that are offered",
-    flag("-t --show-types", "Show each service's type beside it"),
-    *list_arguments("service"),
-)
+@verb("service list", flag("-t --show-types", "Show each service's type beside it"), *list_arguments("service"))
 def list_services(args: Namespace) -> None:
-    """`ros2 service list`."""
+    """The names of the services that are offered."""
     print_names("service", services, args)
 
 
-@verb(
-    "service info", "A service's type, and how many servers and clients it has", name_argument("service", SERVICES[0])
-)
+@verb("service info", name_argument("service", SERVICES[0]))
 def service_info(args: Namespace) -> None:
-    """`ros2 service info`, which Humble lacks and newer releases have."""
+    """A service's type, and how many servers and clients it has.
+
+    Humble lacks this verb, and newer releases have it.
+    """
     with direct_node(args) as node:
         name = args.service_name
         types = types_of("service", name, services(node, include_hidden=True))
@@ -137,7 +133,6 @@ def service_info(args: Namespace) -> None:
 
 @verb(
     "service call",
-    "Call a service and print its answer",
     arg("service_name", "Name of the service, such as /spawn"),
     arg("service_type", "Its type, such as turtlesim/srv/Spawn"),
     arg("values", "Values for the request's fields, in YAML", nargs="?", default="{}"),
@@ -145,7 +140,7 @@ def service_info(args: Namespace) -> None:
     duration(),
 )
 def call(args: Namespace) -> None:
-    """`ros2 service call`."""
+    """Call a service and print its answer."""
     kind = class_of(args.service_type, "srv")
     values = read_yaml(args.values)
     package, _, base = kind._TYPE_NAME.replace("/srv/", "/").partition("/")
@@ -190,26 +185,23 @@ def actions(node: Node, include_hidden: bool = False) -> dict[str, list[str]]:
 add_type_and_find("action", "action", ACTIONS, actions)
 
 
-@verb(
-    "action list",
-    "The names of the actions that nodes offer or use",
-    flag("-t --show-types", "Show each action's type beside it"),
-    *list_arguments("action"),
-)
+@verb("action list", flag("-t --show-types", "Show each action's type beside it"), *list_arguments("action"))
 def list_actions(args: Namespace) -> None:
-    """`ros2 action list`."""
+    """The names of the actions that nodes offer or use."""
     print_names("action", actions, args)
 
 
 @verb(
     "action info",
-    "Which nodes offer and use an action",
     arg("action_name", f"Name of the action, such as {ACTIONS[0]}"),
     flag("-t --show-types", "Also show each node's type of the action"),
     flag("-c --count", "Print only how many clients and servers there are"),
 )
 def action_info(args: Namespace) -> None:
-    """`ros2 action info`. Of an action that does not exist the real one says that no node offers or uses it."""
+    """Which nodes offer and use an action.
+
+    Of an action that does not exist the real one says that no node offers or uses it.
+    """
     with direct_node(args) as node:
         name = expanded(node, args.action_name)
         known = actions(node)
@@ -236,7 +228,6 @@ def _ends(node: Node, action: str, role: str) -> list[tuple[str, list[str]]]:
 
 @verb(
     "action send_goal",
-    "Send a goal and print its outcome",
     arg("action_name", f"Name of the action, such as {ACTIONS[0]}"),
     arg("action_type", f"Its type, such as {ACTIONS[1]}"),
     arg("values", "Values for the goal's fields, in YAML", metavar="goal"),
@@ -244,7 +235,8 @@ def _ends(node: Node, action: str, role: str) -> list[tuple[str, list[str]]]:
     duration(f"Cancel the goal after this many seconds of robot time (default: {LONGEST_ANSWER:g}; only here)"),
 )
 def send_goal(args: Namespace) -> None:
-    """`ros2 action send_goal`."""
+    """Send a goal and print its outcome."""
+
     from rosidl_runtime_py.convert import message_to_yaml
 
     kind = class_of(args.action_type, "action")

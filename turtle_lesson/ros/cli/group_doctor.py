@@ -24,12 +24,12 @@ CHECKS = 2
 
 @verb(
     "doctor",
-    "Describe this simulation, what is running, and what looks wrong",
     flag("-r --report", "also list nodes, topics, services and jobs"),
     flag("-rf --report-failed", "accepted: only failed checks are printed anyway"),
     flag("-iw --include-warnings", "count warnings as failures"),
 )
 def _doctor(args: Namespace) -> int:
+    """Describe this simulation, what is running, and what looks wrong."""
     with direct_node() as node:
         _introduce(node)
         if args.report:
@@ -98,21 +98,24 @@ class _Daemon:
     running: bool = True
 
 
-@verb("daemon start", "Start the daemon", in_cell=True)
+@verb("daemon start", in_cell=True)
 def _start(args: Namespace) -> None:
+    """Start the daemon."""
     daemon = current_world().notebook.state(_Daemon)
     print("The daemon is already running" if daemon.running else "The daemon has been started")
     daemon.running = True
 
 
-@verb("daemon status", "Show whether the daemon is running", in_cell=True)
+@verb("daemon status", in_cell=True)
 def _status(args: Namespace) -> None:
+    """Show whether the daemon is running."""
     daemon = current_world().notebook.state(_Daemon)
     print("The daemon is running" if daemon.running else "The daemon is not running")
 
 
-@verb("daemon stop", "Stop the daemon", in_cell=True)
+@verb("daemon stop", in_cell=True)
 def _stop(args: Namespace) -> None:
+    """Stop the daemon."""
     daemon = current_world().notebook.state(_Daemon)
     print("The daemon has been stopped" if daemon.running else "The daemon is not running")
     daemon.running = False

@@ -37,8 +37,9 @@ def _of_kind(kind: str) -> dict[str, list[str]]:
     return getters[kind]()
 
 
-@verb("interface list", "List all interfaces", *KINDS, in_cell=True)
+@verb("interface list", *KINDS, in_cell=True)
 def _list(args: Namespace) -> None:
+    """List all interfaces."""
     for kind, title in TITLES.items():
         if args.kinds is None or kind in args.kinds:
             print(f"{title}:")
@@ -47,8 +48,9 @@ def _list(args: Namespace) -> None:
                     print(f"    {package}/{name}")
 
 
-@verb("interface packages", "List the packages that have interfaces", *KINDS, in_cell=True)
+@verb("interface packages", *KINDS, in_cell=True)
 def _packages(args: Namespace) -> None:
+    """List the packages that have interfaces."""
     for package in sorted({package for kind in args.kinds or TITLES for package in _of_kind(kind)}):
         print(package)
 
@@ -56,8 +58,10 @@ def _packages(args: Namespace) -> None:
 _PACKAGE = arg("package_name", "name of the package")
 
 
-@verb("interface package", "List the interfaces of a package", _PACKAGE, in_cell=True)
+@verb("interface package", _PACKAGE, in_cell=True)
 def _package(args: Namespace) -> None:
+    """List the interfaces of a package."""
+
     from rosidl_runtime_py import get_interfaces
 
     _check_package(args.package_name)
@@ -99,7 +103,6 @@ def _where_is(base: str) -> str:
 
 @verb(
     "interface show",
-    "Print the definition of an interface",
     TYPE,
     either(
         flag("--all-comments", "also show the comments of nested types"),
@@ -108,6 +111,7 @@ def _where_is(base: str) -> str:
     in_cell=True,
 )
 def _show(args: Namespace) -> None:
+    """Print the definition of an interface."""
     _check(args.type)
     package, _, interface = args.type.partition("/")
     read = registry.text if args.no_comments else registry.commented
@@ -163,14 +167,10 @@ def _field_type(package: str, line: str) -> FieldType | None:
 # -- proto ---------------------------------------------------------------------------------------------------------------
 
 
-@verb(
-    "interface proto",
-    "Print an interface with its default values, to fill in",
-    TYPE,
-    flag("--no-quotes", "without the quotation marks around it"),
-    in_cell=True,
-)
+@verb("interface proto", TYPE, flag("--no-quotes", "without the quotation marks around it"), in_cell=True)
 def _proto(args: Namespace) -> None:
+    """Print an interface with its default values, to fill in."""
+
     from rosidl_runtime_py import message_to_yaml
     from rosidl_runtime_py.utilities import get_interface
 

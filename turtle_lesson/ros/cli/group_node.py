@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 TWINS = "WARNING: Be aware that are nodes in the graph that share an exact name, this can have unintended side effects."
 
 
-@verb("node list", "The names of the nodes that are running", *NODE, ALL_NODES, COUNT_NODES)
+@verb("node list", *NODE, ALL_NODES, COUNT_NODES)
 def list_nodes(args: Namespace) -> None:
-    """`ros2 node list`."""
+    """The names of the nodes that are running."""
     with direct_node(args) as node:
         names = node_names(node, include_hidden=args.all)
     if len(set(names)) < len(names) and not args.count_nodes:
@@ -39,13 +39,12 @@ def _print_or_count(names: list[str], args: Namespace) -> None:
 
 @verb(
     "node info",
-    "What a node publishes, subscribes to and offers",
     *NODE,
     arg("node_name", "Full name of the node, such as /turtlesim"),
     flag("--include-hidden", "Also show topics and services with a hidden name"),
 )
 def info(args: Namespace) -> None:
-    """`ros2 node info`."""
+    """What a node publishes, subscribes to and offers."""
     with direct_node(args) as node:
         names = node_names(node, include_hidden=True)
         name, count = args.node_name, names.count(args.node_name)
@@ -96,9 +95,9 @@ def _ask(node: Node, node_name: str, kind: str, service: str, **request: Any) ->
     return ask(node, getattr(lifecycle_msgs.srv, kind), f"{node_name}/{service}", not_there, request)
 
 
-@verb("lifecycle nodes", "The names of the managed nodes", *NODE, ALL_NODES, COUNT_NODES)
+@verb("lifecycle nodes", *NODE, ALL_NODES, COUNT_NODES)
 def nodes(args: Namespace) -> None:
-    """`ros2 lifecycle nodes`."""
+    """The names of the managed nodes."""
     with direct_node(args) as node:
         found = _managed(node, args.all)
     _print_or_count(found, args)
@@ -106,13 +105,12 @@ def nodes(args: Namespace) -> None:
 
 @verb(
     "lifecycle get",
-    "The state that a managed node is in",
     *NODE,
     arg("node_name", "Name of the node; without one, all managed nodes are asked", nargs="?"),
     HIDDEN_NODES,
 )
 def get(args: Namespace) -> None:
-    """`ros2 lifecycle get`."""
+    """The state that a managed node is in."""
     with direct_node(args) as node:
         known = _managed(node, args.include_hidden_nodes)
         if args.node_name:
@@ -130,14 +128,13 @@ def get(args: Namespace) -> None:
 
 @verb(
     "lifecycle list",
-    "The transitions that are possible now",
     *NODE,
     _MANAGED,
     HIDDEN_NODES,
     flag("-a --all", "All transitions, not only those that are possible now"),
 )
 def list_transitions(args: Namespace) -> None:
-    """`ros2 lifecycle list`."""
+    """The transitions that are possible now."""
     with direct_node(args) as node:
         name = find_node(node, args, _managed(node, args.include_hidden_nodes))
         for each in _transitions(node, name, "get_transition_graph" if args.all else "get_available_transitions"):
@@ -152,14 +149,13 @@ def _transitions(node: Node, node_name: str, service: str) -> list[Any]:
 
 @verb(
     "lifecycle set",
-    "Trigger a transition of a managed node",
     *NODE,
     _MANAGED,
     HIDDEN_NODES,
     arg("transition", "Label or number of the transition, such as configure"),
 )
 def set_state(args: Namespace) -> None:
-    """`ros2 lifecycle set`."""
+    """Trigger a transition of a managed node."""
     with direct_node(args) as node:
         name = find_node(node, args)
         possible = [each.transition for each in _transitions(node, name, "get_available_transitions")]

@@ -126,13 +126,13 @@ def with_reason(text: str, result: Any) -> str:
 
 @verb(
     "param dump",
-    "All parameters of a node, in the format that `load` reads",
     *OF_NODE,
     arg("--output-dir", "Deprecated: write a file named after the node into this folder"),
     flag("--print", "Deprecated, and without effect"),
 )
 def dump(args: Namespace) -> None:
-    """`ros2 param dump`."""
+    """All parameters of a node, in the format that `load` reads."""
+
     import yaml
     from rclpy.parameter import parameter_value_to_python
 
@@ -161,13 +161,12 @@ def dump(args: Namespace) -> None:
 
 @verb(
     "param load",
-    "Set parameters from a file",
     *OF_NODE,
     arg("parameter_file", "A file as `ros2 param dump` prints it"),
     flag("--no-use-wildcard", "Leave out what the file says for all nodes (/**)"),
 )
 def load(args: Namespace) -> None:
-    """`ros2 param load`."""
+    """Set parameters from a file."""
     with direct_node(args) as node:
         name = find_node(node, args)
         parameters = _read_file(args.parameter_file, name, wildcard=not args.no_use_wildcard)
@@ -225,7 +224,6 @@ LIST_PATIENCE = 1.0
 
 @verb(
     "param list",
-    "The names of the parameters",
     *NODE,
     arg("node_name", "Name of the node, such as /turtlesim", nargs="?"),
     HIDDEN_NODES,
@@ -234,7 +232,11 @@ LIST_PATIENCE = 1.0
     arg("--filter", "Only names whose beginning this regular expression matches", metavar="FILTER"),
 )
 def list_parameters(args: Namespace) -> None:
-    """`ros2 param list`. A node of which nothing is listed is left out (ros2param/verb/list.py)."""
+    """The names of the parameters.
+
+    A node of which nothing is listed is left out (ros2param/verb/list.py).
+    """
+
     import re
 
     try:
@@ -274,9 +276,9 @@ def _ask_all(node: Node, names: list[str], prefixes: list[str]) -> list[tuple[st
 # -- get, set, delete, describe ----------------------------------------------------------------------------------
 
 
-@verb("param get", "A parameter's value", *OF_NODE, PARAMETER, flag("--hide-type", "Print only the value"))
+@verb("param get", *OF_NODE, PARAMETER, flag("--hide-type", "Print only the value"))
 def get(args: Namespace) -> None:
-    """`ros2 param get`."""
+    """A parameter's value."""
     with direct_node(args) as node:
         name = find_node(node, args)
         values = _ask(node, name, "GetParameters", names=[args.parameter_name]).values
@@ -289,21 +291,16 @@ def get(args: Namespace) -> None:
     print(*([] if args.hide_type else [label]), getattr(values[0], field))
 
 
-@verb(
-    "param set",
-    "Change a parameter",
-    *OF_NODE,
-    PARAMETER,
-    arg("value", "Its new value, in YAML: 1.5, true, fast, '[1, 2]'"),
-)
+@verb("param set", *OF_NODE, PARAMETER, arg("value", "Its new value, in YAML: 1.5, true, fast, '[1, 2]'"))
 def set_parameter(args: Namespace) -> None:
-    """`ros2 param set`."""
+    """Change a parameter."""
     _change(args, lambda: from_text(args.value), "Set parameter successful", "Setting parameter failed")
 
 
-@verb("param delete", "Delete a parameter", *OF_NODE, PARAMETER)
+@verb("param delete", *OF_NODE, PARAMETER)
 def delete(args: Namespace) -> None:
-    """`ros2 param delete`."""
+    """Delete a parameter."""
+
     from rcl_interfaces.msg import ParameterValue
 
     _change(args, ParameterValue, "Deleted parameter successfully", "Deleting parameter failed")
@@ -323,14 +320,12 @@ def _change(args: Namespace, value: Callable[[], Any], done: str, failed: str) -
             print(hint, file=sys.stderr)
 
 
-@verb(
-    "param describe",
-    "What a parameter is for, its type and limits",
-    *OF_NODE,
-    arg("parameter_names", "Names of the parameters", nargs="+"),
-)
+@verb("param describe", *OF_NODE, arg("parameter_names", "Names of the parameters", nargs="+"))
 def describe(args: Namespace) -> None:
-    """`ros2 param describe`. If one of the parameters is unknown the real one says nothing, of any of them."""
+    """What a parameter is for, its type and limits.
+
+    If one of the parameters is unknown the real one says nothing, of any of them.
+    """
     with direct_node(args) as node:
         name = find_node(node, args)
         descriptors = _ask(node, name, "DescribeParameters", names=args.parameter_names).descriptors

@@ -56,20 +56,16 @@ PACKAGE = arg("package_name", "name of the package")
 # -- list, prefix, xml ---------------------------------------------------------------------------------------------------
 
 
-@verb("pkg list", "List the packages that can be found", in_cell=True)
+@verb("pkg list", in_cell=True)
 def _list(args: Namespace) -> None:
+    """List the packages that can be found."""
     for name in package_names():
         print(name)
 
 
-@verb(
-    "pkg prefix",
-    "Print the folder in which a package is installed",
-    PACKAGE,
-    flag("--share", "the folder of its shared files instead"),
-    in_cell=True,
-)
+@verb("pkg prefix", PACKAGE, flag("--share", "the folder of its shared files instead"), in_cell=True)
 def _prefix(args: Namespace) -> None:
+    """Print the folder in which a package is installed."""
     prefix = find_prefix(args.package_name)
     if prefix is None:
         raise CommandError("Package not found", hint_for_package(args.package_name))
@@ -78,14 +74,10 @@ def _prefix(args: Namespace) -> None:
     print(shown_path(str(prefix)))
 
 
-@verb(
-    "pkg xml",
-    "Print the package.xml of a package",
-    PACKAGE,
-    arg("-t --tag", "only this element, such as version"),
-    in_cell=True,
-)
+@verb("pkg xml", PACKAGE, arg("-t --tag", "only this element, such as version"), in_cell=True)
 def _xml(args: Namespace) -> None:
+    """Print the package.xml of a package."""
+
     from xml.etree import ElementTree
 
     packages = current_packages()
@@ -111,12 +103,12 @@ def _xml(args: Namespace) -> None:
 
 @verb(
     "pkg executables",
-    "List the programs of a package",
     arg("package_name", "name of the package; all packages if left out", nargs="?"),
     flag("--full-path", "print the paths of the programs"),
     in_cell=True,
 )
 def _executables(args: Namespace) -> None:
+    """List the programs of a package."""
     packages = current_packages()
     names = packages.names() if args.package_name is None else [args.package_name]
     for name in names:
@@ -138,6 +130,7 @@ def path_of(package: Package, executable: str) -> Path:
 # -- create --------------------------------------------------------------------------------------------------------------
 
 
-@verb("pkg create", "Create a new package", add_create_arguments, in_cell=True)
+@verb("pkg create", add_create_arguments, in_cell=True)
 def _create(args: Namespace) -> int:
+    """Create a new package."""
     return create_package(args, cwd=Path.cwd(), stdout=sys.stdout, stderr=sys.stderr)

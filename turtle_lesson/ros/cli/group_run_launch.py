@@ -48,7 +48,6 @@ def _words(name: str, text: str, nargs: str) -> Argument:
 
 @verb(
     "run",
-    "Start a program of a package",
     arg("--prefix", "a program to run it with: accepted, but without effect here"),
     duration(LET_PASS.format("ros2 run"), positive_float),
     arg("package_name", "package that the program belongs to"),
@@ -57,6 +56,7 @@ def _words(name: str, text: str, nargs: str) -> Argument:
     in_cell=True,
 )
 def _run(args: Namespace) -> int:
+    """Start a program of a package."""
     world = current_world()
     name = args.executable_name
     if args.package_name not in world.packages:
@@ -112,7 +112,6 @@ NOTHING = "accepted, but without effect here"
 
 @verb(
     "launch",
-    "Start everything that a launch file describes",
     flag("-n --noninteractive", NOTHING),
     flag("-d --debug", NOTHING),
     either(
@@ -133,6 +132,7 @@ NOTHING = "accepted, but without effect here"
     in_cell=True,
 )
 def _launch(args: Namespace) -> int:
+    """Start everything that a launch file describes."""
     world = current_world()
     try:
         path, words = _find(args)

@@ -50,7 +50,6 @@ PRESET = "system_default"
 
 @verb(
     "topic pub",
-    "Publish a message on a topic",
     arg("topic_name", "Name of the topic, such as /turtle1/cmd_vel"),
     arg("message_type", "Type of the message, such as geometry_msgs/msg/Twist"),
     arg("values", "Values for its fields, in YAML, as in '{data: hello}'", nargs="?", default="{}"),
@@ -78,7 +77,7 @@ PRESET = "system_default"
     duration(),
 )
 def pub(args: Namespace) -> None:
-    """`ros2 topic pub`."""
+    """Publish a message on a topic."""
     profile = profile_of(args, PRESET, reliability="reliable", durability="transient_local", history="keep_last")
     times = 1 if args.once else args.times
     needed = args.wait_matching_subscriptions
@@ -142,12 +141,7 @@ def _why_too_few(node: Node, publisher: Publisher, needed: int) -> tuple[str, st
 
 
 def _publish(
-    node: Node,
-    publisher: Publisher,
-    message: Any,
-    args: Namespace,
-    times: int,
-    setters: list[Callable[[Any], None]],
+    node: Node, publisher: Publisher, message: Any, args: Namespace, times: int, setters: list[Callable[[Any], None]]
 ) -> None:
     """Publish so many times (0: without end), at a rate."""
     from rclpy.task import Future
@@ -186,14 +180,16 @@ add_type_and_find("topic", "msg", EXAMPLES, topics, *NODE)
 
 @verb(
     "topic list",
-    "The names of the topics that are in use",
     *NODE,
     flag("-t --show-types", "Show each topic's type beside it"),
     *list_arguments("topic"),
     flag("-v --verbose", "Show types, and count publishers and subscriptions"),
 )
 def list_topics(args: Namespace) -> None:
-    """`ros2 topic list`; all that are hidden include those that only the simulation itself subscribes to."""
+    """The names of the topics that are in use.
+
+    With hidden ones, those are included that only the simulation itself subscribes to.
+    """
     with direct_node(args) as node:
         found = topics(node, args.include_hidden_topics, ears=args.include_hidden_topics)
         if args.count_topics:
@@ -215,13 +211,12 @@ def list_topics(args: Namespace) -> None:
 
 @verb(
     "topic info",
-    "A topic's type, its publishers and its subscriptions",
     *NODE,
     name_argument("topic", EXAMPLES[0]),
     flag("--verbose -v", "Show every publisher and subscription, with QoS"),
 )
 def info(args: Namespace) -> None:
-    """`ros2 topic info`."""
+    """A topic's type, its publishers and its subscriptions."""
     with direct_node(args) as node:
         name = args.topic_name
         types = types_of("topic", name, topics(node, include_hidden=True))

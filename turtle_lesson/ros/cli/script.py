@@ -25,20 +25,16 @@ if TYPE_CHECKING:
 # The rules are those of POSIX's shells, without what this simulation leaves out: substitutions, braces and what is
 # between double quotes stay as they are typed, so that `"{x: 5.0}"` needs no care.
 
-_CONTINUED = re.compile(r"\\[ \t]*\n")
-"""A backslash at a line's end. Blanks behind it, which cannot be seen, do no harm here."""
-
-_LAST = re.compile(r"\\[ \t]*\Z")
-"""A backslash at the text's end."""
-
-_HERE = re.compile(r"<<-?[ \t]*(['\"]?)(\w+)\1")
-
 _BETWEEN = re.compile(r"(?:[ \t\r]|\\[ \t]*\n|#[^\n]*)*")
+_HERE = re.compile(r"<<-?[ \t]*(['\"]?)(\w+)\1")
 _OPERATOR = re.compile(r"&&|\|\||>>|2>&1|&>|2>|[;&|><\n]")
-_UNQUOTED = re.compile(r"[^ \t\r\n;&|<>'\"\\]+(?=[ \t\r\n;&|<>]|\Z)")
-"""A word without quotes."""
-
-_WORD_END = " \t\r\n;&|<>"
+_PIECE = re.compile(
+    r"""(?P<plain>[^ \t\r\n;&|<>'"\\]+)|'(?P<single>[^']*)'|"(?P<double>(?:[^"\\]|\\.)*)"
+    |(?P<continued>\\[ \t]*\n)|(?!\\[ \t]*\Z)\\(?P<escaped>.)""",
+    re.DOTALL | re.VERBOSE,
+)
+"""A piece of a word: it ends where quotes begin or end. Blanks behind the backslash at a line's end, which cannot be seen,
+do no harm here."""
 
 
 class UnfinishedError(ValueError):
@@ -114,11 +110,8 @@ def _scan(text: str, at: int = 0, *, one_command: bool = False) -> tuple[list[To
         elif sign := _OPERATOR.match(text, at):
             at = sign.end()
             token = Operator(sign[0])
-        elif word := _UNQUOTED.match(text, at):
-            at = word.end()
-            token = Word(word[0], word[0])
         else:
-            token, at = _word_with_quotes(text, at)
+            token, at = _word(text, at)
         found.append(token)
         if token != Operator("\n"):
             before = token
@@ -127,44 +120,25 @@ def _scan(text: str, at: int = 0, *, one_command: bool = False) -> tuple[list[To
     return found, len(text) - at
 
 
-def _word_with_quotes(text: str, at: int) -> tuple[Word, int]:
+def _word(text: str, at: int) -> tuple[Word, int]:
     """A word, and the place behind it."""
-    plain: list[str] = []
-    pattern: list[str] = []
-    while at < len(text) and text[at] not in _WORD_END:
-        if text[at] in "'\"\\":
-            piece, at = _after_backslash(text, at + 1) if text[at] == "\\" else _quoted(text, at)
-            pattern.append("".join(f"\\{each}" for each in piece) or "\\")
+    plain = pattern = ""
+    while found := _PIECE.match(text, at):
+        at = found.end()
+        if found["plain"]:
+            piece = quoted = found["plain"]
         else:
-            piece, at = text[at], at + 1
-            pattern.append(piece)
-        plain.append(piece)
-    return Word("".join(plain), "".join(pattern)), at
-
-
-def _quoted(text: str, begin: int) -> tuple[str, int]:
-    """The text between two quotes, and the place behind them."""
-    quote, at = text[begin], begin + 1
-    piece: list[str] = []
-    while at < len(text):
-        char = text[at]
-        at += 1
-        if char == quote:
-            return "".join(piece), at
-        if char == "\\" and quote == '"' and text[at : at + 1] in {'"', "\\", "$", "`", "\n"}:
-            char = text[at].replace("\n", "")
-            at += 1
-        piece.append(char)
-    rest = text[begin : begin + 20]
-    raise UnfinishedError(f"the quote {quote} before {rest!r} is never closed: write another {quote} where it ends")
-
-
-def _after_backslash(text: str, at: int) -> tuple[str, int]:
-    if continued := _CONTINUED.match(text, at - 1):
-        return "", continued.end()
-    if _LAST.match(text, at - 1):
+            piece = found["single"] or found["escaped"] or ""
+            if found["double"]:
+                piece = re.sub(r'\\(["\\$`\n])', lambda match: match[1].replace("\n", ""), found["double"])
+            quoted = "".join(f"\\{each}" for each in piece) or "\\"
+        plain, pattern = plain + piece, pattern + quoted
+    if at < len(text) and text[at] == "\\":
         raise BackslashAtEndError("a backslash at the end of a line continues on the next line, and there is none")
-    return text[at], at + 1
+    if at < len(text) and (quote := text[at]) in "'\"":
+        rest = text[at : at + 20]
+        raise UnfinishedError(f"the quote {quote} before {rest!r} is never closed: write another {quote} where it ends")
+    return Word(plain, pattern), at
 
 
 def _here_text(sign: re.Match[str]) -> tuple[HereText, str]:
@@ -198,68 +172,48 @@ class Command:
     background: bool = False
 
 
+TO_STDOUT = Word("&1", "&1")
+
+
 def pipelines(found: Sequence[Token]) -> Iterator[tuple[str, list[Command]]]:
     """The pipelines of a script, each with the sign before it that decides whether it runs."""
     condition, pipeline = "", [Command()]
-    for token in [*found, Operator("\n")]:
+    rest = iter([*found, Operator("\n")])
+    for token in rest:
         command = pipeline[-1]
-        if isinstance(token, Word) and _WANTED not in (command.stdin, command.stderr, *(command.stdout or ())):
+        if isinstance(token, Word):
             command.words.append(token)
-        elif isinstance(token, Word):
-            _take_file(command, token)
         elif isinstance(token, HereText):
             command.given = token.text
-        elif token.text == "|":
-            _check(command, "|")
-            pipeline.append(Command())
-        elif token.text in {">", ">>", "2>", "&>", "<"}:
-            _expect_file(command, token.text)
         elif token.text == "2>&1":
             command.stderr = TO_STDOUT
-        elif command.words or len(pipeline) > 1:
-            _check(command, token.text)
+        elif token.text in {">", ">>", "2>", "&>", "<"}:
+            _redirect(command, token.text, next(rest))
+        elif command.words and token.text == "|":
+            pipeline.append(Command())
+        elif command.words:
             command.background = token.text == "&"
             yield condition, pipeline
             condition, pipeline = token.text if token.text in {"&&", "||"} else "", [Command()]
         elif token.text != "\n":
             raise ShellSyntaxError(f"there is no command before {token.text!r}")
-    if condition or len(pipeline) > 1:
-        raise ShellSyntaxError(f"there is no command after {condition or '|'!r}")
+        elif len(pipeline) > 1:
+            raise ShellSyntaxError("there is no command after '|'")
+    if condition:
+        raise ShellSyntaxError(f"there is no command after {condition!r}")
 
 
-TO_STDOUT = Word("&1", "&1")
-_WANTED = Word("\0wanted", "\0wanted")
-
-
-def _expect_file(command: Command, sign: str) -> None:
+def _redirect(command: Command, sign: str, file: Token) -> None:
+    """Have a command read or write the file that is named behind a sign such as `>`."""
+    if not isinstance(file, Word):
+        raise ShellSyntaxError(f"{'<' if sign == '<' else '>'!r} needs the name of a file")
     if sign == "<":
-        command.stdin = _WANTED
+        command.stdin = file
     elif sign == "2>":
-        command.stderr = _WANTED
+        command.stderr = file
     else:
-        command.stdout = (sign, _WANTED)
+        command.stdout = (sign, file)
         command.stderr = TO_STDOUT if sign == "&>" else command.stderr
-
-
-def _take_file(command: Command, word: Word) -> None:
-    """A word is the file that a `<` or `>` waits for."""
-    if command.stdin == _WANTED:
-        command.stdin = word
-    elif command.stdout is not None and command.stdout[1] == _WANTED:
-        command.stdout = (command.stdout[0], word)
-    else:
-        command.stderr = word
-
-
-def _check(command: Command, sign: str) -> None:
-    if not command.words:
-        raise ShellSyntaxError(
-            f"there is no command before {sign!r}" if sign != "\n" else "there is no command after '|'"
-        )
-    if command.stdin == _WANTED:
-        raise ShellSyntaxError("'<' needs the name of a file")
-    if _WANTED in (command.stderr, *(command.stdout or ())):
-        raise ShellSyntaxError("'>' needs the name of a file")
 
 
 # -- what a word stands for --------------------------------------------------------------------------------------------

@@ -19,18 +19,22 @@ if TYPE_CHECKING:
 # -- texts, and what a pipe leads to ---------------------------------------------------------------------------------
 
 
+def _texts(terminal: Terminal, names: Iterable[str]) -> list[str]:
+    """The files of these names, or else what a pipe gives."""
+    found = [Path(name).read_text(encoding="utf-8", errors="replace") for name in names]
+    return found or [terminal.given or ""]
+
+
+def _lines(terminal: Terminal, names: Iterable[str]) -> list[str]:
+    return [line for text in _texts(terminal, names) for line in text.splitlines()]
+
+
 def cat(terminal: Terminal, words: list[str]) -> int:
     """`cat file…`: print files."""
     if not words and terminal.given is None:
         return terminal.fail("cat: name the files to print")
     terminal.stdout.write("".join(_texts(terminal, words)))
     return 0
-
-
-def _texts(terminal: Terminal, names: Iterable[str]) -> list[str]:
-    """The files of these names, or else what a pipe gives."""
-    found = [Path(name).read_text(encoding="utf-8", errors="replace") for name in names]
-    return found or [terminal.given or ""]
 
 
 def echo(terminal: Terminal, words: list[str]) -> int:
@@ -70,37 +74,36 @@ def grep(terminal: Terminal, words: list[str]) -> int:
     if not rest:
         return terminal.fail("grep: name the pattern to look for", 2)
     pattern = re.compile(rest[0] if "E" in letters else re.escape(rest[0]), re.IGNORECASE if "i" in letters else 0)
-    lines = [line for text in _texts(terminal, rest[1:]) for line in text.splitlines()]
+    lines = _lines(terminal, rest[1:])
     found = [line for line in lines if bool(pattern.search(line)) != ("v" in letters)]
     if "c" in letters:
-        terminal.say(str(len(found)))
-    elif "q" not in letters and found:
-        terminal.say("\n".join(found))
+        terminal.say(len(found))
+    elif "q" not in letters:
+        terminal.say(*found)
     return 0 if found else 1
 
 
 def head(terminal: Terminal, words: list[str]) -> int:
     """`… | head [-n number]`: the first lines."""
     count, rest = _count(words)
-    lines = [line for text in _texts(terminal, rest) for line in text.splitlines()][:count]
-    return terminal.say("\n".join(lines)) if lines else 0
+    return terminal.say(*_lines(terminal, rest)[:count])
 
 
 def tail(terminal: Terminal, words: list[str]) -> int:
     """`… | tail [-n number]`: the last lines."""
     count, rest = _count(words)
-    lines = [line for text in _texts(terminal, rest) for line in text.splitlines()]
-    return terminal.say("\n".join(lines[-count:])) if lines and count else 0
+    lines = _lines(terminal, rest)
+    return terminal.say(*lines[max(0, len(lines) - count) :])
 
 
 def _count(words: list[str]) -> tuple[int, list[str]]:
+    """The number behind `-n` or `-`, and the other words."""
     count, rest = 10, []
-    expected = False
-    for word in words:
-        if expected or re.fullmatch(r"-n?\d+", word):
-            count, expected = int(word.lstrip("-n") or 0), False
-        elif word == "-n":
-            expected = True
+    waiting = iter(words)
+    for word in waiting:
+        found = re.fullmatch(r"-n?(\d+)", word)
+        if word == "-n" or found:
+            count = int(found[1] if found else next(waiting, 0))
         else:
             rest.append(word)
     return count, rest
@@ -109,15 +112,14 @@ def _count(words: list[str]) -> tuple[int, list[str]]:
 def sort(terminal: Terminal, words: list[str]) -> int:
     """`… | sort [-r] [-u]`: the lines in order."""
     letters, rest = options(words)
-    lines = [line for text in _texts(terminal, rest) for line in text.splitlines()]
-    ordered = sorted(set(lines) if "u" in letters else lines, reverse="r" in letters)
-    return terminal.say("\n".join(ordered)) if ordered else 0
+    lines = _lines(terminal, rest)
+    return terminal.say(*sorted(set(lines) if "u" in letters else lines, reverse="r" in letters))
 
 
 def wc(terminal: Terminal, words: list[str]) -> int:
     """`… | wc -l`: how many lines."""
     _, rest = options(words)
-    return terminal.say(str(sum(text.count("\n") for text in _texts(terminal, rest))))
+    return terminal.say(sum(text.count("\n") for text in _texts(terminal, rest)))
 
 
 # -- jobs, kill, sleep -----------------------------------------------------------------------------------------------

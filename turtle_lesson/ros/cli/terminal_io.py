@@ -7,6 +7,7 @@ import os
 import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import takewhile
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -22,9 +23,10 @@ class Terminal:
     stderr: Any
     given: str | None = None
 
-    def say(self, text: str) -> int:
-        """Print a line; returns exit code 0."""
-        print(text, file=self.stdout)
+    def say(self, *lines: object) -> int:
+        """Print lines; returns exit code 0."""
+        for line in lines:
+            print(line, file=self.stdout)
         return 0
 
     def fail(self, text: str, code: int = 1) -> int:
@@ -77,37 +79,29 @@ def unset(terminal: Terminal, words: list[str]) -> int:
 def printenv(terminal: Terminal, words: list[str]) -> int:
     """`printenv [NAME…]`: print variables; of one that is not set nothing but the exit code 1."""
     if not words:
-        return terminal.say("\n".join(f"{name}={value}" for name, value in sorted(os.environ.items())))
+        return terminal.say(*(f"{name}={value}" for name, value in sorted(os.environ.items())))
     there = [os.environ[name] for name in words if name in os.environ]
-    if there:
-        terminal.say("\n".join(there))
+    terminal.say(*there)
     return 0 if len(there) == len(words) else 1
 
 
 def before_a_command(words: Sequence[str]) -> dict[str, str]:
     """The `NAME=value` with which a command's words begin."""
-    variables = {}
-    for word in words:
-        found = _ASSIGNMENT.fullmatch(word)
-        if found is None:
-            break
-        variables[found[1]] = found[2]
-    return variables
+    found = takewhile(bool, map(_ASSIGNMENT.fullmatch, words))
+    return {each[1]: each[2] for each in found if each}
 
 
 @contextlib.contextmanager
 def set_for_now(variables: dict[str, str]) -> Iterator[None]:
     """Have variables set for what is started within."""
-    before = {name: os.environ.get(name) for name in variables}
+    before = {name: os.environ[name] for name in variables if name in os.environ}
     os.environ.update(variables)
     try:
         yield
     finally:
-        for name, value in before.items():
-            if value is None:
-                os.environ.pop(name, None)
-            else:
-                os.environ[name] = value
+        for name in variables:
+            os.environ.pop(name, None)
+        os.environ.update(before)
 
 
 def with_values(pattern: str) -> str:

@@ -43,7 +43,6 @@ PRESET = "sensor_data"
 
 @verb(
     "topic echo",
-    "Print the messages of a topic",
     *NODE,
     arg("topic_name", "Name of the topic, such as /turtle1/pose"),
     arg("message_type", "Type of its messages, such as turtlesim/msg/Pose", nargs="?"),
@@ -73,7 +72,8 @@ PRESET = "sensor_data"
     duration(),
 )
 def echo(args: Namespace) -> None:
-    """`ros2 topic echo`."""
+    """Print the messages of a topic."""
+
     from rclpy.task import Future
 
     if args.lost_messages:
@@ -337,7 +337,6 @@ class Rate(Measure):
 
 @verb(
     "topic hz",
-    "How many messages a second arrive on a topic",
     arg("topic_name", "Name of the topic, such as /turtle1/pose"),
     _window(10_000),
     arg("--filter", "Count a message m only where this expression is true", dest="filter_expr", metavar="EXPR"),
@@ -346,7 +345,7 @@ class Rate(Measure):
     duration(),
 )
 def hz(args: Namespace) -> None:
-    """`ros2 topic hz`."""
+    """How many messages a second arrive on a topic."""
     _measure(Rate(args.window, filter_of(args.filter_expr)), args.topic_name, args)
 
 
@@ -379,15 +378,10 @@ def _bytes(size: float, rate: float) -> str:
 
 
 @verb(
-    "topic bw",
-    "How many bytes a second arrive on a topic",
-    arg("topic", "Name of the topic, such as /turtle1/pose"),
-    _window(100),
-    *NODE_WITHOUT_DAEMON,
-    duration(),
+    "topic bw", arg("topic", "Name of the topic, such as /turtle1/pose"), _window(100), *NODE_WITHOUT_DAEMON, duration()
 )
 def bw(args: Namespace) -> None:
-    """`ros2 topic bw`."""
+    """How many bytes a second arrive on a topic."""
     _measure(Bandwidth(args.window), args.topic, args, f"Subscribed to [{args.topic}]\n")
 
 
@@ -420,12 +414,11 @@ class Delay(Measure):
 
 @verb(
     "topic delay",
-    "How old the messages of a topic are when they arrive, judged by the stamp in their header",
     arg("topic", "Name of the topic, whose messages have a header"),
     _window(10_000),
     *NODE_WITHOUT_DAEMON,
     duration(),
 )
 def delay(args: Namespace) -> None:
-    """`ros2 topic delay`."""
+    """How old the messages of a topic are when they arrive, judged by the stamp in their header."""
     _measure(Delay(args.window), args.topic, args)

@@ -167,7 +167,7 @@ def add_type_and_find(kind: str, folder: str, examples: tuple[str, str], known: 
     """
     article = "An" if kind == "action" else "A"
 
-    @verb(f"{kind} type", f"{article} {kind}'s type", *common, name_argument(kind, examples[0]))
+    @verb(f"{kind} type", *common, name_argument(kind, examples[0]), help_text=f"{article} {kind}'s type")
     def print_type(args: Namespace) -> None:
         """Print the types of a name. For an unknown one the real tool says nothing, and ends with exit code 1."""
         with direct_node(args) as node:
@@ -176,7 +176,7 @@ def add_type_and_find(kind: str, folder: str, examples: tuple[str, str], known: 
 
     wanted = arg(f"{kind}_type", f"Name of the type, such as {examples[1]}")
 
-    @verb(f"{kind} find", f"The {kind}s of a type", *common, wanted, *list_arguments(kind, "find"))
+    @verb(f"{kind} find", *common, wanted, *list_arguments(kind, "find"), help_text=f"The {kind}s of a type")
     def print_found(args: Namespace) -> None:
         """Print the names that have a type, or how many these are."""
         with direct_node(args) as node:

@@ -103,12 +103,16 @@ VERBS: dict[str, dict[str, Verb]] = {}
 """The verbs of the modules that are imported, by command and name. A command without verbs has one without a name."""
 
 
-def verb(words: str, help_text: str, *arguments: Argument, in_cell: bool = False) -> Callable[[Any], Any]:
-    """Make a function that does a verb's work known by the words that call it; the function stays as it is."""
+def verb(words: str, *arguments: Argument, help_text: str = "", in_cell: bool = False) -> Callable[[Any], Any]:
+    """Make a function that does a verb's work known by the words that call it; the function stays as it is.
+
+    Its help is `help_text`, or else the first line of the function's docstring.
+    """
 
     def add(work: Callable[[Namespace], int | None]) -> Callable[[Namespace], int | None]:
         command, _, name = words.partition(" ")
-        VERBS.setdefault(command, {})[name] = Verb(words, help_text, arguments, work, in_cell)
+        about = help_text or (work.__doc__ or "").partition("\n")[0].rstrip(".")
+        VERBS.setdefault(command, {})[name] = Verb(words, about, arguments, work, in_cell)
         return work
 
     return add
