@@ -50,7 +50,10 @@ def _nodes(found: Any, names: list[str]) -> Iterator[Entry]:
         if not names:
             raise YamlValueError(f"There are no node names before {KEY} at line {line_of(key)}")
         node = "/".join(names)
-        _check(node, line_of(key))
+        for part in node.removeprefix("/").split("/"):
+            flaw = None if part in ("*", "**") else node_name_flaw(part)
+            if flaw is not None:
+                raise YamlValueError(f"{flaw.reason} (it is '{node}', before line {line_of(key)})")
         yield from ((node, parameter, value) for parameter, value in _parameters(value, ""))
 
 
@@ -74,14 +77,6 @@ def _name(key: Any) -> str:
     if not key.value:
         raise YamlValueError(f"No key at line {line_of(key)}")
     return key.value
-
-
-def _check(node: str, line: int) -> None:
-    """Raise YamlValueError for what can be no node's name."""
-    for part in node.removeprefix("/").split("/"):
-        flaw = None if part in ("*", "**") else node_name_flaw(part)
-        if flaw is not None:
-            raise YamlValueError(f"{flaw.reason} (it is '{node}', before line {line})")
 
 
 # What a word in YAML means as a parameter's value. ROS's rules (rcl_yaml_param_parser's parse.c), not those of YAML.

@@ -208,18 +208,13 @@ class ActionClient(ActionEndpoint):
         )
 
     def _take_status(self, message: Any) -> None:
-        """Note the states of the goals that are followed; the newest ones stand last."""
-        followed = len(self._goal_handles)
-        for each in reversed(message.status_list):
-            if not followed:
-                return
-            key = key_of(each.goal_info.goal_id)
-            handle = self._goal_handles.get(key)
+        """Note the states of the goals that are followed."""
+        for each in message.status_list:
+            handle = self._goal_handles.get(key_of(each.goal_info.goal_id))
             if handle is not None:
-                followed -= 1
                 handle._status = each.status
                 if each.status not in ACTIVE:
-                    del self._goal_handles[key]
+                    del self._goal_handles[key_of(handle.goal_id)]
 
     @property
     def _waiting(self) -> bool:

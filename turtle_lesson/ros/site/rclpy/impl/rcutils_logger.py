@@ -181,14 +181,14 @@ def _filters_of(options: dict[str, Any]) -> dict[str, dict[str, Any]]:
 class CallSite:
     """What a logger remembers of one place in a program: the options of its call, and what its filters need to know."""
 
-    __slots__ = ("filters", "has_printed", "has_skipped", "last_printed", "name", "options", "severity")
+    __slots__ = ("asked", "filters", "last_printed", "name", "options", "severity")
 
     def __init__(self, severity: LoggingSeverity, name: str, options: dict[str, Any]) -> None:
         self.severity = severity
         self.name = name
         self.options = options
         self.filters = _filters_of(options) if options else {}
-        self.has_printed = self.has_skipped = False
+        self.asked: set[str] = set()  # of once and skip_first, those that have been
         self.last_printed: int | None = None
         if "throttle" in self.filters:
             pause, clock = self.filters["throttle"].values()
@@ -220,13 +220,10 @@ class CallSite:
                 if self.last_printed is not None and now < self.last_printed + pause * NANOSECONDS:
                     return False
                 self.last_printed = now
-            elif each == "skip_first":
-                skipped, self.has_skipped = self.has_skipped, True
-                if not skipped:
-                    return False
             else:
-                printed, self.has_printed = self.has_printed, True
-                if printed:
+                is_first = each not in self.asked
+                self.asked.add(each)
+                if is_first != (each == "once"):
                     return False
         return True
 
