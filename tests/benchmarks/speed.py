@@ -250,7 +250,7 @@ def own_package(folder: Path) -> Path:
     """The simple stage of the nodes, with what makes it a package."""
     import shutil
 
-    from turtle_lesson.session.lesson import FINISHED
+    from turtle_lesson.learner.story import FINISHED
 
     shutil.copytree(FINISHED, folder, dirs_exist_ok=True)
     shutil.copytree(SIMPLE_STAGE, folder, dirs_exist_ok=True)

@@ -14,9 +14,8 @@ from turtle_lesson import Lesson, start
 from turtle_lesson.lab.checks import Advice, Check, CheckResult, Expectation, Row, Seen, all_checks, probe, registry
 from turtle_lesson.lab.checks.registry import check
 from turtle_lesson.lab.checks.results import POINTER
-from turtle_lesson.learner.story import PAGES
+from turtle_lesson.learner.story import FINISHED, PAGES
 from turtle_lesson.ros.sim import interrupts
-from turtle_lesson.session.lesson import FINISHED
 
 # isort: split
 # Importing turtle_lesson made this one importable.

@@ -16,7 +16,7 @@ import lesson_listings
 import pytest
 
 from turtle_lesson import Lesson, start
-from turtle_lesson.session.lesson import FINISHED
+from turtle_lesson.learner.story import FINISHED
 
 OWN = Path(__file__).parents[1] / "data" / "simple_stage"
 NODES = {

@@ -67,7 +67,7 @@ def test_the_notebooks_last_error_is_there(lesson: Lesson, monkeypatch: pytest.M
 def test_the_learners_own_package_is_taken_unless_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     import shutil
 
-    from turtle_lesson.session.lesson import FINISHED
+    from turtle_lesson.learner.story import FINISHED
 
     shutil.copytree(FINISHED, tmp_path / "robot_controller")
     shutil.copytree(

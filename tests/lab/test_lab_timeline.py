@@ -149,7 +149,7 @@ def simple(tmp_path: Path) -> Iterator[Lesson]:
     """The navigator that sleeps in its service's callback."""
     import shutil
 
-    from turtle_lesson.session.lesson import FINISHED
+    from turtle_lesson.learner.story import FINISHED
 
     shutil.copytree(FINISHED, tmp_path / "robot_controller")
     shutil.copytree(SIMPLE, tmp_path / "robot_controller", dirs_exist_ok=True)

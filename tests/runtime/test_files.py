@@ -20,7 +20,7 @@ from turtle_lesson.ros.cli import terminal_files
 from turtle_lesson.ros.cli.shell import begin_here, open_terminal, run_line
 from turtle_lesson.ros.runtime import files
 from turtle_lesson.ros.runtime.world import World, open_world
-from turtle_lesson.session.ros_detection import underlay_packages
+from turtle_lesson.session.packages import underlay_packages
 from turtle_lesson.teaching import learner
 
 Type = Callable[[str], tuple[int, str, str]]

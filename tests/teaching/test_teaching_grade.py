@@ -119,7 +119,7 @@ def test_a_forged_copy_gets_nothing(run: Run) -> None:
         ("results_redefined", "turtle_lesson.lab.checks.Row"),
         ("checks_replaced", "turtle_lesson.lab.checks.registry._checks"),
         ("runner_replaced", "turtle_lesson.lab.checks.runner.run"),
-        ("lesson_patched", "turtle_lesson.session.assessment.Assessment.check"),
+        ("lesson_patched", "turtle_lesson.session.inspection.Inspection.check"),
         ("probe_patched", "turtle_lesson.lab.checks.probe.Probe.hear"),
         ("place_patched", "turtle_lesson.session.check_target.CheckTarget.published"),
         ("place_patched", "turtle_lesson.session.live.CellNodes.run_until"),

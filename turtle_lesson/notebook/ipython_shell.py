@@ -10,7 +10,7 @@ from types import TracebackType
 from typing import Any
 
 from ..ros.sim import errors
-from ..session.ros_detection import real_ros
+from ..session.robot import real_ros
 
 
 def prepare(shell: Any) -> None:

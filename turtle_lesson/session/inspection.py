@@ -1,31 +1,122 @@
-"""Inspects a running lesson: what happened when, which node called which, what is wrong, and what to ask an assistant."""
+"""What a `Lesson` asks of its reader and tells of its world: checks, predictions, what happened when, and what is wrong."""
 
 from __future__ import annotations
 
+import contextlib
+import dataclasses
+import io
+import re
 import sys
+from collections.abc import Iterator, Sequence
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
+from ..learner.story import FINISHED
+from ..ros.runtime.files import home
+from ..ros.sim.errors import format_error
 from ..ros.sim.simulation import NANOSECONDS
-from .assessment import Assessment
 
 if TYPE_CHECKING:
+    from ..lab.checks import CheckResult
+    from ..lab.checks.probe import Target
     from ..lab.graph import GraphPicture
     from ..lab.picture import Picture
+    from ..lab.predictions import Asked, Outcome
+    from ..lab.progress import Progress, ProgressFile
     from ..lab.prompts import Prompt
+    from ..lab.recorder import Recorder
     from ..lab.troubles import Case
     from ..ros.rmw.trace import Trace
     from ..ros.runtime.world import World
 
 
-class Inspection(Assessment):
-    """What a `Lesson` tells about its world from the world's trace and graph."""
+MOST_LINES = 20
+"""Lines of what programs print while a check looks that are shown; a log alone can be hundreds."""
+
+
+class Inspection:
+    """Checks, points and predictions; troubles, timelines and prompts. A subclass says where to look."""
 
     _world: World
+
+    def _make_check_target(self) -> Target:
+        raise NotImplementedError
+
+    @property
+    def _recording(self) -> Recorder:
+        raise NotImplementedError
 
     @property
     def _trace(self) -> Trace:
         assert self._world.trace is not None
         return self._world.trace
+
+    # -- exercises -----------------------------------------------------------------------------------------------------
+
+    def check(self, name: str) -> CheckResult:
+        """Look at the running system, and say what an exercise expects of it, what was seen, and what to do next.
+
+        Robot time goes by meanwhile; the result says how much. What the nodes log is not shown, errors are. All
+        expectations met earn the check's points, which `progress()` adds up. The more often a check has failed in a
+        row, the more the advice says.
+
+        Raises ValueError for a name that no check has.
+        """
+        from ..lab import checks
+
+        wanted = checks.find(name)
+        with _quiet():
+            result = checks.run(wanted, self._make_check_target())
+        failures = progress_file().note(result)
+        so_far = self.progress().so_far(result.page)
+        return dataclasses.replace(result, failures=failures, so_far=so_far)
+
+    def progress(self) -> Progress:
+        """The points of all pages so far. They are kept in a small file beside the notebooks."""
+        from ..lab.checks import all_checks
+        from ..lab.progress import Progress
+
+        file = progress_file()
+        return Progress(all_checks(), file.points(), file.remark)
+
+    def predict(
+        self,
+        name: str,
+        question: str,
+        *,
+        choices: Sequence[str] = (),
+        unit: str | None = None,
+        on_map: bool = False,
+        goal: Any = None,
+        guess: Any = None,
+    ) -> Asked:
+        """Ask for a guess, before something is run; `outcome(name, value)` then shows both side by side.
+
+        Args:
+            name: what `outcome` is given.
+            question: what is asked, in a sentence.
+            choices: one of these texts is to be chosen,
+            unit: or a number of this unit given ("m", "messages"; "" for none),
+            on_map: or a point (x, y) on the turtle's map, m. Just one of the three.
+            goal: a goal that the map is to show, (x, y) in metres or (x, y, theta).
+            guess: the guess, unless it is given on the widget that is shown.
+
+        No guess is needed: the page runs without one as well. Asked again after the outcome, the question begins anew.
+        """
+        from ..lab import predictions
+        from ..lab.path import read_goals
+
+        kind = predictions.kind_of(choices, unit, on_map)
+        turtle = self._recording.place() if on_map else None
+        return predictions.ask(name, question, kind, guess, turtle=turtle, goal=next(iter(read_goals(goal)), None))
+
+    def outcome(self, name: str, value: Any) -> Outcome:
+        """What came of it: the reader's guess and the true value, side by side."""
+        from ..lab import predictions
+
+        return predictions.tell(name, value)
+
+    # -- what happened, and what is wrong ------------------------------------------------------------------------------
 
     def plot_timeline(self, *rows: str, since: float | None = None, until: float | None = None) -> Picture:
         """What happened when: a row a topic (a mark a message) and a row a callback (a bar while it runs or sleeps).
@@ -62,11 +153,9 @@ class Inspection(Assessment):
             name: one of `turtle_lesson.lab.troubles.TROUBLES`, such as "turtle stands still".
         """
         from ..lab.troubles import open_case
-        from .lesson import FINISHED, _install
         from .trouble_environment import TroubleEnvironment
 
-        environment = TroubleEnvironment(self._world, lambda: _install(self._world, FINISHED))
-        return open_case(environment, seed, name, lambda: self.check("trouble"))
+        return open_case(TroubleEnvironment(self._world), seed, name, lambda: self.check("trouble"))
 
     def prompt_for(self, kind: str, *, code: Any = None, lines: int = 12) -> Prompt:
         """A text to copy into any chat with an assistant: specification, code, error, graph and log. Nothing is sent.
@@ -89,8 +178,6 @@ class Inspection(Assessment):
 
     def _own_package(self) -> list[Any]:
         """The folder of the learner's robot_controller; nothing while there is only the finished one, or none."""
-        from .lesson import FINISHED
-
         if "robot_controller" not in self._world.packages:
             return []
         source = self._world.packages.get("robot_controller").source
@@ -98,8 +185,6 @@ class Inspection(Assessment):
 
     def _errors(self) -> str:
         """The notebook's last error, and those that ended programs, as Python prints them."""
-        from ..ros.sim.errors import format_error
-
         ended = [(each.name, each.error) for each in self._world.processes if each.error is not None]
         texts = [f"The program {name} ended with:\n{format_error(error)}" for name, error in ended]
         last = getattr(sys, "last_value", None)
@@ -114,3 +199,30 @@ def _log_line(time: int, level: int, name: str, text: str) -> str:
 
     word = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}.get(level, str(level))
     return f"[{word}] [{number(time / NANOSECONDS, 3)}] [{name}]: {text}"
+
+
+@cache
+def progress_file() -> ProgressFile:
+    """The one file of this kernel, beside its notebook."""
+    from ..lab import progress
+
+    return progress.progress_file(home())
+
+
+_ORDINARY = re.compile(r"^(\[[\w.-]+\] )?\[(INFO|DEBUG|WARN)\]")
+"""The beginning of a line of a log that is no error."""
+
+
+@contextlib.contextmanager
+def _quiet() -> Iterator[None]:
+    """Within this block, of what is printed only errors are shown, and the first few other lines."""
+    caught = io.StringIO()
+    try:
+        with contextlib.redirect_stdout(caught), contextlib.redirect_stderr(caught):
+            yield
+    finally:
+        lines = [line for line in caught.getvalue().splitlines() if line and not _ORDINARY.match(line)]
+        for line in lines[:MOST_LINES]:
+            print(line, file=sys.stdout)
+        if len(lines) > MOST_LINES:
+            print(f"… and {len(lines) - MOST_LINES} lines more")

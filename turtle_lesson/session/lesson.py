@@ -7,9 +7,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..learner.story import FINISHED, page_named
+from ..learner.story import page_named
 from ..learner.workspace import Workspace, workspace
-from ..ros.ament.source import make_importable, read_source_package
 from ..ros.cli.shell import open_terminal
 from ..ros.distro import chosen_release
 from ..ros.idl.registry import registry
@@ -19,8 +18,9 @@ from ..ros.runtime.world import World, open_world, wall_time
 from ..ros.sim.keyboard import key_named
 from ..ros.sim.simulation import EPOCH, NANOSECONDS
 from .inspection import Inspection
-from .live import Player
-from .ros_detection import SIMULATOR, real_ros, underlay_packages
+from .live import Player, SimBackend
+from .packages import SIMULATOR, install, package_folder, underlay_packages
+from .robot import real_ros
 from .views import Views
 
 if TYPE_CHECKING:
@@ -64,72 +64,46 @@ def start(
 
     Raises RuntimeError where a real ROS 2 is sourced, ValueError for anything else as `package`, `page` or `distro`.
     """
-    _check_no_real_ros()
-    if not isinstance(seed, int):
-        raise ValueError(f"seed must be a whole number, got {seed!r}: try start(seed=0)")
-    chosen_release(distro)
-    page = None if page is None else page_named(page)
-    package = "mine" if page and package == "finished" else package
-    source = None if package == "mine" else _package_folder(package)
-    open_terminal()
-    if page is not None:
-        print(workspace().prepare(page).state())
-    mine = _built(seed, distro, workspace()) if package == "mine" else None
-    world = open_world(seed, distro)
-    if "robot_controller" in registry.packages():
-        registry.remove("robot_controller")
-    for each in underlay_packages():
-        world.packages.add(each)
-    if source is not None:
-        _install(world, source)
-    if mine is not None:
-        mine.source(world)
-    return Lesson(world, simulator=simulator)
-
-
-def _built(seed: int, distro: str | None, mine: Workspace) -> Workspace:
-    """The learner's workspace, built if its sources have changed. Prints what the build says where it fails."""
-    if (mine.package / "package.xml").exists() and not mine.is_built:
-        # A world of its own: building takes robot time, and the lesson's world begins at 0 s.
-        world = open_world(seed, distro)
-        for each in underlay_packages():
-            world.packages.add(each)
-        if said := mine.build(world):
-            print(f"{said.rstrip()}\nThe package was not built, so an earlier build of it is used, if there is one.")
-    return mine
-
-
-def _check_no_real_ros() -> None:
-    place = real_ros()
-    if place:
+    if place := real_ros():
         raise RuntimeError(
             f"a real ROS 2 is sourced here (rclpy is {place}), and the simulated one never replaces it. "
             "turtle_lesson.connect() shows its robot with the same widgets. For a simulated world, start Jupyter from a "
             "terminal in which no setup file was sourced."
         )
+    if not isinstance(seed, int):
+        raise ValueError(f"seed must be a whole number, got {seed!r}: try start(seed=0)")
+    chosen_release(distro)
+    page = None if page is None else page_named(page)
+    package = "mine" if page and package == "finished" else package
+    source = None if package == "mine" else package_folder(package)
+    open_terminal()
+    if page is not None:
+        print(workspace().prepare(page).state())
+    mine = _built(seed, distro, workspace()) if package == "mine" else None
+    world = _fresh_world(seed, distro)
+    if "robot_controller" in registry.packages():
+        registry.remove("robot_controller")
+    if source is not None:
+        install(world, source)
+    if mine is not None:
+        mine.source(world)
+    return Lesson(world, simulator=simulator)
 
 
-def _package_folder(package: str | Path | None) -> Path | None:
-    if package is None:
-        return None
-    if package == "finished":
-        return FINISHED
-    if isinstance(package, (str, Path)) and Path(package).is_dir():
-        return Path(package).resolve()
-    raise ValueError(
-        f'package must be "finished", "mine", None or the folder of a package, got {package!r}, which is not a folder here'
-    )
+def _fresh_world(seed: int, distro: str | None) -> World:
+    world = open_world(seed, distro)
+    for each in underlay_packages():
+        world.packages.add(each)
+    return world
 
 
-def _install(world: World, folder: Path) -> None:
-    """Make a package's executables, launch files and interfaces findable, as building and sourcing it would."""
-    package = read_source_package(folder)
-    world.packages.add(package)
-    make_importable(world, package)
-    if package.interfaces:
-        if package.name in registry.packages():
-            registry.remove(package.name)
-        registry.add(package.name, folder, package.interfaces)
+def _built(seed: int, distro: str | None, mine: Workspace) -> Workspace:
+    """The learner's workspace, built if its sources have changed. Prints what the build says where it fails."""
+    if (mine.package / "package.xml").exists() and not mine.is_built:
+        build_world = _fresh_world(seed, distro)  # building takes robot time, and the lesson's world begins at 0 s
+        if said := mine.build(build_world):
+            print(f"{said.rstrip()}\nThe package was not built, so an earlier build of it is used, if there is one.")
+    return mine
 
 
 def _check_seconds(verb: str, seconds: object) -> None:
@@ -367,6 +341,4 @@ class Lesson(Views, Inspection):
         return CheckTarget(self._world, self._recording, self._board)
 
     def _make_backend(self) -> Backend:
-        from .sim_backend import SimBackend
-
         return SimBackend(self._world, self._recording, self._player, self._board)

@@ -1,4 +1,4 @@
-"""Live mode: robot time goes on by itself, paced to the wall clock, while other cells can be run."""
+"""Live mode: robot time goes on by itself, paced to the wall clock, while other cells can be run; and the widgets' backend."""
 
 from __future__ import annotations
 
@@ -12,7 +12,11 @@ from ..ros.sim.simulation import NANOSECONDS
 from ..ros.stdlib.clocks import real_monotonic
 
 if TYPE_CHECKING:
+    from ..lab.obstacle_board import ObstacleBoard
+    from ..lab.recorder import Recorder
+    from ..lab.widgets.backend import Clock
     from ..ros.runtime.world import World
+    from ..ros.sim.keyboard import Keyboard
 
 
 STEP = 1 / 30
@@ -216,3 +220,29 @@ class Stopwatch:
             return 0.0
         (first, before), (last, after) = self._marks[0], self._marks[-1]
         return (after - before) / NANOSECONDS / max(last - first, 1e-9)
+
+
+class SimBackend:
+    """A `Backend` (see lab/widgets/backend.py) in a world of this notebook, with its player as the clock."""
+
+    def __init__(self, world: World, recorder: Recorder, player: Player, board: ObstacleBoard) -> None:
+        from ..lab.widgets.backend import Loop
+
+        self._world = world
+        self.recorder = recorder
+        self.board = board
+        self.node: Any = recorder.node
+        self.clock: Clock | None = player
+        self.keyboard: Keyboard | None = world.sim.keyboard
+        self.loop = Loop()
+        self.at_close = world.at_close
+
+    @property
+    def now(self) -> float:
+        """Robot time: seconds since the world began."""
+        return self._world.now / NANOSECONDS
+
+    @property
+    def ended(self) -> bool:
+        """Whether a newer `start()` has taken this world's place."""
+        return self._world.sim.closed

@@ -6,10 +6,10 @@ import io
 import os
 import re
 import shutil
-from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..learner.story import FINISHED, HERE
 from ..ros import launching
 from ..ros.ament import colcon
 from ..ros.ament.package import Package
@@ -19,7 +19,7 @@ from ..ros.idl.registry import registry
 from ..ros.runtime.console import CellOutput
 from ..ros.runtime.files import home
 from ..ros.sim.process import Process
-from .ros_detection import HERE
+from .packages import install
 
 if TYPE_CHECKING:
     from ..lab.troubles import Program
@@ -41,15 +41,14 @@ class _SourcedBefore(list[Path]):
 
 
 class TroubleEnvironment:
-    """An `Environment` (see lab/troubles/faults.py) in a world of this notebook. `install` makes the finished package findable.
+    """An `Environment` (see lab/troubles/faults.py) in a world of this notebook.
 
     Where the learner's own package is sourced when the first case is opened, the cases are about that one. Its files are
     only read: what is to be broken in files is broken in a copy, which goes with the next case and with the world.
     """
 
-    def __init__(self, world: World, install: Callable[[], None]) -> None:
+    def __init__(self, world: World) -> None:
         self._world = world
-        self._install = install
         sourced = list(dict.fromkeys(each.install for each in overlays(world)))
         self._sourced = world.notebook.state(_SourcedBefore, sourced)
         if "robot_draft" not in world.packages:
@@ -79,7 +78,7 @@ class TroubleEnvironment:
         for folder in self._sourced:
             overlay(self._world, folder)
         if PACKAGE not in self._world.packages:
-            self._install()
+            install(self._world, FINISHED)
         self._world.sim.settle()
 
     def _programs(self) -> list[Process]:
