@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from launch.actions._processes import Program
 
     from .ament.index import PackageIndex
-    from .launching.service import LaunchByHand
+    from .launching.service import LaunchService
     from .runtime.world import World
     from .sim.process import Process
     from .sim.strand import Strand
@@ -57,7 +57,7 @@ def is_page(place: Path) -> bool:
 
 # -- launch asks launching ---------------------------------------------------------------------------------------------
 
-launch_service: Callable[[list[str], bool], LaunchByHand]
+launch_service: Callable[[], LaunchService]
 """What carries out a program's own `LaunchService`."""
 program_of_command: Callable[..., Program]
 """What the words of an `ExecuteProcess` run."""

@@ -27,7 +27,7 @@ from .jobs import Job, LastSignal, jobs, lasting
 from .verb import CommandError, verb
 
 if TYPE_CHECKING:
-    from ..launching.start import LaunchHandle
+    from ..launching import LaunchHandle
 
 
 LET_PASS = "let this much robot time pass before {} returns (only here)"

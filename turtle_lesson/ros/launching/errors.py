@@ -9,12 +9,15 @@ import re
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from types import ModuleType
+from typing import TYPE_CHECKING
 
-from ..ament import catalog
+from ..ament import catalog, index
 from ..ament.errors import PackageNotFoundError
-from ..ament.index import is_launch_file
 from ..idl.names import did_you_mean
 from ..sim.errors import is_ours, learners_frames, shorten, shown_path
+
+if TYPE_CHECKING:
+    from ..runtime.world import World
 
 Place = tuple[str, int]
 
@@ -54,6 +57,21 @@ class LaunchError(Exception):
 
     def __str__(self) -> str:
         return "\n".join(filter(None, (self.reason, self.advice)))
+
+
+def find_launch_file(world: World, package: str, file_name: str) -> Path:
+    """The launch file of this name that a package has installed.
+
+    Raises:
+        LaunchError: with the words of `ros2 launch`, and what to try.
+    """
+    try:
+        return index.find_launch_file(world.packages, package, file_name)
+    except PackageNotFoundError as error:
+        reason = f"Package '{package}' not found: {error.text!r}"
+        raise LaunchError(reason, None, error.hint) from None
+    except index.LaunchFileNotFoundError as error:
+        raise LaunchError(error.text, None, error.hint) from None
 
 
 def place_of(error: BaseException, written_at: Place | None = None) -> Place | None:
@@ -161,7 +179,7 @@ def _missing_file(path: Path) -> str:
         return close
     if "launch" not in path.name:
         return ""
-    names = sorted(other.name for other in path.parent.iterdir() if is_launch_file(other.name))
+    names = sorted(other.name for other in path.parent.iterdir() if index.is_launch_file(other.name))
     if not path.is_absolute() and not names:
         return "A launch file is given by its full path: PathJoinSubstitution([FindPackageShare(…), 'launch', …])."
     return f"There are: {', '.join(names)}." if names else ""

@@ -1,4 +1,4 @@
-"""The processes of a launch: starting, signalling and ending them, and what reaches the screen."""
+"""The processes of a launch: starting, signalling and ending them, and what reaches the screen; launch's own node."""
 
 from __future__ import annotations
 
@@ -29,21 +29,6 @@ if TYPE_CHECKING:
     from ..runtime.world import World
     from ..sim.process import Process
     from .service import LaunchService
-
-
-class Screen:
-    """Prints into the cell that is running, whichever process prints."""
-
-    def __init__(self, world: World) -> None:
-        self._world = world
-
-    def line(self, text: str) -> None:
-        """Print one line."""
-        print(text, file=self._world.sim.cell_stdout)
-
-    def say(self, level: str, name: str, text: str) -> None:
-        """Print a line of launch's own, such as `[INFO] [launch]: …`."""
-        self.line(f"[{level}] [{name}]: {text}")
 
 
 class LineWriter(io.TextIOBase):
@@ -102,9 +87,9 @@ TERMINATED = -15
 class RunningProcess:
     """What launch knows about the process of one action."""
 
-    def __init__(self, owner: Processes, screen: Screen, action: ExecuteLocal) -> None:
+    def __init__(self, owner: Processes, action: ExecuteLocal) -> None:
         self._owner = owner
-        self._screen = screen
+        self._service = owner.service
         self.action = action
         self.name = action.process_description.final_name
         self.process: Process | None = None
@@ -155,14 +140,14 @@ class RunningProcess:
             start_up=start_up,
         )
         self.action.process_details["pid"] = self.process.pid
-        self._screen.say("INFO", self.name, f"process started with pid [{self.process.pid}]")
+        self._service.say("INFO", self.name, f"process started with pid [{self.process.pid}]")
 
     def _writer(self, stream: str) -> LineWriter:
         shown = stream in self.action._on_screen
 
         def on_line(line: str) -> None:
             if shown:
-                self._screen.line(self.action.output_format.format(line=line, this=self.action))
+                self._service.line(self.action.output_format.format(line=line, this=self.action))
 
         return LineWriter(on_line, lambda text: self._owner.printed(self, stream, text))
 
@@ -177,10 +162,10 @@ class RunningProcess:
         self.action.return_code = self.exit_code
         pid = f"pid {self.process.pid}"
         if self.exit_code == 0:
-            self._screen.say("INFO", self.name, f"process has finished cleanly [{pid}]")
+            self._service.say("INFO", self.name, f"process has finished cleanly [{pid}]")
         else:
             how = f"[{pid}, exit code {self.exit_code}, cmd '{self.action._program.shown}']"
-            self._screen.say("ERROR", self.name, f"process has died {how}.")
+            self._service.say("ERROR", self.name, f"process has died {how}.")
 
     def wants_respawn(self) -> bool:
         """Whether it is to be started once more."""
@@ -214,7 +199,7 @@ class Processes:
     """All processes of one launch, in the order of their start."""
 
     def __init__(self, service: LaunchService) -> None:
-        self._service = service
+        self.service = service
         self._all: list[RunningProcess] = []
         self._ending: list[RunningProcess] | None = None
         self.up_at = 0
@@ -228,38 +213,34 @@ class Processes:
         """Those that run."""
         return [process for process in self._all if process.alive]
 
-    # -- starting -----------------------------------------------------------------------------------------
-
     def add(self, action: ExecuteLocal) -> None:
         """Start an action's process."""
-        if self._service.context.is_shutdown:
+        if self.service.context.is_shutdown:
             return
         if action.process_description.cwd:
-            self._service.warn_once("here all programs work in the notebook's folder, whatever cwd= says")
+            self.service.warn_once("here all programs work in the notebook's folder, whatever cwd= says")
         if action.prefix_left_out:
-            self._service.warn_once(f"{action.prefix_left_out} is left out: programs run here without a prefix")
-        process = RunningProcess(self, self._service.screen, action)
+            self.service.warn_once(f"{action.prefix_left_out} is left out: programs run here without a prefix")
+        process = RunningProcess(self, action)
         self._all.append(process)
         self._start(process)
 
     def _start(self, process: RunningProcess) -> None:
-        if not self._service.context.is_shutdown:
-            process.start(self._service.world, self._start_up(process))
+        if not self.service.context.is_shutdown:
+            process.start(self.service.world, self._start_up(process))
             self._emit(ProcessStarted(**process.details()))
 
     def _start_up(self, process: RunningProcess) -> int:
         """How long a process takes until its program begins (ns): Python programs come up one after the other."""
         if not process.is_python:
             return 0
-        now = self._service.world.sim.now
+        now = self.service.world.sim.now
         self.up_at = max(self.up_at, now) + START_UP
         return self.up_at - now
 
-    # -- what processes tell ------------------------------------------------------------------------------
-
     def printed(self, process: RunningProcess, stream: str, text: str) -> None:
         """Pass a process's output to its event handlers (OnProcessIO)."""
-        if self._service.context._event_handlers:
+        if self.service.context._event_handlers:
             kind = ProcessStdout if stream == "stdout" else ProcessStderr
             self._emit(kind(text=text.encode(), **process.details()))
 
@@ -270,23 +251,21 @@ class Processes:
             return
         process.last_words()
         if running_strand() is None:
-            self._service.carry_on(lambda: self._after_end(process))
+            self.service.carry_on(lambda: self._after_end(process))
         else:  # still within the dying process: leave it first
-            self._service.world.sim.call_later(0, self._service.carry_on, lambda: self._after_end(process))
+            self.service.world.sim.call_later(0, self.service.carry_on, lambda: self._after_end(process))
 
     def _after_end(self, process: RunningProcess) -> None:
         self._emit(ProcessExited(returncode=process.exit_code or 0, **process.details()))
         self._emit(ExecutionComplete(action=process.action))
-        if process.wants_respawn() and not self._service.context.is_shutdown:
+        if process.wants_respawn() and not self.service.context.is_shutdown:
             process.retries += 1
             pause = process.action.respawn_delay or (0.0 if process.is_python else RESPAWN_PAUSE)
-            self._service.call_later(pause, lambda: self._start(process))
+            self.service.call_later(pause, lambda: self._start(process))
 
     def _emit(self, event: Event) -> None:
-        if self._service.context.would_handle_event(event):
-            self._service.context.emit_event_sync(event)
-
-    # -- ending -------------------------------------------------------------------------------------------
+        if self.service.context.would_handle_event(event):
+            self.service.context.emit_event_sync(event)
 
     def react(self, event: Event) -> None:
         """What launch itself does about an event."""
@@ -301,7 +280,7 @@ class Processes:
 
     def _announce(self, process: RunningProcess, signal_name: str) -> None:
         text = f"sending signal '{signal_name}' to process[{process.name}]"
-        self._service.screen.say("INFO", process.name, text)
+        self.service.say("INFO", process.name, text)
 
     def _end(self, processes: list[RunningProcess], *, said: bool) -> None:
         """Interrupt processes, and see to it that they end. Their last words come after all their output."""
@@ -319,14 +298,105 @@ class Processes:
                 self._escalate_later(process)
 
     def _escalate_later(self, process: RunningProcess) -> None:
-        patience = perform_substitutions(self._service.context, process.action.sigterm_timeout)
+        patience = perform_substitutions(self.service.context, process.action.sigterm_timeout)
 
         def escalate() -> None:
             if process.alive:
                 how = f"'{patience}' seconds after receiving 'SIGINT', escalating to 'SIGTERM'"
                 text = f"process[{process.name}] failed to terminate {how}"
-                self._service.screen.say("ERROR", process.name, text)
+                self.service.say("ERROR", process.name, text)
                 self._announce(process, "SIGTERM")
                 process.signal("SIGTERM")
 
-        self._service.call_later(float(patience), escalate)
+        self.service.call_later(float(patience), escalate)
+
+
+LOOKS_AGAIN = 0.01
+"""How often, in s, it looks whether a node has its service by now."""
+
+
+class RosHelper:
+    """Listens to managed nodes and asks them for transitions; what it hears is told outside of its process."""
+
+    def __init__(self, world: World, carry_on: Callable[[Callable[[], None]], None]) -> None:
+        self._world = world
+        self._carry_on = carry_on
+        self._orders: list[Callable[[], None]] = []
+        self._node: Any = None
+        self._executor: Any = None
+        self._clients: dict[str, Any] = {}
+        self._ended = False
+        self._process: Process = world.spawn(self._main, name="launch_ros", argv=["launch_ros"])
+
+    def _main(self) -> None:
+        import rclpy
+        from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+
+        rclpy.init(args=[])
+        self._node = rclpy.create_node(f"launch_ros_{self._process.pid}", start_parameter_services=False)
+        self._executor = SingleThreadedExecutor()
+        self._executor.add_node(self._node)
+        self._wakes = self._node.create_guard_condition(self._work)
+        self._work()
+        try:
+            self._executor.spin()
+        except (KeyboardInterrupt, ExternalShutdownException):
+            pass
+        finally:
+            rclpy.try_shutdown()
+
+    def _work(self) -> None:
+        """Carry the orders out, in the helper's own process."""
+        while self._orders:
+            self._orders.pop(0)()
+
+    def _order(self, order: Callable[[], None]) -> None:
+        self._orders.append(order)
+        if self._node is not None:
+            self._wakes.trigger()
+
+    def _tell(self, function: Callable[[], None]) -> None:
+        """Call a function of the launch, outside of this process and at this instant."""
+        if not self._ended:
+            self._world.sim.call_later(0, self._carry_on, function)
+
+    def watch(self, node_name: str, heard: Callable[[Any], None]) -> None:
+        """Have a function called with each TransitionEvent of a node."""
+        from lifecycle_msgs.msg import TransitionEvent
+
+        def subscribe() -> None:
+            topic = f"{node_name}/transition_event"
+            self._node.create_subscription(TransitionEvent, topic, lambda msg: self._tell(lambda: heard(msg)), 10)
+
+        self._order(subscribe)
+
+    def change_state(self, node_name: str, transition_id: int, answered: Callable[[bool], None]) -> None:
+        """Ask a node for a transition, as soon as it has the service; the function is called with the answer."""
+        from lifecycle_msgs.srv import ChangeState
+
+        def call() -> None:
+            client = self._client(node_name, ChangeState)
+            if not client.service_is_ready():  # wait without holding up what other nodes tell
+                timer: Any = self._node.create_timer(LOOKS_AGAIN, lambda: again(timer))
+                return
+            request = ChangeState.Request()
+            request.transition.id = transition_id
+            future = client.call_async(request)
+            future.add_done_callback(lambda done: self._tell(lambda: answered(done.result().success)))
+
+        def again(timer: Any) -> None:
+            self._node.destroy_timer(timer)
+            call()
+
+        self._order(call)
+
+    def _client(self, node_name: str, kind: Any) -> Any:
+        if node_name not in self._clients:
+            self._clients[node_name] = self._node.create_client(kind, f"{node_name}/change_state")
+        return self._clients[node_name]
+
+    def close(self) -> None:
+        """End it."""
+        self._ended = True
+        if self._process.exit_code is None:
+            self._process.kill()

@@ -1,4 +1,4 @@
-"""The launch itself: walks through a description and handles what happens.
+"""A launch: it walks through a description and handles what happens; from a file to what a cell holds of its launch.
 
 First the whole description is walked through, then the processes start, in order; so a description with an
 error in it starts nothing. Events are handled one after the other, at the instant at which they happen.
@@ -6,26 +6,32 @@ error in it starts nothing. Events are handled one after the other, at the insta
 
 from __future__ import annotations
 
-import asyncio
-import time
-from collections import deque
-from collections.abc import Callable, Iterator
+import textwrap
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, redirect_stdout
+from dataclasses import dataclass
 from itertools import count
+from pathlib import Path
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
-from launch import Action, Event, LaunchContext, LaunchDescriptionEntity
+from launch import Action, Event, LaunchContext, LaunchDescription, LaunchDescriptionEntity, LaunchDescriptionSource
 from launch._context import as_entities
-from launch.actions import EmitEvent
-from launch.event_handlers import OnActionEventBase
-from launch.events import IncludeLaunchDescription, Shutdown
+from launch._entities import described
+from launch.actions import EmitEvent, IncludeLaunchDescription
+from launch.events import IncludeLaunchDescription as Included
+from launch.events import Shutdown
+from launch.launch_description_sources import AnyLaunchDescriptionSource
 
 from ..ament.errors import NotHereError
-from ..ament.index import LaunchedPackages, seeing
+from ..ament.index import LaunchedPackages, is_launch_file, seeing
+from ..idl.names import did_you_mean
+from ..runtime.run_world import run_for
 from ..runtime.world import current_world
-from ..sim.strand import running_strand
-from .errors import LaunchError, hint_for, place_of, reason_of
-from .processes import Processes, Screen
+from ..sim.errors import shown_path
+from ..sim.simulation import NANOSECONDS
+from .errors import LaunchError, hint_for, learners_cause, place_of, reason_of
+from .processes import Processes, RosHelper
 
 if TYPE_CHECKING:
     from launch.actions import ExecuteLocal
@@ -34,20 +40,17 @@ if TYPE_CHECKING:
     from ..sim.process import Process
 
 
-NANOSECONDS = 1_000_000_000
-
-
 class LaunchService:
     """Carries out one launch in a world."""
 
     def __init__(self, world: World, given: dict[str, str]) -> None:
         self.world = world
         self.given = given
-        self.screen = Screen(world)
         self.context = LaunchContext()
         self.context._host = self
         self.processes = Processes(self)
-        self._numbers = count(1)
+        self.numbers = count(1)
+        """What is after the dash in `navigator-1`."""
         self._waiting: list[ExecuteLocal] = []
         self._timers = 0
         self._settling = False
@@ -62,12 +65,6 @@ class LaunchService:
     def running(self) -> bool:
         """Whether a process runs, or something is still to come."""
         return bool(self.processes.alive) or (self._timers > 0 and not self.context.is_shutdown)
-
-    # -- what actions ask for (launch._host.Host) ---------------------------------------------------------
-
-    def next_process_number(self) -> int:
-        """The number after the dash in `navigator-1`."""
-        return next(self._numbers)
 
     def start_process(self, action: ExecuteLocal) -> None:
         """Have an action's process started as soon as what is being walked through is done."""
@@ -99,9 +96,15 @@ class LaunchService:
         """Print a warning of launch's own, unless this launch has printed it before."""
         if text not in self._warnings:
             self._warnings.add(text)
-            self.screen.say("WARNING", "launch", text)
+            self.say("WARNING", "launch", text)
 
-    # -- running ------------------------------------------------------------------------------------------
+    def line(self, text: str) -> None:
+        """Print a line into the cell that is running, whichever process prints."""
+        print(text, file=self.world.sim.cell_stdout)
+
+    def say(self, level: str, name: str, text: str) -> None:
+        """Print a line of launch's own, such as `[INFO] [launch]: …`."""
+        self.line(f"[{level}] [{name}]: {text}")
 
     def begin(self, entity: LaunchDescriptionEntity) -> None:
         """Walk through a description and start its processes.
@@ -110,7 +113,7 @@ class LaunchService:
             LaunchError: if something is wrong with it. If it is found while walking, nothing was started.
         """
         if not self._said_level:
-            self.screen.say("INFO", "launch", "Default logging verbosity is set to INFO")
+            self.say("INFO", "launch", "Default logging verbosity is set to INFO")
             self._said_level = True
         with self._inside():
             try:
@@ -124,7 +127,7 @@ class LaunchService:
     def _warn_of_what_follows(self) -> None:
         """Name what waits for the end, say, of a program that is left out, unless all that it does is to emit events."""
         for handler in self.context._event_handlers:
-            target = handler._target_action if isinstance(handler, OnActionEventBase) else None
+            target: Any = getattr(handler, "_target", None)
             if target in self._left_out and not all(isinstance(each, EmitEvent) for each in handler.describe()[1]):
                 self.warn_once(
                     f"{type(handler).__name__} of {self._left_out[target]} is left out, too, with what it starts"
@@ -141,6 +144,11 @@ class LaunchService:
                 self._settle()
             except Exception as error:
                 self._fail(as_launch_error(error, None, self.given))
+
+    def interrupt(self) -> None:
+        """End it, as Ctrl-C in its terminal would."""
+        self.say("WARNING", "launch", "user interrupted with ctrl-c (SIGINT)")
+        self.shut_down("ctrl-c (SIGINT)", due_to_sigint=True)
 
     def shut_down(self, reason: str, *, due_to_sigint: bool = False) -> None:
         """End the whole launch."""
@@ -161,10 +169,17 @@ class LaunchService:
             if self._helper is not None and not self.running:
                 self._helper.close()
 
+    def begin_or_fail(self, entity: LaunchDescriptionEntity) -> None:
+        """The same for a program's own `LaunchService`, where an error ends the launch and is printed."""
+        try:
+            self.begin(entity)
+        except LaunchError as error:
+            self._fail(error)
+
     def _fail(self, error: LaunchError) -> None:
         self.failed = True
         for line in filter(None, (error.console, error.advice)):
-            self.screen.line(line)
+            self.line(line)
         self.shut_down("an error in the launch")
 
     def _settle(self) -> None:
@@ -196,16 +211,16 @@ class LaunchService:
         if isinstance(event, Shutdown):
             if self.context.is_shutdown:
                 return
-            self.context._set_is_shutdown(True)
-        if isinstance(event, IncludeLaunchDescription):
+            self.context.is_shutdown = True
+        if isinstance(event, Included):
             self.visit(event.launch_description)
         for handler in [known for known in self.context._event_handlers if known.matches(event)]:
-            self.context._push_locals()
+            self.context._push("_locals")
             try:
                 for entity in as_entities(handler.handle(event, self.context)):
                     self.visit(entity)
             finally:
-                self.context._pop_locals()
+                self.context._pop("_locals")
         self.processes.react(event)
 
 
@@ -216,172 +231,173 @@ def as_launch_error(error: BaseException, written_at: tuple[str, int] | None, gi
     return LaunchError(reason_of(error), place_of(error, written_at), hint_for(error, given))
 
 
-LOOKS_AGAIN = 0.01
-"""How often, in s, it looks whether a node has its service by now."""
+def service_here() -> LaunchService:
+    """A launch in the world that the running code lives in, for a program's own `LaunchService`."""
+    return LaunchService(current_world(), {})
 
 
-class RosHelper:
-    """Listens to managed nodes and asks them for transitions; what it hears is told outside of its process."""
+@dataclass(frozen=True)
+class LaunchArgument:
+    """One argument that a launch file takes.
 
-    def __init__(self, world: World, carry_on: Callable[[Callable[[], None]], None]) -> None:
-        self._world = world
-        self._carry_on = carry_on
-        self._orders: list[Callable[[], None]] = []
-        self._node: Any = None
-        self._executor: Any = None
-        self._clients: dict[str, Any] = {}
-        self._ended = False
-        self._process: Process = world.spawn(self._main, name="launch_ros", argv=["launch_ros"])
+    Attributes:
+        name: its name.
+        description: what it is for.
+        default: its default as `--show-args` shows it (`'10'`), or None if it must be given.
+        choices: the values that it may have, or None for any.
+    """
 
-    def _main(self) -> None:
-        import rclpy
-        from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
-
-        rclpy.init(args=[])
-        self._node = rclpy.create_node(f"launch_ros_{self._process.pid}", start_parameter_services=False)
-        self._executor = SingleThreadedExecutor()
-        self._executor.add_node(self._node)
-        self._wakes = self._node.create_guard_condition(self._work)
-        self._work()
-        try:
-            self._executor.spin()
-        except (KeyboardInterrupt, ExternalShutdownException):
-            pass
-        finally:
-            rclpy.try_shutdown()
-
-    def _work(self) -> None:
-        """Carry the orders out, in the helper's own process."""
-        while self._orders:
-            self._orders.pop(0)()
-
-    def _order(self, order: Callable[[], None]) -> None:
-        self._orders.append(order)
-        if self._node is not None:
-            self._wakes.trigger()
-
-    def _tell(self, function: Callable[[], None]) -> None:
-        """Call a function of the launch, outside of this process and at this instant."""
-        if not self._ended:
-            self._world.sim.call_later(0, self._carry_on, function)
-
-    def watch(self, node_name: str, heard: Callable[[Any], None]) -> None:
-        """Have a function called with each TransitionEvent of a node."""
-        from lifecycle_msgs.msg import TransitionEvent
-
-        def subscribe() -> None:
-            topic = f"{node_name}/transition_event"
-            self._node.create_subscription(TransitionEvent, topic, lambda msg: self._tell(lambda: heard(msg)), 10)
-
-        self._order(subscribe)
-
-    def change_state(self, node_name: str, transition_id: int, answered: Callable[[bool], None]) -> None:
-        """Ask a node for a transition, as soon as it has the service; the function is called with the answer."""
-        from lifecycle_msgs.srv import ChangeState
-
-        def call() -> None:
-            client = self._client(node_name, ChangeState)
-            if not client.service_is_ready():  # wait without holding up what other nodes tell
-                timer: Any = self._node.create_timer(LOOKS_AGAIN, lambda: again(timer))
-                return
-            request = ChangeState.Request()
-            request.transition.id = transition_id
-            future = client.call_async(request)
-            future.add_done_callback(lambda done: self._tell(lambda: answered(done.result().success)))
-
-        def again(timer: Any) -> None:
-            self._node.destroy_timer(timer)
-            call()
-
-        self._order(call)
-
-    def _client(self, node_name: str, kind: Any) -> Any:
-        if node_name not in self._clients:
-            self._clients[node_name] = self._node.create_client(kind, f"{node_name}/change_state")
-        return self._clients[node_name]
-
-    def close(self) -> None:
-        """End it."""
-        self._ended = True
-        if self._process.exit_code is None:
-            self._process.kill()
+    name: str
+    description: str
+    default: str | None
+    choices: tuple[str, ...] | None = None
 
 
-LOOKS = 0.01
-"""How often, in s of robot time, it looks whether the launch has ended."""
+def _declared_in(description: LaunchDescription) -> list[LaunchArgument]:
+    """The arguments that a description and what it includes declare."""
+    return [
+        LaunchArgument(
+            argument.name,
+            argument.description,
+            None if argument.default_value is None else described(argument.default_value),
+            None if argument.choices is None else tuple(argument.choices),
+        )
+        for argument in description.get_launch_arguments()
+    ]
 
 
-class LaunchByHand:
-    """One launch in the world that the running code lives in."""
+class LaunchHandle:
+    """A running launch: its processes, and how to stop it."""
 
-    def __init__(self, argv: list[str], noninteractive: bool) -> None:
-        self._service = LaunchService(current_world(), {})
-        self.context: LaunchContext = self._service.context
-        self.context.argv = argv
-        self.context.noninteractive = noninteractive
-        self._early: deque[Event] = deque()
-        self._began = False
-        self._failed = False
+    def __init__(self, service: LaunchService, name: str) -> None:
+        self._service: LaunchService | Any = service
+        self.name = name
+        service.world.at_close.append(self._let_go)
 
-    def emit(self, event: Event) -> None:
-        """Emit an event; before the launch has begun, it waits."""
-        if self._began:
-            self.context.emit_event_sync(event)
-        else:
-            self._early.append(event)
+    def _let_go(self) -> None:
+        """Keep the names, and nothing of the world that is closed: Jupyter's `Out` may keep this handle for long."""
+        left = [SimpleNamespace(name=name, alive=False, process=None) for name in self.names]
+        self._service = SimpleNamespace(processes=left, running=False)
 
-    def run(self, shutdown_when_idle: bool) -> int:
-        """Carry all out and wait for the end; the exit code."""
-        if running_strand() is not None:
-            return self._run(shutdown_when_idle)
-        from rclpy._blocking import spin_live
+    @property
+    def processes(self) -> list[Process]:
+        """Its processes in the order of their start, dead ones included."""
+        return [entry.process for entry in self._service.processes if entry.process is not None]
 
-        codes: list[int] = []
-        spin_live(lambda: codes.append(self._run(shutdown_when_idle)))
-        return codes[0] if codes else 0
+    @property
+    def names(self) -> list[str]:
+        """What its processes are called in the output, such as `navigator-1`."""
+        return [entry.name for entry in self._service.processes]
 
-    def _run(self, shutdown_when_idle: bool) -> int:
-        self._begin()
-        while self._goes_on(shutdown_when_idle):
-            try:
-                time.sleep(LOOKS)
-            except KeyboardInterrupt:
-                self._interrupted()
-        return self._code()
+    @property
+    def running(self) -> bool:
+        """Whether a process of it runs, or something in it is still to come."""
+        return self._service.running
 
-    async def run_async(self, shutdown_when_idle: bool) -> int:
-        """The same as a coroutine."""
-        self._begin()
-        while self._goes_on(shutdown_when_idle):
-            await asyncio.sleep(LOOKS)
-        return self._code()
+    def wait_until_up(self) -> None:
+        """Let robot time pass until the programs that have been started so far are up, one after the other."""
+        world = self._service.world
+        run_for(world, max(0, self._service.processes.up_at - world.now) / NANOSECONDS)
+        world.sim.settle()
 
-    def _begin(self) -> None:
-        self._began = True
-        while self._early and not self._failed:
-            try:
-                self._service.begin(EmitEvent(event=self._early.popleft()))
-            except LaunchError as error:
-                self._failed = True
-                for line in filter(None, (error.console, error.advice)):
-                    self._service.screen.line(line)
+    def stop(self) -> None:
+        """End it, as Ctrl-C in its terminal would. Does nothing if it has ended already."""
+        if self.running:
+            self._service.interrupt()
 
-    def _goes_on(self, shutdown_when_idle: bool) -> bool:
-        service = self._service
-        return service.running or not (shutdown_when_idle or self.context.is_shutdown)
+    def __repr__(self) -> str:
+        alive = [entry.name for entry in self._service.processes if entry.alive]
+        state = f"running: {', '.join(alive)}" if alive else "running" if self.running else "ended"
+        return f"<Launch of {self.name}, {state}>"
 
-    def _code(self) -> int:
-        if not self.context.is_shutdown:
-            self._service.shut_down("idle")
-        self._began = False
-        return 1 if self._failed or self._service.failed else 0
 
-    def _interrupted(self) -> None:
-        if not self.context.is_shutdown:
-            self._service.screen.say("WARNING", "launch", "user interrupted with ctrl-c (SIGINT)")
-            self._service.shut_down("ctrl-c (SIGINT)", due_to_sigint=True)
+def launch_file(
+    world: World,
+    path: Path | str,
+    arguments: Mapping[str, object] | None = None,
+    *,
+    show_all_output: bool = False,
+) -> LaunchHandle:
+    """Carry out a launch file.
 
-    def shut_down(self) -> None:
-        """End it, if it runs."""
-        if self._began and not self.context.is_shutdown:
-            self._service.shut_down("LaunchService.shutdown() called")
+    Args:
+        world: where the nodes are to run.
+        path: the file.
+        arguments: its launch arguments, as `name:=value` on a command line; values become text.
+        show_all_output: whether all that its processes print is shown (`ros2 launch -a`).
+
+    Raises:
+        LaunchError: if the file cannot be carried out; nothing was started then.
+    """
+    source = AnyLaunchDescriptionSource(_existing(Path(path)))
+    return _begin(world, source, arguments, Path(path).name, show_all_output)
+
+
+def launch_description(
+    world: World, description: LaunchDescription, arguments: Mapping[str, object] | None = None
+) -> LaunchHandle:
+    """Carry out a description that was made in a notebook cell. As `launch_file` otherwise."""
+    return _begin(world, LaunchDescriptionSource(description, "notebook cell"), arguments, "a description")
+
+
+def launch_arguments(world: World, path: Path | str) -> list[LaunchArgument]:
+    """The arguments that a launch file takes.
+
+    Raises:
+        LaunchError: if the file cannot be loaded.
+    """
+    source = AnyLaunchDescriptionSource(_existing(Path(path)))
+    try:
+        with seeing(LaunchedPackages(world.packages)):
+            return _declared_in(source._get_launch_description(str(path)))
+    except Exception as error:
+        raise as_launch_error(error, None, {}) from learners_cause(error)
+
+
+def show_arguments(world: World, path: Path | str) -> str:
+    """What `ros2 launch … --show-args` prints.
+
+    Raises:
+        LaunchError: if the file cannot be loaded.
+    """
+    parts = ["Arguments (pass arguments as '<name>:=<value>'):"]
+    for argument in launch_arguments(world, path):
+        part = f"    '{argument.name}':\n{textwrap.indent(argument.description, '        ')}"
+        parts.append(part + ("" if argument.default is None else f"\n        (default: {argument.default})"))
+    return "\n\n".join(parts if len(parts) > 1 else [*parts, "  No arguments."])
+
+
+def _existing(path: Path) -> str:
+    if path.is_file():
+        return str(path.resolve())
+    others = sorted(other.name for other in path.parent.glob("*") if is_launch_file(other.name))
+    hint = f"There are: {', '.join(others)}." if others else ""
+    raise LaunchError(f"there is no launch file {shown_path(str(path))}", None, hint)
+
+
+def _begin(
+    world: World,
+    source: LaunchDescriptionSource,
+    arguments: Mapping[str, object] | None,
+    name: str,
+    show_all_output: bool = False,
+) -> LaunchHandle:
+    given = {  # as on a command line, where True is `true`
+        argument: str(value).lower() if isinstance(value, bool) else str(value)
+        for argument, value in (arguments or {}).items()
+    }
+    service = LaunchService(world, given)
+    service.context._output_override = "both" if show_all_output else None
+    include = IncludeLaunchDescription(source, launch_arguments=given.items())
+    include._written_at = None  # it stands in no launch file
+    try:
+        service.begin(include)
+    except LaunchError as error:
+        raise error from learners_cause(error.__cause__)
+    known = [argument.name for argument in _declared_in(source.get_launch_description(service.context))]
+    for argument in given:  # the real tool says nothing
+        if argument not in known and argument not in service.context._configurations_read:
+            takes = f"It takes: {', '.join(known)}." if known else "It takes no arguments."
+            what = f"nothing in this launch file takes the argument '{argument}'"
+            service.say("WARNING", "launch", f"{what}. {did_you_mean(argument, known) or takes}")
+    return LaunchHandle(service, name)

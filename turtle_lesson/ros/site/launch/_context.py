@@ -3,20 +3,27 @@
 from __future__ import annotations
 
 import os
-from collections import deque
+from collections import defaultdict, deque
 from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from ._entities import LaunchDescriptionEntity, SomeEntitiesType, Substitution
 
 if TYPE_CHECKING:
-    from .actions._processes import ExecuteLocal
+    from turtle_lesson.ros.launching.service import LaunchService
 
 
 class Event:
-    """Base of all events."""
+    """Base of all events; `name` is that of its class."""
 
     name = "launch.Event"
+
+    def __init_subclass__(cls) -> None:
+        if "name" not in vars(cls):
+            cls.name = f"{cls.__module__}.{cls.__name__}"
+
+
+Reaction = SomeEntitiesType | Callable[[Any, "LaunchContext"], SomeEntitiesType | None] | None
 
 
 class BaseEventHandler:
@@ -24,12 +31,7 @@ class BaseEventHandler:
 
     def __init__(self, *, matcher: Callable[[Event], bool], handle_once: bool = False) -> None:
         self.__matcher = matcher
-        self.__handle_once = handle_once
-
-    @property
-    def handle_once(self) -> bool:
-        """Whether it handles one event only."""
-        return self.__handle_once
+        self.handle_once = handle_once
 
     def matches(self, event: Event) -> bool:
         """Whether it is for this event."""
@@ -47,7 +49,30 @@ class BaseEventHandler:
         return None
 
 
-class EventHandler(BaseEventHandler):
+class ReactingHandler(BaseEventHandler):
+    """Calls a function when its event happens, or gives fixed entities."""
+
+    def __init__(self, reaction: Reaction, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__function = reaction if callable(reaction) else None
+        self.__entities = [] if callable(reaction) else as_entities(reaction)
+
+    @property
+    def entities(self) -> list[LaunchDescriptionEntity]:
+        """What is visited when the event happens, as far as it is known."""
+        return self.__entities
+
+    def describe(self) -> tuple[str, list[LaunchDescriptionEntity]]:
+        """In words, and the entities as far as they are known."""
+        return f"{type(self).__name__}()", self.entities
+
+    def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:
+        """Call the function, or give the entities."""
+        super().handle(event, context)
+        return self.entities if self.__function is None else self.__function(event, context)
+
+
+class EventHandler(ReactingHandler):
     """Gives fixed entities when its event happens."""
 
     def __init__(
@@ -57,22 +82,7 @@ class EventHandler(BaseEventHandler):
         entities: SomeEntitiesType | None = None,
         handle_once: bool = False,
     ) -> None:
-        super().__init__(matcher=matcher, handle_once=handle_once)
-        self.__entities = as_entities(entities)
-
-    @property
-    def entities(self) -> list[LaunchDescriptionEntity]:
-        """What is visited when the event happens."""
-        return self.__entities
-
-    def describe(self) -> tuple[str, list[LaunchDescriptionEntity]]:
-        """In words, and the entities."""
-        return f"{type(self).__name__}()", self.__entities
-
-    def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:
-        """Give the entities."""
-        super().handle(event, context)
-        return self.__entities
+        super().__init__(as_entities(entities), matcher=matcher, handle_once=handle_once)
 
 
 def as_entities(entities: SomeEntitiesType | None) -> list[LaunchDescriptionEntity]:
@@ -84,35 +94,6 @@ def as_entities(entities: SomeEntitiesType | None) -> list[LaunchDescriptionEnti
     if isinstance(entities, Iterable):
         return list(entities)
     raise TypeError(f"expected an action or a list of actions, got {entities!r}")
-
-
-class RosHelper(Protocol):
-    """A node of launch's own, which listens to managed nodes and calls their services."""
-
-    def watch(self, node_name: str, heard: Callable[[Any], None]) -> None:
-        """Have a function called with each TransitionEvent of a node."""
-
-    def change_state(self, node_name: str, transition_id: int, answered: Callable[[bool], None]) -> None:
-        """Ask a node for a transition; the function is called with the answer."""
-
-
-class Host(Protocol):
-    """Starts the processes and keeps the time of a launch."""
-
-    def next_process_number(self) -> int:
-        """The number after the dash in `navigator-1`, counted from 1."""
-
-    def start_process(self, action: ExecuteLocal) -> None:
-        """Have the action's process started as soon as the description has been walked through."""
-
-    def call_later(self, seconds: float, function: Callable[[], None]) -> None:
-        """Have a function called after some robot time."""
-
-    def settle_soon(self) -> None:
-        """Have the waiting events handled, still at this instant."""
-
-    def ros_helper(self) -> RosHelper:
-        """The node of launch's own; it is made when it is first asked for."""
 
 
 class Locals:
@@ -130,14 +111,23 @@ class Locals:
 
 
 class LaunchContext:
-    """The state of one launch."""
+    """The state of one launch.
+
+    Attributes:
+        launch_configurations: arguments that were given or have a default, and what was set.
+        environment: the environment variables as this launch sees them; the kernel's own stay as they are.
+    """
 
     def __init__(self, *, argv: Iterable[str] | None = None, noninteractive: bool = False) -> None:
         self.argv = list(argv or [])
         self.noninteractive = noninteractive
         self.is_shutdown = False
         self.asyncio_loop = None
-        self._host: Host | None = None
+        self.launch_configurations: dict[str, Any] = {}
+        self.environment = dict(os.environ)
+        self._environment_at_start = dict(os.environ)
+        self._scopes: defaultdict[str, list[dict[str, Any]]] = defaultdict(list)
+        self._host: LaunchService | None = None
         self._configurations_read: set[str] = set()
         self._output_override: str | None = None
         self._include_depth = 0
@@ -145,17 +135,6 @@ class LaunchContext:
         self._event_handlers: deque[BaseEventHandler] = deque()
         self._globals: dict[str, Any] = {}
         self._locals: dict[str, Any] = {}
-        self._locals_stack: list[dict[str, Any]] = []
-        self._launch_configurations: dict[str, Any] = {}
-        self._launch_configurations_stack: list[dict[str, Any]] = []
-        self._environment = dict(os.environ)
-        self._environment_at_start = dict(os.environ)
-        self._environment_stack: list[dict[str, str]] = []
-
-    def _set_is_shutdown(self, state: bool) -> None:
-        self.is_shutdown = state
-
-    # -- names with values ------------------------------------------------------------------------------
 
     @property
     def locals(self) -> Locals:
@@ -174,44 +153,15 @@ class LaunchContext:
         """Set names until the current handler or include is done."""
         self._locals.update(extensions)
 
-    def _push_locals(self) -> None:
-        self._locals_stack.append(dict(self._locals))
+    def _push(self, name: str) -> None:
+        """Begin a scope of `launch_configurations`, `environment` or `_locals`."""
+        self._scopes[name].append(dict(getattr(self, name)))
 
-    def _pop_locals(self) -> None:
-        self._locals = self._locals_stack.pop()
-
-    # -- launch configurations and environment ------------------------------------------------------------
-
-    @property
-    def launch_configurations(self) -> dict[str, Any]:
-        """The launch configurations: arguments that were given or have a default, and what was set."""
-        return self._launch_configurations
-
-    def _push_launch_configurations(self) -> None:
-        self._launch_configurations_stack.append(dict(self._launch_configurations))
-
-    def _pop_launch_configurations(self) -> None:
-        if not self._launch_configurations_stack:
-            raise RuntimeError("launch_configurations stack unexpectedly empty")
-        self._launch_configurations = self._launch_configurations_stack.pop()
-
-    @property
-    def environment(self) -> dict[str, str]:
-        """The environment variables as this launch sees them; the kernel's own stay as they are."""
-        return self._environment
-
-    def _push_environment(self) -> None:
-        self._environment_stack.append(dict(self._environment))
-
-    def _pop_environment(self) -> None:
-        if not self._environment_stack:
-            raise RuntimeError("environment stack unexpectedly empty")
-        self._environment = self._environment_stack.pop()
-
-    def _reset_environment(self) -> None:
-        self._environment = dict(self._environment_at_start)
-
-    # -- events -----------------------------------------------------------------------------------------
+    def _pop(self, name: str) -> None:
+        """End the scope: forget what was set in it."""
+        if not self._scopes[name]:
+            raise RuntimeError(f"{name} stack unexpectedly empty")
+        setattr(self, name, self._scopes[name].pop())
 
     def would_handle_event(self, event: Event) -> bool:
         """Whether anybody waits for such an event."""

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, Any, Union
+from collections.abc import Callable, Iterable, Mapping
+from typing import TYPE_CHECKING, Any, ClassVar, Union
 
 from turtle_lesson.ros.sim.errors import is_ours
 
@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 class Substitution:
     """Base of everything that stands for text in a launch description."""
 
+    _shown = ""
+    """How one is shown, with the names of its attributes in braces."""
+
     def perform(self, context: LaunchContext) -> str:
         """The text, in this context."""
         raise NotImplementedError(f"{type(self).__name__} must define perform(self, context)")
@@ -30,7 +33,13 @@ class Substitution:
 
     def describe(self) -> str:
         """How `--show-args` shows it."""
-        return f"{type(self).__name__}()"
+        values = {name: described(value) for name, value in vars(self).items() if isinstance(value, list)}
+        return self._shown.format(**values) if self._shown else f"{type(self).__name__}()"
+
+
+def described(pieces: Iterable[Substitution]) -> str:
+    """How pieces of a text are shown."""
+    return " + ".join(piece.describe() for piece in pieces)
 
 
 class TextSubstitution(Substitution):
@@ -38,16 +47,10 @@ class TextSubstitution(Substitution):
 
     def __init__(self, *, text: str) -> None:
         if not isinstance(text, str):
-            what = f"TextSubstitution expected Text object got '{type(text)}' instead."
-            error = TypeError(what)
+            error = TypeError(f"TextSubstitution expected Text object got '{type(text)}' instead.")
             error.add_note(f"Write it as text: TextSubstitution(text='{text}')")
             raise error
-        self.__text = text
-
-    @property
-    def text(self) -> str:
-        """The text."""
-        return self.__text
+        self.text = text
 
     def describe(self) -> str:
         """The text in quotation marks."""
@@ -79,9 +82,7 @@ class LaunchDescriptionEntity:
         """The entities that it will give, as far as that is known beforehand."""
         return []
 
-    def describe_conditional_sub_entities(
-        self,
-    ) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+    def describe_conditional_sub_entities(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
         """The entities that it may give, each group with the condition in words."""
         return []
 
@@ -115,34 +116,35 @@ class Action(LaunchDescriptionEntity):
     """Base of all actions. A subclass says in `execute` what it does."""
 
     _completes_later = False
+    _tag: ClassVar[Mapping[str, Callable[[Entity, Parser], Any]]] = {}
+    """How each argument of the constructor is read from a tag of an XML or YAML file; `_tags.py` has the functions."""
 
     def __init__(self, *, condition: Condition | None = None) -> None:
-        self.__condition = condition
+        self.condition = condition
         self._written_at = written_at()
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type, dict[str, Any]]:
-        """The class and its arguments for a tag of an XML or YAML file; here those that every action has.
+    def parse(cls, entity: Entity, parser: Parser, ignore: Iterable[str] = ()) -> tuple[type, dict[str, Any]]:
+        """The class and its arguments, without those in `ignore`, for a tag of an XML or YAML file.
 
         Raises:
-            RuntimeError: if it has both `if` and `unless`.
+            RuntimeError: if it has both `if` and `unless`; and whatever is wrong with its attributes.
         """
         from .conditions import IfCondition, UnlessCondition
 
-        if_text = entity.get_attr("if", optional=True)
-        unless_text = entity.get_attr("unless", optional=True)
-        if if_text is not None and unless_text is not None:
+        kinds = {"if": IfCondition, "unless": UnlessCondition}
+        given = [
+            (kind, text) for name, kind in kinds.items() if (text := entity.get_attr(name, optional=True)) is not None
+        ]
+        if len(given) == 2:
             raise RuntimeError("if and unless conditions can't be used simultaneously")
-        if if_text is not None:
-            return cls, {"condition": IfCondition(parser.parse_substitution(if_text))}
-        if unless_text is not None:
-            return cls, {"condition": UnlessCondition(parser.parse_substitution(unless_text))}
-        return cls, {}
-
-    @property
-    def condition(self) -> Condition | None:
-        """The condition, or None."""
-        return self.__condition
+        kwargs: dict[str, Any] = {}
+        for kind, text in given:
+            kwargs["condition"] = kind(parser.parse_substitution(text))
+        for name, read in cls._tag.items():
+            if name not in (ignore or ()) and (value := read(entity, parser)) is not None:
+                kwargs[name] = value
+        return cls, kwargs
 
     def __repr__(self) -> str:
         return f"<{type(self).__module__}.{type(self).__qualname__} object>"
@@ -153,7 +155,7 @@ class Action(LaunchDescriptionEntity):
 
     def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Carry it out if its condition holds."""
-        if self.__condition is not None and not self.__condition.evaluate(context):
+        if self.condition is not None and not self.condition.evaluate(context):
             return None
         entities = self.execute(context)
         if not self._completes_later:
@@ -174,7 +176,12 @@ class Action(LaunchDescriptionEntity):
 
 
 class LaunchDescription(LaunchDescriptionEntity):
-    """What a launch file's `generate_launch_description()` returns."""
+    """What a launch file's `generate_launch_description()` returns.
+
+    Attributes:
+        entities: its entities, in order.
+        deprecated_reason: why it should not be used any more, or None.
+    """
 
     def __init__(
         self,
@@ -182,27 +189,17 @@ class LaunchDescription(LaunchDescriptionEntity):
         *,
         deprecated_reason: str | None = None,
     ) -> None:
-        self.__entities = list(initial_entities) if initial_entities is not None else []
-        self.__deprecated_reason = deprecated_reason
-
-    @property
-    def entities(self) -> list[LaunchDescriptionEntity]:
-        """Its entities, in order."""
-        return self.__entities
+        self.entities = list(initial_entities) if initial_entities is not None else []
+        self.deprecated_reason = deprecated_reason
 
     @property
     def deprecated(self) -> bool:
         """Whether its author says that it should not be used any more."""
-        return self.__deprecated_reason is not None
-
-    @property
-    def deprecated_reason(self) -> str | None:
-        """Why it should not be used any more, or None."""
-        return self.__deprecated_reason
+        return self.deprecated_reason is not None
 
     def add_entity(self, entity: LaunchDescriptionEntity) -> None:
         """Append an entity."""
-        self.__entities.append(entity)
+        self.entities.append(entity)
 
     def add_action(self, action: Action) -> None:
         """Append an action."""
@@ -210,15 +207,15 @@ class LaunchDescription(LaunchDescriptionEntity):
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """Its entities."""
-        return self.__entities
+        return self.entities
 
     def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Give its entities."""
-        if self.__deprecated_reason is not None:
+        if self.deprecated:
             path = context.get_locals_as_dict().get("current_launch_file_path")
             what = f"launch file [{path}] is deprecated" if path else "deprecated launch description"
-            logging.get_logger().warning(f"{what}: {self.__deprecated_reason}")
-        return self.__entities
+            logging.get_logger().warning(f"{what}: {self.deprecated_reason}")
+        return self.entities
 
     def get_launch_arguments(self, conditional_inclusion: bool = False) -> list[DeclareLaunchArgument]:
         """The arguments that it and what it includes declare."""

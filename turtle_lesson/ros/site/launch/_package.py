@@ -3,58 +3,73 @@
 from __future__ import annotations
 
 import difflib
+import re
 import sys
-from collections.abc import Callable, Mapping
-from types import ModuleType
+from collections.abc import Mapping
+from functools import partial
+from types import MappingProxyType, ModuleType
 from typing import Any
 
 
-def provide_modules(modules: Mapping[str, Mapping[str, str]]) -> None:
+def complete_package(
+    package: str,
+    modules: Mapping[str, str],
+    missing: Mapping[str, Mapping[str, str]] = MappingProxyType({}),
+) -> None:
     """Let the modules of a real package be imported by their names, though fewer files hold what is in them.
 
-    A class or function has the name of such a module as its `__module__`, as on a robot.
+    Each public class lies in a module of its own, too: `launch.actions.TimerAction` in `launch.actions.timer_action`. It has
+    that name as its `__module__`, as on a robot. A public name that is not here raises an ImportError that says so.
 
     Args:
-        modules: for each module that is a file here, the real modules whose names are in it, and these names, parted by
-            spaces. A package stands before what is in it.
+        package: the package; all its files have been imported.
+        modules: further modules of the real package, and the names in each, parted by spaces.
+        missing: for a module, names that the real one has, each with what to do without it.
     """
-    for home, real in modules.items():
-        source = vars(sys.modules[home])
-        for path, names in real.items():
-            module = ModuleType(path, source["__doc__"])
-            module.__dict__.update({name: source[name] for name in names.split()})
-            module.__dict__.update(__file__=source["__file__"], __all__=names.split())
-            for value in vars(module).values():
-                if getattr(value, "__module__", None) == home:
-                    value.__module__ = path
-            sys.modules[path] = module
-            parent, _, last = path.rpartition(".")
-            vars(sys.modules[parent]).setdefault(last, module)
+    files = sorted(name for name in sys.modules if f"{name}.".startswith(f"{package}."))
+    anywhere = {name: value for file in files for name, value in vars(sys.modules[file]).items()}
+    for path, names in modules.items():
+        nearer = vars(sys.modules[path.rpartition(".")[0]])
+        for name in names.split():
+            _put(path, name, nearer.get(name, anywhere[name]), files)
+    for file in (name for name in files if "._" not in name):
+        module = sys.modules[file]
+        for name in getattr(module, "__all__", ()):
+            value = vars(module)[name]
+            path = f"{file}.{_snake_case(name)}"
+            has_none = isinstance(value, type) and (value.__module__ in (file, path) or "._" in value.__module__)
+            if has_none and path not in files:
+                _put(path, name, value, files)
+        vars(module)["__getattr__"] = partial(_missing, module, missing.get(file, {}))
 
 
-def explain_missing(module: str, real: Mapping[str, str]) -> Callable[[str], Any]:
-    """A module-level `__getattr__` that raises ImportError for a public name that is not here.
-
-    Args:
-        module: the module's name.
-        real: names that the real module has, each with what to do without it, or an empty text.
-    """
-
-    def missing(name: str) -> Any:
-        if name.startswith("_"):
-            raise AttributeError(f"module {module!r} has no attribute {name!r}")
-        raise ImportError(_explanation(module, name, real), name=module)
-
-    return missing
+def _snake_case(name: str) -> str:
+    return re.sub(r"(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name).lower()
 
 
-def _explanation(module: str, name: str, real: Mapping[str, str]) -> str:
-    here = [public for public in vars(sys.modules[module]) if not public.startswith("_")]
+def _put(path: str, name: str, value: Any, files: list[str]) -> None:
+    """Put a name into a module, which is made if there is none."""
+    if path not in sys.modules:
+        sys.modules[path] = ModuleType(path)
+        parent, _, last = path.rpartition(".")
+        vars(sys.modules[path]).update(__all__=[], __file__=sys.modules[parent].__file__)
+        vars(sys.modules[parent]).setdefault(last, sys.modules[path])
+    module = vars(sys.modules[path])
+    module[name] = value
+    module["__all__"].append(name)
+    if getattr(value, "__module__", None) in files:
+        value.__module__ = path
+
+
+def _missing(module: ModuleType, real: Mapping[str, str], name: str) -> Any:
+    """What a module's `__getattr__` says of a name that is not in it."""
+    if name.startswith("_"):
+        raise AttributeError(f"module {module.__name__!r} has no attribute {name!r}")
+    here = [public for public in vars(module) if not public.startswith("_")]
+    begin = f"{module.__name__} has no {name!r}"
     if name in real:
-        advice = real[name] or "a real ROS 2 has it"
-        return f"{module} has no {name!r} here yet: {advice}"
-    close = difflib.get_close_matches(name, [*here, *real], n=1)
-    if close:
-        return f"{module} has no {name!r}; did you mean {close[0]!r}?"
-    classes = ", ".join(sorted(public for public in here if public[0].isupper()))
-    return f"{module} has no {name!r}. It has: {classes or ', '.join(sorted(here))}"
+        raise ImportError(f"{begin} here yet: {real[name]}", name=module.__name__)
+    if close := difflib.get_close_matches(name, [*here, *real], n=1):
+        raise ImportError(f"{begin}; did you mean {close[0]!r}?", name=module.__name__)
+    classes = sorted(public for public in here if public[0].isupper())
+    raise ImportError(f"{begin}. It has: {', '.join(classes or sorted(here))}", name=module.__name__)

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from ._context import LaunchContext
-from ._entities import Condition, SomeSubstitutionsType, Substitution
-from ._package import explain_missing
+from ._entities import Condition, SomeSubstitutionsType, Substitution, described
 from .utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 __all__ = [
@@ -25,10 +24,9 @@ class InvalidConditionExpressionError(ValueError):
     def __init__(
         self, expression: str, unexpanded_expression: list[Substitution], valid_expressions: list[str]
     ) -> None:
-        source = " + ".join(part.describe() for part in unexpanded_expression)
         super().__init__(
             f"invalid condition expression, expected one of [{', '.join(valid_expressions)}] "
-            f"but got '{expression}', expanded from '{source}'"
+            f"but got '{expression}', expanded from '{described(unexpanded_expression)}'"
         )
 
 
@@ -44,12 +42,10 @@ def evaluate_condition_expression(context: LaunchContext, expression: Iterable[S
     """
     pieces = list(expression)
     text = perform_substitutions(context, pieces).strip().lower()
-    if text in VALID_TRUE_EXPRESSIONS:
-        return True
-    if text in VALID_FALSE_EXPRESSIONS:
-        return False
     valid = VALID_TRUE_EXPRESSIONS + VALID_FALSE_EXPRESSIONS
-    raise InvalidConditionExpressionError(text, pieces, valid)
+    if text not in valid:
+        raise InvalidConditionExpressionError(text, pieces, valid)
+    return text in VALID_TRUE_EXPRESSIONS
 
 
 class IfCondition(Condition):
@@ -91,6 +87,3 @@ class LaunchConfigurationNotEquals(LaunchConfigurationEquals):
 
     def _holds(self, context: LaunchContext) -> bool:
         return not super()._holds(context)
-
-
-__getattr__ = explain_missing(__name__, {})

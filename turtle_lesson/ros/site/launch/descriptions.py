@@ -7,8 +7,7 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
 from ._entities import SomeSubstitutionsType, Substitution
-from ._package import explain_missing
-from .utilities import normalize_to_list_of_substitutions, perform_substitutions
+from .utilities import normalize_to_list_of_substitutions, perform_substitutions, text_of
 
 if TYPE_CHECKING:
     from ._context import LaunchContext
@@ -57,7 +56,7 @@ class Executable:
         self.final_cmd = [perform_substitutions(context, word) for word in self.cmd]
         base = perform_substitutions(context, self.name) if self.name else os.path.basename(self.final_cmd[0])
         host = context._host
-        number = host.next_process_number() if host is not None else 1
+        number = next(host.numbers) if host is not None else 1
         self.final_name = f"{base}-{number}"
         self.final_cwd = perform_substitutions(context, self.cwd) if self.cwd else None
         alone = context.environment if self.env is None else _variables(context, self.env)
@@ -66,15 +65,8 @@ class Executable:
 
 def _variables(context: LaunchContext, given: Environment) -> dict[str, str]:
     pairs = given.items() if isinstance(given, Mapping) else given
-    return {_text(context, name): _text(context, value) for name, value in pairs}
-
-
-def _text(context: LaunchContext, text: SomeSubstitutionsType) -> str:
-    return perform_substitutions(context, normalize_to_list_of_substitutions(text))
+    return {text_of(context, name): text_of(context, value) for name, value in pairs}
 
 
 def _pieces(text: SomeSubstitutionsType | None) -> list[Substitution] | None:
     return None if text is None else normalize_to_list_of_substitutions(text)
-
-
-__getattr__ = explain_missing(__name__, {})

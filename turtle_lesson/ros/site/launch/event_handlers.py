@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from ._context import BaseEventHandler, Event, EventHandler, LaunchContext, as_entities
-from ._entities import Action, LaunchDescriptionEntity, SomeEntitiesType
-from ._package import explain_missing
+from ._context import Event, EventHandler, LaunchContext, ReactingHandler, Reaction
+from ._entities import Action, SomeEntitiesType
 from .events import ExecutionComplete, Shutdown
 from .events.process import ProcessExited, ProcessIO, ProcessStarted
 
@@ -22,11 +21,10 @@ __all__ = [
 ]
 
 
-Reaction = SomeEntitiesType | Callable[[Any, LaunchContext], SomeEntitiesType | None] | None
 Target = Action | Callable[[Any], bool] | None
 
 
-class OnActionEventBase(BaseEventHandler):
+class OnActionEventBase(ReactingHandler):
     """Reacts to one kind of event of one action, of those that a function picks, or of all."""
 
     def __init__(
@@ -35,35 +33,17 @@ class OnActionEventBase(BaseEventHandler):
         if not (action_matcher is None or callable(action_matcher) or isinstance(action_matcher, Action)):
             what = f"{type(self).__name__} requires an 'Action' or a callable as its target"
             raise TypeError(f"{what}, got {action_matcher!r}; write target_action=the_node")
-        super().__init__(matcher=self._is_for, **kwargs)
-        self.__target = action_matcher
-        self.__event_class = target_event_cls
-        self.__reaction = on_event
-        self.__entities = [] if callable(on_event) else as_entities(on_event)
-
-    @property
-    def _target_action(self) -> Action | None:
-        """The only action that it reacts to, if it was given one."""
-        return self.__target if isinstance(self.__target, Action) else None
+        super().__init__(on_event, matcher=self._is_for, **kwargs)
+        self._target = action_matcher
+        self._event_class = target_event_cls
 
     def _is_for(self, event: Event) -> bool:
-        if not isinstance(event, self.__event_class):
+        if not isinstance(event, self._event_class):
             return False
         action = getattr(event, "action", None)
-        if self.__target is None or isinstance(self.__target, Action):
-            return self.__target in (None, action)
-        return self.__target(action)
-
-    def describe(self) -> tuple[str, list[LaunchDescriptionEntity]]:
-        """In words, and the entities as far as they are known."""
-        return f"{type(self).__name__}()", self.__entities
-
-    def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:
-        """Call the function, or give the entities."""
-        super().handle(event, context)
-        if callable(self.__reaction):
-            return self.__reaction(event, context)
-        return self.__entities
+        if self._target is None or isinstance(self._target, Action):
+            return self._target in (None, action)
+        return self._target(action)
 
 
 class OnExecutionComplete(OnActionEventBase):
@@ -111,26 +91,8 @@ class OnProcessStart(OnActionEventBase):
         super().__init__(action_matcher=target_action, on_event=on_start, target_event_cls=ProcessStarted, **kwargs)
 
 
-class OnShutdown(BaseEventHandler):
+class OnShutdown(ReactingHandler):
     """Reacts to the end of the launch."""
 
     def __init__(self, *, on_shutdown: Reaction, **kwargs: Any) -> None:
-        super().__init__(matcher=lambda event: isinstance(event, Shutdown), **kwargs)
-        self.__reaction = on_shutdown
-        self.__entities = [] if callable(on_shutdown) else as_entities(on_shutdown)
-
-    def describe(self) -> tuple[str, list[LaunchDescriptionEntity]]:
-        """In words, and the entities as far as they are known."""
-        return "OnShutdown()", self.__entities
-
-    def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:
-        """Call the function, or give the entities."""
-        super().handle(event, context)
-        if callable(self.__reaction):
-            return self.__reaction(event, context)
-        return self.__entities
-
-
-__getattr__ = explain_missing(
-    __name__, {"OnIncludeLaunchDescription": "launch itself carries an included description out"}
-)
+        super().__init__(on_shutdown, matcher=lambda event: isinstance(event, Shutdown), **kwargs)

@@ -8,8 +8,9 @@ from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO, TypeVar, get_args, get_origin
 
+from turtle_lesson.ros.idl.names import did_you_mean
+
 from ._entities import LaunchDescription, Place, Substitution, TextSubstitution
-from ._package import explain_missing
 
 if TYPE_CHECKING:
     from ._entities import Action
@@ -72,20 +73,19 @@ class Entity:
     """Base of `launch_xml.Entity` and `launch_yaml.Entity`, which say how their text is read.
 
     What is asked for (`get_attr`, `children`) is remembered, so that what nobody asks for can be refused.
+
+    Attributes:
+        type_name: what it is, such as `node`.
+        parent: the entity around it, if it knows.
+        place: the file and line where it is written, if that is known.
     """
 
-    place: Place | None = None
-    """The file and line where it is written, if that is known."""
-
-    @property
-    def type_name(self) -> str:
-        """What it is, such as `node`."""
-        raise NotImplementedError
-
-    @property
-    def parent(self) -> Entity | None:
-        """The entity around it, if it knows."""
-        raise NotImplementedError
+    def __init__(self, type_name: str, parent: Entity | None, place: Place | None) -> None:
+        self.type_name = type_name
+        self.parent = parent
+        self.place = place
+        self._asked: set[str] = set()
+        self._read: set[str] = set()
 
     @property
     def children(self) -> list[Entity]:
@@ -126,13 +126,10 @@ class Entity:
 
     def _unexpected(self, what: str, names: set[str], known: set[str]) -> ValueError:
         """The error about names that nobody has asked for, with what was perhaps meant."""
-        from turtle_lesson.ros.idl.names import did_you_mean
-
-        listed = ", ".join(repr(name) for name in sorted(names, key=str))
-        error = ValueError(f"Unexpected {what} found in `{self.type_name}`: {{{listed}}}")
-        close = [MEANT.get(name) for name in sorted(names, key=str) if MEANT.get(name) in known]
-        hints = [f"Did you mean '{name}'?" for name in close]
-        hints += [did_you_mean(str(name)[:100], sorted(known)) for name in sorted(names, key=str)]
+        found = sorted(names, key=str)
+        error = ValueError(f"Unexpected {what} found in `{self.type_name}`: {{{', '.join(map(repr, found))}}}")
+        hints = [f"Did you mean '{MEANT[name]}'?" for name in found if MEANT.get(name) in known]
+        hints += [did_you_mean(str(name)[:100], sorted(known)) for name in found]
         takes = f"`{self.type_name}` can have: {', '.join(sorted(known))}." if known else ""
         error.hint = next(filter(None, hints), takes)  # type: ignore[attr-defined]
         return error
@@ -198,8 +195,6 @@ def instantiate_substitution(type_name: str, args: Sequence[Any] | None = None) 
 def _known(methods: dict[str, Callable[..., Any]], name: str, complaint: str) -> Callable[..., Any]:
     if name in methods:
         return methods[name]
-    from turtle_lesson.ros.idl.names import did_you_mean
-
     error = RuntimeError(f"{complaint}{name}")
     close = did_you_mean(str(name)[:100], sorted(methods)) or f"There are: {', '.join(sorted(methods))}."
     error.hint = _NOT_HERE.get(name) or close  # type: ignore[attr-defined]
@@ -218,21 +213,16 @@ def expose_substitution(name: str) -> Callable[[Exposed], Exposed]:
 
 def _exposing(name: str, methods: dict[str, Callable[..., Any]], kind: str) -> Callable[[Exposed], Exposed]:
     def expose(exposed: Exposed) -> Exposed:
-        methods[name] = _parse_method(exposed, name, kind)
+        method: Any = getattr(exposed, "parse", None) if inspect.isclass(exposed) else exposed
+        if inspect.isclass(exposed) and not inspect.ismethod(method):
+            raise RuntimeError("Did not find a class method called 'parse' in the class being decorated.")
+        if not callable(method):
+            what = f"Exposed {kind} parser for {name}"
+            raise RuntimeError(f"{what} is not a callable or a class containing a parse method")
+        methods[name] = method
         return exposed
 
     return expose
-
-
-def _parse_method(exposed: Any, name: str, kind: str) -> Callable[..., Any]:
-    if inspect.isclass(exposed):
-        method = getattr(exposed, "parse", None)
-        if method is None or not inspect.ismethod(method):
-            raise RuntimeError("Did not find a class method called 'parse' in the class being decorated.")
-        return method
-    if inspect.isfunction(exposed):
-        return exposed
-    raise RuntimeError(f"Exposed {kind} parser for {name} is not a callable or a class containing a parse method")
 
 
 IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
@@ -378,25 +368,36 @@ class Parser:
 
     def __init__(self) -> None:
         self._actions = 0
+        self.load_launch_extensions()
 
     @classmethod
     def load(cls, file: str | TextIO) -> tuple[Entity, Parser]:
-        """The root entity of a file, by the reader that its ending asks for, or else by any that can read it.
+        """The root entity of a file; in this base by the reader that its ending asks for, or else by any that can read it.
 
         Raises:
             InvalidFrontendLaunchFileError: if none can.
         """
-        name, text = read(file)
+        if isinstance(file, str | Path):
+            name, text = str(file), Path(file).read_text(encoding="utf-8-sig")
+        else:
+            name, text = str(getattr(file, "name", "")), file.read()
+        if cls is not Parser:
+            return cls.load_text(text, name)
+        import launch_xml
+        import launch_yaml
+
         extension = Path(name).suffix.lstrip(".")
-        readers = _implementations()
-        first = readers.get("yaml" if extension == "yml" else extension)
+        readers: list[type[Parser]] = [launch_xml.Parser, launch_yaml.Parser]
+        if extension in ("yaml", "yml"):
+            readers.reverse()
         errors = []
-        for reader in [*([first] if first else []), *(other for other in readers.values() if other is not first)]:
+        for reader in readers:
             try:
                 return reader.load_text(text, name)
             except Exception as error:
                 errors.append(error)
-        raise InvalidFrontendLaunchFileError(extension if first else "", likely_errors=errors) from errors[0]
+        known = extension if extension in ("xml", "yaml", "yml") else ""
+        raise InvalidFrontendLaunchFileError(known, likely_errors=errors) from errors[0]
 
     @classmethod
     def load_text(cls, text: str, name: str) -> tuple[Entity, Parser]:
@@ -410,7 +411,6 @@ class Parser:
 
     def parse_action(self, entity: Entity) -> Action:
         """The action that an entity stands for."""
-        self.load_launch_extensions()
         self._actions += 1
         if self._actions > MOST_ACTIONS:
             raise RuntimeError(f"a launch file of more than {MOST_ACTIONS} actions; does it repeat itself?")
@@ -418,12 +418,10 @@ class Parser:
 
     def parse_substitution(self, value: str) -> list[Substitution]:
         """The pieces of a text with substitutions in it."""
-        self.load_launch_extensions()
         return parse_substitution(value)
 
     def parse_if_substitutions(self, value: Any) -> Any:
         """A value, with substitutions where its texts have any."""
-        self.load_launch_extensions()
         return parse_if_substitutions(value)
 
     def escape_characters(self, value: str) -> str:
@@ -449,21 +447,3 @@ class Parser:
                 wrong.place = entity.place  # type: ignore[attr-defined]
             raise
         return LaunchDescription(actions, deprecated_reason=deprecated)
-
-
-def read(file: str | TextIO) -> tuple[str, str]:
-    """The name of a file, or of an open one, and its text."""
-    if isinstance(file, str | Path):
-        return str(file), Path(file).read_text(encoding="utf-8-sig")
-    return str(getattr(file, "name", "")), file.read()
-
-
-def _implementations() -> dict[str, type[Parser]]:
-    """The readers by the endings of their files."""
-    import launch_xml
-    import launch_yaml
-
-    return {"xml": launch_xml.Parser, "yaml": launch_yaml.Parser}
-
-
-__getattr__ = explain_missing(__name__, {})

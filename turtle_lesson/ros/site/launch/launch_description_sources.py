@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import os
 from pathlib import Path
 from types import ModuleType
@@ -10,8 +11,7 @@ from turtle_lesson.ros.ament.errors import PackageNotFoundError
 from turtle_lesson.ros.sim.errors import shown_path
 
 from ._context import LaunchContext
-from ._entities import LaunchDescription, SomeSubstitutionsType
-from ._package import explain_missing
+from ._entities import LaunchDescription, SomeSubstitutionsType, described
 from .frontend import InvalidFrontendLaunchFileError, InvalidLaunchFileError, Parser
 from .utilities import normalize_to_list_of_substitutions, perform_substitutions
 
@@ -30,19 +30,14 @@ class LaunchDescriptionSource:
         self.__launch_description = launch_description
         self.__location = normalize_to_list_of_substitutions(location)
         self.__expanded_location: str | None = None
-        self.__method = method
+        self.method = method
 
     @property
     def location(self) -> str:
         """Where it comes from, as far as that is known yet."""
         if self.__expanded_location is not None:
             return self.__expanded_location
-        return " + ".join(part.describe() for part in self.__location)
-
-    @property
-    def method(self) -> str:
-        """How it is got, in words."""
-        return self.__method
+        return described(self.__location)
 
     def get_launch_description(self, context: LaunchContext) -> LaunchDescription:
         """The description; the file is read when it is first asked for."""
@@ -93,33 +88,18 @@ def get_launch_description_from_python_launch_file(python_launch_file_path: str)
     module = load_python_launch_file_as_module(python_launch_file_path)
     generate = getattr(module, "generate_launch_description", None)
     if generate is None:
-        raise InvalidPythonLaunchFileError(
-            f"launch file at '{shown_path(python_launch_file_path)}' does not contain the required function "
-            "'generate_launch_description()'",
-            _hint(module),
-        )
+        functions = [name for name, value in vars(module).items() if callable(value)]
+        close = difflib.get_close_matches("generate_launch_description", functions, n=1)
+        write = "Write: def generate_launch_description(): return LaunchDescription([…])"
+        hint = f"Rename {close[0]}() to generate_launch_description()." if close else write
+        raise _without_function(python_launch_file_path, hint)
     description: LaunchDescription = generate()
     return description
 
 
-def _hint(module: ModuleType) -> str:
-    import difflib
-
-    functions = [name for name, value in vars(module).items() if callable(value)]
-    close = difflib.get_close_matches("generate_launch_description", functions, n=1)
-    if close:
-        return f"Rename {close[0]}() to generate_launch_description()."
-    return "Write: def generate_launch_description(): return LaunchDescription([…])"
-
-
-def why_no_python(path: str) -> Exception:
-    """What the real tool says besides of an XML or YAML file that is wrong, since it tries it as Python, too."""
-    try:
-        compile(Path(path).read_bytes(), path, "exec")
-    except (SyntaxError, ValueError) as error:
-        return error
+def _without_function(path: str, hint: str = "") -> InvalidPythonLaunchFileError:
     missing = "does not contain the required function 'generate_launch_description()'"
-    return InvalidPythonLaunchFileError(f"launch file at '{shown_path(path)}' {missing}")
+    return InvalidPythonLaunchFileError(f"launch file at '{shown_path(path)}' {missing}", hint)
 
 
 class PythonLaunchDescriptionSource(LaunchDescriptionSource):
@@ -184,45 +164,28 @@ def get_launch_description_from_any_launch_file(
         InvalidLaunchFileError: caused by what went wrong in the file; its text is the real one.
     """
     extension = os.path.splitext(launch_file_path)[1].lstrip(".")
-    if extension not in {"xml", "yaml", "yml"}:
-        return _from_python(launch_file_path, extension)
+    is_python = extension not in {"xml", "yaml", "yml"}
     try:
+        if is_python:
+            return get_launch_description_from_python_launch_file(launch_file_path)
         return get_launch_description_from_frontend_launch_file(launch_file_path, parser=parser)
-    except FileNotFoundError as error:
-        if error.filename == launch_file_path:
-            raise
-        wrong: Exception = error
     except Exception as error:
+        if isinstance(error, FileNotFoundError) and error.filename == launch_file_path:
+            raise
         wrong = error
-    python = why_no_python(launch_file_path)
-    known = extension if os.path.basename(launch_file_path).endswith(ENDINGS) else ""
-    raise InvalidLaunchFileError(known, likely_errors=[wrong, python] if known else []) from wrong
+    likely = [wrong]
+    if not is_python:
+        known = os.path.basename(launch_file_path).endswith(ENDINGS)
+        likely = [wrong, _why_no_python(launch_file_path)] if known else []
+    elif not isinstance(wrong, PackageNotFoundError):  # the real one says there, too, that the syntax may be wrong
+        likely.append(InvalidFrontendLaunchFileError())
+    raise InvalidLaunchFileError(extension if likely else "", likely_errors=likely) from wrong
 
 
-def _from_python(path: str, extension: str) -> LaunchDescription:
+def _why_no_python(path: str) -> Exception:
+    """What the real tool says besides of an XML or YAML file that is wrong, since it tries it as Python, too."""
     try:
-        return get_launch_description_from_python_launch_file(path)
-    except FileNotFoundError as error:
-        if error.filename == path:
-            raise
-        raise _invalid(extension, error) from error
-    except Exception as error:
-        raise _invalid(extension, error) from error
-
-
-def _invalid(extension: str, error: Exception) -> InvalidLaunchFileError:
-    """The error about a Python file. The real one goes on to say that the file may have a syntax error, which misleads
-    where a package is missing, so that this is said alone."""
-    if isinstance(error, PackageNotFoundError):
-        return InvalidLaunchFileError(extension, likely_errors=[error])
-    no_frontend = InvalidFrontendLaunchFileError()
-    return InvalidLaunchFileError(extension, likely_errors=[error, no_frontend])
-
-
-__getattr__ = explain_missing(
-    __name__,
-    {
-        "XMLLaunchDescriptionSource": "it is in launch_xml.launch_description_sources",
-        "YAMLLaunchDescriptionSource": "it is in launch_yaml.launch_description_sources",
-    },
-)
+        compile(Path(path).read_bytes(), path, "exec")
+    except (SyntaxError, ValueError) as error:
+        return error
+    return _without_function(path)

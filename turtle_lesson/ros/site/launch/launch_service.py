@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+import asyncio
+import time
+from collections import deque
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from turtle_lesson.ros import hooks
+from turtle_lesson.ros.sim.strand import running_strand
 
 from ._context import Event, LaunchContext
 from ._entities import LaunchDescription
+from .actions import EmitEvent
 from .events import IncludeLaunchDescription
 
 if TYPE_CHECKING:
-    from turtle_lesson.ros.launching.service import LaunchByHand
+    from turtle_lesson.ros.launching.service import LaunchService as RunningLaunch
+
+LOOKS = 0.01
+"""How often, in s of robot time, it looks whether the launch has ended."""
 
 
 class LaunchService:
@@ -27,16 +35,19 @@ class LaunchService:
     """
 
     def __init__(self, *, argv: Iterable[str] | None = None, noninteractive: bool = False, debug: bool = False) -> None:
-        self.__work: LaunchByHand = hooks.launch_service(list(argv or []), noninteractive)
-
-    @property
-    def context(self) -> LaunchContext:
-        """What the launch knows."""
-        return self.__work.context
+        self._launch: RunningLaunch = hooks.launch_service()
+        self.context: LaunchContext = self._launch.context
+        self.context.argv = list(argv or [])
+        self.context.noninteractive = noninteractive
+        self._early: deque[Event] = deque()
+        self._runs = False
 
     def emit_event(self, event: Event) -> None:
         """Let something count as having happened; before `run()` it waits."""
-        self.__work.emit(event)
+        if self._runs:
+            self.context.emit_event_sync(event)
+        else:
+            self._early.append(event)
 
     def include_launch_description(self, launch_description: LaunchDescription) -> None:
         """Take a description in; before `run()` it waits."""
@@ -48,12 +59,46 @@ class LaunchService:
         Args:
             shutdown_when_idle: whether the launch ends when nothing runs any more and nothing is to come.
         """
-        return self.__work.run(shutdown_when_idle)
+        if running_strand() is not None:
+            return self._run(shutdown_when_idle)
+        from rclpy._blocking import spin_live
+
+        codes: list[int] = []
+        spin_live(lambda: codes.append(self._run(shutdown_when_idle)))
+        return codes[0] if codes else 0
+
+    def _run(self, shutdown_when_idle: bool) -> int:
+        self._begin()
+        while self._goes_on(shutdown_when_idle):
+            try:
+                time.sleep(LOOKS)
+            except KeyboardInterrupt:
+                if not self.context.is_shutdown:
+                    self._launch.interrupt()
+        return self._end()
 
     async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
         """The same as a coroutine."""
-        return await self.__work.run_async(shutdown_when_idle)
+        self._begin()
+        while self._goes_on(shutdown_when_idle):
+            await asyncio.sleep(LOOKS)
+        return self._end()
+
+    def _begin(self) -> None:
+        self._runs = True
+        while self._early and not self._launch.failed:
+            self._launch.begin_or_fail(EmitEvent(event=self._early.popleft()))
+
+    def _goes_on(self, shutdown_when_idle: bool) -> bool:
+        return self._launch.running or not (shutdown_when_idle or self.context.is_shutdown)
+
+    def _end(self) -> int:
+        if not self.context.is_shutdown:
+            self._launch.shut_down("idle")
+        self._runs = False
+        return 1 if self._launch.failed else 0
 
     def shutdown(self, force_sync: bool = False) -> None:
         """End the launch; nothing if it does not run."""
-        self.__work.shut_down()
+        if self._runs and not self.context.is_shutdown:
+            self._launch.shut_down("LaunchService.shutdown() called")

@@ -6,8 +6,6 @@ import logging
 import os
 from pathlib import Path
 
-from ._package import explain_missing
-
 
 class LaunchConfig:
     """What holds for all of launch's lines: from which level on they are printed."""
@@ -43,47 +41,21 @@ class LaunchConfig:
 launch_config = LaunchConfig()
 
 
-class Logger:
+class Logger(logging.Logger):
     """Prints lines under a name, from launch's level on, which leaves debug lines out unless it is changed."""
 
-    def __init__(self, name: str) -> None:
-        self.name = name
+    warn = logging.Logger.warning
 
-    def setLevel(self, level: int) -> None:
+    def setLevel(self, level: int | str) -> None:
         """Print lines from another level on."""
-        launch_config.level = level
+        launch_config.level = logging.getLevelNamesMapping()[level] if isinstance(level, str) else level
 
-    def debug(self, message: object, *args: object) -> None:
-        """Print a [DEBUG] line, if the level is that low."""
-        self._print("DEBUG", message, args)
-
-    def info(self, message: object, *args: object) -> None:
-        """Print an [INFO] line."""
-        self._print("INFO", message, args)
-
-    def warning(self, message: object, *args: object) -> None:
-        """Print a [WARNING] line."""
-        self._print("WARNING", message, args)
-
-    warn = warning
-
-    def error(self, message: object, *args: object) -> None:
-        """Print an [ERROR] line."""
-        self._print("ERROR", message, args)
-
-    def critical(self, message: object, *args: object) -> None:
-        """Print a [CRITICAL] line."""
-        self._print("CRITICAL", message, args)
-
-    def _print(self, level: str, message: object, args: tuple[object, ...]) -> None:
-        text = str(message) % args if args else str(message)
-        if getattr(logging, level) >= launch_config.level:
-            print(f"[{level}] [{self.name}]: {text}")
+    def handle(self, record: logging.LogRecord) -> None:
+        """Print a line, if its level is high enough."""
+        if record.levelno >= launch_config.level:
+            print(f"[{record.levelname}] [{self.name}]: {record.getMessage()}")
 
 
 def get_logger(name: str | None = None) -> Logger:
     """The logger of a name; without one, launch's own."""
     return Logger(name or "launch")
-
-
-__getattr__ = explain_missing(__name__, {"get_output_loggers": "there are no log files"})

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, get_args, get_origin
 
+from turtle_lesson.ros.runtime.files import safe_load
+
 from ._entities import SomeSubstitutionsType, Substitution, TextSubstitution
-from ._package import explain_missing
 
 if TYPE_CHECKING:
     from ._context import LaunchContext
@@ -65,23 +66,26 @@ def perform_substitutions(context: LaunchContext, subs: Iterable[Substitution]) 
     return "".join([context.perform_substitution(part) for part in subs])
 
 
-def perform_text_as(context: LaunchContext, value: Any, kind: type) -> Any:
-    """A plain value as it is; a substitution's text read as YAML, which must give a value of `kind`."""
-    from turtle_lesson.ros.runtime.files import safe_load
+def text_of(context: LaunchContext, given: SomeSubstitutionsType) -> str:
+    """The text of whatever can stand for text."""
+    return perform_substitutions(context, normalize_to_list_of_substitutions(given))
 
+
+def perform_text_as(context: LaunchContext, value: Any, kind: type) -> Any:
+    """A plain value as it is; a substitution's text made a value of `kind`.
+
+    Raises:
+        TypeError: if it is no such value.
+    """
     if isinstance(value, kind) and not isinstance(value, Substitution):
         return value
     if kind is float and isinstance(value, int) and not isinstance(value, bool):
         return float(value)
-    text = perform_substitutions(context, normalize_to_list_of_substitutions(value))
-    if kind is str:
-        return text
-    found = safe_load(text)
-    if kind is float and isinstance(found, int) and not isinstance(found, bool):
-        return float(found)
-    if not isinstance(found, kind) or (kind is int and isinstance(found, bool)):
-        raise TypeError(f"expected a value of type {kind.__name__}, got {text!r}")
-    return found
+    text = text_of(context, value)
+    try:
+        return coerce_to_type(text, kind)
+    except ValueError:
+        raise TypeError(f"expected a value of type {kind.__name__}, got {text!r}") from None
 
 
 SCALARS = (int, float, bool, str)
@@ -132,44 +136,18 @@ def coerce_to_type(value: str, data_type: Any = None, can_be_str: bool = False) 
     Raises:
         ValueError: if it is no such value.
     """
-    if data_type is None:
-        return _by_yaml(value, f"Failed to convert '{value}' using yaml rules", can_be_str)
-    kind, is_list = extract_type(data_type)
-    if is_list:
-        return _list_by_yaml(value, kind, can_be_str)
-    if kind is bool:
-        found = _by_yaml(value, f"Failed to convert '{value}' to '{kind}'", can_be_str)
-        if isinstance(found, (bool, str) if can_be_str else bool):
-            return found
-        raise ValueError(f"Cannot convert value '{value}' to '{kind}'")
+    kind, is_list = (None, False) if data_type is None else extract_type(data_type)
     try:
-        return kind(value)
-    except ValueError:
-        if can_be_str:
-            return value
-        raise
-
-
-def _by_yaml(text: str, complaint: str, can_be_str: bool) -> Any:
-    from turtle_lesson.ros.runtime.files import safe_load
-
-    try:
-        value = safe_load(text)
+        if kind in (int, float, str) and not is_list:
+            return kind(value)
+        found = safe_load(value)
     except Exception as error:
         if can_be_str:
-            return text
-        raise ValueError(f"{complaint}: yaml.safe_load() failed\n{error}") from error
-    if not is_instance_of_valid_type(value, can_be_str):
-        raise ValueError(f"{complaint}: output type is not allowed, got {type(value)}")
-    return value
-
-
-def _list_by_yaml(text: str, kind: type, can_be_str: bool) -> list[Any]:
-    complaint = f"Cannot convert value '{text}' to a list of '{(str, kind) if can_be_str else kind}'"
-    value = _by_yaml(text, complaint, can_be_str)
-    if not is_instance_of(value, list[kind], can_be_str):  # type: ignore[valid-type]
-        raise ValueError(complaint)
-    return list(value)
+            return value
+        raise ValueError(f"Failed to convert '{value}' to '{data_type or 'a value'}'\n{error}") from error
+    if not is_instance_of(found, data_type, can_be_str):
+        raise ValueError(f"Cannot convert value '{value}' to '{data_type or 'a value'}'")
+    return found
 
 
 def get_typed_value(value: str | list[str], data_type: Any, can_be_str: bool = False) -> Any:
@@ -188,12 +166,3 @@ def get_typed_value(value: str | list[str], data_type: Any, can_be_str: bool = F
     if not is_instance_of_valid_type(items, can_be_str):
         raise ValueError(f"cannot convert value to {kind}. Got value=`{value}`")
     return items
-
-
-__getattr__ = explain_missing(
-    __name__,
-    {
-        "create_future": "",
-        "create_futures": "",
-    },
-)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from launch._package import explain_missing, provide_modules
+from launch._package import complete_package
 
 from . import actions, descriptions, parameter_descriptions, substitutions
 
@@ -15,34 +15,25 @@ __all__ = [
     "substitutions",
 ]
 
-provide_modules(
-    {
-        "launch_ros.actions._nodes": {
-            "launch_ros.actions.composable": "ComposableNodeContainer LoadComposableNodes",
-            "launch_ros.actions.node": "Node",
+complete_package(
+    "launch_ros",
+    modules={
+        "launch_ros.event_handlers": "OnStateTransition",
+        "launch_ros.event_handlers.on_state_transition": "OnStateTransition",
+        "launch_ros.events": "matches_node_name",
+        "launch_ros.events.lifecycle": "ChangeState StateTransition",
+        "launch_ros.events.matchers": "matches_node_name",
+        "launch_ros.substitutions.find_package": "FindPackage FindPackagePrefix FindPackageShare",
+    },
+    missing={
+        "launch_ros.actions": {
+            "LifecycleTransition": "emit launch_ros.events.lifecycle.ChangeState",
+            "SetROSLogDir": "there are no log files",
         },
-        "launch_ros._lifecycle": {
-            "launch_ros.actions.lifecycle_node": "LifecycleNode",
-            "launch_ros.event_handlers": "OnStateTransition",
-            "launch_ros.event_handlers.on_state_transition": "OnStateTransition",
-            "launch_ros.events": "matches_node_name",
-            "launch_ros.events.lifecycle": "ChangeState StateTransition",
-            "launch_ros.events.matchers": "matches_node_name",
-        },
-        "launch_ros.actions._settings": {
-            "launch_ros.actions.push_ros_namespace": "PushROSNamespace PushRosNamespace",
-            "launch_ros.actions.ros_timer": "ROSTimer RosTimer",
-            "launch_ros.actions.set_parameter": "SetParameter SetParametersFromFile SetRemap SetUseSimTime",
-            "launch_ros.actions.set_remap": "SetRemap",
-        },
+        "launch_ros.descriptions": {"RosExecutable": "use Node", "Node": "use launch_ros.actions.Node"},
         "launch_ros.substitutions": {
-            "launch_ros.substitutions.executable_in_package": "ExecutableInPackage",
-            "launch_ros.substitutions.find_package": "FindPackage FindPackagePrefix FindPackageShare",
+            "FindPackageShareDirectory": "use FindPackageShare",
+            "Parameter": "give SetParameter a LaunchConfiguration, and use that",
         },
-    }
-)
-
-__getattr__ = explain_missing(
-    __name__,
-    {"parameters_type": "it has type hints only", "remap_rule_type": "it has type hints only", "utilities": ""},
+    },
 )

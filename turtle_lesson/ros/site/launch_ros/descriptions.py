@@ -6,15 +6,11 @@ from collections.abc import Iterable
 from typing import Any
 
 from launch._entities import SomeSubstitutionsType
-from launch._package import explain_missing
-from launch.utilities import normalize_to_list_of_substitutions
+from launch.utilities import normalize_to_list_of_substitutions as pieces
 
 from .parameter_descriptions import Parameter, ParameterFile, ParameterValue
 
 __all__ = ["ComposableLifecycleNode", "ComposableNode", "Parameter", "ParameterFile", "ParameterValue"]
-
-
-COMPOSABLE = "composable nodes are C++ libraries, and only Python nodes run here"
 
 
 class ComposableNode:
@@ -32,10 +28,9 @@ class ComposableNode:
         extra_arguments: Iterable[Any] | None = None,
         condition: Any = None,
     ) -> None:
-        self.package = normalize_to_list_of_substitutions(package)
-        self.node_plugin = normalize_to_list_of_substitutions(plugin)
-        self.node_name = None if name is None else normalize_to_list_of_substitutions(name)
-        self.node_namespace = None if namespace is None else normalize_to_list_of_substitutions(namespace)
+        self.package, self.node_plugin = pieces(package), pieces(plugin)
+        self.node_name = None if name is None else pieces(name)
+        self.node_namespace = None if namespace is None else pieces(namespace)
         self.parameters = None if parameters is None else list(parameters)
         self.remappings = None if remappings is None else list(remappings)
         self.extra_arguments = None if extra_arguments is None else list(extra_arguments)
@@ -48,6 +43,3 @@ class ComposableLifecycleNode(ComposableNode):
     def __init__(self, *, autostart: bool = False, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.autostart = autostart
-
-
-__getattr__ = explain_missing(__name__, {"RosExecutable": "use Node", "Node": "use launch_ros.actions.Node"})

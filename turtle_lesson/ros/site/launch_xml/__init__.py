@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
-from typing import Any, TextIO
+from typing import Any
 from xml.parsers import expat
 
 from launch import frontend
 from launch._entities import SomeSubstitutionsType
-from launch._package import provide_modules
+from launch._package import complete_package
 from launch.frontend import Entity as BaseEntity
-from launch.frontend import check_is_list_entity, read
+from launch.frontend import check_is_list_entity
 from launch.launch_description_sources import FrontendLaunchDescriptionSource
 from launch.utilities import get_typed_value
 
@@ -29,25 +29,12 @@ class Entity(BaseEntity):
         lines: dict[ET.Element, int] | None = None,
     ) -> None:
         self.__element = xml_element
-        self.__parent = parent
         self.__file = file
         self.__lines = lines or {}
-        self.__read: set[str] = set()
         self.__read_tags: set[str] = set()
-        self.__asked: set[str] = set()
         self.__asked_tags: set[str] = set()
-        if file and xml_element in self.__lines:
-            self.place = (file, self.__lines[xml_element])
-
-    @property
-    def type_name(self) -> str:
-        """The tag's name."""
-        return self.__element.tag
-
-    @property
-    def parent(self) -> Entity | None:
-        """The tag around it."""
-        return self.__parent
+        line = self.__lines.get(xml_element)
+        super().__init__(xml_element.tag, parent, (file, line) if file and line is not None else None)
 
     @property
     def children(self) -> list[BaseEntity]:
@@ -63,24 +50,24 @@ class Entity(BaseEntity):
         tags = {inner.tag for inner in self.__element} - self.__read_tags
         if tags:
             raise self._unexpected("nested tag(s)", tags, self.__asked_tags)
-        attributes = set(self.__element.attrib) - self.__read
+        attributes = set(self.__element.attrib) - self._read
         if attributes:
-            raise self._unexpected("attribute(s)", attributes, self.__asked)
+            raise self._unexpected("attribute(s)", attributes, self._asked)
 
     def get_attr(self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True) -> Any:
         """As `launch.frontend.Entity.get_attr`; `name-sep` says what parts the items of a list."""
         if check_is_list_entity(data_type):
             return self._nested(name, data_type, optional)
-        self.__asked.add(name)
+        self._asked.add(name)
         if name not in self.__element.attrib:
             if optional:
                 return None
             raise self._absent(name, data_type, self.__element.attrib)
-        self.__read.add(name)
+        self._read.add(name)
         value: Any = self.__element.attrib[name]
         separator = self.__element.attrib.get(f"{name}-sep")
         if separator is not None:
-            self.__read.add(f"{name}-sep")
+            self._read.add(f"{name}-sep")
             value = value.split(separator) if separator else [value]
         try:
             return get_typed_value(value, data_type, can_be_str=can_be_str)
@@ -105,12 +92,6 @@ class Parser(frontend.Parser):
     """Reads XML."""
 
     @classmethod
-    def load(cls, file: str | TextIO) -> tuple[Entity, Parser]:
-        """The root entity of a file."""
-        name, text = read(file)
-        return cls.load_text(text, name)
-
-    @classmethod
     def load_text(cls, text: str, name: str) -> tuple[Entity, Parser]:
         """The root entity of a text.
 
@@ -119,11 +100,6 @@ class Parser(frontend.Parser):
         """
         lines: dict[ET.Element, int] = {}
         return Entity(_tree(text, name, lines), file=name, lines=lines), cls()
-
-    @classmethod
-    def get_file_extensions(cls) -> set[str]:
-        """How such files end."""
-        return {"launch.xml"}
 
 
 def _tree(text: str, name: str, lines: dict[ET.Element, int]) -> ET.Element:
@@ -167,12 +143,4 @@ class XMLLaunchDescriptionSource(FrontendLaunchDescriptionSource):
         super().__init__(launch_file_path, method="interpreted XML launch file", parser=Parser)
 
 
-provide_modules(
-    {
-        "launch_xml": {
-            "launch_xml.entity": "Entity",
-            "launch_xml.launch_description_sources": "XMLLaunchDescriptionSource",
-            "launch_xml.parser": "Parser",
-        },
-    }
-)
+complete_package("launch_xml", {"launch_xml.launch_description_sources": "XMLLaunchDescriptionSource"})

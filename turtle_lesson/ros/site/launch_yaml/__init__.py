@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, TextIO
+from typing import Any
 
 import yaml
 from launch import frontend
 from launch._entities import SomeSubstitutionsType
-from launch._package import provide_modules
+from launch._package import complete_package
 from launch.frontend import Entity as BaseEntity
-from launch.frontend import check_is_list_entity, read
+from launch.frontend import check_is_list_entity
 from launch.launch_description_sources import FrontendLaunchDescriptionSource
 from launch.utilities import is_instance_of
 
@@ -40,40 +40,25 @@ class Entity(BaseEntity):
         file: str = "",
         line: int | None = None,
     ) -> None:
+        super().__init__(type_name, parent, (file, line) if file and line is not None else None)
         self.__element = element
-        self.__type_name = type_name
-        self.__parent = parent
         self.__file = file
-        self.__read: set[str] = set()
-        self.__asked: set[str] = set()
         self.__children_read = False
-        if file and line is not None:
-            self.place = (file, line)
-
-    @property
-    def type_name(self) -> str:
-        """The item's name."""
-        return self.__type_name
-
-    @property
-    def parent(self) -> Entity | None:
-        """The item around it."""
-        return self.__parent
 
     @property
     def children(self) -> list[BaseEntity]:
         """The items below it: its list, or the list called `children` in its mapping."""
-        self.__asked.add("children")
+        self._asked.add("children")
         below = self.__element
         if not isinstance(below, dict | list):
             raise TypeError(f"Expected a dict or list, got {type(below)}")
         if isinstance(below, dict):
             if "children" not in below:
                 raise ValueError(
-                    f"Expected entity `{self.__type_name}` to have children entities."
+                    f"Expected entity `{self.type_name}` to have children entities."
                     "That can be a list of subentities or a dictionary with a `children` list element"
                 )
-            self.__read.add("children")
+            self._read.add("children")
             below = below["children"]
         self.__children_read = True
         return [self._child(item) for item in (below if isinstance(below, list) else [below])]
@@ -93,11 +78,11 @@ class Entity(BaseEntity):
         """Check that every key in it was asked for."""
         if isinstance(self.__element, list):
             if not self.__children_read:
-                raise ValueError(f"Unexpected nested entity(ies) found in `{self.__type_name}`: {self.__element}")
+                raise ValueError(f"Unexpected nested entity(ies) found in `{self.type_name}`: {self.__element}")
             return
-        keys = set(self._mapping) - self.__read
+        keys = set(self._mapping) - self._read
         if keys:
-            raise self._unexpected("key(s)", keys, self.__asked)
+            raise self._unexpected("key(s)", keys, self._asked)
 
     @property
     def _mapping(self) -> dict[Any, Any]:
@@ -107,18 +92,18 @@ class Entity(BaseEntity):
         if isinstance(self.__element, dict):
             return self.__element
         error = TypeError(f"Expected a dict or list, got {type(self.__element)}")
-        error.hint = f"Write the attributes of {self.__type_name} below it, each on a line of its own."  # type: ignore[attr-defined]
+        error.hint = f"Write the attributes of {self.type_name} below it, each on a line of its own."  # type: ignore[attr-defined]
         raise error
 
     def get_attr(self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True) -> Any:
         """As `launch.frontend.Entity.get_attr`. YAML knows types, so a value must be of the one asked for."""
-        self.__asked.add(name)
+        self._asked.add(name)
         below = {} if isinstance(self.__element, list) else self._mapping
         if name not in below:
             if optional:
                 return None
             raise self._absent(name, data_type, below)
-        self.__read.add(name)
+        self._read.add(name)
         value = below[name]
         if check_is_list_entity(data_type):
             return self._nested(name, value)
@@ -154,12 +139,6 @@ class Parser(frontend.Parser):
     """Reads YAML."""
 
     @classmethod
-    def load(cls, file: str | TextIO) -> tuple[Entity, Parser]:
-        """The root entity of a file."""
-        name, text = read(file)
-        return cls.load_text(text, name)
-
-    @classmethod
     def load_text(cls, text: str, name: str) -> tuple[Entity, Parser]:
         """The root entity of a text.
 
@@ -181,11 +160,6 @@ class Parser(frontend.Parser):
             raise wrong
         root = next(iter(tree))
         return Entity(tree[root], str(root), file=name, line=tree.lines.get(root, 1)), cls()
-
-    @classmethod
-    def get_file_extensions(cls) -> set[str]:
-        """How such files end."""
-        return {"launch.yaml", "launch.yml"}
 
 
 def _tree(text: str, name: str) -> Any:
@@ -232,12 +206,4 @@ class YAMLLaunchDescriptionSource(FrontendLaunchDescriptionSource):
         super().__init__(launch_file_path, method="interpreted YAML launch file", parser=Parser)
 
 
-provide_modules(
-    {
-        "launch_yaml": {
-            "launch_yaml.entity": "Entity",
-            "launch_yaml.launch_description_sources": "YAMLLaunchDescriptionSource",
-            "launch_yaml.parser": "Parser",
-        },
-    }
-)
+complete_package("launch_yaml", {"launch_yaml.launch_description_sources": "YAMLLaunchDescriptionSource"})

@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import PurePath
-from typing import Any
+from typing import Any, ClassVar
 
 from turtle_lesson.ros import hooks
 
-from .._context import LaunchContext
-from .._entities import Action, LaunchDescriptionEntity, SomeEntitiesType, SomeSubstitutionsType, Substitution
+from .._context import LaunchContext, Reaction
+from .._entities import Action, LaunchDescriptionEntity, SomeSubstitutionsType, Substitution
+from .._tags import Reader, pair, tags, text, typed
 from ..conditions import evaluate_condition_expression
 from ..descriptions import Environment, Executable
 from ..event_handlers import OnProcessExit
-from ..events.process import ProcessExited
 from ..frontend import Entity, Parser, expose_action
 from ..substitutions import LaunchConfiguration, TextSubstitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
 
-OnExit = SomeEntitiesType | Callable[[ProcessExited, LaunchContext], SomeEntitiesType | None] | None
+__all__ = ["ExecuteLocal", "ExecuteProcess"]
 
 SCREEN = {
     "screen": {"stdout", "stderr"},
@@ -43,7 +43,13 @@ class Program:
 
 
 class ExecuteLocal(Action):
-    """Base of the actions that run a program: here a node, a `ros2` command or a Python file."""
+    """Base of the actions that run a program: here a node, a `ros2` command or a Python file.
+
+    Attributes:
+        process_description: the command.
+        output: where its output goes.
+        shell: whether the command is one for a shell.
+    """
 
     _completes_later = True
 
@@ -59,19 +65,19 @@ class ExecuteLocal(Action):
         output_format: str = "[{this.process_description.final_name}] {line}",
         cached_output: bool = False,
         log_cmd: bool = False,
-        on_exit: OnExit = None,
+        on_exit: Reaction = None,
         respawn: bool | SomeSubstitutionsType = False,
         respawn_delay: float | None = None,
         respawn_max_retries: int = -1,
         **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
-        self.__process_description = process_description
-        self.__shell = shell
+        self.process_description = process_description
+        self.shell = shell
         self.sigterm_timeout = normalize_to_list_of_substitutions(sigterm_timeout)
         self.sigkill_timeout = normalize_to_list_of_substitutions(sigkill_timeout)
         self.emulate_tty = emulate_tty
-        self.__output = output if isinstance(output, Mapping) else normalize_to_list_of_substitutions(output)
+        self.output = output if isinstance(output, Mapping) else normalize_to_list_of_substitutions(output)
         self.output_format = output_format
         self.__on_exit = on_exit
         self.__respawn = normalize_to_list_of_substitutions(str(respawn) if isinstance(respawn, bool) else respawn)
@@ -84,47 +90,23 @@ class ExecuteLocal(Action):
         self._respawns = False
         self._on_screen: set[str] = set()
 
-    @property
-    def process_description(self) -> Executable:
-        """The command."""
-        return self.__process_description
-
-    @property
-    def output(self) -> Mapping[str, str | Iterable[str]] | list[Substitution]:
-        """Where its output goes."""
-        return self.__output
-
-    @property
-    def shell(self) -> bool:
-        """Whether the command is one for a shell."""
-        return self.__shell
-
     def prepare(self, context: LaunchContext) -> None:
         """Make everything text that was not yet."""
-        self.prefix_left_out = self._program_before_it(context)
-        self.process_description.prepare(context, self)
+        description = self.process_description
+        before = perform_substitutions(context, description.prefix or []).split()
+        self.prefix_left_out = PurePath(before[0]).name if before else ""  # such as a terminal or a debugger
+        description.prepare(context, self)
         self._program = self._find_program(context)
         self._respawns = evaluate_condition_expression(context, self.__respawn)
-        self._on_screen = _on_screen(context, self._chosen_output(context))
+        override = context._output_override or context.environment.get("OVERRIDE_LAUNCH_PROCESS_OUTPUT")
+        self._on_screen = _on_screen(context, [TextSubstitution(text=override)] if override else self.output)
         self.process_details = {
             "action": self,
-            "name": self.process_description.final_name,
+            "name": description.final_name,
             "cmd": self._program.argv,
-            "cwd": self.process_description.final_cwd,
-            "env": self.process_description.final_env,
+            "cwd": description.final_cwd,
+            "env": description.final_env,
         }
-
-    def _chosen_output(self, context: LaunchContext) -> Any:
-        """What `output` says, unless `ros2 launch -a` or an environment variable says it for all."""
-        override = context._output_override or context.environment.get("OVERRIDE_LAUNCH_PROCESS_OUTPUT")
-        return [TextSubstitution(text=override)] if override else self.__output
-
-    def _program_before_it(self, context: LaunchContext) -> str:
-        """The name of the program that `prefix` puts before it, such as a terminal or a debugger; '' without one."""
-        if not self.process_description.prefix:
-            return ""
-        words = perform_substitutions(context, self.process_description.prefix).split()
-        return PurePath(words[0]).name if words else ""
 
     def _find_program(self, context: LaunchContext) -> Program:
         """What to run: a command of the simulation, unless a subclass knows better.
@@ -144,9 +126,7 @@ class ExecuteLocal(Action):
         context._host.start_process(self)
         return None
 
-    def describe_conditional_sub_entities(
-        self,
-    ) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+    def describe_conditional_sub_entities(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
         """What it gives when its process ends."""
         if self.__on_exit is None or callable(self.__on_exit):
             return []
@@ -198,31 +178,47 @@ def words_in(pieces: Iterable[Substitution]) -> list[list[Substitution]]:
     return [*words, word] if word else words
 
 
-_TEXTS = {
-    "cwd": "cwd",
-    "name": "name",
-    "prefix": "launch-prefix",
-    "output": "output",
-    "sigkill_timeout": "sigkill_timeout",
-    "sigterm_timeout": "sigterm_timeout",
-}
-"""Arguments that are text, and what they are called in XML and YAML."""
+def command_line(name: str, *, optional: bool = False) -> Reader:
+    """An attribute that is the words of a command, written as one text."""
+    read_text = text(name, optional=optional)
 
-_TYPED: dict[str, tuple[type, bool]] = {
-    "respawn": (bool, True),
-    "respawn_delay": (float, False),
-    "respawn_max_retries": (int, False),
-    "shell": (bool, False),
-    "emulate_tty": (bool, False),
-    "cached_output": (bool, False),
-    "log_cmd": (bool, False),
-}
-"""Arguments of other types, and whether a substitution may stand for them."""
+    def read(entity: Entity, parser: Parser) -> list[list[Substitution]] | None:
+        pieces = read_text(entity, parser)
+        return None if pieces is None else words_in(pieces)
+
+    return read
+
+
+def _delay(entity: Entity, parser: Parser) -> float | None:
+    delay = entity.get_attr("respawn_delay", data_type=float, optional=True, can_be_str=False)
+    if delay is not None and delay < 0.0:
+        raise ValueError(
+            f"Attribute respawn_delay of Entity node expected to be a non-negative value but got `{delay}`"
+        )
+    return delay
 
 
 @expose_action("executable")
 class ExecuteProcess(ExecuteLocal):
     """Runs the words of a command."""
+
+    _tag: ClassVar = {
+        "cmd": command_line("cmd"),
+        "cwd": text("cwd", optional=True),
+        "name": text("name", optional=True),
+        "prefix": text("launch-prefix", optional=True),
+        "output": text("output", optional=True),
+        "sigkill_timeout": text("sigkill_timeout", optional=True),
+        "sigterm_timeout": text("sigterm_timeout", optional=True),
+        "respawn": typed("respawn", bool),
+        "respawn_delay": _delay,
+        "respawn_max_retries": typed("respawn_max_retries", int, can_be_str=False),
+        "shell": typed("shell", bool, can_be_str=False),
+        "emulate_tty": typed("emulate_tty", bool, can_be_str=False),
+        "cached_output": typed("cached_output", bool, can_be_str=False),
+        "log_cmd": typed("log_cmd", bool, can_be_str=False),
+        "additional_env": tags("env", pair()),
+    }
 
     def __init__(
         self,
@@ -238,37 +234,6 @@ class ExecuteProcess(ExecuteLocal):
         executable = Executable(cmd=cmd, prefix=prefix, name=name, cwd=cwd, env=env, additional_env=additional_env)
         super().__init__(process_description=executable, **kwargs)
 
-    @classmethod
-    def _parse_cmdline(cls, cmd: str, parser: Parser) -> list[list[Substitution]]:
-        """The words of a command that is written as one text."""
-        return words_in(parser.parse_substitution(cmd))
-
-    @classmethod
-    def parse(cls, entity: Entity, parser: Parser, ignore: list[str] | None = None) -> tuple[type, dict[str, Any]]:
-        """Its arguments from the attributes of a tag, without those whose names are in `ignore`."""
-        _, kwargs = super().parse(entity, parser)
-        ignore = ignore or []
-        if "cmd" not in ignore:
-            kwargs["cmd"] = cls._parse_cmdline(entity.get_attr("cmd"), parser)
-        for name, attribute in _TEXTS.items():
-            value = None if name in ignore else entity.get_attr(attribute, optional=True)
-            if value is not None:
-                kwargs[name] = parser.parse_substitution(value)
-        for name, (kind, can_be_str) in _TYPED.items():
-            value = (
-                None if name in ignore else entity.get_attr(name, data_type=kind, optional=True, can_be_str=can_be_str)
-            )
-            if value is not None:
-                kwargs[name] = parser.parse_if_substitutions(value)
-        if (delay := kwargs.get("respawn_delay")) is not None and delay < 0.0:
-            raise ValueError(
-                f"Attribute respawn_delay of Entity node expected to be a non-negative value but got `{delay}`"
-            )
-        variables = [] if "env" in ignore else entity.get_attr("env", data_type=list[Entity], optional=True)
-        if variables:
-            kwargs["additional_env"] = dict(_variable(variable, parser) for variable in variables)
-        return cls, kwargs
-
     @property
     def cmd(self) -> list[list[Substitution]] | list[str]:
         """The command's words; text once it is being run."""
@@ -278,10 +243,3 @@ class ExecuteProcess(ExecuteLocal):
     def name(self) -> str | list[Substitution] | None:
         """The process's name; text once it is being run."""
         return self.process_description.final_name or self.process_description.name
-
-
-def _variable(entity: Entity, parser: Parser) -> tuple[tuple[Substitution, ...], list[Substitution]]:
-    name = tuple(parser.parse_substitution(entity.get_attr("name")))
-    value = parser.parse_substitution(entity.get_attr("value"))
-    entity.assert_entity_completely_parsed()
-    return name, value

@@ -6,19 +6,16 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from .._context import Event
-from .._package import explain_missing
 
 if TYPE_CHECKING:
     from .._entities import Action, LaunchDescription
     from ..actions import TimerAction
 
-__all__ = ["ExecutionComplete", "IncludeLaunchDescription", "Shutdown", "TimerEvent", "matches_action", "process"]
+__all__ = ["ExecutionComplete", "IncludeLaunchDescription", "Shutdown", "TimerEvent", "matches_action"]
 
 
 class Shutdown(Event):
     """The whole launch is to end."""
-
-    name = "launch.events.Shutdown"
 
     def __init__(self, *, reason: str = "reason not given", due_to_sigint: bool = False, **kwargs: object) -> None:
         self.reason = reason
@@ -28,16 +25,12 @@ class Shutdown(Event):
 class TimerEvent(Event):
     """A TimerAction's time is over."""
 
-    name = "launch.events.TimerEvent"
-
     def __init__(self, *, timer_action: TimerAction) -> None:
         self.timer_action = timer_action
 
 
 class ExecutionComplete(Event):
     """An action is done."""
-
-    name = "launch.events.ExecutionComplete"
 
     def __init__(self, *, action: Action) -> None:
         self.action = action
@@ -46,20 +39,10 @@ class ExecutionComplete(Event):
 class IncludeLaunchDescription(Event):
     """A description is to be taken in."""
 
-    name = "launch.events.IncludeLaunchDescription"
-
     def __init__(self, launch_description: LaunchDescription) -> None:
-        self.__launch_description = launch_description
-
-    @property
-    def launch_description(self) -> LaunchDescription:
-        """The description."""
-        return self.__launch_description
+        self.launch_description = launch_description
 
 
 def matches_action(action: Action) -> Callable[[Action], bool]:
     """Matches this very action."""
     return lambda other: other is action
-
-
-__getattr__ = explain_missing(__name__, {})

@@ -7,7 +7,6 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from .._context import Event
-from .._package import explain_missing
 
 if TYPE_CHECKING:
     from ..actions import ExecuteLocal
@@ -27,8 +26,6 @@ __all__ = [
 
 class RunningProcessEvent(Event):
     """Something about a process: its action, name (`navigator-1`), command, number."""
-
-    name = "launch.events.process.RunningProcessEvent"
 
     def __init__(
         self,
@@ -53,13 +50,9 @@ class RunningProcessEvent(Event):
 class ProcessStarted(RunningProcessEvent):
     """A process has been started."""
 
-    name = "launch.events.process.ProcessStarted"
-
 
 class ProcessExited(RunningProcessEvent):
     """A process has ended, with an exit code."""
-
-    name = "launch.events.process.ProcessExited"
 
     def __init__(self, *, returncode: int, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -68,8 +61,6 @@ class ProcessExited(RunningProcessEvent):
 
 class ProcessIO(RunningProcessEvent):
     """A process has printed something; `text` is bytes, as in the real one."""
-
-    name = "launch.events.process.ProcessIO"
 
     def __init__(self, *, text: bytes, fd: int, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -82,16 +73,12 @@ class ProcessIO(RunningProcessEvent):
 class ProcessStdout(ProcessIO):
     """A process has printed to its standard output."""
 
-    name = "launch.events.process.ProcessStdout"
-
     def __init__(self, *, text: bytes, **kwargs: Any) -> None:
         super().__init__(text=text, fd=1, **kwargs)
 
 
 class ProcessStderr(ProcessIO):
     """A process has printed to its standard error."""
-
-    name = "launch.events.process.ProcessStderr"
 
     def __init__(self, *, text: bytes, **kwargs: Any) -> None:
         super().__init__(text=text, fd=2, **kwargs)
@@ -100,8 +87,6 @@ class ProcessStderr(ProcessIO):
 class ProcessTargetedEvent(Event):
     """Something that is to be done to the processes that match."""
 
-    name = "launch.events.process.ProcessTargetedEvent"
-
     def __init__(self, *, process_matcher: Callable[[Any], bool]) -> None:
         self.process_matcher = process_matcher
 
@@ -109,13 +94,9 @@ class ProcessTargetedEvent(Event):
 class ShutdownProcess(ProcessTargetedEvent):
     """The processes that match are to end, first politely."""
 
-    name = "launch.events.process.ShutdownProcess"
-
 
 class SignalProcess(ProcessTargetedEvent):
     """A signal is to be sent to the processes that match."""
-
-    name = "launch.events.process.SignalProcess"
 
     def __init__(self, *, signal_number: str | int | signal.Signals, process_matcher: Callable[[Any], bool]) -> None:
         super().__init__(process_matcher=process_matcher)
@@ -124,6 +105,3 @@ class SignalProcess(ProcessTargetedEvent):
         else:
             self.signal_name = signal.Signals(signal_number).name
         self.signal = getattr(signal, self.signal_name, None)
-
-
-__getattr__ = explain_missing(__name__, {"ProcessStdin": "processes here read no standard input"})

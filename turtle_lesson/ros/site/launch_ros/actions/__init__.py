@@ -1,42 +1,10 @@
 """Actions that start ROS nodes and decide how."""
 
-from __future__ import annotations
+# ruff: noqa: F403  (each module says in its __all__ what it exports)
 
-from launch._package import explain_missing
+from . import _lifecycle, _nodes, _settings
+from ._lifecycle import *
+from ._nodes import *
+from ._settings import *
 
-from .._lifecycle import LifecycleNode
-from ._nodes import ComposableNodeContainer, LoadComposableNodes, Node
-from ._settings import (
-    PushROSNamespace,
-    PushRosNamespace,
-    ROSTimer,
-    RosTimer,
-    SetParameter,
-    SetParametersFromFile,
-    SetRemap,
-    SetUseSimTime,
-)
-
-__all__ = [
-    "ComposableNodeContainer",
-    "LifecycleNode",
-    "LoadComposableNodes",
-    "Node",
-    "PushROSNamespace",
-    "PushRosNamespace",
-    "ROSTimer",
-    "RosTimer",
-    "SetParameter",
-    "SetParametersFromFile",
-    "SetRemap",
-    "SetUseSimTime",
-]
-
-
-__getattr__ = explain_missing(
-    __name__,
-    {
-        "LifecycleTransition": "emit launch_ros.events.lifecycle.ChangeState",
-        "SetROSLogDir": "there are no log files",
-    },
-)
+__all__ = [*_lifecycle.__all__, *_nodes.__all__, *_settings.__all__]

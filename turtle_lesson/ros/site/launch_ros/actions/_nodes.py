@@ -6,59 +6,44 @@ import os
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any, ClassVar, NoReturn
 
+import yaml
 from launch import Action, LaunchContext, LaunchDescriptionEntity, logging
 from launch._entities import SomeSubstitutionsType, Substitution
+from launch._tags import Reader, pair, tags, text
 from launch.actions import ExecuteProcess
-from launch.actions._processes import Program
+from launch.actions._processes import Program, command_line
 from launch.frontend import Entity, Parser, expose_action
 from launch.substitutions import SubstitutionFailure
-from launch.utilities import ensure_argument_type, normalize_to_list_of_substitutions, perform_substitutions
+from launch.utilities import ensure_argument_type, text_of
+from rclpy.validate_namespace import validate_namespace
+from rclpy.validate_node_name import validate_node_name
 
 from turtle_lesson.ros.ament.errors import NotHereError
 from turtle_lesson.ros.sim.errors import shown_path
 
-from ..descriptions import COMPOSABLE, ComposableNode
+from ..descriptions import ComposableNode
 from ..parameter_descriptions import (
     Parameter,
     ParameterFile,
     as_argument,
     file_for_this_launch,
-    nested_parameters,
+    parameters,
     parameters_in,
-    remap_rules,
 )
 from ..substitutions import ExecutableInPackage
+
+__all__ = ["ComposableNodeContainer", "LoadComposableNodes", "Node"]
 
 
 def in_namespace(context: LaunchContext, namespace: str | None) -> str | None:
     """A node's full namespace: its own, within what was pushed; None if there is neither."""
     pushed = context.launch_configurations.get("ros_namespace")
-    if namespace is None:
+    if namespace is None or (pushed is not None and not namespace):
         return pushed
-    if namespace.startswith("/") or pushed is None:
-        return absolute(namespace)
-    return absolute(f"{pushed.rstrip('/')}/{namespace}") if namespace else pushed
-
-
-def absolute(namespace: str) -> str:
-    """The same namespace beginning with a slash and not ending with one."""
-    return "/" + namespace.strip("/")
-
-
-def check_namespace(namespace: str) -> None:
-    """Raise rclpy's InvalidNamespaceException unless it is a good one."""
-    from rclpy.validate_namespace import validate_namespace
-
-    validate_namespace(namespace)
-
-
-def check_node_name(name: str) -> None:
-    """Raise rclpy's InvalidNodeNameException unless it is a good one."""
-    from rclpy.validate_node_name import validate_node_name
-
-    validate_node_name(name)
+    outer = "" if pushed is None or namespace.startswith("/") else pushed
+    return "/" + f"{outer}/{namespace}".strip("/")
 
 
 Remapping = tuple[SomeSubstitutionsType, SomeSubstitutionsType]
@@ -79,7 +64,25 @@ class Node(ExecuteProcess):
         remappings: pairs of names, from and to.
         ros_arguments: further words behind `--ros-args`.
         arguments: further words before it, for the program itself.
+
+    Attributes:
+        node_package: the package, as it was given.
+        node_executable: the executable, as it was given.
     """
+
+    UNSPECIFIED_NODE_NAME = "<node_name_unspecified>"
+    UNSPECIFIED_NODE_NAMESPACE = "<node_namespace_unspecified>"
+    _tag: ClassVar = {
+        **{name: read for name, read in ExecuteProcess._tag.items() if name != "cmd"},
+        "arguments": command_line("args", optional=True),
+        "ros_arguments": command_line("ros_args", optional=True),
+        "executable": text("exec"),
+        "package": text("pkg", optional=True),
+        "namespace": text("namespace", optional=True),
+        "exec_name": text("exec_name", optional=True),
+        "remappings": tags("remap", pair("from", "to")),
+        "parameters": parameters(),
+    }
 
     def __init__(
         self,
@@ -106,56 +109,22 @@ class Node(ExecuteProcess):
             *_words(ros_arguments, "ros_arguments"),
         ]
         super().__init__(cmd=words, name=exec_name, **kwargs)
-        self.__package = package
-        self.__executable = executable
+        self.node_package = package
+        self.node_executable = executable
         self.__node_name = name
         self.__namespace = namespace
         self.__parameters = [] if parameters is None else list(parameters)
         self.__remappings = _pairs(remappings)
-        self.expanded_node_name = "<node_name_unspecified>"
-        self.expanded_node_namespace = "<node_namespace_unspecified>"
+        self.expanded_node_name = self.UNSPECIFIED_NODE_NAME
+        self.expanded_node_namespace = self.UNSPECIFIED_NODE_NAMESPACE
         self.expanded_remapping_rules: list[tuple[str, str]] = []
         self._ros_words: list[str] = []
-
-    @classmethod
-    def parse(cls, entity: Entity, parser: Parser, ignore: list[str] | None = None) -> tuple[type, dict[str, Any]]:
-        """Its arguments from the attributes of a tag and from nested `param`, `remap` and `env` tags."""
-        _, kwargs = super().parse(entity, parser, ignore=[*(ignore or []), "cmd"])
-        for name, attribute in {"arguments": "args", "ros_arguments": "ros_args"}.items():
-            text = entity.get_attr(attribute, optional=True)
-            if text is not None:
-                kwargs[name] = cls._parse_cmdline(text, parser)
-        kwargs["executable"] = parser.parse_substitution(entity.get_attr("exec"))
-        for name, attribute in {"package": "pkg", "namespace": "namespace", "exec_name": "exec_name"}.items():
-            text = entity.get_attr(attribute, optional=True)
-            if text is not None:
-                kwargs[name] = parser.parse_substitution(text)
-        remaps = entity.get_attr("remap", data_type=list[Entity], optional=True)
-        if remaps is not None:
-            kwargs["remappings"] = remap_rules(remaps, parser)
-        parameters = entity.get_attr("param", data_type=list[Entity], optional=True)
-        if parameters is not None:
-            kwargs["parameters"] = nested_parameters(parameters, parser)
-        return cls, kwargs
-
-    UNSPECIFIED_NODE_NAME = "<node_name_unspecified>"
-    UNSPECIFIED_NODE_NAMESPACE = "<node_namespace_unspecified>"
 
     def is_node_name_fully_specified(self) -> bool:
         """Whether the launch file has decided name and namespace; known when the node has been started."""
         return (
             self.UNSPECIFIED_NODE_NAME not in self.node_name and self.UNSPECIFIED_NODE_NAMESPACE not in self.node_name
         )
-
-    @property
-    def node_package(self) -> SomeSubstitutionsType | None:
-        """The package, as it was given."""
-        return self.__package
-
-    @property
-    def node_executable(self) -> SomeSubstitutionsType:
-        """The executable, as it was given."""
-        return self.__executable
 
     @property
     def node_name(self) -> str:
@@ -181,17 +150,17 @@ class Node(ExecuteProcess):
         words = []
         try:
             if self.__node_name is not None:
-                self.expanded_node_name = _text(context, self.__node_name)
-                check_node_name(self.expanded_node_name)
+                self.expanded_node_name = text_of(context, self.__node_name)
+                validate_node_name(self.expanded_node_name)
                 words += ["-r", f"__node:={self.expanded_node_name}"]
-            own = None if self.__namespace is None else _text(context, self.__namespace)
+            own = None if self.__namespace is None else text_of(context, self.__namespace)
             namespace = in_namespace(context, own)
             if namespace is not None:
                 self.expanded_node_namespace = namespace
-                check_namespace(namespace)
+                validate_namespace(namespace)
                 words += ["-r", f"__ns:={namespace}"]
         except Exception:
-            what = f"package={self.__package}, executable={self.__executable}, name={self.__node_name}"
+            what = f"package={self.node_package}, executable={self.node_executable}, name={self.__node_name}"
             logging.get_logger("launch_ros.actions.node").error(
                 f"Error while expanding or validating node name or namespace for '{what}, "
                 f"namespace={self.__namespace}':"
@@ -218,13 +187,11 @@ class Node(ExecuteProcess):
         """What gives a parameter: a rule that one can read, or for a name that none can hold, as `~speed`, a file."""
         if _FITS_A_RULE.fullmatch(name):
             return ["-p", f"{name}:={as_argument(value)}"]
-        import yaml
-
         text = yaml.safe_dump({"/**": {"ros__parameters": {name: value}}}, allow_unicode=True)
         return ["--params-file", str(file_for_this_launch(self, "parameter.yaml", text))]
 
     def _remapping_words(self, context: LaunchContext) -> list[str]:
-        own = [(_text(context, source), _text(context, target)) for source, target in self.__remappings]
+        own = [(text_of(context, source), text_of(context, target)) for source, target in self.__remappings]
         self.expanded_remapping_rules = [*context.launch_configurations.get("ros_remaps", []), *own]
         return [word for source, target in self.expanded_remapping_rules for word in ("-r", f"{source}:={target}")]
 
@@ -245,10 +212,6 @@ def _shown_word(word: str) -> str:
     return re.sub(r".*/launch_params_\w+/", "launch_params/", word)
 
 
-def _text(context: LaunchContext, text: SomeSubstitutionsType) -> str:
-    return perform_substitutions(context, normalize_to_list_of_substitutions(text))
-
-
 def _words(words: Iterable[SomeSubstitutionsType] | None, name: str) -> list[SomeSubstitutionsType]:
     if isinstance(words, str | Substitution):
         raise TypeError(f"Node expected a list for '{name}', got {words!r}; write {name}=[{words!r}]")
@@ -257,10 +220,10 @@ def _words(words: Iterable[SomeSubstitutionsType] | None, name: str) -> list[Som
 
 def _pairs(remappings: Iterable[Remapping] | None) -> list[Remapping]:
     pairs = list(remappings or [])
-    for pair in pairs:
-        if isinstance(pair, str) or not isinstance(pair, Sequence) or len(pair) != 2:
+    for rule in pairs:
+        if isinstance(rule, str) or not isinstance(rule, Sequence) or len(rule) != 2:
             raise TypeError(
-                f"Node expected 'remappings' to be a list of pairs, got {pair!r} in it; "
+                f"Node expected 'remappings' to be a list of pairs, got {rule!r} in it; "
                 "write remappings=[('/from', '/to')]"
             )
     return pairs
@@ -277,9 +240,40 @@ def _parameter_file(context: LaunchContext, entry: Any) -> Path:
     return path
 
 
+def _composable(tag: Entity, parser: Parser) -> ComposableNode:
+    """The C++ node of a `composable_node` tag."""
+    readers: dict[str, Reader] = {
+        "package": text("pkg"),
+        "plugin": text("plugin"),
+        "name": text("name", optional=True),
+        "namespace": text("namespace", optional=True),
+        "parameters": parameters(),
+        "remappings": tags("remap", pair("from", "to")),
+        "extra_arguments": parameters("extra_arg"),
+    }
+    for condition in ("if", "unless"):
+        tag.get_attr(condition, optional=True)
+    return ComposableNode(**{name: read(tag, parser) for name, read in readers.items()})
+
+
+class _LeftOut(Action):
+    """An action that only a robot can carry out."""
+
+    def execute(self, context: LaunchContext) -> NoReturn:
+        """Have it left out.
+
+        Raises:
+            NotHereError: always.
+        """
+        why = "composable nodes are C++ libraries, and only Python nodes run here"
+        raise NotHereError(type(self).__name__, why)
+
+
 @expose_action("node_container")
-class ComposableNodeContainer(Node):
+class ComposableNodeContainer(_LeftOut, Node):
     """A process that loads C++ nodes; a launch leaves it out."""
+
+    _tag: ClassVar = {**Node._tag, "composable_node_descriptions": tags("composable_node", _composable)}
 
     def __init__(
         self,
@@ -292,24 +286,15 @@ class ComposableNodeContainer(Node):
         super().__init__(name=name, namespace=namespace, **kwargs)
         self.composable_node_descriptions = list(composable_node_descriptions or [])
 
-    @classmethod
-    def parse(cls, entity: Entity, parser: Parser, ignore: list[str] | None = None) -> tuple[type, dict[str, Any]]:
-        """Its arguments: a node's, and nested `composable_node` tags."""
-        _, kwargs = super().parse(entity, parser, ignore)
-        return cls, kwargs | {"composable_node_descriptions": _nested(entity, parser)}
-
-    def execute(self, context: LaunchContext) -> NoReturn:
-        """Have it left out.
-
-        Raises:
-            NotHereError: always.
-        """
-        raise NotHereError("ComposableNodeContainer", COMPOSABLE)
-
 
 @expose_action("load_composable_node")
-class LoadComposableNodes(Action):
+class LoadComposableNodes(_LeftOut):
     """Loads C++ nodes into a container; a launch leaves it out."""
+
+    _tag: ClassVar = {
+        "target_container": text("target"),
+        "composable_node_descriptions": tags("composable_node", _composable),
+    }
 
     def __init__(
         self,
@@ -321,39 +306,3 @@ class LoadComposableNodes(Action):
         super().__init__(**kwargs)
         self.composable_node_descriptions = list(composable_node_descriptions)
         self.target_container = target_container
-
-    @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type, dict[str, Any]]:
-        """Its arguments: `target`, and nested `composable_node` tags."""
-        _, kwargs = super().parse(entity, parser)
-        kwargs["target_container"] = parser.parse_substitution(entity.get_attr("target"))
-        return cls, kwargs | {"composable_node_descriptions": _nested(entity, parser)}
-
-    def execute(self, context: LaunchContext) -> NoReturn:
-        """Have it left out.
-
-        Raises:
-            NotHereError: always.
-        """
-        raise NotHereError("LoadComposableNodes", COMPOSABLE)
-
-
-def _nested(entity: Entity, parser: Parser) -> list[ComposableNode]:
-    """The C++ nodes of `composable_node` tags."""
-    nodes = []
-    for tag in _tags(entity, "composable_node"):
-        texts = {"package": "pkg", "plugin": "plugin", "name": "name", "namespace": "namespace"}
-        given = {name: tag.get_attr(attribute, optional=True) for name, attribute in texts.items()}
-        for conditions in ("if", "unless"):
-            tag.get_attr(conditions, optional=True)
-        kwargs: dict[str, Any] = {k: parser.parse_substitution(v) for k, v in given.items() if v is not None}
-        kwargs["parameters"] = nested_parameters(_tags(tag, "param"), parser)
-        kwargs["remappings"] = remap_rules(_tags(tag, "remap"), parser)
-        kwargs["extra_arguments"] = nested_parameters(_tags(tag, "extra_arg"), parser)
-        tag.assert_entity_completely_parsed()
-        nodes.append(ComposableNode(**kwargs))
-    return nodes
-
-
-def _tags(entity: Entity, name: str) -> list[Entity]:
-    return entity.get_attr(name, data_type=list[Entity], optional=True) or []

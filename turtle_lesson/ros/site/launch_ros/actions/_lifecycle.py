@@ -3,111 +3,89 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from itertools import pairwise
-from typing import Any
+from typing import Any, ClassVar
 
 import launch.logging
 from launch import Event, EventHandler, LaunchContext, LaunchDescriptionEntity
 from launch._entities import SomeEntitiesType, SomeSubstitutionsType
+from launch._tags import typed
 from launch.actions import EmitEvent, OpaqueFunction, RegisterEventHandler
-from launch.frontend import Entity, Parser, expose_action
+from launch.frontend import expose_action
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from lifecycle_msgs.msg import State, Transition
 
-from .actions._nodes import Node
+from ._nodes import Node
 
-_STATES = ("unknown", "unconfigured", "inactive", "active", "finalized")
-_BETWEEN = ("configuring", "cleaningup", "shuttingdown", "activating", "deactivating", "errorprocessing")
-_TRANSITIONS = (
-    "create", "configure", "cleanup", "activate", "deactivate", "unconfigured_shutdown", "inactive_shutdown",
-    "active_shutdown", "destroy",
-)  # fmt: skip
-_RESULTS = ("success", "failure", "error")
+__all__ = ["LifecycleNode"]
 
 
-def _states() -> dict[int, str]:
-    known = {getattr(State, f"PRIMARY_STATE_{name.upper()}"): name for name in _STATES}
-    return known | {getattr(State, f"TRANSITION_STATE_{name.upper()}"): name for name in _BETWEEN}
-
-
-def _transitions() -> dict[int, str]:
-    known = {getattr(Transition, f"TRANSITION_{name.upper()}"): f"transition_{name}" for name in _TRANSITIONS}
-    for step in ("configure", "cleanup", "activate", "deactivate"):
-        for result in _RESULTS:
-            name = f"ON_{step}_{result}"
-            if hasattr(Transition, f"TRANSITION_{name.upper()}"):
-                known[getattr(Transition, f"TRANSITION_{name.upper()}")] = f"transition_{name.lower()}"
-    return known
+def _constants(message: Any, *beginnings: str) -> dict[int, str]:
+    """The numbers of a message's constants with these beginnings, and the rest of their names."""
+    names = [(begin, name) for begin in beginnings for name in dir(message) if name.startswith(begin)]
+    return dict(sorted((getattr(message, name), name.removeprefix(begin).lower()) for begin, name in names))
 
 
 class ChangeState(Event):
     """The nodes that match are asked to make a transition, such as `Transition.TRANSITION_CONFIGURE`.
+
+    Attributes:
+        lifecycle_node_matcher: says of an action whether it is meant.
+        transition_id: the transition.
 
     Raises:
         RuntimeError: if there is no such transition.
     """
 
     name = "launch_ros.events.lifecycle.ChangeState"
-    valid_states = _states()
-    valid_transitions = _transitions()
+    valid_states: ClassVar = _constants(State, "PRIMARY_STATE_", "TRANSITION_STATE_")
+    valid_transitions: ClassVar = {
+        number: f"transition_{name}"
+        for number, name in _constants(Transition, "TRANSITION_").items()
+        if number <= Transition.TRANSITION_ON_DEACTIVATE_ERROR
+    }
 
     def __init__(self, *, lifecycle_node_matcher: Callable[[LifecycleNode], bool], transition_id: int) -> None:
         if transition_id not in self.valid_transitions:
             raise RuntimeError(
                 f"expected transition_id to be one of {list(self.valid_transitions)}, but got '{transition_id}'"
             )
-        self.__matcher = lifecycle_node_matcher
-        self.__transition_id = transition_id
-
-    @property
-    def lifecycle_node_matcher(self) -> Callable[[LifecycleNode], bool]:
-        """Says of an action whether it is meant."""
-        return self.__matcher
-
-    @property
-    def transition_id(self) -> int:
-        """The transition."""
-        return self.__transition_id
+        self.lifecycle_node_matcher = lifecycle_node_matcher
+        self.transition_id = transition_id
 
 
 class StateTransition(Event):
-    """A managed node has gone from one state to another."""
+    """A managed node has gone from one state to another.
+
+    Attributes:
+        action: the node's action.
+        msg: the node's message, a lifecycle_msgs/msg/TransitionEvent.
+    """
 
     name = "launch_ros.events.lifecycle.StateTransition"
 
     def __init__(self, *, action: LifecycleNode, msg: Any) -> None:
-        self.__action = action
-        self.__msg = msg
-
-    @property
-    def action(self) -> LifecycleNode:
-        """The node's action."""
-        return self.__action
-
-    @property
-    def msg(self) -> Any:
-        """The node's message, a lifecycle_msgs/msg/TransitionEvent."""
-        return self.__msg
+        self.action = action
+        self.msg = msg
 
     @property
     def timestamp(self) -> int:
         """When, in ns."""
-        return int(self.__msg.timestamp)
+        return int(self.msg.timestamp)
 
     @property
     def transition(self) -> str:
         """The transition's name, such as `configure`."""
-        return str(self.__msg.transition.label)
+        return str(self.msg.transition.label)
 
     @property
     def start_state(self) -> str:
         """The state that it was in, such as `unconfigured`."""
-        return str(self.__msg.start_state.label)
+        return str(self.msg.start_state.label)
 
     @property
     def goal_state(self) -> str:
         """The state that it is in now."""
-        return str(self.__msg.goal_state.label)
+        return str(self.msg.goal_state.label)
 
 
 def matches_node_name(node_name: str) -> Callable[[Any], bool]:
@@ -168,7 +146,13 @@ class LifecycleNode(Node):
         name: the node's name, which must be given.
         namespace: its namespace.
         autostart: whether it is configured and activated at once.
+
+    Attributes:
+        is_autostart: whether it is configured and activated at once, as substitutions.
+        current_state: the state that it was last heard to be in, such as `inactive`.
     """
+
+    _tag: ClassVar = {**Node._tag, "autostart": typed("autostart", bool)}
 
     def __init__(
         self,
@@ -179,29 +163,10 @@ class LifecycleNode(Node):
         **kwargs: Any,
     ) -> None:
         super().__init__(name=name, namespace=namespace, **kwargs)
-        self.__autostart = normalize_to_list_of_substitutions(
+        self.is_autostart = normalize_to_list_of_substitutions(
             str(autostart) if isinstance(autostart, bool) else autostart
         )
-        self.__current_state = ChangeState.valid_states[State.PRIMARY_STATE_UNKNOWN]
-
-    @classmethod
-    def parse(cls, entity: Entity, parser: Parser, ignore: list[str] | None = None) -> tuple[type, dict[str, Any]]:
-        """Its arguments: a node's, and `autostart`."""
-        _, kwargs = super().parse(entity, parser, ignore)
-        autostart = entity.get_attr("autostart", data_type=bool, optional=True)
-        if autostart is not None:
-            kwargs["autostart"] = parser.parse_if_substitutions(autostart)
-        return cls, kwargs
-
-    @property
-    def is_autostart(self) -> list[Any]:
-        """Whether it is configured and activated at once, as substitutions."""
-        return self.__autostart
-
-    @property
-    def current_state(self) -> str:
-        """The state that it was last heard to be in, such as `inactive`."""
-        return self.__current_state
+        self.current_state = ChangeState.valid_states[State.PRIMARY_STATE_UNKNOWN]
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Have the node started, and listen to it."""
@@ -217,16 +182,11 @@ class LifecycleNode(Node):
                 entities=[OpaqueFunction(function=self._change_state)],
             )
         )
-        return [*(entities or []), *self._start_actions(context)]
-
-    def _start_actions(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
-        if perform_substitutions(context, self.__autostart).lower() not in {"true", "1"}:
-            return []
-        steps = [Transition.TRANSITION_CONFIGURE, Transition.TRANSITION_ACTIVATE]
-        return _chain(self.node_name, steps)
+        starts_by_itself = perform_substitutions(context, self.is_autostart).lower() in {"true", "1"}
+        return [*(entities or []), *(_start(self.node_name) if starts_by_itself else [])]
 
     def _changed(self, context: LaunchContext, msg: Any) -> None:
-        self.__current_state = ChangeState.valid_states.get(msg.goal_state.id, msg.goal_state.label)
+        self.current_state = ChangeState.valid_states.get(msg.goal_state.id, msg.goal_state.label)
         context.emit_event_sync(StateTransition(action=self, msg=msg))
 
     def _change_state(self, context: LaunchContext) -> None:
@@ -243,28 +203,16 @@ class LifecycleNode(Node):
         context._host.ros_helper().change_state(self.node_name, event.transition_id, answered)
 
 
-_GOALS = {
-    Transition.TRANSITION_CONFIGURE: "inactive",
-    Transition.TRANSITION_CLEANUP: "unconfigured",
-    Transition.TRANSITION_ACTIVATE: "active",
-    Transition.TRANSITION_DEACTIVATE: "inactive",
-}
-"""Where a transition leads if it succeeds; all others lead to `finalized`."""
-
-
-def _chain(name: str, ids: list[int]) -> list[LaunchDescriptionEntity]:
-    """The handlers that lead a node through transitions, one after the other, and the event that begins the first."""
+def _start(name: str) -> list[LaunchDescriptionEntity]:
+    """What configures a node, and activates it when it has been configured."""
     matcher = matches_node_name(name)
+    configure, activate = (
+        EmitEvent(event=ChangeState(lifecycle_node_matcher=matcher, transition_id=step))
+        for step in (Transition.TRANSITION_CONFIGURE, Transition.TRANSITION_ACTIVATE)
+    )
 
-    def ask(step: int) -> EmitEvent:
-        return EmitEvent(event=ChangeState(lifecycle_node_matcher=matcher, transition_id=step))
+    def is_configured(event: Event) -> bool:
+        return isinstance(event, StateTransition) and matcher(event.action) and event.goal_state == "inactive"
 
-    def reached(before: int) -> Any:
-        goal = _GOALS.get(before, "finalized")
-        return lambda event: isinstance(event, StateTransition) and matcher(event.action) and event.goal_state == goal
-
-    handlers: list[LaunchDescriptionEntity] = [
-        RegisterEventHandler(OnStateTransition(matcher=reached(before), entities=[ask(step)], handle_once=True))
-        for before, step in pairwise(ids)
-    ]
-    return [*handlers, ask(ids[0])]
+    configured = OnStateTransition(matcher=is_configured, entities=[activate], handle_once=True)
+    return [RegisterEventHandler(configured), configure]
