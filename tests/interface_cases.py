@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from turtle_lesson.ros.idl.checks import FLOAT_BOUNDS
 from turtle_lesson.ros.idl.definition import parse_message
 from turtle_lesson.ros.idl.generator import make_module
+from turtle_lesson.ros.idl.model import InvalidDefinition
 from turtle_lesson.ros.idl.names import integer_bounds
 from turtle_lesson.ros.idl.registry import Registry
 
@@ -22,6 +23,17 @@ PRIMITIVES = ["bool", "byte", "char", "float32", "float64", "string", "wstring"]
 MESSAGES = ["geometry_msgs/Point", "std_msgs/Header", "std_msgs/Empty", "turtlesim/Pose", "sensor_msgs/Range"]
 
 built_in = Registry()
+
+
+def faults_of(registry: Registry, package: str) -> list[InvalidDefinition]:
+    """All that a build would refuse: the first fault of each definition file, in order of the names."""
+    faults = []
+    for interface in registry.interface_names(package):
+        try:
+            registry.module(package, interface)
+        except InvalidDefinition as error:
+            faults.append(error)
+    return faults
 
 
 def words(text):

@@ -6,7 +6,7 @@ import subprocess
 import sys
 
 import pytest
-from interface_cases import write_package
+from interface_cases import faults_of, write_package
 
 from turtle_lesson.ros.idl.model import InvalidDefinition
 from turtle_lesson.ros.idl.registry import Registry, install_finder, uninstall_finder
@@ -124,7 +124,7 @@ def test_a_faulty_definition_is_told_with_file_and_line(registry, tmp_path):
     assert caught.value.file == str(tmp_path / "msg" / "Bad.msg")
     from demo_msgs.msg import Good  # noqa: F401
 
-    assert {error.file for error in registry.check("demo_msgs")} == {str(tmp_path / "msg" / "Bad.msg")}
+    assert {error.file for error in faults_of(registry, "demo_msgs")} == {str(tmp_path / "msg" / "Bad.msg")}
 
 
 def test_a_message_cannot_contain_itself(registry, tmp_path):
@@ -258,7 +258,7 @@ def test_the_registry_knows_names_and_texts(demo, registry):
 
 def test_every_built_in_definition_is_sound():
     registry = Registry()
-    assert [registry.check(package) for package in registry.packages()] == [[]] * len(registry.packages())
+    assert [faults_of(registry, package) for package in registry.packages()] == [[]] * len(registry.packages())
     for package in registry.packages():
         for interface in registry.interface_names(package):
             kind = registry.get(f"{package}/{interface}")

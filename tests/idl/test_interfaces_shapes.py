@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from interface_cases import PRIMITIVES, message_class, values_of, words, write_package
+from interface_cases import PRIMITIVES, faults_of, message_class, values_of, words, write_package
 
 from turtle_lesson.ros.idl.cdr import deserialize, serialize
 from turtle_lesson.ros.idl.model import InvalidDefinition
@@ -102,7 +102,7 @@ wstring[] many
 def shapes(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Registry]:
     """The registry that imports look into, with the package `shapes`."""
     registry.add("shapes", write_package(tmp_path_factory.mktemp("shapes"), FILES))
-    assert registry.check("shapes") == []
+    assert faults_of(registry, "shapes") == []
     yield registry
     registry.remove("shapes")
 
@@ -260,7 +260,7 @@ def test_what_no_build_gets_through_is_refused_with_its_line(line: str, said: st
 def test_a_file_cannot_have_the_name_of_a_word_of_python(tmp_path: Path) -> None:
     registry = Registry()
     registry.add("odd_msgs", write_package(tmp_path, {"msg/None.msg": "int8 x\n", "msg/Fine.msg": "None none\n"}))
-    faults = registry.check("odd_msgs")
+    faults = faults_of(registry, "odd_msgs")
     assert {str(fault) for fault in faults} == {
         "odd_msgs/msg/None.msg: 'None' is a keyword of Python, which cannot be the name of a class"
     }

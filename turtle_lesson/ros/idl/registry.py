@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterable, Sequence
-from functools import partial
+from dataclasses import dataclass, field
+from functools import cached_property, partial
 from importlib import import_module
 from importlib.machinery import ModuleSpec, PathFinder
 from pathlib import Path
@@ -51,20 +52,21 @@ PARSERS: dict[str, Callable[[str, str, str, str], Definition]] = {
 }
 
 
+@dataclass(eq=False)
 class Package:
     """One interface package: a folder with `msg/`, `srv/` and `action/`.
 
-    Args:
+    Attributes:
         name: the package's name.
         directory: folder that holds the definition files.
         files: the files that count, relative to the folder, as CMakeLists.txt names them; None for all.
+        modules: those that were generated, by names such as `msg/Twist`.
     """
 
-    def __init__(self, name: str, directory: Path, files: Iterable[str] | None = None) -> None:
-        self.name = name
-        self.directory = directory
-        self.files = None if files is None else tuple(Path(each).as_posix() for each in files)
-        self.modules: dict[str, ModuleType] = {}
+    name: str
+    directory: Path
+    files: tuple[str, ...] | None = None
+    modules: dict[str, ModuleType] = field(default_factory=dict)
 
     def interface_names(self) -> list[str]:
         """Names such as `msg/Twist`: messages, then services, then actions, each in alphabetical order."""
@@ -72,8 +74,8 @@ class Package:
 
     def names_in(self, folder: str) -> list[str]:
         """Names of the interfaces of one folder."""
-        paths = self._paths()
-        return sorted(path.stem for path in paths if path.parent.name == folder and path.suffix == f".{folder}")
+        found = map(Path, self.files) if self.files is not None else (self.directory / folder).glob(f"*.{folder}")
+        return sorted(path.stem for path in found if path.parent.name == folder and path.suffix == f".{folder}")
 
     def has(self, interface: str) -> bool:
         """Whether there is an interface `msg/Twist`."""
@@ -82,21 +84,40 @@ class Package:
 
     def path(self, interface: str) -> Path:
         """The definition file of `msg/Twist`."""
-        folder = interface.partition("/")[0]
-        return self.directory / f"{interface}.{folder}"
+        return self.directory / f"{interface}.{interface.partition('/')[0]}"
 
-    def _paths(self) -> list[Path]:
-        if self.files is not None:
-            return [self.directory / each for each in self.files]
-        return [path for folder in FOLDERS for path in (self.directory / folder).glob(f"*.{folder}")]
+    def text(self, interface: str) -> str:
+        """What the definition file of `msg/Twist` says. Raises InvalidDefinition if it cannot be read, or is too long."""
+        path, hint = self.path(interface), ""
+        try:
+            with path.open(encoding="utf-8") as file:
+                text = file.read(LONGEST + 1)
+            if len(text) <= LONGEST:
+                return text
+            reason = f"the definition has more than {LONGEST:,} characters"
+            hint = "Move some of its fields into messages of their own"
+        except (OSError, UnicodeDecodeError) as error:
+            reason = f"the file cannot be read ({error})"
+        raise InvalidDefinition(reason, hint=hint).locate(interface=f"{self.name}/{interface}", file=str(path))
+
+    def definition(self, interface: str) -> Definition:
+        """The definition of `msg/Twist`, parsed."""
+        folder, _, name = interface.partition("/")
+        return PARSERS[folder](self.name, name, self.text(interface), str(self.path(interface)))
+
+    def advice(self, interface: str) -> str:
+        """What to try where the package lacks an interface."""
+        path = self.path(interface)
+        if self.files is not None and path.is_file():
+            return f"{interface}{path.suffix} is there, but CMakeLists.txt does not name it"
+        folder, _, name = interface.partition("/")
+        return names.did_you_mean(name, self.names_in(folder))
 
 
 class Registry:
     """All interface packages by name; the later one of a name hides the built-in one until it is removed."""
 
-    def __init__(self, share: Path | None = SHARE) -> None:
-        self._share = share
-        self._built_in: dict[str, Package] | None = None
+    def __init__(self) -> None:
         self._added: dict[str, Package] = {}
         self._classes: dict[str, Any] = {}
         self._in_progress: list[str] = []
@@ -114,23 +135,26 @@ class Registry:
         names.check_package(package)
         with self._lock:
             self._forget(package)
-            self._added[package] = Package(package, Path(directory), files)
+            chosen = None if files is None else tuple(Path(each).as_posix() for each in files)
+            self._added[package] = Package(package, Path(directory), chosen)
 
     def remove(self, package: str) -> None:
         """Forget a package that was added, its classes, and its modules in `sys.modules`."""
         with self._lock:
             if package not in self._added:
-                raise LookupError(f"the interface package '{package}' was not added. {self._hint(package)}".rstrip())
+                raise LookupError(
+                    f"the interface package '{package}' was not added. {names.did_you_mean(package, self.packages())}".rstrip()
+                )
             self._forget(package)
             del self._added[package]
 
     def packages(self) -> list[str]:
         """Names of all packages, in alphabetical order."""
-        return sorted({*self._known_built_in(), *self._added})
+        return sorted({*self._built_in, *self._added})
 
     def knows(self, package: str) -> bool:
         """Whether there is a package of this name, or of one that newer releases use."""
-        return package in self._added or ALIASES.get(package, package) in self._known_built_in()
+        return package in self._added or ALIASES.get(package, package) in self._built_in
 
     def was_added(self, package: str) -> bool:
         """Whether a package was added, and is not the built-in one of its name."""
@@ -142,17 +166,18 @@ class Registry:
 
     def text(self, package: str, interface: str) -> str:
         """The text of a definition file, e.g. of `geometry_msgs` and `msg/Twist`."""
-        return _read(self._find(package, interface), interface)
+        return self._find(package, interface).text(interface)
 
     def commented(self, package: str, interface: str) -> str:
         """The text of a definition file; that of a built-in package with comments that say what its fields mean."""
-        owner, text = self._find(package, interface), self.text(package, interface)
+        owner = self._find(package, interface)
+        text = owner.text(interface)
         return text if owner in self._added.values() else with_comments(owner.directory, interface, text)
 
     def definition(self, name: str) -> Definition:
         """The parsed definition of `geometry_msgs/msg/Twist`; InvalidDefinition where ROS refuses it."""
         package, interface = self._split(name)
-        return _parse(self._find(package, interface), interface)
+        return self._find(package, interface).definition(interface)
 
     def get(self, name: str) -> Any:
         """The class of an interface.
@@ -196,18 +221,8 @@ class Registry:
             self._uses[self._in_progress[-1]] |= self._uses[name]
         return message_class
 
-    def check(self, package: str) -> list[InvalidDefinition]:
-        """All that a build would refuse: the first fault of each definition file, in order of the names."""
-        faults = []
-        for interface in self.interface_names(package):
-            try:
-                self.module(package, interface)
-            except InvalidDefinition as error:
-                faults.append(error)
-        return faults
-
     def _make(self, owner: Package, interface: str) -> ModuleType:
-        definition = _parse(owner, interface)
+        definition = owner.definition(interface)
         name = definition.full_name
         if name in self._in_progress:
             circle = " -> ".join([*self._in_progress, name])
@@ -236,17 +251,18 @@ class Registry:
 
     def package(self, name: str) -> Package:
         """One package; LookupError where there is none of that name."""
-        owner = self._added.get(name) or self._known_built_in().get(ALIASES.get(name, name))
+        owner = self._added.get(name) or self._built_in.get(ALIASES.get(name, name))
         if owner is None:
-            raise LookupError(f"there is no interface package '{name}'. {self._hint(name)}".rstrip())
+            raise LookupError(
+                f"there is no interface package '{name}'. {names.did_you_mean(name, self.packages())}".rstrip()
+            )
         return owner
 
     def _find(self, package: str, interface: str) -> Package:
         owner = self.package(package)
         if not owner.has(interface):
-            raise LookupError(
-                f"the package '{package}' has no interface '{interface}'. {advice(owner, interface)}".rstrip()
-            )
+            text = f"the package '{package}' has no interface '{interface}'. {owner.advice(interface)}"
+            raise LookupError(text.rstrip())
         return owner
 
     def _where_is(self, name: str, folder: str = "") -> str:
@@ -256,21 +272,16 @@ class Registry:
         found = " or ".join(f"'{owner}{folder}/{name}'" for owner in owners)
         return f"Did you mean {found}?" if found else ""
 
-    def _hint(self, package: str) -> str:
-        return names.did_you_mean(package, self.packages())
-
-    def _known_built_in(self) -> dict[str, Package]:
-        if self._built_in is None:
-            folders = [] if self._share is None else [path for path in self._share.iterdir() if path.is_dir()]
-            self._built_in = {path.name: Package(path.name, path) for path in folders}
-        return self._built_in
+    @cached_property
+    def _built_in(self) -> dict[str, Package]:
+        return {path.name: Package(path.name, path) for path in SHARE.iterdir() if path.is_dir()}
 
     def _forget(self, package: str) -> None:
         """Drop the classes and modules of a package, and of the packages that use it."""
         self._classes.clear()
         stale = {package}
         stale |= {user.partition("/")[0] for user, used in self._uses.items() if package in used}
-        for owner in [*self._added.values(), *self._known_built_in().values()]:
+        for owner in [*self._added.values(), *self._built_in.values()]:
             if owner.name in stale:
                 owner.modules.clear()
                 for name in (owner.name, *(alias for alias, real in ALIASES.items() if real == owner.name)):
@@ -294,35 +305,6 @@ def forget_modules(package: str) -> None:
     for folder in FOLDERS:
         if isinstance(outer.__dict__.get(folder), ModuleType):
             delattr(outer, folder)
-
-
-def _parse(owner: Package, interface: str) -> Definition:
-    folder, _, name = interface.partition("/")
-    return PARSERS[folder](owner.name, name, _read(owner, interface), str(owner.path(interface)))
-
-
-def _read(owner: Package, interface: str) -> str:
-    path = owner.path(interface)
-    try:
-        with path.open(encoding="utf-8") as file:
-            text = file.read(LONGEST + 1)
-    except (OSError, UnicodeDecodeError) as error:
-        reason = f"the file cannot be read ({error})"
-        raise InvalidDefinition(reason).locate(interface=f"{owner.name}/{interface}", file=str(path)) from None
-    if len(text) > LONGEST:
-        hint = "Move some of its fields into messages of their own"
-        too_long = InvalidDefinition(f"the definition has more than {LONGEST:,} characters", hint=hint)
-        raise too_long.locate(interface=f"{owner.name}/{interface}", file=str(path))
-    return text
-
-
-def advice(owner: Package, interface: str) -> str:
-    """What to try where a package lacks an interface."""
-    path = owner.path(interface)
-    if owner.files is not None and path.is_file():
-        return f"{interface}{path.suffix} is there, but CMakeLists.txt does not name it"
-    folder, _, name = interface.partition("/")
-    return names.did_you_mean(name, owner.names_in(folder))
 
 
 # -- imports --------------------------------------------------------------------------------------------------------
@@ -441,4 +423,4 @@ def _hint(owner: Package, folder: str, name: str) -> str:
     whole = names.without_part(name)
     if whole != name and whole in owner.names_in(folder):
         return f"Import {whole} and write {whole}.{name.rpartition('_')[2]}"
-    return advice(owner, f"{folder}/{name}")
+    return owner.advice(f"{folder}/{name}")
