@@ -100,7 +100,7 @@ def pytest_sessionfinish(exitstatus: int) -> Generator[None, None, None]:
     Ctrl-C reaches kernels, browsers and their drivers as well, so fixtures may find nothing to close any more.
     """
     try:
-        with ended_after(PATIENCE / 10):
+        with ended_after(PATIENCE):
             yield
     except (Exception, pytest.fail.Exception) as error:
         if exitstatus != pytest.ExitCode.INTERRUPTED:

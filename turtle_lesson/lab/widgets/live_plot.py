@@ -266,9 +266,8 @@ class LivePlot(LiveWidget):
         self._timer = None
         self._channels.clear()
 
-    def end(self) -> None:
-        """The system ends now."""
-        super().end()
+    def _let_go(self) -> None:
+        super()._let_go()
         self._curves.clear()
 
     def window(self, curve: Curve) -> tuple[np.ndarray, np.ndarray]:

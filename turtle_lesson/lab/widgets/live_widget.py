@@ -30,6 +30,9 @@ A view gives one every 20 s, and a browser may hold up those of a hidden window 
 
 FOLDER = Path(__file__).with_name("js")
 
+_LAST = {"_trait_notifiers", "_trait_validators", "_cross_validation_lock", "is_made", "text", "picture"}
+"""The attributes that a closed widget still needs; the first three are those of traitlets."""
+
 _ended: list[LiveWidget] = []
 
 
@@ -76,7 +79,6 @@ class LiveWidget(anywidget.AnyWidget):
 
     def __init__(self, backend: Backend, **traits: Any) -> None:
         """`backend` is a `Link` to it."""
-        self._bare = {*vars(self), "_bare"}
         self.backend = backend
         self._esm, self._css = script(*self.SCRIPTS), styles(*self.STYLES)
         self._paces: dict[str, float] = {}
@@ -222,10 +224,10 @@ class LiveWidget(anywidget.AnyWidget):
 
     def _forget(self) -> None:
         """Keep the last words only: a notebook's `Out` holds each widget that was shown for as long as its kernel lives."""
-        for name in set(self.keys) - {"layout", "words", "ended"}:
-            self._trait_values.pop(name, None)
-        for name in vars(self).keys() - self._bare - {"text", "picture", "is_made"}:
+        values = self._trait_values
+        for name in vars(self).keys() - _LAST:
             delattr(self, name)
+        self._trait_values = {name: values[name] for name in ("comm", "layout", "words", "ended") if name in values}
         self._msg_callbacks = CallbackDispatcher()
 
     def _let_go(self) -> None:
