@@ -6,19 +6,15 @@ Facts: rosbag2_py's format_bag_meta_data.cpp (info) and rosbag2_storage's yaml.h
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path, PurePath
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import yaml
 
 from ..sim.simulation import NANOSECONDS
 from . import BagError
-from .scan import Contents, scanned
-
-if TYPE_CHECKING:
-    from rosbags.interfaces import Qos
+from .scan import BagTopic, Contents, scanned
 
 STORAGES = {".mcap": "mcap", ".db3": "sqlite3"}
 METADATA = "metadata.yaml"
@@ -48,28 +44,6 @@ class Message(NamedTuple):
     data: bytes
 
 
-@dataclass(frozen=True)
-class BagTopic:
-    """A topic in a bag: name, type, number of messages that can be read, form of the bytes, definition of the type."""
-
-    name: str
-    type_name: str
-    count: int
-    serialization: str
-    definition: str
-    offered: str
-
-    @property
-    def profiles(self) -> list[Qos]:
-        """The quality of service that its publishers offered."""
-        from rosbags.rosbag2.metadata import parse_qos
-
-        try:
-            return parse_qos(self.offered)
-        except Exception:
-            return []  # a spoiled or foreign description: the default will do
-
-
 class Bag:
     """A recording on disk; made by `open_bag`. Times are in ns since 1970, and None where there is no message."""
 
@@ -82,10 +56,7 @@ class Bag:
         self.message_count = len(times)
         self.size = sum(file.stat().st_size for file in files)
         self.storage = STORAGES[files[0].suffix]
-        self.topics = [
-            BagTopic(key.name, key.type_name, each.count, each.serialization, each.definition, each.offered)
-            for key, each in contents.topics.items()
-        ]
+        self.topics = list(contents.topics.values())
         self._flaws = contents.flaws
         promised = metadata.get("message_count")
         self._expected = promised if isinstance(promised, int) else contents.expected
@@ -119,12 +90,12 @@ class Bag:
     def messages(self) -> Iterator[Message]:
         """The messages in the order of their times, each read when it is asked for."""
         with scanned(self.files) as contents:
-            for time, key, file, where in contents.entries:
+            for time, topic, file, where in contents.entries:
                 try:
                     data = file.read(where)
                 except Exception as error:
                     raise BagError(f"the bag '{self.path}' cannot be read to its end: {error}") from error
-                yield Message(key.name, time, key.type_name, data)
+                yield Message(topic.name, time, topic.type_name, data)
 
 
 def open_bag(path: str | Path, *, listed_only: bool = True) -> Bag:

@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
     from rosbags.interfaces import Qos
 
-    from .bag import Bag, BagTopic, Message
+    from .bag import Bag, Message
+    from .scan import BagTopic
 
 NODE = "rosbag2_player"
 

@@ -13,10 +13,13 @@ import sys
 import zlib
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from rosbags.interfaces import Qos
 
 BROKEN = (sqlite3.Error, UnicodeError)
 """What reading a spoiled database raises; also SQLite's own complaint may not be readable."""
@@ -38,21 +41,26 @@ Where = tuple[int, ...]
 """Where in a file a message is."""
 
 
-class TopicKey(NamedTuple):
-    """A topic with its type: a bag may hold one name with several types."""
+@dataclass(eq=False)
+class BagTopic:
+    """A topic in a bag: name, type, form of the bytes, definition of the type, number of messages that can be read."""
 
     name: str
     type_name: str
-
-
-@dataclass
-class TopicContents:
-    """What is known of a topic: how many messages, the profiles that were offered (YAML), and the type's definition."""
-
+    serialization: str
+    definition: str
+    offered: str
     count: int = 0
-    serialization: str = "cdr"
-    offered: str = ""
-    definition: str = ""
+
+    @property
+    def profiles(self) -> list[Qos]:
+        """The quality of service that its publishers offered."""
+        from rosbags.rosbag2.metadata import parse_qos
+
+        try:
+            return parse_qos(self.offered)
+        except Exception:
+            return []  # a spoiled or foreign description: the default will do
 
 
 @dataclass
@@ -60,21 +68,30 @@ class Contents:
     """What one or several files hold, as far as it can be read.
 
     Attributes:
-        topics: by name and type, in the order in which they were found.
+        topics: by name and type, for a bag may hold one name with several types, in the order in which they were found.
         entries: the time (ns) of each message, its topic, its file, and where in the file it is.
         expected: how many messages the files themselves say they hold, None where they do not say.
         flaws: a sentence for each thing that is wrong.
     """
 
-    topics: dict[TopicKey, TopicContents] = field(default_factory=dict)
-    entries: list[tuple[int, TopicKey, DataFile, Where]] = field(default_factory=list)
+    topics: dict[tuple[str, str], BagTopic] = field(default_factory=dict)
+    entries: list[tuple[int, BagTopic, DataFile, Where]] = field(default_factory=list)
     expected: int | None = None
     flaws: list[str] = field(default_factory=list)
 
+    def known(self, topic: BagTopic) -> BagTopic:
+        """The topic of this name and type that was found first."""
+        return self.topics.setdefault((topic.name, topic.type_name), topic)
+
+    def take(self, time: int, topic: BagTopic, file: DataFile, where: Where) -> None:
+        """There is one more message."""
+        topic.count += 1
+        self.entries.append((time, topic, file, where))
+
     def add(self, other: Contents) -> None:
         """Take in what another file of the same bag holds."""
-        for key, topic in other.topics.items():
-            mine = self.topics.setdefault(key, TopicContents(0, topic.serialization, topic.offered, topic.definition))
+        for topic in other.topics.values():
+            mine = self.known(replace(topic, count=0))
             mine.count += topic.count
         self.entries += other.entries
         known = self.expected is not None and other.expected is not None
@@ -121,7 +138,7 @@ class McapFile:
     def scan(self) -> Contents:
         """What the file holds."""
         schemas: dict[int, tuple[str, str]] = {}
-        channels: dict[int, tuple[TopicKey, TopicContents]] = {}
+        channels: dict[int, BagTopic] = {}
         messages: list[tuple[int, int, Where]] = []
         try:
             for opcode, body, where in self._records():
@@ -135,7 +152,7 @@ class McapFile:
                 elif opcode == CHANNEL:
                     number, schema = struct.unpack_from("<HH", body)
                     type_name, definition = schemas.get(schema, ("", ""))
-                    channels.setdefault(number, _channel(body, type_name, definition))
+                    channels.setdefault(number, self._channel(body, type_name, definition))
                 elif opcode == STATISTICS:
                     (self._found.expected,) = struct.unpack_from("<Q", body)
         except _Spoiled as error:
@@ -143,13 +160,9 @@ class McapFile:
         except (struct.error, UnicodeDecodeError):
             self._flaw(f"the record before byte {self._file.tell()} is damaged")
         self._left = self._limit
-        for key, contents in channels.values():
-            self._found.topics.setdefault(key, contents)
         for time, number, where in messages:
             if number in channels:
-                key = channels[number][0]
-                self._found.topics[key].count += 1
-                self._found.entries.append((time, key, self, where))
+                self._found.take(time, channels[number], self, where)
         if unknown := len(messages) - len(self._found.entries):
             self._flaw(f"{unknown} messages belong to a topic whose description is lost")
         return self._found
@@ -229,18 +242,18 @@ class McapFile:
             return b""
         return records
 
-
-def _channel(body: memoryview, type_name: str, definition: str) -> tuple[TopicKey, TopicContents]:
-    """What the record of a channel says, whose metadata is a map of texts."""
-    topic, at = _text(body, 4)
-    encoding, at = _text(body, at)
-    metadata = {}
-    end = at + 4 + struct.unpack_from("<I", body, at)[0]
-    at += 4
-    while at < end:
-        key, at = _text(body, at)
-        metadata[key], at = _text(body, at)
-    return TopicKey(topic, type_name), TopicContents(0, encoding, metadata.get("offered_qos_profiles", ""), definition)
+    def _channel(self, body: memoryview, type_name: str, definition: str) -> BagTopic:
+        """The topic that a channel's record describes, whose metadata is a map of texts."""
+        topic, at = _text(body, 4)
+        encoding, at = _text(body, at)
+        metadata = {}
+        end = at + 4 + struct.unpack_from("<I", body, at)[0]
+        at += 4
+        while at < end:
+            key, at = _text(body, at)
+            metadata[key], at = _text(body, at)
+        offered = metadata.get("offered_qos_profiles", "")
+        return self._found.known(BagTopic(topic, type_name, encoding, definition, offered))
 
 
 def _text(body: memoryview, at: int) -> tuple[str, int]:
@@ -288,11 +301,11 @@ class SqliteFile:
         with suppress(*BROKEN):  # Humble's has none
             query = "SELECT topic_type, encoded_message_definition FROM message_definitions"
             definitions = dict(self._database.execute(query).fetchall())
-        keys: dict[int, TopicKey] = {}
+        topics: dict[int, BagTopic] = {}
         query = "SELECT rowid, name, type, serialization_format, offered_qos_profiles FROM topics"
         for number, topic, type_name, serialization, offered in self._rows(query):
-            keys[number] = key = TopicKey(topic, type_name)
-            self._found.topics[key] = TopicContents(0, serialization, offered, definitions.get(type_name, ""))
+            definition = definitions.get(type_name, "")
+            topics[number] = self._found.known(BagTopic(topic, type_name, serialization, definition, offered))
         last, left = 0, self._size
         for row, number, time, length in self._rows("SELECT rowid, topic_id, timestamp, length(data) FROM messages"):
             left -= 1 + (length if isinstance(length, int) else 0)
@@ -300,9 +313,8 @@ class SqliteFile:
                 self._flaw("its messages are larger than the file, or in no order")
                 break
             last = row
-            if number in keys and isinstance(time, int):
-                self._found.topics[keys[number]].count += 1
-                self._found.entries.append((time, keys[number], self, (row,)))
+            if number in topics and isinstance(time, int):
+                self._found.take(time, topics[number], self, (row,))
         return self._found
 
     def read(self, where: Where) -> bytes:

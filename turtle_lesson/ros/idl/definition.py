@@ -36,7 +36,6 @@ from .model import (
 from .names import FLOATS, STRINGS, integer_bounds
 
 Line = tuple[int, str]  # line number in the file, counted from 1, and the text
-SEPARATOR = "---"
 
 
 def parse_message(package: str, name: str, text: str, file: str | None = None) -> MessageDefinition:
@@ -53,10 +52,8 @@ def parse_service(package: str, name: str, text: str, file: str | None = None) -
             f"Could not find {unique}separator '---' between request and response",
             hint="A service is its request, one line of exactly three dashes, its response",
         ).locate(interface=f"{package}/srv/{name}", file=file)
-    request, response = (
-        _parse_part(package, name + suffix, "srv", lines, file)
-        for suffix, lines in zip(("_Request", "_Response"), parts, strict=True)
-    )
+    request = _parse_part(package, f"{name}_Request", "srv", parts[0], file)
+    response = _parse_part(package, f"{name}_Response", "srv", parts[1], file)
     return ServiceDefinition(package, name, request, response, text, file)
 
 
@@ -68,10 +65,9 @@ def parse_action(package: str, name: str, text: str, file: str | None = None) ->
             "Number of '---' separators nonconformant with action definition",
             hint="An action is its goal, its result and its feedback, with a line of three dashes between",
         ).locate(interface=f"{package}/action/{name}", file=file)
-    goal, result, feedback = (
-        _parse_part(package, name + suffix, "action", lines, file)
-        for suffix, lines in zip(("_Goal", "_Result", "_Feedback"), parts, strict=True)
-    )
+    goal = _parse_part(package, f"{name}_Goal", "action", parts[0], file)
+    result = _parse_part(package, f"{name}_Result", "action", parts[1], file)
+    feedback = _parse_part(package, f"{name}_Feedback", "action", parts[2], file)
     return ActionDefinition(package, name, goal, result, feedback, text, file)
 
 
@@ -82,7 +78,7 @@ def _numbered(text: str) -> list[Line]:
 def _split(text: str) -> list[list[Line]]:
     parts: list[list[Line]] = [[]]
     for number, line in _numbered(text):
-        if line == SEPARATOR:
+        if line == "---":
             parts.append([])
         else:
             parts[-1].append((number, line))
