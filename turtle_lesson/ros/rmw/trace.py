@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from array import array
 from collections import Counter, deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -105,7 +106,10 @@ RUN = np.dtype([("ready", "=i8"), ("began", "=i8"), ("ended", "=i8")])
 """Times in ns since the world's start: the message, request or tick was there; its callback began; it returned."""
 
 LIMIT = 30_000
-"""How many runs of one callback are kept, the newest: eight minutes of a turtle's pose, some 4 MB."""
+"""How many runs of one callback are kept, the newest: eight minutes of a turtle's pose, some 700 kB."""
+
+FULL = (LIMIT + LIMIT // 8) * 3
+"""Numbers at which old runs go: some way over the limit, so that it is not done for each run."""
 
 Run = tuple[int, int, int]
 
@@ -124,7 +128,6 @@ class Callback:
         awaits: whether it is an `async def`, which leaves its thread to others while it awaits.
         arrivals: when each message or request came that waits now (ns); None for a timer.
         open: of the runs that have not ended, when they were ready and began (ns).
-        ended: the runs that are over, in the order in which they ended.
     """
 
     node: str
@@ -136,7 +139,21 @@ class Callback:
     awaits: bool
     arrivals: deque[int] | None = None
     open: list[tuple[int, int]] = field(default_factory=list)
-    ended: deque[Run] = field(default_factory=lambda: deque(maxlen=LIMIT))
+    _ended: array[int] = field(default_factory=lambda: array("q"))
+
+    def end_run(self, ready: int, began: int, now: int) -> None:
+        """One of the open runs is over."""
+        self.open.remove((ready, began))
+        ended = self._ended
+        ended.extend((ready, began, now))
+        if len(ended) > FULL:
+            del ended[: -LIMIT * 3]
+
+    @property
+    def ended(self) -> list[Run]:
+        """The runs that are over, in the order in which they ended."""
+        numbers = self._ended[-LIMIT * 3 :].tolist()
+        return list(zip(numbers[::3], numbers[1::3], numbers[2::3], strict=True))
 
     def runs(self, now: int) -> np.ndarray:
         """All runs, of type `RUN`, in the order in which they began; what goes on ends `now` (ns)."""

@@ -251,8 +251,7 @@ class ExecutorBase:
             if traced is not None:
                 began, arrivals = self._simulation.now, traced.arrivals
                 ready = job._next if arrivals is None else arrivals.popleft() if arrivals else began
-                begun = (ready, began)
-                traced.open.append(begun)
+                traced.open.append((ready, began))
             try:
                 arguments = job._take()
                 if arguments is not None:
@@ -264,8 +263,7 @@ class ExecutorBase:
                 raise
             finally:
                 if traced is not None:
-                    traced.open.remove(begun)
-                    traced.ended.append((ready, began, self._simulation.now))
+                    traced.end_run(ready, began, self._simulation.now)
                 job._end_run(job)
                 if self._blocked:
                     self._retry_blocked()
