@@ -161,12 +161,22 @@ def line_of(node: Any) -> int:
 
 @cache
 def _loader() -> Any:
-    """A reader of YAML that leaves it to us what an unmarked word means."""
+    """A reader of YAML that leaves it to us what an unmarked word means, refuses aliases, and knows the line it has come to."""
     from turtle_lesson.ros.runtime.files import BoundedLoader
 
     class Loader(BoundedLoader):
         yaml_implicit_resolvers: ClassVar[dict[str, Any]] = {}
         DEFAULT_SCALAR_TAG = "unmarked"
+        last_line = 0
+
+        def get_event(self) -> Any:
+            event = super().get_event()
+            self.last_line = event.start_mark.line + 1
+            return event
+
+        def _count_alias(self, event: Any) -> None:
+            line = event.start_mark.line + 1
+            raise YamlValueError(f"Will not support aliasing at line {line}: write the value once more")
 
     return Loader
 
@@ -175,18 +185,13 @@ def tree(text: str) -> Any:
     """The tree of a YAML text, None of an empty one. Raises YamlValueError for what is no YAML, or has aliases."""
     import yaml
 
-    from turtle_lesson.ros.runtime.files import DEEPEST
-
-    line = depth = 0
+    line = 0
     try:
-        for event in yaml.parse(text, _loader()):
-            line = event.start_mark.line + 1
-            depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
-            if depth > DEEPEST:
-                break  # composing says so
-            if isinstance(event, yaml.AliasEvent):
-                raise YamlValueError(f"Will not support aliasing at line {line}: write the value once more")
-        return yaml.compose(text, _loader())
+        loader = _loader()(text)
+        try:
+            return loader.get_single_node()
+        finally:
+            line = loader.last_line
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         if isinstance(error, YamlValueError):
             raise
