@@ -11,7 +11,7 @@ import numpy as np
 from . import style
 from .drawing import draw_obstacles, draw_turtle, turtle_points
 from .picture import Picture
-from .recording import Obstacle, Recording, Table
+from .recording import Recording, Table
 from .words import angle, count, number, point, turned
 
 if TYPE_CHECKING:
@@ -170,31 +170,32 @@ def plot_path(
     heard = recording.window(recording.poses, since, until)
     poses = heard[np.isfinite(heard["x"]) & np.isfinite(heard["y"]) & np.isfinite(heard["theta"])]
     broken = len(heard) - len(poses)
+    if broken and not len(poses):
+        nothing = f"{count(broken, 'pose')} heard in that time, all with nan, which is not a number."
+        return Picture(f"No path to draw: {nothing}")
+    if not len(recording.poses):
+        return Picture(f"No path yet. {recording.why_silent(recording.pose_topic)}")
     if not len(poses):
-        return Picture(_nothing(recording, broken))
+        return Picture(f"No path in these seconds: poses were heard from {recording.span(recording.poses)}.")
     commands = len(recording.window(recording.commands, since, until))
     jumps = find_jumps(poses)
     driven = distance_driven(poses, jumps)
+    x, y = poses[-1]["x"], poses[-1]["y"]
+    gaps = {"left": x, "right": WORLD - x, "lower": y, "upper": WORLD - y}
+    walls = [side for side, gap in gaps.items() if gap <= 0.001]
+    places = [f"{each.shape} at {point(each.x, each.y)} m" for each in recording.obstacles.values()]
     sentences = [
         _journey(recording, poses, driven),
         f"It was put elsewhere {count(len(jumps), 'time')} (teleport or reset)." if len(jumps) else "",
         f"Left out: {count(broken, 'pose')} with nan, which is not a number." if broken else "",
-        _at_wall(poses[-1]),
+        f"It touches the {' and the '.join(walls)} wall." if walls else "",
         f"{count(commands, 'command').capitalize()} on {recording.command_topic} in that time.",
         *(_to_goal(each, poses[-1]) for each in goals),
-        _standing(list(recording.obstacles.values())),
+        f"{count(len(places), 'obstacle').capitalize()} in the world: {', '.join(places)}." if places else "",
     ]
     with style.applied():
         figure = _draw(recording, poses, jumps, driven, goals)
     return Picture(" ".join(filter(None, sentences)), figure)
-
-
-def _nothing(recording: Recording, broken: int) -> str:
-    if broken:
-        return f"No path to draw: {count(broken, 'pose')} heard in that time, all with nan, which is not a number."
-    if not len(recording.poses):
-        return f"No path yet. {recording.why_silent(recording.pose_topic)}"
-    return f"No path in these seconds: poses were heard from {recording.span(recording.poses)}."
 
 
 def _journey(recording: Recording, poses: np.ndarray, driven: float) -> str:
@@ -211,12 +212,6 @@ def _journey(recording: Recording, poses: np.ndarray, driven: float) -> str:
     return f"{title}: it stayed at {here}."
 
 
-def _at_wall(pose: Any) -> str:
-    gaps = {"left": pose["x"], "right": WORLD - pose["x"], "lower": pose["y"], "upper": WORLD - pose["y"]}
-    walls = [side for side, gap in gaps.items() if gap <= 0.001]
-    return f"It touches the {' and the '.join(walls)} wall." if walls else ""
-
-
 def _to_goal(goal: Goal, pose: Any) -> str:
     away = number(math.hypot(goal.x - pose["x"], goal.y - pose["y"]))
     place = f"The goal {point(goal.x, goal.y)} m"
@@ -224,13 +219,6 @@ def _to_goal(goal: Goal, pose: Any) -> str:
         return f"{place} is {away} m away."
     rest = angle(turned(goal.theta - pose["theta"]))
     return f"{place} facing {angle(goal.theta)} is {away} m away, and a turn of {rest}."
-
-
-def _standing(obstacles: list[Obstacle]) -> str:
-    if not obstacles:
-        return ""
-    places = ", ".join(f"{each.shape} at {point(each.x, each.y)} m" for each in obstacles)
-    return f"{count(len(obstacles), 'obstacle').capitalize()} in the world: {places}."
 
 
 def _draw(recording: Recording, poses: np.ndarray, jumps: np.ndarray, driven: float, goals: list[Goal]) -> Figure:

@@ -1,6 +1,6 @@
-"""The recorder hears a turtle's topics: what the lab knows, it knows from there and from the graph.
+"""The recorder hears a turtle's topics: what the lab knows, it knows from there and from the graph. The board puts obstacles.
 
-It must not be seen: a subscription makes a topic appear in `ros2 topic list`, and lets a waiting publisher
+The recorder must not be seen: a subscription makes a topic appear in `ros2 topic list`, and lets a waiting publisher
 start. So it follows others, and only subscribes to a topic while another node publishes it (to `cmd_vel`:
 while a simulator listens to it).
 """
@@ -10,17 +10,31 @@ from __future__ import annotations
 import importlib
 import importlib.util
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from ..turtlesim.obstacles import WORLDS, Box, Circle, to_marker_array
 from .path import WORLD
-from .recording import LIMIT, OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, STATUS_TYPE, Listener, Obstacle, Recording
+from .recording import (
+    LIMIT,
+    NANOSECONDS,
+    OBSTACLE_TOPIC,
+    SCAN_TOPIC,
+    STATUS_TOPIC,
+    STATUS_TYPE,
+    Listener,
+    Obstacle,
+    Recording,
+)
 from .words import listed
 
 GLANCE_PERIOD = 1.0
 """Seconds between two glances at the graph, for publishers that come late in a node's life."""
+
+PATIENCE = 1.5 * NANOSECONDS
+"""Robot time, ns, after which obstacles that were published must have been heard; the recorder looks around every second."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,11 +107,8 @@ class Recorder(Recording):
 
     def place(self) -> tuple[float, float, float] | None:
         """Where the turtle is, x, y (m) and theta (rad): turtlesim's middle until a pose was heard, None without it."""
-        newest = self.poses.newest(1)
-        if len(newest):
-            x, y, theta = (float(newest[0][name]) for name in ("x", "y", "theta"))
-            return x, y, theta
-        return (WORLD / 2, WORLD / 2, 0.0) if self.node.count_publishers(self.pose_topic) else None
+        middle = (WORLD / 2, WORLD / 2, 0.0) if self.node.count_publishers(self.pose_topic) else None
+        return self.pose() or middle
 
     def why_silent(self, topic: str) -> str:
         """A sentence on why nothing was heard on a topic, and what to try."""
@@ -265,10 +276,14 @@ CUBE, SPHERE, CYLINDER = 1, 2, 3
 DELETE, DELETEALL = 2, 3
 
 
-def apply(message: Any, obstacles: dict[tuple[str, int], Obstacle]) -> None:
+Obstacles = dict[tuple[str, int], Obstacle]
+"""By a marker's namespace and number."""
+
+
+def apply(message: Any, obstacles: Obstacles) -> None:
     """Bring `obstacles` up to date with a MarkerArray: markers add, change and delete, one after the other.
 
-    A marker is known by its namespace and number. Shapes that no turtle could run into (text, arrows, …) are
+    Shapes that no turtle could run into (text, arrows, …) are
     left out.
     """
     for marker in message.markers:
@@ -282,3 +297,67 @@ def apply(message: Any, obstacles: dict[tuple[str, int], Obstacle]) -> None:
             shape = "box" if marker.type == CUBE else "circle"
             yaw = math.atan2(2 * (turn.w * turn.z + turn.x * turn.y), 1 - 2 * (turn.y * turn.y + turn.z * turn.z))
             obstacles[key] = Obstacle(shape, place.x, place.y, size.x, size.y, yaw)
+
+
+class ObstacleBoard:
+    """Knows which obstacles there are, and puts others there.
+
+    The topic is the truth, since other nodes may publish there, too. But a message takes time to arrive, and while
+    the clock is paused it takes forever: until it is heard, what was put up last counts.
+    """
+
+    def __init__(self, recorder: Recorder, now: Callable[[], int] | None = None) -> None:
+        """`now` tells the time, in ns since 1970, for a caller that can tell it without the node's clock."""
+        self._recorder = recorder
+        self._now = now or (lambda: recorder.node.get_clock().now().nanoseconds)
+        self._publisher: Any = None
+        self._put: tuple[Circle | Box, ...] = ()
+        self._expected: Obstacles = {}
+        self._deadline: float | None = None
+
+    @property
+    def obstacles(self) -> tuple[Circle | Box, ...]:
+        """The obstacles in the world."""
+        heard = self._recorder.obstacles
+        if heard == self._expected:
+            self._deadline = None
+            return self._put
+        if self._deadline is not None and self._now() < self._deadline:
+            return self._put
+        return tuple(map(_heard, heard.values()))
+
+    def put(self, obstacles: Iterable[Circle | Box] | str) -> None:
+        """Replace all obstacles, by others or by the name of a ready-made world, and publish them.
+
+        Raises ValueError for a world that there is not, TypeError for what is no obstacle.
+        """
+        from rclpy.qos import DurabilityPolicy, QoSProfile
+        from rclpy.time import Time
+        from visualization_msgs.msg import MarkerArray
+
+        if isinstance(obstacles, str):
+            if obstacles not in WORLDS:
+                raise ValueError(f"there is no world called {obstacles!r}; there are {', '.join(map(repr, WORLDS))}")
+            obstacles = WORLDS[obstacles]
+        wanted = tuple(obstacles)
+        for each in wanted:
+            if not isinstance(each, (Circle, Box)):
+                raise TypeError(f"an obstacle is a Circle or a Box, got {each!r}: try Circle(x=8.0, y=5.5, radius=0.5)")
+        self._put = wanted
+        now = self._now()
+        message = to_marker_array(self._put, Time(nanoseconds=now).to_msg())
+        self._expected = {}
+        apply(message, self._expected)
+        self._deadline = now + PATIENCE
+        if self._publisher is None:
+            latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+            self._publisher = self._recorder.node.create_publisher(MarkerArray, OBSTACLE_TOPIC, latched)
+        self._publisher.publish(message)
+
+
+def _heard(obstacle: Obstacle) -> Circle | Box:
+    """An obstacle that another node has published. An oval becomes the circle of the same mean radius."""
+    x, y, width, height = obstacle.x, obstacle.y, obstacle.width, obstacle.height
+    if obstacle.shape == "box":
+        return Box(x, y, width, height, obstacle.angle)
+    return Circle(x, y, (width + height) / 4)

@@ -147,6 +147,21 @@ class Recording:
         """The topic that tells the turtle how to move."""
         return f"/{self.turtle}/cmd_vel"
 
+    def pose(self, until: int | None = None) -> tuple[float, float, float] | None:
+        """The newest pose, x, y (m) and theta (rad), of those not later than `until` (ns); None where none was heard."""
+        poses = self.poses.newest(1 if until is None else 256)
+        if until is not None:
+            poses = poses[poses["stamp"] <= until]
+        if not len(poses) or not all(math.isfinite(poses[-1][name]) for name in ("x", "y", "theta")):
+            return None
+        return float(poses[-1]["x"]), float(poses[-1]["y"]), float(poses[-1]["theta"])
+
+    def pose_at_scan(self) -> tuple[float, float, float] | None:
+        """Where the turtle was at the newest scan, as its scanner knew it; None where no scan or no such pose was heard."""
+        if self.last_scan is None:
+            return None
+        return self.pose(until=int(self.scans.newest(1)["stamp"][0]) - UNDER_WAY)
+
     def seconds(self, stamps: Any) -> Any:
         """Times in ns (a number or an array) as seconds since `origin`."""
         return (stamps - self.origin) / NANOSECONDS

@@ -24,18 +24,14 @@ def plot_status(recording: Recording, *, since: float | None = None, until: floa
     `since` and `until` are in seconds since the lesson's start.
     """
     rows = recording.window(recording.statuses, since, until)
+    if not len(recording.statuses):
+        return Picture(f"No status yet. {recording.why_silent(STATUS_TOPIC)}")
     if not len(rows):
-        return Picture(_nothing(recording))
+        return Picture(f"No status in these seconds: statuses were heard from {recording.span(recording.statuses)}.")
     seconds = recording.seconds(rows["stamp"])
     with style.applied():
         figure = _draw(seconds, rows)
     return Picture(_describe(seconds, rows), figure)
-
-
-def _nothing(recording: Recording) -> str:
-    if not len(recording.statuses):
-        return f"No status yet. {recording.why_silent(STATUS_TOPIC)}"
-    return f"No status in these seconds: statuses were heard from {recording.span(recording.statuses)}."
 
 
 def _describe(seconds: np.ndarray, rows: np.ndarray) -> str:
@@ -68,9 +64,14 @@ def _draw(seconds: np.ndarray, rows: np.ndarray) -> Figure:
     panels[0].set_ylabel("position\nin m")
     _lines(panels[0], seconds, {"x": (rows["x"], style.BLUE), "y": (rows["y"], style.VERMILLION)}, least=1.0)
     _draw_heading(panels[1], seconds, rows["theta"])
-    _draw_velocity(panels[2], seconds, rows)
-    _draw_battery(panels[3], seconds, rows["battery"])
-    panels[3].set_xlabel("robot time in seconds")
+    panels[2].set_ylabel("velocity\nin m/s")
+    speed = np.hypot(rows["vel_x"], rows["vel_y"])
+    panels[2].fill_between(seconds, 0, speed, color=style.LINE, linewidth=0)
+    along = {"x": (rows["vel_x"], style.BLUE), "y": (rows["vel_y"], style.VERMILLION)}
+    _lines(panels[2], seconds, {**along, "speed": (speed, style.INK)}, least=0.2)
+    panels[3].set(ylabel="battery\nin %", ylim=(0, 108), yticks=[0, 50, 100], xlabel="robot time in seconds")
+    panels[3].fill_between(seconds, 0, rows["battery"], color=style.GREEN + "30", linewidth=0)
+    panels[3].plot(seconds, rows["battery"], color=style.GREEN, linewidth=1.8)
     begin, end = float(seconds[0]), float(seconds[-1])  # the axis is a little wider than the data, and begins at 0 if
     spare = 0.01 * (end - begin) or 0.5  # they start close to it
     panels[3].set_xlim(0.0 if 0 <= begin < 5 * spare else begin - spare, end + spare)
@@ -93,22 +94,6 @@ def _draw_heading(panel: Axes, seconds: np.ndarray, theta: np.ndarray) -> None:
     degrees.set_yticks(quarters, ["−180°", "−90°", "0°", "90°", "180°"], fontsize=7.5)
     degrees.grid(False)
     panel.tick_params(which="minor", length=0)
-
-
-def _draw_velocity(panel: Axes, seconds: np.ndarray, rows: np.ndarray) -> None:
-    panel.set_ylabel("velocity\nin m/s")
-    speed = np.hypot(rows["vel_x"], rows["vel_y"])
-    panel.fill_between(seconds, 0, speed, color=style.LINE, linewidth=0)
-    along = {"x": (rows["vel_x"], style.BLUE), "y": (rows["vel_y"], style.VERMILLION)}
-    _lines(panel, seconds, {**along, "speed": (speed, style.INK)}, least=0.2)
-
-
-def _draw_battery(panel: Axes, seconds: np.ndarray, battery: np.ndarray) -> None:
-    panel.set_ylabel("battery\nin %")
-    panel.fill_between(seconds, 0, battery, color=style.GREEN + "30", linewidth=0)
-    panel.plot(seconds, battery, color=style.GREEN, linewidth=1.8)
-    panel.set_ylim(0, 108)
-    panel.set_yticks([0, 50, 100])
 
 
 def _lines(panel: Axes, seconds: np.ndarray, lines: dict[str, Any], least: float) -> None:

@@ -14,8 +14,7 @@ from ..ros.sim.simulation import NANOSECONDS
 from .live import LONGEST_CALLBACK, CellNodes
 
 if TYPE_CHECKING:
-    from ..lab.obstacle_board import ObstacleBoard
-    from ..lab.recorder import Recorder
+    from ..lab.recorder import ObstacleBoard, Recorder
     from ..ros.runtime.world import World
     from ..ros.sim.strand import Strand
 

@@ -24,8 +24,7 @@ from .robot import real_ros
 from .views import Views
 
 if TYPE_CHECKING:
-    from ..lab.obstacle_board import ObstacleBoard
-    from ..lab.recorder import Recorder
+    from ..lab.recorder import ObstacleBoard, Recorder
     from ..lab.widgets.backend import Backend
     from ..ros.ament.export import Exported
     from ..ros.bags.recorder import Recording
@@ -330,7 +329,7 @@ class Lesson(Views, Inspection):
 
     @cached_property
     def _board(self) -> ObstacleBoard:
-        from ..lab.obstacle_board import ObstacleBoard
+        from ..lab.recorder import ObstacleBoard
 
         # not by the node's clock: in a simulated world a look at that takes time
         return ObstacleBoard(self._recording, lambda: wall_time(self._world))

@@ -12,8 +12,7 @@ from ..ros.sim.simulation import NANOSECONDS
 from ..ros.stdlib.clocks import real_monotonic
 
 if TYPE_CHECKING:
-    from ..lab.obstacle_board import ObstacleBoard
-    from ..lab.recorder import Recorder
+    from ..lab.recorder import ObstacleBoard, Recorder
     from ..lab.widgets.backend import Clock
     from ..ros.runtime.world import World
     from ..ros.sim.keyboard import Keyboard

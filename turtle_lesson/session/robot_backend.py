@@ -14,8 +14,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.subscription import Subscription
 
-from ..lab.obstacle_board import ObstacleBoard
-from ..lab.recorder import ON_A_ROBOT, Recorder
+from ..lab.recorder import ON_A_ROBOT, ObstacleBoard, Recorder
 from ..lab.widgets.backend import Clock, Loop
 
 if TYPE_CHECKING:

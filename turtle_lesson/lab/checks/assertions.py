@@ -104,7 +104,7 @@ def parameter(owner: str, name: str, value: Any) -> Expectation:
 
 def get_parameter(probe: Probe, owner: str, name: str) -> Any:
     """The value of a node's parameter, None if it has none. Raises CannotLook where the node does not answer."""
-    from ..widgets.parameter_client import to_python
+    from ..widgets.parameters import to_python
 
     if owner not in probe.nodes():
         raise CannotLook(f"there is no node {owner}")

@@ -15,8 +15,7 @@ from types import TracebackType
 from typing import Any, Protocol, TypeVar
 
 from ...ros.sim.interrupts import work_done
-from ..obstacle_board import ObstacleBoard
-from ..recorder import with_time
+from ..recorder import ObstacleBoard, with_time
 from ..recording import NANOSECONDS, Recording
 from ..words import listed, number
 from .failures import ENDLESS, in_words, never_returned, unreturned

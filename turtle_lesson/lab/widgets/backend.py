@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
     from ...ros.sim.keyboard import Keyboard
-    from ..obstacle_board import ObstacleBoard
-    from ..recorder import Recorder
+    from ..recorder import ObstacleBoard, Recorder
 
 
 class Clock(Protocol):

@@ -88,9 +88,8 @@ class GoalClient:
             if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
                 raise ValueError(f"A goal's {name} must be a number, got {value!r}.")
         goal = Goal(len(self.goals) + 1, float(x), float(y), float(theta), self._backend.now)
-        newest = self._backend.recorder.poses.newest(1)
-        if len(newest):
-            goal.away = math.hypot(goal.x - float(newest["x"][0]), goal.y - float(newest["y"][0]))
+        if pose := self._backend.recorder.pose():
+            goal.away = math.dist((goal.x, goal.y), pose[:2])
         self.goals.append(goal)
         self._ask(goal)
         self._changed(goal)

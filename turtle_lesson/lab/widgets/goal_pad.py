@@ -11,10 +11,8 @@ import numpy as np
 import traitlets
 
 from ...turtlesim.obstacles import WORLDS, Box, Circle
-from ..obstacle_board import Obstacle
 from ..path import Trail, plot_path
 from ..picture import Picture
-from ..recording import UNDER_WAY
 from ..words import angle, count, listed, number, point
 from .backend import Backend
 from .goal_client import Goal, GoalClient
@@ -44,6 +42,8 @@ ROOM = 0.8
 """A fresh obstacle leaves so much room around it where it can, m."""
 
 MIDDLE = 5.5
+
+Obstacle = Circle | Box
 
 
 class GoalPad(LiveWidget):
@@ -126,11 +126,8 @@ class GoalPad(LiveWidget):
         return plot_path(self.backend.recorder, goal=goals[-1:] or None)
 
     def _place(self) -> str:
-        poses = self.backend.recorder.poses.newest(1)
-        if not len(poses):
-            return "no pose heard yet"
-        x, y, theta = (poses[0][name] for name in ("x", "y", "theta"))
-        return f"the turtle is at {point(x, y)} m facing {angle(theta)}"
+        pose = self.backend.recorder.pose()
+        return f"the turtle is at {point(*pose[:2])} m facing {angle(pose[2])}" if pose else "no pose heard yet"
 
     # -- map ---------------------------------------------------------------------------------------------------------
 
@@ -150,15 +147,12 @@ class GoalPad(LiveWidget):
         scan = recorder.last_scan
         if scan is None:
             return
-        stamp = recorder.scans.newest(1)["stamp"][0]
-        if self.backend.now - recorder.seconds(stamp) > STALE:
+        if self.backend.now - recorder.seconds(recorder.scans.newest(1)["stamp"][0]) > STALE:
             self.scanned_from = b""
         elif scan is not self._scan_drawn:
             self._scan_drawn = scan
             self.scan = pack([scan.angle_min, scan.angle_increment, scan.range_max, *scan.ranges])
-            rows = recorder.poses.newest(2000)
-            rows = rows[rows["stamp"] <= stamp - UNDER_WAY]  # or a turtle that turns would see walls beside the walls
-            self.scanned_from = pack([rows[-1][name] for name in ("x", "y", "theta")]) if len(rows) else b""
+            self.scanned_from = pack(recorder.pose_at_scan() or [])
 
     # -- clock -------------------------------------------------------------------------------------------------------
 
@@ -254,7 +248,8 @@ class GoalPad(LiveWidget):
             (each.x, each.y, each.radius if isinstance(each, Circle) else math.hypot(each.width, each.height) / 2)
             for each in self.backend.board.obstacles
         ]
-        taken += [(float(x), float(y), ROOM) for _, x, y, *_ in self.backend.recorder.poses.newest(1)]
+        if pose := self.backend.recorder.pose():
+            taken.append((*pose[:2], ROOM))
         steps = [0.5 + 0.5 * step for step in range(21)]
         places = sorted(product(steps, steps), key=lambda place: math.dist(place, (MIDDLE, MIDDLE)))
         for place in places:

@@ -55,23 +55,15 @@ class LazyPublisher:
             self._backend.node.destroy_publisher(self._publisher)
             self._publisher = None
 
-    def listeners(self) -> int:
-        """How many subscriptions of this type others have there."""
-        return sum(end.topic_type == self.type_name for end in self._others(self.topic))
-
     def why_unheard(self) -> str:
         """A sentence that says why no node gets what is published; "" if one does."""
-        there = self._others(self.topic)
-        if any(end.topic_type == self.type_name for end in there):
+        if self._is_heard_on(self.topic):
             return ""
-        if there:
+        if there := self._others(self.topic):
             types = listed(sorted({end.topic_type for end in there}))
             return f"The nodes that listen on {self.topic} expect {types}, not {self.type_name}."
-        elsewhere = [
-            name
-            for name, types in self._backend.node.get_topic_names_and_types()
-            if self.type_name in types and any(end.topic_type == self.type_name for end in self._others(name))
-        ]
+        topics = self._backend.node.get_topic_names_and_types()
+        elsewhere = [name for name, types in topics if self.type_name in types and self._is_heard_on(name)]
         hint = f" There are listeners on {enumerated(elsewhere)}." if elsewhere else ""
         return f"No node listens on {self.topic}.{hint}"
 
@@ -80,8 +72,11 @@ class LazyPublisher:
         ends = self._backend.node.get_subscriptions_info_by_topic(topic)
         return [end for end in ends if (end.node_name, end.node_namespace) != me]
 
+    def _is_heard_on(self, topic: str) -> bool:
+        return any(end.topic_type == self.type_name for end in self._others(topic))
+
     def _is_ready(self, since: float) -> bool:
-        if not self.listeners() or self._backend.now - since >= PATIENCE:
+        if not self._is_heard_on(self.topic) or self._backend.now - since >= PATIENCE:
             return True
         own = len(self._backend.node.get_subscriptions_info_by_topic(self.topic)) - len(self._others(self.topic))
         return self._publisher.get_subscription_count() > own  # the recorder's, which is found at once
@@ -138,29 +133,27 @@ class LazyClient:
         if self._client is None:
             self._client = self._backend.node.create_client(self._class, self._name)
         self._asked, self._deadline = self._backend.now, self._backend.now + timeout
-        if self._client.service_is_ready():
-            self._send(request)
-        elif self._backend.clock is None:  # a real network, where a client finds no server in its first moments
-            self._held = request
-        else:
-            self._end(f"Not asked: {self.why_unheard()}", "")
+        self._held = request
+        self.look()
 
     def look(self) -> None:
         """See whether the answer is overdue, or can never come."""
-        if not self.asking:
-            return
-        if self._held is not None:
+        now, request = self._backend.now, self._held
+        if request is not None:
+            # a real network, where a client finds no server in its first moments
+            may_come = self._backend.clock is None and now - self._asked <= DISCOVERY
             if self._client.service_is_ready():
-                request, self._held = self._held, None
-                self._send(request)
-            elif self._backend.now - self._asked > DISCOVERY:
                 self._held = None
-                self._end(f"Not asked: {self.why_unheard()}", "")
-        elif self._backend.now > self._deadline:
+                self._future = future = self._client.call_async(request)
+                future.add_done_callback(self._done)
+            elif not may_come:
+                self._held = None
+                self._end(f"Not asked: {self.why_unheard()}")
+        elif self._future is not None and now > self._deadline:
             waited = number(self._deadline - self._asked, 1)
-            self._end(f"No answer from {self._name} within {waited} s of robot time.", "")
-        elif not self._is_offered():
-            self._end(f"No answer: the node that offered {self._name} is gone.", "")
+            self._end(f"No answer from {self._name} within {waited} s of robot time.")
+        elif self._future is not None and not self._is_offered():
+            self._end(f"No answer: the node that offered {self._name} is gone.")
 
     def give_up(self) -> None:
         """Wait no more."""
@@ -185,22 +178,18 @@ class LazyClient:
             return self._client.service_is_ready()
         return any(self._name == name for name, _ in self._backend.node.get_service_names_and_types())
 
-    def _send(self, request: Any) -> None:
-        self._future = future = self._client.call_async(request)
-        future.add_done_callback(self._done)
-
     def _done(self, future: Any) -> None:
         if future is not self._future:
             return
         try:
             response = future.result()
         except Exception as error:
-            self._end(f"The call failed: {error}", "")
+            self._end(f"The call failed: {error}")
             return
         seconds = number(self._backend.now - self._asked)
         self._end(f"{self._name} answered after {seconds} s of robot time.", in_yaml(response))
 
-    def _end(self, words: str, answer: str) -> None:
+    def _end(self, words: str, answer: str = "") -> None:
         self.give_up()
         self._answered(words, answer)
 

@@ -80,15 +80,9 @@ def split(asked: str, topics: Iterable[str]) -> tuple[str, str]:
 
 def steps_of(rest: str) -> list[Step]:
     """ "/linear/x" is ["linear", "x"], "/ranges[90]" is ["ranges", 90]. Raises ValueError for anything else."""
-    steps: list[Step] = []
-    at = 0
-    while at < len(rest):
-        found = _STEP.match(rest, at)
-        if not found:
-            raise ValueError(f'"{rest}" is not a path to a field: try /linear/x or /ranges[90]')
-        steps.append(found[1] if found[1] is not None else int(found[2]))
-        at = found.end()
-    return steps
+    if _STEP.sub("", rest):
+        raise ValueError(f'"{rest}" is not a path to a field: try /linear/x or /ranges[90]')
+    return [name or int(index) for name, index in _STEP.findall(rest)]
 
 
 def check_steps(message_class: Any, steps: list[Step], curve: Curve) -> list[Step]:

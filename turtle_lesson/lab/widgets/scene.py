@@ -7,13 +7,12 @@ from typing import TYPE_CHECKING, Any
 import traitlets
 
 from ..path import Trail
-from ..recording import UNDER_WAY
 from ..words import point
 from . import scene_commands
 from .goal_client import Goal, goals_from
 from .live_widget import LiveWidget
 from .scene_commands import viewer_bundle
-from .scene_picture import brief, describe, draw_scene, newest_pose
+from .scene_picture import brief, describe, draw_scene
 
 if TYPE_CHECKING:
     from ..picture import Picture
@@ -95,37 +94,27 @@ class Scene(LiveWidget):
 
     def tick(self) -> None:
         recorder = self.backend.recorder
-        pose = newest_pose(recorder)
+        pose = recorder.pose()
         if pose is not None and self._is_new("turtle", pose):
             self.turtle = scene_commands.turtle_at(*pose)
         if self.due("trail", TRAIL_RATE) and self._trail.follow(recorder.poses):
             if self._is_new("trail", self._trail.changes):
                 self.trail = scene_commands.trail("lab/trail", self._trail.old)
             self.tip = scene_commands.trail("lab/tip", [self._trail.tip])
-        self._draw_scan()
+        scanned_from = recorder.pose_at_scan()
+        if scanned_from is not None and self._drawn.get("scan") is not recorder.last_scan:
+            self._drawn["scan"] = recorder.last_scan
+            self.scan = scene_commands.scan(recorder.last_scan, *scanned_from)
         standing = list(recorder.obstacles.values())
         if self._is_new("obstacles", standing):
             self.obstacles = scene_commands.obstacles(standing)
-        self._draw_goal()
-        if self.due("description", DESCRIPTION_RATE):
-            self.description = brief(recorder, self._current_goal())
-
-    def _draw_scan(self) -> None:
-        recorder = self.backend.recorder
-        scan = recorder.last_scan
-        if scan is None or self._drawn.get("scan") is scan:
-            return
-        pose = newest_pose(recorder, until=int(recorder.scans.newest(1)["stamp"][0]) - UNDER_WAY)
-        if pose is not None:
-            self._drawn["scan"] = scan
-            self.scan = scene_commands.scan(scan, *pose)
-
-    def _draw_goal(self) -> None:
         goal = self._current_goal()
         if self._is_new("goal", None if goal is None else (goal.x, goal.y, goal.theta, goal.state)):
             self.goal = scene_commands.goal(goal)
         if goal is not None and self._is_new("news", (goal.sent, goal.state)):
             self.words = f"Goal {point(goal.x, goal.y)} m: {goal.state}."
+        if self.due("description", DESCRIPTION_RATE):
+            self.description = brief(recorder, goal)
 
     def _current_goal(self) -> Goal | None:
         """The newest goal from this page, unless the navigator did not take it."""

@@ -10,7 +10,6 @@ import numpy as np
 from .. import style
 from ..path import WORLD, Trail
 from ..picture import Picture
-from ..recording import UNDER_WAY
 from ..scan import read_beams
 from ..words import angle, count, listed, number, point
 from . import scene_mesh
@@ -31,7 +30,7 @@ LIGHT = np.array([-0.35, -0.45, 0.82])
 def draw_scene(recording: Recording, goal: Goal | None) -> Picture:
     """Return the scene as it is now, with its text."""
     text = f"3-D scene: {describe(recording, goal)}"
-    pose = newest_pose(recording)
+    pose = recording.pose()
     if pose is None:
         return Picture(text)
     with style.applied():
@@ -67,12 +66,10 @@ def _draw_things(axes: Axes, recording: Recording, goal: Goal | None, pose: tupl
     things.sort(key=lambda pieces: float(_seen(joined(pieces).corners)[2].mean()))
     for layer, piece in enumerate(piece for pieces in things for piece in pieces):
         _draw(axes, piece, layer=10 + layer)
-    if recording.last_scan is not None:
-        place = newest_pose(recording, until=int(recording.scans.newest(1)["stamp"][0]) - UNDER_WAY)
-        if place is not None:
-            free, marks = scene_mesh.fan(read_beams(recording.last_scan), *place)
-            _draw(axes, free, layer=4, lit=False, alpha=0.22)
-            _draw(axes, marks, layer=5, lit=False, alpha=0.8)
+    if place := recording.pose_at_scan():
+        free, marks = scene_mesh.fan(read_beams(recording.last_scan), *place)
+        _draw(axes, free, layer=4, lit=False, alpha=0.22)
+        _draw(axes, marks, layer=5, lit=False, alpha=0.8)
 
 
 def _draw(axes: Axes, mesh: Mesh, layer: float, lit: bool = True, **look: Any) -> None:
@@ -81,11 +78,12 @@ def _draw(axes: Axes, mesh: Mesh, layer: float, lit: bool = True, **look: Any) -
 
     across, up, depth = _seen(mesh.corners)
     flat = np.stack([across, up], axis=2)
-    colours = mesh.colours * (_brightness(mesh) if lit else 1.0)
-    first, second = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
-    facing = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0] > 0 if lit else np.ones(len(mesh), bool)
+    colours = mesh.colours
     order = np.argsort(depth.mean(axis=1), kind="stable")
-    order = order[facing[order]]
+    if lit:
+        colours = colours * _brightness(mesh)
+        first, second = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
+        order = order[(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0] > 0)[order]]
     edges: Any = {"edgecolors": "face", "linewidths": 0.25} if "alpha" not in look else {"edgecolors": "none"}
     faces = PolyCollection(list(flat[order]), facecolors=np.clip(colours[order], 0, 1), zorder=layer, **edges, **look)
     axes.add_collection(faces)
@@ -107,20 +105,9 @@ def _brightness(mesh: Mesh) -> np.ndarray:
     return (0.72 + 0.31 * np.maximum(facing, 0.0))[:, None]
 
 
-def newest_pose(recorder: Recording, until: int | None = None) -> tuple[float, float, float] | None:
-    """The newest pose (m, m, rad), of those not later than `until` (ns); None where none was heard."""
-    poses = recorder.poses.newest(1 if until is None else 256)
-    if until is not None and len(poses) and poses["stamp"][0] <= until:
-        poses = poses[poses["stamp"] <= until]
-    if not len(poses):
-        return None
-    place = tuple(float(poses[-1][name]) for name in ("x", "y", "theta"))
-    return place if all(map(math.isfinite, place)) else None  # type: ignore[return-value]
-
-
 def brief(recorder: Recording, goal: Goal | None, beams: bool = True) -> str:
     """A scene in a line: turtle, obstacles, laser and goal."""
-    pose = newest_pose(recorder)
+    pose = recorder.pose()
     if pose is None:
         return "No pose heard yet."
     x, y, theta = pose
@@ -137,7 +124,7 @@ def brief(recorder: Recording, goal: Goal | None, beams: bool = True) -> str:
 
 def describe(recorder: Recording, goal: Goal | None) -> str:
     """A scene in one sentence: turtle, obstacles, laser and goal."""
-    pose = newest_pose(recorder)
+    pose = recorder.pose()
     if pose is None:
         return "no pose heard yet."
     x, y, theta = pose
