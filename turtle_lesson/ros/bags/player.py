@@ -7,13 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from math import inf
 from typing import TYPE_CHECKING, Any
 
 from ..idl.names import did_you_mean
 from ..idl.registry import registry
 from ..rmw.transport import LATENCY, LATENCY_SPREAD
 from ..sim.simulation import NANOSECONDS
-from ..sim.strand import running_strand
 from . import BagError
 from .writer import schema_text, type_hash
 
@@ -67,7 +67,12 @@ class Player:
         for topic in bag.topics:
             if not how.topics or topic.name in how.topics:
                 self._offer(node, topic)
-        self._clock = _Clock(node, how.clock, how.rate) if how.clock else None
+        self._simulation = node._ros_simulation
+        self._next: float = inf  # when to say next on /clock what time it is in the bag
+        if how.clock:
+            from rosgraph_msgs.msg import Clock
+
+            self._clock = node.create_publisher(Clock, "/clock", 1)
 
     def _offer(self, node: Any, topic: BagTopic) -> None:
         try:
@@ -80,26 +85,34 @@ class Player:
 
     def play(self, until: int | None = None) -> bool:
         """Play the bag; False if the virtual time `until` (ns) came first."""
-        strand = running_strand()
-        assert strand is not None
-        simulation = strand.simulation
-        sleep_until = simulation.sleep_until
+        simulation = self._simulation
         while True:
-            sleep_until(simulation.now + round(self._how.delay * NANOSECONDS))
-            began, first = simulation.now, (self._bag.start or 0) + round(self._how.start_offset * NANOSECONDS)
-            if self._clock is not None:
-                self._clock.set(began, first)
-                sleep_until = self._clock.tick_until
+            self._sleep_until(simulation.now + round(self._how.delay * NANOSECONDS))
+            self._began = simulation.now
+            self._first = first = (self._bag.start or 0) + round(self._how.start_offset * NANOSECONDS)
+            if self._how.clock:
+                self._next = self._began
             for message in self._wanted(first):
-                due = began + round((message.time - first) / self._how.rate)
+                due = self._began + round((message.time - first) / self._how.rate)
                 if until is not None and due >= until:
-                    sleep_until(until)
+                    self._sleep_until(until)
                     return False
-                sleep_until(due)
+                self._sleep_until(due)
                 self._publish(message)
             simulation.sleep_until(simulation.now + LATENCY + LATENCY_SPREAD)  # what was sent last shall arrive, too
             if not self._how.loop or not self.published:
                 return True
+
+    def _sleep_until(self, time: int) -> None:
+        """Sleep until a virtual time (ns), and say meanwhile on /clock what time it is in the bag."""
+        while self._next <= time:
+            self._simulation.sleep_until(self._next)
+            message = self._clock.msg_type()
+            moment = self._first + round((self._next - self._began) * self._how.rate)
+            message.clock.sec, message.clock.nanosec = divmod(moment, NANOSECONDS)
+            self._clock.publish(message)
+            self._next += round(NANOSECONDS / self._how.clock)
+        self._simulation.sleep_until(time)
 
     def _wanted(self, first: int) -> Iterator[Message]:
         end = None if self._how.duration is None else first + round(self._how.duration * NANOSECONDS)
@@ -124,33 +137,6 @@ class Player:
         return [
             f"{count} messages of '{topic}' are damaged and were left out" for topic, count in self._unreadable.items()
         ]
-
-
-class _Clock:
-    """Says on /clock, `frequency` times a second of robot time, what time it is in the bag."""
-
-    def __init__(self, node: Any, frequency: float, rate: float) -> None:
-        from rosgraph_msgs.msg import Clock
-
-        self._publisher = node.create_publisher(Clock, "/clock", 1)
-        self._simulation = node._ros_simulation
-        self._period = round(NANOSECONDS / frequency)
-        self._rate = rate
-
-    def set(self, began: int, first: int) -> None:
-        """At the virtual time `began` it is `first` in the bag (ns)."""
-        self._began, self._first, self._next = began, first, began
-
-    def tick_until(self, time: int) -> None:
-        """Sleep until a virtual time (ns), and tick meanwhile."""
-        while self._next <= time:
-            self._simulation.sleep_until(self._next)
-            message = self._publisher.msg_type()
-            moment = self._first + round((self._next - self._began) * self._rate)
-            message.clock.sec, message.clock.nanosec = divmod(moment, NANOSECONDS)
-            self._publisher.publish(message)
-            self._next += self._period
-        self._simulation.sleep_until(time)
 
 
 def offer_of(profiles: Sequence[Qos]) -> QoSProfile:

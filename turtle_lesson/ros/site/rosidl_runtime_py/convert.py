@@ -17,11 +17,12 @@ from rosidl_parser.definition import Array, BoundedSequence, NamespacedType
 
 @dataclass(frozen=True, slots=True)
 class _Style:
-    """How much is shown: texts and arrays up to a length, or without arrays or texts at all."""
+    """How much is shown: texts and arrays up to a length, or without arrays or texts at all; and bytes as they are."""
 
     length: int | None
     no_arr: bool
     no_str: bool
+    raw_bytes: bool = False
 
 
 def message_to_yaml(
@@ -49,7 +50,7 @@ def message_to_yaml(
 
 def message_to_csv(msg: Any, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False) -> str:
     """A message as values with commas between them, without a line end; the arguments are those of `message_to_yaml`."""
-    return _csv_of_message(msg, _Style(truncate_length, no_arr, no_str))
+    return _csv(_fields(msg, _Style(truncate_length, no_arr, no_str, raw_bytes=True)))
 
 
 def message_to_ordereddict(
@@ -90,10 +91,13 @@ def _fields(message: Any, style: _Style) -> OrderedDict[str, Any]:
 def _plain(value: Any, type_: Any, style: _Style) -> Any:
     """The value of a field (or of an element: then `type_` is None) as plain Python."""
     if isinstance(value, bytes):
+        if style.raw_bytes:
+            short = style.length is None or len(value) <= style.length
+            return value if short else value[: style.length] + b"..."
         return _cut("".join(map(chr, value)), style)
     if isinstance(value, str):
         return _text(value, style)
-    if _is_array(value):
+    if isinstance(value, (list, tuple, array.array)) or type(value).__name__ == "ndarray":
         if style.no_arr and type_ is not None:
             return _array_info(value, type_)
         shown = [_plain(each, None, style) for each in value[: style.length]]
@@ -107,31 +111,14 @@ def _plain(value: Any, type_: Any, style: _Style) -> Any:
     return value if isinstance(value, bool) else int(value) if isinstance(value, int) else float(value)
 
 
-def _csv_of_message(message: Any, style: _Style) -> str:
-    result = ""
-    for name, type_ in get_message_slot_types(message).items():
-        result += "," * bool(result) + _csv(getattr(message, name), type_, style)
-    return result
-
-
-def _csv(value: Any, type_: Any, style: _Style) -> str:
-    if isinstance(value, str):
-        return _text(value, style)
-    if isinstance(value, bytes):
-        short = style.length is None or len(value) <= style.length
-        return str(value if short else value[: style.length] + b"...")
-    if _is_array(value):
-        if style.no_arr and type_ is not None:
-            return _array_info(value, type_)
-        texts = [_csv(each, None, style) for each in value[: style.length]]
-        return ",".join(texts if len(texts) == len(value) else [*texts, "..."])
-    if hasattr(value, "get_fields_and_field_types"):
-        return _csv_of_message(value, style)
-    return str(value)
-
-
-def _is_array(value: Any) -> bool:
-    return isinstance(value, (list, tuple, array.array)) or type(value).__name__ == "ndarray"
+def _csv(value: Any) -> str:
+    """Plain values with commas between them."""
+    if isinstance(value, OrderedDict):
+        result = ""
+        for each in value.values():
+            result += "," * bool(result) + _csv(each)  # like the real one, without a comma behind an empty beginning
+        return result
+    return ",".join(map(_csv, value)) if isinstance(value, (list, tuple)) else str(value)
 
 
 def _text(value: str, style: _Style) -> str:
