@@ -14,7 +14,7 @@ import pytest
 from jupyter_pages import KERNEL, NOTEBOOK, Lab, execute, notebook_in
 from playwright.sync_api import Page
 
-from turtle_lesson.teaching.learner import LearnersFolder
+from turtle_lesson.teaching.pages import LearnersFolder
 
 PAGES = ("02_services_and_interfaces", "03_navigator", "06_parameters_and_launch")
 CELLS = f"Array.from({NOTEBOOK}.content.model.cells).map(cell => cell.toJSON())"

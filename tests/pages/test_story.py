@@ -17,7 +17,7 @@ from test_real_colcon import build, check_installed
 from test_real_colcon import pytestmark as with_colcon
 
 from turtle_lesson.learner.story import PAGES
-from turtle_lesson.teaching.learner import LearnersFolder
+from turtle_lesson.teaching.pages import LearnersFolder
 
 EXAMINATION = (
     '%load_ext turtle_lesson\nfrom turtle_lesson import start\nlesson = start(seed=1, package="mine")',

@@ -21,7 +21,7 @@ from turtle_lesson.ros.cli.shell import begin_here, open_terminal, run_line
 from turtle_lesson.ros.runtime import files
 from turtle_lesson.ros.runtime.world import World, open_world
 from turtle_lesson.session.packages import underlay_packages
-from turtle_lesson.teaching import learner
+from turtle_lesson.teaching import main
 
 Type = Callable[[str], tuple[int, str, str]]
 
@@ -384,9 +384,9 @@ def test_jupyterlabs_folder_is_the_learners_where_the_notebook_is_in_it(
 
 def test_open_says_which_folder_it_opens(mine: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     given: list[dict[str, str]] = []
-    monkeypatch.setattr(learner.os, "execve", lambda program, words, environment: given.append(environment))
-    monkeypatch.setattr(learner.subprocess, "call", lambda words, env: given.append(env))
-    learner.serve(Path("inner/.."), None, False, [])
+    monkeypatch.setattr(main.os, "execve", lambda program, words, environment: given.append(environment))
+    monkeypatch.setattr(main.subprocess, "call", lambda words, env: given.append(env))
+    main.serve(Path("inner/.."), None, False, [])
     assert given[0][files.OPENED] == str(mine)
 
 

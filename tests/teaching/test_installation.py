@@ -17,7 +17,7 @@ import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
-from turtle_lesson.teaching.learner import NAMES
+from turtle_lesson.teaching.pages import NAMES
 
 ROOT = Path(__file__).resolve().parents[2]
 BEGIN_PAGE_04 = "from turtle_lesson import start; print(start(seed=0, page='04_status_monitor').workspace)"

@@ -22,7 +22,7 @@ import teaching_copies as copies
 from forgeries import FORGERIES, FORKED, PACKAGE_BESIDE
 
 from turtle_lesson.lab.checks import checks_of
-from turtle_lesson.teaching import grade, limits
+from turtle_lesson.teaching import grade
 from turtle_lesson.teaching.grade import CheckScore, Graded, Grader
 from turtle_lesson.teaching.main import main
 from turtle_lesson.teaching.report import as_csv, as_json, in_words, plain
@@ -118,7 +118,7 @@ def test_a_forged_copy_gets_nothing(run: Run) -> None:
         ("results_patched", "turtle_lesson.lab.checks.results.CheckResult.passed"),
         ("results_redefined", "turtle_lesson.lab.checks.Row"),
         ("checks_replaced", "turtle_lesson.lab.checks.registry._checks"),
-        ("runner_replaced", "turtle_lesson.lab.checks.runner.run"),
+        ("runner_replaced", "turtle_lesson.lab.checks.registry.run"),
         ("lesson_patched", "turtle_lesson.session.inspection.Inspection.check"),
         ("probe_patched", "turtle_lesson.lab.checks.probe.Probe.hear"),
         ("place_patched", "turtle_lesson.session.check_target.CheckTarget.published"),
@@ -302,7 +302,7 @@ def test_the_cells_say_where_a_check_is_due(cell: str, parts: list[tuple[str, st
 def test_a_copy_gets_few_variables(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("GITHUB_TOKEN", "secret")
     monkeypatch.setenv("LC_ALL", "C.UTF-8")
-    given = limits.environment(tmp_path, "mark", "package")
+    given = grade.environment(tmp_path, "mark", "package")
     assert "GITHUB_TOKEN" not in given
     assert given["LC_ALL"] == "C.UTF-8" and given["PATH"] == os.environ["PATH"]
     assert given["HOME"] == given["TMPDIR"] == str(tmp_path)
@@ -310,9 +310,9 @@ def test_a_copy_gets_few_variables(tmp_path: Path, monkeypatch: pytest.MonkeyPat
 
 def test_a_full_folder_is_noticed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "file").write_bytes(bytes(100))
-    assert not limits.is_too_full(tmp_path)
-    monkeypatch.setattr(limits, "MOST_BYTES", 99)
-    assert limits.is_too_full(tmp_path)
+    assert not grade.is_too_full(tmp_path)
+    monkeypatch.setattr(grade, "MOST_BYTES", 99)
+    assert grade.is_too_full(tmp_path)
 
 
 def test_the_table_says_what_was_missed() -> None:

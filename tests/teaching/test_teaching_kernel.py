@@ -12,7 +12,7 @@ import pytest
 from jupyter_client.kernelspec import KernelSpecManager
 from jupyter_client.manager import start_new_kernel
 
-from turtle_lesson.teaching.learner import JUPYTER
+from turtle_lesson.teaching.main import JUPYTER
 
 Ask = Callable[[str], tuple[str, str]]
 

@@ -14,8 +14,8 @@ import teaching_copies as copies
 from turtle_lesson.lab.progress import FILE, ProgressFile
 from turtle_lesson.teaching import main as command
 from turtle_lesson.teaching import pages
-from turtle_lesson.teaching.learner import MEMORY, NAMES, LearnersFolder
 from turtle_lesson.teaching.main import main
+from turtle_lesson.teaching.pages import MEMORY, NAMES, LearnersFolder
 
 NAME = f"{copies.PAGE}.ipynb"
 REAL = Path(__file__).resolve().parents[2] / "notebooks"

@@ -12,12 +12,15 @@ import json
 import marshal
 import os
 import secrets
+import shutil
+import signal
+import site
 import socket
 import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -25,9 +28,10 @@ from queue import Empty, Queue
 from threading import Event, Thread
 from typing import Any
 
+import psutil
+
 from ..lab.checks.registry import Check, all_checks, checks_of
 from ..lab.checks.results import BAD, GOOD
-from . import limits
 from .pages import page_of
 from .worker import LARGEST, real_time
 
@@ -36,6 +40,18 @@ TIMEOUT = 300.0
 
 MEMORY = 2.0
 """Memory, GB, that each process of a copy may take unless told otherwise."""
+
+PASSED_ON = (
+    *("PATH", "LANG", "LANGUAGE", "TZ", "PYTHONPATH", "LD_LIBRARY_PATH", "ROS_DISTRO"),
+    *("SYSTEMROOT", "SYSTEMDRIVE", "WINDIR", "COMSPEC", "PATHEXT", "PROCESSOR_ARCHITECTURE", "NUMBER_OF_PROCESSORS"),
+)
+"""The variables of the teacher's shell that a copy sees, with those that begin with LC_; it sees no other."""
+
+MARK = "TURTLE_LESSON_COPY"
+"""The variable by which a copy's processes are known."""
+
+MOST_BYTES, MOST_FILES = 1_000_000_000, 20_000
+"""What a copy may have in its folder."""
 
 GRACE = 15.0
 """Real time, s, that a copy's process has to start and to clean up; after that it is killed."""
@@ -184,20 +200,19 @@ class Grader:
         home, desk, mark = folder / "home", folder / "desk", secrets.token_hex(8)
         home.mkdir()
         desk.mkdir()
-        limits.take_fonts(home)
+        take_fonts(home)
         words = [
             sys.executable,
             "-m",
             "turtle_lesson.teaching.worker",
             *map(str, (path, desk, self._timeout, self._memory)),
         ]
-        environment = limits.environment(home, mark, str(HOME.parent))
         # A socket, where there is one: a pipe could be opened by the copy, too, through /proc.
         ours, theirs = socket.socketpair() if os.name == "posix" else (None, None)
         process = subprocess.Popen(
             words,
             cwd=desk,
-            env=environment,
+            env=environment(home, mark, str(HOME.parent)),
             stdin=subprocess.PIPE,
             stdout=theirs.fileno() if theirs is not None else subprocess.PIPE,
             stderr=subprocess.DEVNULL,
@@ -220,7 +235,7 @@ class Grader:
                     groups += [found["kernel"]] if isinstance(found.get("kernel"), int) else []
                     yield found
             finally:
-                limits.end_all(groups, mark)
+                end_all(groups, mark)
                 process.wait()
                 reader.join()
 
@@ -232,7 +247,7 @@ class Grader:
             try:
                 line = lines.get(timeout=0.5)
             except Empty:
-                if limits.is_too_full(folder):
+                if is_too_full(folder):
                     yield {"problem": "it wrote too many files, or too large ones, and was stopped"}
                     return
                 continue
@@ -265,6 +280,57 @@ def _remarks(path: Path, page: str, replaced: list[str], changed: list[str]) -> 
     named = page_of(path)
     if named and page != named:
         yield f"its metadata say that it is {page}, and its name that it is {named}"
+
+
+# -- what a copy gets, and its end -------------------------------------------------------------------------------------
+
+
+def environment(folder: Path, mark: str, package: str) -> dict[str, str]:
+    """The variables of a copy whose home is `folder`; `package` is where the installed lesson is found."""
+    kept = {name: value for name, value in os.environ.items() if name in PASSED_ON or name.startswith("LC_")}
+    home = dict.fromkeys(("HOME", "USERPROFILE", "TMPDIR", "TEMP", "TMP"), str(folder))
+    paths = os.pathsep.join([package, *filter(None, [kept.get("PYTHONPATH")])])
+    one_thread = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"), "1")
+    user = {"PYTHONUSERBASE": site.getuserbase()} if site.ENABLE_USER_SITE else {}
+    return {**kept, **home, **one_thread, **user, "PYTHONPATH": paths, MARK: mark, "TURTLE_LESSON_PROGRESS": "off"}
+
+
+def take_fonts(folder: Path) -> None:
+    """Copy matplotlib's list of fonts into a copy's home: without it, the first picture takes seconds longer."""
+    theirs = folder / ".cache" / "matplotlib"
+    for each in (Path.home() / ".cache" / "matplotlib").glob("fontlist-*.json"):
+        theirs.mkdir(parents=True, exist_ok=True)
+        with contextlib.suppress(OSError):
+            shutil.copy(each, theirs)
+
+
+def is_too_full(folder: Path) -> bool:
+    """Whether a copy has more in its folder than it may have."""
+    size = files = 0
+    for place, _, names in os.walk(folder):
+        for name in names:
+            files += 1
+            with contextlib.suppress(OSError):
+                size += os.lstat(os.path.join(place, name)).st_size
+        if size > MOST_BYTES or files > MOST_FILES:
+            return True
+    return False
+
+
+def end_all(groups: Iterable[int], mark: str) -> None:
+    """End process groups as a whole, and every process that still has the mark among its variables."""
+    for group in groups:
+        with contextlib.suppress(OSError, AttributeError):  # Windows has no groups
+            os.killpg(group, signal.SIGKILL)
+    for _ in range(50):  # those that start others meanwhile
+        found = False
+        for each in psutil.process_iter():
+            with contextlib.suppress(psutil.Error, OSError):
+                if each.environ().get(MARK) == mark and each.status() != psutil.STATUS_ZOMBIE:
+                    found = True
+                    each.kill()
+        if not found:
+            return
 
 
 # -- verdicts -----------------------------------------------------------------------------------------------------------

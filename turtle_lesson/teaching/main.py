@@ -5,15 +5,22 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import socket
+import subprocess
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from . import learner, pages, report
+from ..ros.runtime.files import OPENED
+from . import pages, report
 from .grade import MEMORY, TIMEOUT, Graded, grade
-from .learner import serve
 from .report import as_csv, as_json, in_a_line, in_words
 from .worker import PATIENCE
+
+JUPYTER = Path(__file__).resolve().parent / "jupyter"
+"""Holds the kernel that says which cell to run after a restart, and settings: no news, and no look for updates."""
+
+FIRST = "00_welcome.ipynb"
 
 GRADE = """\
 Run copies of pages, each in a kernel and a folder of its own, and print the points for each check.
@@ -71,7 +78,7 @@ def _add_open(commands: argparse._SubParsersAction) -> None:
         help="your folder of pages, in JupyterLab",
         description=f"{text} Other options are passed on to JupyterLab.",
     )
-    where = f"your folder (default: this one if it is yours already, or else {learner.FOLDER} in it)"
+    where = f"your folder (default: this one if it is yours already, or else {pages.FOLDER} in it)"
     opening.add_argument("folder", nargs="?", type=Path, metavar="DIR", help=where)
     opening.add_argument("--no-browser", action="store_true", help="only print the address")
     opening.add_argument(
@@ -165,13 +172,13 @@ def _grade(options: argparse.Namespace) -> int:
 
 
 def _open(options: argparse.Namespace) -> int:
-    path = options.folder or Path("." if learner.is_learners(Path(".")) else learner.FOLDER)
-    new = not learner.is_learners(path)
-    folder = learner.LearnersFolder(path)
+    path = options.folder or Path("." if pages.is_learners(Path(".")) else pages.FOLDER)
+    new = not pages.is_learners(path)
+    folder = pages.LearnersFolder(path)
     said = folder.update(options.source)
     if options.take_along:
         said += folder.take_along()
-    elif new and (begun := learner.begun()):
+    elif new and (begun := pages.begun()):
         said.append(f"You began {', '.join(begun)} in {pages.PUBLISHED}. Add --take-along to bring your work here.")
     print(
         "\n".join([*said, f"Your pages are in {folder.path.resolve()}. Ctrl-C, pressed twice here, ends JupyterLab."])
@@ -179,11 +186,50 @@ def _open(options: argparse.Namespace) -> int:
     return serve(folder.path, options.port, not options.no_browser, options.more)
 
 
+def serve(folder: Path, port: int | None, browser: bool, more: Sequence[str]) -> int:
+    """Run JupyterLab on the first page of a folder until it is stopped; where the system can, in place of this process.
+
+    Args:
+        folder: all that it shows.
+        port: None takes 8888, or the next one that is free.
+        browser: whether to open one.
+        more: further options of JupyterLab's.
+    """
+    words = [sys.executable, "-P", "-m", "jupyterlab", "--Application.log_level=ERROR", *more]
+    words.append(f"--LabApp.default_url=/lab/tree/{FIRST}")
+    words += [f"--ServerApp.root_dir={folder.resolve()}", "--ServerApp.ip=127.0.0.1"]
+    if port is not None:
+        _check_free(port)
+        words += [f"--ServerApp.port={port}", "--ServerApp.port_retries=0"]
+    if not browser:
+        words.append("--no-browser")
+    environment = dict(os.environ) | {OPENED: str(folder.resolve())}
+    for name in ("JUPYTER_PATH", "JUPYTER_CONFIG_PATH"):
+        environment[name] = os.pathsep.join([str(JUPYTER), *filter(None, [os.environ.get(name)])])
+    sys.stdout.flush()
+    if os.name == "posix":
+        os.execve(sys.executable, words, environment)
+    return subprocess.call(words, env=environment)
+
+
+def _check_free(port: int) -> None:
+    with socket.socket() as probe:
+        if os.name == "posix":  # as Jupyter's own: a port that was used a moment ago is free
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind(("127.0.0.1", port))
+        except (OSError, OverflowError) as error:
+            reason = (getattr(error, "strerror", None) or str(error)).lower().rstrip(".")
+            raise pages.PageError(
+                f"port {port} cannot be used: {reason}. Without --port, a free one is found."
+            ) from None
+
+
 def _reset(options: argparse.Namespace) -> int:
     path, home = options.notebook, options.notebook.parent
     published = pages.published(path, options.source)
-    mine = learner.is_learners(home)
-    kept = learner.LearnersFolder(home).reset(path, published) if mine else pages.reset(path, published)
+    mine = pages.is_learners(home)
+    kept = pages.LearnersFolder(home).reset(path, published) if mine else pages.reset(path, published)
     yours = f"Yours is kept as {kept.name}." if kept else "It already was."
     print(f"{options.notebook} is as it was published. {yours}")
     return 0

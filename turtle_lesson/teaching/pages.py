@@ -1,21 +1,39 @@
-"""Pages as files: finding them, clearing outputs, stripping solutions, and putting pages back as they were published."""
+"""Pages as files: finding them, clearing outputs, stripping solutions, putting them back as published; the learner's folder.
+
+What a learner has worked on is never overwritten. A small hidden file in the learner's folder remembers from which published
+version each copy was made.
+"""
 
 from __future__ import annotations
 
+import hashlib
+import json
 import shutil
 import subprocess
 from collections.abc import Iterable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 import nbformat
 
+from ..lab import progress
 from ..learner.story import PAGES, PUBLISHED
+from ..ros.runtime import files
 
 CHECKOUT = PUBLISHED.parent
 """Where the project lies, if it was installed from its checkout (as README says)."""
 SOLUTION = "solution"
 """Tag of the cells that hold a solution."""
+
+
+FOLDER = "my-lesson"
+MEMORY = ".turtle_lesson_pages.json"
+NAMES = tuple(f"{page}.ipynb" for page in (*PAGES, "lab"))
+"""The files that a learner gets."""
+
+NOT_TAKEN = ("build", "install", "log")
+"""What a build makes anew in a workspace."""
 
 
 class PageError(Exception):
@@ -181,3 +199,135 @@ def without_solutions(path: Path, to: Path | None = None) -> tuple[Path, int]:
     except OSError as error:
         raise PageError(f"{target} cannot be written: {error.strerror}") from None
     return target, removed
+
+
+# -- the learner's folder ----------------------------------------------------------------------------------------------
+
+
+class LearnersFolder:
+    """A folder of a learner's pages, made if it is not there. Raises PageError where that cannot be."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._memory = path / MEMORY
+        elsewhere = f"Name another folder: turtle-lesson open {Path.home() / FOLDER}"
+        if path.exists() and not path.is_dir():
+            raise PageError(f"{path} is a file, but a folder is needed. {elsewhere}")
+        try:
+            if not is_learners(path) and path.is_dir() and any(path.glob("[!.]*")):
+                raise PageError(f"{path} already holds other files, and they are left alone. {elsewhere}")
+            path.mkdir(parents=True, exist_ok=True)
+            self._versions: dict[str, str] = {}
+            with suppress(FileNotFoundError, TypeError, ValueError):
+                self._versions |= json.loads(self._memory.read_text(encoding="utf-8"))
+            self._remember()
+        except OSError as error:
+            raise PageError(f"pages cannot be kept in {path}: {error.strerror}. {elsewhere}") from None
+
+    def _remember(self) -> None:
+        files.write(self._memory, json.dumps(self._versions, indent=1) + "\n")
+
+    def update(self, source: Path | None = None) -> list[str]:
+        """Fill in pages that are missing and bring untouched ones up to date.
+
+        A page that was worked on stays, and a newer version is put beside it, once. Returns sentences about that.
+        """
+        said = []
+        for name in NAMES:
+            content = find_published(name, source)
+            if content is None:
+                continue
+            newer = clear(parse(content, Path(name)))
+            newest = version(newer)
+            if not self._put(name, newer, newest) and self._versions.get(name) != newest:
+                beside = unused(self.path / name, "new")
+                nbformat.write(newer, beside)
+                self._versions[name] = newest
+                said.append(
+                    f"{name} holds your work, and the lesson has a newer version of the page: it is beside yours, "
+                    f"as {beside.name}."
+                )
+        self._remember()
+        if not any((self.path / name).is_file() for name in NAMES):
+            raise PageError(
+                f"the lesson's pages are not here (they would be in {source or PUBLISHED}). Name a folder of "
+                "published pages: --from FOLDER"
+            )
+        return said
+
+    def _put(self, name: str, page: Any, made_from: str) -> bool:
+        """Write a page, unless the learner's copy was worked on and differs; whether the page is there now."""
+        path = self.path / name
+        mine = version_of(path)
+        if mine != version(page):
+            if path.exists() and mine != self._versions.get(name):
+                return False
+            nbformat.write(page, path)
+        self._versions[name] = made_from
+        return True
+
+    def reset(self, path: Path, published: bytes) -> Path | None:
+        """Put a page back as it was published, without outputs; returns where the learner's copy is kept, if it differs."""
+        page = clear(parse(published, path))
+        self._versions[path.name] = version(page)
+        self._remember()
+        return reset(path, nbformat.writes(page) + "\n")
+
+    # -- from the checkout's notebooks -------------------------------------------------------------------------------
+
+    def take_along(self) -> list[str]:
+        """Take what was begun in the checkout's `notebooks`: changed pages, the workspace, and points.
+
+        What is here already stays. Returns sentences about what was done.
+        """
+        said = []
+        for name in begun():
+            page, path = clear(read(PUBLISHED / name)), self.path / name
+            if not self._put(name, page, self._versions.get(name, "")):
+                path = unused(path, "mine")
+                nbformat.write(page, path)
+            said.append(f"{name} was copied" + (f", as {path.name}." if path.name != name else "."))
+        self._remember()
+        theirs, mine = PUBLISHED / "workspace", self.path / "workspace"
+        if theirs.is_dir() and mine.exists():
+            said.append(f"There is a workspace in {self.path} already: {theirs} was not copied.")
+        elif theirs.is_dir():
+            shutil.copytree(theirs, mine, ignore=shutil.ignore_patterns(*NOT_TAKEN))
+            said.append("The workspace was copied without its build: build it again.")
+        points = progress.ProgressFile(PUBLISHED / progress.FILE).points()
+        if points:
+            progress.ProgressFile(self.path / progress.FILE).keep(points)
+            said.append(f"{sum(points.values())} points were copied.")
+        return said or [f"No page was begun in {PUBLISHED}."]
+
+
+def is_learners(path: Path) -> bool:
+    """Whether this is a learner's folder already."""
+    return (path / MEMORY).is_file()
+
+
+def begun() -> list[str]:
+    """The pages in the checkout's `notebooks` that differ from what its version control holds."""
+    found = []
+    for name in NAMES:
+        committed = find_published(name)
+        mine = PUBLISHED / name
+        if committed is not None and mine.is_file() and mine.read_bytes() != committed:
+            original = clear(parse(committed, mine))
+            if version(clear(read(mine))) != version(original):
+                found.append(name)
+    return found
+
+
+def version(notebook: Any) -> str:
+    """A short hash of a notebook's cells: a copy with outputs or changes has another one."""
+    cells = [[cell.cell_type, cell.source, cell.get("outputs", [])] for cell in notebook.cells]
+    return hashlib.sha256(json.dumps(cells).encode()).hexdigest()[:16]
+
+
+def version_of(path: Path) -> str:
+    """The version of a file; "" if there is no such file, or no notebook in it."""
+    try:
+        return version(read(path))
+    except PageError:
+        return ""

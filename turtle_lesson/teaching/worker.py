@@ -28,12 +28,10 @@ from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
 from queue import Empty
-from threading import Event
+from threading import Event, Thread
 from typing import Any
 
 import psutil
-
-from . import limits
 
 SHARE = 0.4
 """What part of the copy's time one cell may take."""
@@ -44,6 +42,12 @@ may have to share the machine with many others."""
 
 LARGEST = 50_000_000
 """Bytes of a notebook, and of an answer, that are read at most."""
+
+PROCESSES = 300
+"""How many processes and threads a copy may add to those of the user, where the system limits that."""
+
+LARGEST_FILE = 200_000_000
+"""Bytes of one file, where the system limits that."""
 
 DUE = re.compile(r"^(?![ \t]*#).*?\b(\w+)\.check\(\s*(?:[\"'](\w+)[\"'])?\s*\)", re.MULTILINE)
 """A call of `lesson.check("name")`, or of `case.check()`."""
@@ -87,9 +91,44 @@ def main(arguments: list[str]) -> None:
         logging.disable(logging.CRITICAL)
         warnings.simplefilter("ignore")
         sent = sys.stdin.buffer.read()
-        limits.apply(float(memory))
+        limit(float(memory))
         for found in examine(Path(notebook), Path(folder), float(seconds), marshal.loads(sent)):
             print(json.dumps(found), file=line, flush=True)
+
+
+def limit(memory: float) -> None:
+    """Limit this process and its children, where the system can: memory (GB), files, and how many processes there are."""
+    try:
+        import resource
+    except ImportError:  # Windows
+        return
+    most = {
+        "RLIMIT_AS": round(memory * 1e9),
+        "RLIMIT_FSIZE": LARGEST_FILE,
+        "RLIMIT_CORE": 0,
+        "RLIMIT_NOFILE": 2048,
+        "RLIMIT_NPROC": _threads_of_this_user() + PROCESSES,
+    }
+    for name, value in most.items():
+        with contextlib.suppress(AttributeError, OSError, ValueError):  # macOS refuses some
+            kind = getattr(resource, name)
+            _, hard = resource.getrlimit(kind)
+            limit = value if hard == resource.RLIM_INFINITY else min(value, hard)
+            resource.setrlimit(kind, (limit, hard))
+            try:
+                Thread(target=bool).start()
+            except RuntimeError:  # in a container: the user has more processes than are seen from within
+                resource.setrlimit(kind, (hard, hard))
+            else:
+                resource.setrlimit(kind, (limit, limit))
+
+
+def _threads_of_this_user() -> int:
+    found = 0
+    for each in psutil.process_iter():
+        with contextlib.suppress(psutil.Error):
+            found += each.num_threads() if each.uids().real == os.getuid() else 0
+    return found
 
 
 def examine(path: Path, folder: Path, seconds: float, sent: dict[str, Any]) -> Iterator[dict[str, Any]]:
