@@ -13,6 +13,7 @@ import pytest
 from turtle_lesson.learner import story
 from turtle_lesson.learner.workspace import Workspace, workspace
 from turtle_lesson.ros.ament import colcon, create
+from turtle_lesson.ros.runtime import files
 from turtle_lesson.ros.runtime.world import World
 
 NODE = "robot_controller/navigator_node.py"
@@ -334,3 +335,21 @@ def test_it_is_built_again_after_a_build_by_hand_from_other_sources(
     assert not mine.is_built, "what is installed now lacks the node"
     assert mine.build(world) == ""
     assert mine.is_built
+
+
+@pytest.mark.parametrize("link", ["workspace", "workspace/src"])
+@pytest.mark.parametrize("do", [lambda mine: mine.prepare("05_obstacle_detector"), lambda mine: mine.reset("05")])
+def test_nothing_is_written_through_a_link_that_leads_out_of_the_learners_folder(
+    pages: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, link: str, do: Any
+) -> None:
+    outside, home = tmp_path / "outside", tmp_path / "mine"
+    (outside / "src/robot_controller").mkdir(parents=True)
+    place = home / link
+    place.parent.mkdir(parents=True)
+    place.symlink_to(outside, target_is_directory=True)
+    monkeypatch.chdir(home)
+    monkeypatch.setattr(files, "_home", home)
+    before = sorted(outside.rglob("*"))
+    with pytest.raises(PermissionError, match="outside your folder"):
+        do(workspace())
+    assert sorted(outside.rglob("*")) == before

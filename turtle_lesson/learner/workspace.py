@@ -62,10 +62,10 @@ class Workspace:
             file = self.package / path
             now = _text(file)
             if now is None or (now != text and (story.is_published(path, now, before=page) or _is_template(path, now))):
-                files.write(file, text)
+                self._write(file, text)
                 memory["files"][path] = [_hash(text), ""]
             elif path == "CMakeLists.txt" and (merged := _with_installs(now, text)) != now:
-                files.write(file, merged)
+                self._write(file, merged)
         self._remember(memory)
         return self
 
@@ -77,6 +77,7 @@ class Workspace:
         page = story.page_named(page)
         said = f"{PACKAGE} is now as page {page} begins."
         if self.package.exists():
+            files.check(self.package, removes=True)
             kept = self._kept()
             shutil.copytree(self.package, kept / PACKAGE, ignore=shutil.ignore_patterns("__pycache__"))
             shutil.rmtree(self.package)
@@ -160,22 +161,26 @@ class Workspace:
                     f"{shown} holds changes of your own, so it was left as it is. Run this cell once more to replace it; "
                     "a copy will be kept."
                 )
-            files.write(self._kept() / path, now)
+            self._write(self._kept() / path, now)
         memory["files"][path] = [_hash(text), memory["page"]]
         memory["parts"] = memory.get("parts", {}) | {path: parts}
         memory.pop("asked", None)
-        files.write(file, text)
+        self._write(file, text)
         self._remember(memory)
         return f"{'Appending to' if append else 'Writing' if now is None else 'Overwriting'} {shown}"
 
     # -- small things ------------------------------------------------------------------------------------------------
+
+    def _write(self, file: Path, text: str) -> None:
+        """Write a file of the workspace. Raises PermissionError where a link leads out of the learner's folder."""
+        files.write(files.check(file), text)
 
     def _kept(self) -> Path:
         """A new folder for copies: kept/1, kept/2, …"""
         number = 1
         while (folder := self.folder / "kept" / str(number)).exists():
             number += 1
-        files.write(folder.parent / "COLCON_IGNORE", "")  # or the build would find the package twice
+        self._write(folder.parent / "COLCON_IGNORE", "")  # or the build would find the package twice
         return folder
 
     def _shown(self, path: Path) -> str:
@@ -189,7 +194,7 @@ class Workspace:
         return {"page": story.PAGES[0], "files": {}} | (memory if isinstance(memory, dict) else {})
 
     def _remember(self, memory: dict[str, Any]) -> None:
-        files.write(self.folder / ".pages.json", json.dumps(memory, indent=1) + "\n")
+        self._write(self.folder / ".pages.json", json.dumps(memory, indent=1) + "\n")
 
 
 def _may_replace(path: str, now: str, text: str, memory: dict[str, Any]) -> bool:
