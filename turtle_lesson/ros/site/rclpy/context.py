@@ -17,7 +17,6 @@ from ._state import RclpyState
 from .exceptions import RCLError
 from .impl.logging_severity import LoggingSeverity
 from .impl.rcutils_logger import RcutilsLogger
-from .signals import contexts_of
 
 if TYPE_CHECKING:
     from .node import Node
@@ -28,6 +27,7 @@ class Context:
 
     def __init__(self) -> None:
         self._process = current_process()
+        self._state = self._process.state(RclpyState)
         self.initialized = False
         self.ended = False
         """Whether it was shut down."""
@@ -53,7 +53,7 @@ class Context:
         self.arguments = self._read(self._process.argv if args is None else args)
         self._domain_id = domain_id or 0
         self.initialized = True
-        contexts_of(self._process).append(self)
+        self._state.contexts.append(self)
         if initialize_logging:
             self._set_up_logging()
         self._process.at_exit.append(self._end)  # what the process leaves behind disappears
@@ -79,7 +79,7 @@ class Context:
             )
         for name, level in self.arguments.log_levels.items():
             RcutilsLogger(name).set_level(LoggingSeverity[level.upper()])
-        own = self._process.state(RclpyState)
+        own = self._state
         own.log_to = self.arguments.switches
         own.log_format = os.environ.get("RCUTILS_CONSOLE_OUTPUT_FORMAT")
         own.log_colorized = os.environ.get("RCUTILS_COLORIZED_OUTPUT") == "1"
@@ -126,7 +126,7 @@ class Context:
     def _forget_as_default(self) -> None:
         """Let a later init have a new default context."""
         if self.shared_default and self.ended:
-            self._process.state(RclpyState).context = None
+            self._state.context = None
 
     def shut_down_by_signal(self) -> None:
         """A signal ends it, at once. What was given to `on_shutdown` is not called, as on a robot."""
@@ -140,9 +140,8 @@ class Context:
 
     def _leave(self) -> None:
         """Take the nodes out of the graph, since they can do nothing any more, and call what was registered for the end."""
-        contexts = contexts_of(self._process)
-        if self in contexts:
-            contexts.remove(self)
+        if self in self._state.contexts:
+            self._state.contexts.remove(self)
         for node in list(self._nodes):
             node._ros_shut()
         for callbacks in (self._waiting, self._callbacks):
@@ -159,7 +158,7 @@ class Context:
     @property
     def shared_default(self) -> bool:
         """Whether this is its process's default context, which a later init replaces by a new one."""
-        return self._process.state(RclpyState).context is self
+        return self._state.context is self
 
     def on_shutdown(self, callback: Callable[[], Any]) -> None:
         """Have `callback()` called at the shutdown (at once if it has been). A method is only called if its object is

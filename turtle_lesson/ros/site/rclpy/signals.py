@@ -17,8 +17,6 @@ from ._state import RclpyState
 if TYPE_CHECKING:
     from turtle_lesson.ros.sim.process import Process
 
-    from .context import Context
-
 
 class SignalHandlerOptions(Enum):
     """Choice of `rclpy.init(signal_handler_options=…)`."""
@@ -38,9 +36,8 @@ class _Handlers:
         self._before = dict(process.signal_handlers)
 
     def _is_set(self, number: int) -> bool:
-        name = {signal.SIGINT: "SIGINT", signal.SIGTERM: "SIGTERM"}.get(signal.Signals(number), "")
-        unchanged = self._process.signal_handlers.get(number) is self._before.get(number)
-        return unchanged and self.options in (SignalHandlerOptions.ALL, SignalHandlerOptions.__members__.get(name))
+        wanted = self.options.value & {signal.SIGINT: 1, signal.SIGTERM: 2}.get(signal.Signals(number), 0)
+        return bool(wanted) and self._process.signal_handlers.get(number) is self._before.get(number)
 
     def takes(self, number: int) -> bool:
         """Whether a signal is handled here alone."""
@@ -49,14 +46,9 @@ class _Handlers:
     def hear(self, number: int) -> bool:
         """A signal comes; True if that is the end of it."""
         if self._is_set(number):
-            for context in list(contexts_of(self._process)):
+            for context in list(self._process.state(RclpyState).contexts):
                 context.shut_down_by_signal()
         return self.takes(number)
-
-
-def contexts_of(process: Process) -> list[Context]:
-    """The contexts of a process that are up."""
-    return process.state(RclpyState).contexts
 
 
 def install_signal_handlers(options: SignalHandlerOptions = SignalHandlerOptions.ALL) -> None:
