@@ -8,7 +8,8 @@ from __future__ import annotations
 import math
 import re
 import sys
-from typing import Any
+from functools import reduce
+from typing import Any, NamedTuple
 
 from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
 from rclpy._deadlock import is_notebook
@@ -29,7 +30,6 @@ from ._frames import (
     latest_common_time,
     shown_time,
 )
-from ._frames import Transform as Pair
 from ._rotation import canonical
 
 CACHE_TIME = 10_000_000_000
@@ -39,6 +39,25 @@ TOLERANCE = 10e-3
 """How far the squared length of a quaternion may be off 1."""
 SHORTEST = 100_000
 """ns; transforms that came within less time count as if they had taken this long."""
+
+
+class Question(NamedTuple):
+    """What a buffer is asked: frames by the names of their arguments, and ways between two, each with its time (ns)."""
+
+    frames: dict[str, str]
+    ways: tuple[tuple[str, str, int], ...]
+
+    @staticmethod
+    def at_once(target: str, source: str, time: Any) -> Question:
+        """Where is the source frame, seen from the target frame, at a time?"""
+        frames = {} if target == source else {"target": target, "source": source}
+        return Question(frames, ((target, source, nanoseconds(time)),))
+
+    @staticmethod
+    def of_two_times(target: str, target_time: Any, source: str, source_time: Any, fixed: str) -> Question:
+        """The same at a time for each, joined by a frame that does not move in between."""
+        ways = (target, fixed, nanoseconds(target_time)), (fixed, source, nanoseconds(source_time))
+        return Question({"target": target, "source": source, "fixed": fixed}, ways)
 
 
 class BufferCore:
@@ -87,8 +106,7 @@ class BufferCore:
 
         Raises LookupException, ConnectivityException, ExtrapolationException, InvalidArgumentException.
         """
-        pair, stamp = self._lookup(target_frame, source_frame, nanoseconds(time))
-        return _as_message(pair, stamp, target_frame, source_frame)
+        return self._look_up(Question.at_once(target_frame, source_frame, time))
 
     def lookup_transform_full_core(
         self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
@@ -97,48 +115,38 @@ class BufferCore:
 
         What joins the two times is a frame that does not move between them. Raises as `lookup_transform_core`.
         """
-        for name, frame in (("target", target_frame), ("source", source_frame), ("fixed", fixed_frame)):
-            check_frame(self._frames, frame, f"lookupTransform argument {name}_frame")
-        inner, _ = self._lookup(fixed_frame, source_frame, nanoseconds(source_time))
-        outer, stamp = self._lookup(target_frame, fixed_frame, nanoseconds(target_time))
-        return _as_message(combined(outer, inner), stamp, target_frame, source_frame)
+        return self._look_up(Question.of_two_times(target_frame, target_time, source_frame, source_time, fixed_frame))
 
-    def _lookup(self, target: str, source: str, time: int) -> tuple[Pair, int]:
-        if target == source:
-            cache = self._frames.get(target)
-            return Way(self._frames, target, source, time).transform(), time or (cache.latest_stamp() if cache else 0)
-        check_frame(self._frames, target, "lookupTransform argument target_frame")
-        check_frame(self._frames, source, "lookupTransform argument source_frame")
-        way = Way(self._frames, target, source, time)
-        return way.transform(), way.time
+    def _look_up(self, question: Question) -> TransformStamped:
+        for name, frame in question.frames.items():
+            check_frame(self._frames, frame, f"lookupTransform argument {name}_frame")
+        ways = [Way(self._frames, *way) for way in reversed(question.ways)]
+        turn, place = reduce(combined, [way.transform() for way in reversed(ways)])
+        x, y, z, w = canonical(turn)
+        message = TransformStamped(child_frame_id=question.ways[-1][1])
+        message.header.frame_id = question.ways[0][0]
+        message.header.stamp = Time(nanoseconds=ways[-1].time).to_msg()
+        translation = Vector3(x=place[0], y=place[1], z=place[2])
+        message.transform = Transform(translation=translation, rotation=Quaternion(x=x, y=y, z=z, w=w))
+        return message
 
     def can_transform_core(self, target_frame: str, source_frame: str, time: Any) -> tuple[bool, str]:
         """Whether there is such a transform, and if not, why."""
-        way = (target_frame, source_frame, nanoseconds(time))
-        return (
-            (True, "")
-            if target_frame == source_frame
-            else self._can({"target": target_frame, "source": source_frame}, way)
-        )
+        return self._can(Question.at_once(target_frame, source_frame, time))
 
     def can_transform_full_core(
         self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
     ) -> tuple[bool, str]:
         """Whether there is such a transform between two times, and if not, why."""
-        ways = (
-            (target_frame, fixed_frame, nanoseconds(target_time)),
-            (fixed_frame, source_frame, nanoseconds(source_time)),
-        )
-        return self._can({"target": target_frame, "source": source_frame, "fixed": fixed_frame}, *ways)
+        return self._can(Question.of_two_times(target_frame, target_time, source_frame, source_time, fixed_frame))
 
-    def _can(self, frames: dict[str, str], *ways: tuple[str, str, int]) -> tuple[bool, str]:
-        """Whether there are such frames, by the names of their arguments, and ways between them; and if not, why."""
-        for name, frame in frames.items():
+    def _can(self, question: Question) -> tuple[bool, str]:
+        for name, frame in question.frames.items():
             wrong = wrong_name(frame) or ("" if frame in self._frames else "frame does not exist")
             if wrong:
                 return False, f'Invalid frame ID "{frame}" passed to canTransform argument {name}_frame - {wrong}'
         try:
-            for way in ways:
+            for way in question.ways:
                 Way(self._frames, *way)
         except TransformException as error:
             return False, str(error)
@@ -192,24 +200,6 @@ class BufferCore:
         up = Way(self._frames, fixed_frame, source_frame, nanoseconds(source_time)).chain(source_frame)
         down = Way(self._frames, target_frame, fixed_frame, nanoseconds(target_time)).chain(fixed_frame)
         return list(dict.fromkeys([*up, *down]))
-
-    def _allFramesAsDot(self, time: Any = None) -> str:
-        """Not here: a drawing for Graphviz. Raises NotImplementedError."""
-        raise NotImplementedError(
-            "_allFramesAsDot() is not available here: print(buffer.all_frames_as_yaml()), "
-            "or ros2 run tf2_tools view_frames"
-        )
-
-
-def _as_message(pair: Pair, stamp: int, target: str, source: str) -> TransformStamped:
-    turn, place = pair
-    x, y, z, w = canonical(turn)
-    message = TransformStamped(child_frame_id=source)
-    message.header.frame_id = target
-    message.header.stamp = Time(nanoseconds=stamp).to_msg()
-    translation = Vector3(x=place[0], y=place[1], z=place[2])
-    message.transform = Transform(translation=translation, rotation=Quaternion(x=x, y=y, z=z, w=w))
-    return message
 
 
 def nanoseconds(value: Any, what: str = "time") -> int:

@@ -209,10 +209,9 @@ class Way:
     def __init__(self, frames: Frames, target: str, source: str, time: int) -> None:
         self.up: list[Step] = []
         self.down: list[Step] = []
-        self.time = time
+        self.time = time or latest_common_time(frames, target, source)
         if target == source:
             return
-        self.time = time or latest_common_time(frames, target, source)
         self.up, top, why_not = _climb(frames, source, [target], self.time)
         if top == target:
             return

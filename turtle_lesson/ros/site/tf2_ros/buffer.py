@@ -16,12 +16,12 @@ from rclpy.task import Future
 from rclpy.time import Time
 from tf2_msgs.srv import FrameGraph
 from tf2_py import BufferCore
+from tf2_py._buffer_core import Question
 
 from .buffer_interface import AT_ONCE, BufferInterface
 
 PAUSE = 0.02
 """Seconds between two looks for a transform that is waited for, as in tf2_ros."""
-Question = Callable[..., tuple[bool, str]]
 
 
 class Buffer(BufferCore, BufferInterface):
@@ -68,8 +68,9 @@ class Buffer(BufferCore, BufferInterface):
 
         Raises LookupException, ConnectivityException, ExtrapolationException, InvalidArgumentException.
         """
-        wait_until(self.can_transform_core, (target_frame, source_frame, time), timeout)
-        return self.lookup_transform_core(target_frame, source_frame, time)
+        question = Question.at_once(target_frame, source_frame, time)
+        self._wait(question, timeout)
+        return self._look_up(question)
 
     async def lookup_transform_async(self, target_frame: str, source_frame: str, time: Time) -> TransformStamped:
         """The same, awaited until it is there."""
@@ -89,9 +90,9 @@ class Buffer(BufferCore, BufferInterface):
 
         `fixed_frame` is one that does not move between the two, such as "world". Raises as `lookup_transform`.
         """
-        asked = (target_frame, target_time, source_frame, source_time, fixed_frame)
-        wait_until(self.can_transform_full_core, asked, timeout)
-        return self.lookup_transform_full_core(*asked)
+        question = Question.of_two_times(target_frame, target_time, source_frame, source_time, fixed_frame)
+        self._wait(question, timeout)
+        return self._look_up(question)
 
     async def lookup_transform_full_async(
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
@@ -109,7 +110,7 @@ class Buffer(BufferCore, BufferInterface):
         return_debug_tuple: bool = False,
     ) -> Any:
         """Whether there is such a transform; with `return_debug_tuple` also why not."""
-        found = wait_until(self.can_transform_core, (target_frame, source_frame, time), timeout)
+        found = self._wait(Question.at_once(target_frame, source_frame, time), timeout)
         return found if return_debug_tuple else found[0]
 
     def can_transform_full(
@@ -123,29 +124,28 @@ class Buffer(BufferCore, BufferInterface):
         return_debug_tuple: bool = False,
     ) -> Any:
         """Whether there is such a transform between two times; with `return_debug_tuple` also why not."""
-        asked = (target_frame, target_time, source_frame, source_time, fixed_frame)
-        found = wait_until(self.can_transform_full_core, asked, timeout)
+        question = Question.of_two_times(target_frame, target_time, source_frame, source_time, fixed_frame)
+        found = self._wait(question, timeout)
         return found if return_debug_tuple else found[0]
 
     def wait_for_transform_async(self, target_frame: str, source_frame: str, time: Time) -> Future:
         """A future whose result is the transform, as soon as it can be looked up."""
-        return self._wait_for(self.can_transform_core, self.lookup_transform_core, (target_frame, source_frame, time))
+        return self._wait_for(Question.at_once(target_frame, source_frame, time))
 
     def wait_for_transform_full_async(
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
     ) -> Future:
         """A future whose result is the transform between two times, as soon as it can be looked up."""
-        asked = (target_frame, target_time, source_frame, source_time, fixed_frame)
-        return self._wait_for(self.can_transform_full_core, self.lookup_transform_full_core, asked)
+        return self._wait_for(Question.of_two_times(target_frame, target_time, source_frame, source_time, fixed_frame))
 
-    def _wait_for(self, can: Question, look_up: Callable[..., TransformStamped], asked: tuple[Any, ...]) -> Future:
+    def _wait_for(self, question: Question) -> Future:
         """A future that is done as soon as what is asked can be looked up."""
         future = Future()
 
         def try_again() -> None:
             try:
-                if not _is_over(future) and can(*asked)[0]:
-                    future.set_result(look_up(*asked))
+                if not _is_over(future) and self._can(question)[0]:
+                    future.set_result(self._look_up(question))
             except Exception as error:
                 future.set_exception(error)
 
@@ -154,25 +154,20 @@ class Buffer(BufferCore, BufferInterface):
             self._waiting.append((future, try_again))
         return future
 
+    def _wait(self, question: Question, timeout: Duration) -> tuple[bool, str]:
+        """Wait until what is asked can be looked up, or the timeout is over: whether it can, and if not, why."""
+        if not isinstance(timeout, Duration):
+            raise TypeError(f"timeout must be a rclpy.duration.Duration, got {timeout!r}: write Duration(seconds=1.0)")
+        return self._look_again(question, timeout) if timeout.nanoseconds > 0 else self._can(question)
+
+    @drives_the_simulation
+    def _look_again(self, question: Question, timeout: Duration) -> tuple[bool, str]:
+        clock = Clock()
+        end = clock.now() + timeout
+        while clock.now() < end and not self._can(question)[0]:
+            sleep(PAUSE)
+        return self._can(question)
+
 
 def _is_over(future: Future) -> bool:
     return future.done() or future.cancelled()
-
-
-def wait_until(can: Question, asked: tuple[Any, ...], timeout: Duration) -> tuple[bool, str]:
-    """Wait until what is asked can be looked up, or the timeout is over; the last answer.
-
-    Raises TypeError for anything but a Duration.
-    """
-    if not isinstance(timeout, Duration):
-        raise TypeError(f"timeout must be a rclpy.duration.Duration, got {timeout!r}: write Duration(seconds=1.0)")
-    return _look_again(can, asked, timeout) if timeout.nanoseconds > 0 else can(*asked)
-
-
-@drives_the_simulation
-def _look_again(can: Question, asked: tuple[Any, ...], timeout: Duration) -> tuple[bool, str]:
-    clock = Clock()
-    end = clock.now() + timeout
-    while clock.now() < end and not can(*asked)[0]:
-        sleep(PAUSE)
-    return can(*asked)
