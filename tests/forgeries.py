@@ -58,7 +58,7 @@ results.Row.good = property(lambda self: True)
 
 RESULTS_REDEFINED = """
 import turtle_lesson.lab.checks as checks
-from turtle_lesson.lab.checks import assertions, page_01, results, runner, streams
+from turtle_lesson.lab.checks import assertions, pages_00_02, registry, results, streams
 
 class Row(results.Row):
     def __new__(cls, mark, *rest):
@@ -71,7 +71,7 @@ class Seen(results.Seen):
     def __new__(cls, good, *rest):
         return super().__new__(cls, True, *rest)
 
-for module in (results, runner, assertions, streams, page_01, checks):
+for module in (results, registry, assertions, streams, pages_00_02, checks):
     module.Row, module.Seen = Row, Seen
 """
 
@@ -86,13 +86,13 @@ for name, each in list(registry._checks.items()):
 
 RUNNER_REPLACED = """
 from turtle_lesson.lab import checks
-from turtle_lesson.lab.checks import results, runner
+from turtle_lesson.lab.checks import registry, results
 
 def run(check, place):
     good = tuple(results.Row("✓", each.expected, "yes") for each in check.expectations)
     return checks.CheckResult(check.name, check.title, check.page, check.points, good, 0.0)
 
-checks.run = runner.run = run
+checks.run = registry.run = run
 """
 
 LESSON_REPLACED = """
@@ -119,9 +119,9 @@ turtle_lesson.session.lesson.Lesson.check = lambda self, name: "passed"
 
 PROBE_PATCHED = """
 from types import SimpleNamespace
-from turtle_lesson.lab.checks import assertions, graph_view, probe, streams
+from turtle_lesson.lab.checks import assertions, probe, streams
 probe.Probe.hear = lambda self, *rest: [SimpleNamespace(at=0.5 * n, message=SimpleNamespace(data=n)) for n in range(99)]
-graph_view.GraphView.nodes = lambda self: __import__("collections").Counter(["/counter", "/doubler"])
+probe.Probe.nodes = lambda self: __import__("collections").Counter(["/counter", "/doubler"])
 assertions._ends = lambda *rest: probe.Seen(True, "yes")
 """
 
@@ -163,7 +163,7 @@ hmac.digest = lambda key, text, kind: digest(key, text.replace(b"\\\\u2717", b"\
 """
 
 IMPORTS_PATCHED = """
-import importlib, sys, turtle_lesson.lab.checks.page_01
+import importlib, sys, turtle_lesson.lab.checks.pages_00_02
 before = dict(sys.modules)
 
 class Finder:

@@ -167,7 +167,7 @@ ANSWERS = {
     ),
     "turtle_case": Answers(
         wrong={
-            "more patience": ("ros2 param set /navigator goal_timeout 60.0", "s on average"),
+            "more patience": ("ros2 param set /navigator goal_timeout 25.0", "s on average"),
             "more speed": ("ros2 param set /speed_limiter max_speed 8.0", "success is False"),
             "a command a second": ("ros2 param set /speed_limiter command_period 1.0", "s on average"),
             "a command each half second": ("ros2 param set /speed_limiter command_period 0.5", "s on average"),

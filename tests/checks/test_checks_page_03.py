@@ -12,7 +12,7 @@ import pytest
 
 from turtle_lesson import Lesson, start
 from turtle_lesson.lab.checks import CheckResult, Expectation, Probe
-from turtle_lesson.lab.checks.functions import learner_function, returns
+from turtle_lesson.lab.checks.assertions import learner_function, returns
 from turtle_lesson.lab.checks.results import CannotLook
 from turtle_lesson.learner.workspace import workspace
 

@@ -149,7 +149,7 @@ def test_an_unknown_name_is_explained(system: Lesson, name: Any) -> None:
 
 def test_a_page_that_is_not_there_is_refused() -> None:
     with pytest.raises(ValueError, match='Did you mean "03_navigator"'):
-        check("x", page="03_navigater", points=1, limit=1)
+        check("03_navigater", points=1, limit=1)
 
 
 def test_the_text_is_a_table(system: Lesson) -> None:

@@ -69,9 +69,9 @@ def test_a_mark_at_a_wall_is_not_cut(lesson: Lesson, end: tuple[float, float]) -
 
 def test_the_turtle_is_where_it_was_when_the_question_was_put(lesson: Lesson) -> None:
     lesson.run(1)
-    assert lesson.predict("end", "Where?", on_map=True).question.turtle == pytest.approx((5.544, 5.544, 0.0), abs=1e-3)
+    assert lesson.predict("end", "Where?", on_map=True).turtle == pytest.approx((5.544, 5.544, 0.0), abs=1e-3)
     empty = start(simulator=False)
-    assert empty.predict("other", "Where?", on_map=True).question.turtle is None
+    assert empty.predict("other", "Where?", on_map=True).turtle is None
 
 
 @pytest.mark.parametrize(
@@ -94,7 +94,7 @@ def test_the_turtle_is_where_it_was_when_the_question_was_put(lesson: Lesson) ->
     ],
 )
 def test_a_number_may_be_written_with_its_unit(lesson: Lesson, unit: str, typed: str, value: float) -> None:
-    assert lesson.predict("x", "How much?", unit=unit, guess=typed).question.guess == pytest.approx(value)
+    assert lesson.predict("x", "How much?", unit=unit, guess=typed).guess == pytest.approx(value)
 
 
 @pytest.mark.parametrize(

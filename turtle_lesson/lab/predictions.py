@@ -148,9 +148,12 @@ def kind_of(choices: Sequence[str], unit: str | None, on_map: bool) -> Kind:
     return Point() if on_map else Number(str(unit))
 
 
-@dataclass
+@dataclass(repr=False)
 class Question:
-    """A question, the guess (None as long as there is none) and the outcome (None until it is told)."""
+    """A question, the guess (None as long as there is none) and the outcome (None until it is told).
+
+    It is what `lesson.predict` gives: in a notebook a small widget, everywhere else a sentence.
+    """
 
     name: str
     question: str
@@ -161,7 +164,7 @@ class Question:
     """Where it is to go."""
     guess: Any = None
     outcome: Any = None
-    shown: PredictionWidget | None = None
+    _widget: PredictionWidget | None = None
 
     @property
     def open(self) -> bool:
@@ -174,11 +177,29 @@ class Question:
             raise ValueError("The outcome is already known. Run the question's cell again to make a new guess.")
         self.guess = self.kind.read(guess)
 
-    def text(self) -> str:
-        """Question and guess in a sentence."""
+    def __repr__(self) -> str:
         guess = f"your guess: {self.kind.shown(self.guess)}" if self.guess is not None else NO_GUESS
         options = f" ({' / '.join(self.kind.choices)})" if isinstance(self.kind, Choice) else ""
         return f"{self.question}{options} – {guess}."
+
+    @property
+    def widget(self) -> PredictionWidget:
+        """The widget on which the guess is given, the same one wherever the question is asked again."""
+        if self._widget is None or self._widget.comm is None:
+            from .widgets.prediction import PredictionWidget
+
+            self._widget = PredictionWidget(self)
+        return self._widget
+
+    def _repr_mimebundle_(self, **options: Any) -> Any:
+        return self.widget._repr_mimebundle_(**options)
+
+    def put_aside(self) -> None:
+        """Close the widget: another question takes its place."""
+        if self._widget is not None:
+            from .widgets.live_widget import put_aside
+
+            put_aside(self._widget)
 
 
 _questions: dict[str, Question] = {}
@@ -192,22 +213,20 @@ def ask(
     *,
     turtle: tuple[float, float, float] | None = None,
     goal: Goal | None = None,
-) -> Asked:
+) -> Question:
     """Put a question, or show it again. One whose outcome is known, or whose words have changed, begins anew.
 
     A map shows the turtle where it stands, and its goal, if there is one.
     """
     found = _questions.get(name)
     if found is None or not found.open or (found.question, found.kind) != (question, kind):
-        if found is not None and found.shown is not None:
-            from .widgets.live_widget import put_aside
-
-            put_aside(found.shown)
+        if found is not None:
+            found.put_aside()
         found = _questions[name] = Question(name, question, kind)
     found.turtle, found.goal = turtle, goal
     if guess is not None:
         found.answer(guess)
-    return Asked(found)
+    return found
 
 
 def tell(name: str, value: Any) -> Outcome:
@@ -219,28 +238,6 @@ def tell(name: str, value: Any) -> Outcome:
     found = _questions[name]
     found.outcome = found.kind.read(value)
     return Outcome(found)
-
-
-class Asked:
-    """What `lesson.predict` gives: in a notebook a small widget, everywhere a sentence."""
-
-    def __init__(self, question: Question) -> None:
-        self.question = question
-
-    def __repr__(self) -> str:
-        return self.question.text()
-
-    @property
-    def widget(self) -> PredictionWidget:
-        """The widget on which the guess is given, the same one wherever the question is asked again."""
-        if self.question.shown is None or self.question.shown.comm is None:
-            from .widgets.prediction import PredictionWidget
-
-            self.question.shown = PredictionWidget(self.question)
-        return self.question.shown
-
-    def _repr_mimebundle_(self, **options: Any) -> Any:
-        return self.widget._repr_mimebundle_(**options)
 
 
 class Outcome:
@@ -271,19 +268,16 @@ class Outcome:
 
 # -- map ------------------------------------------------------------------------------------------------------------
 
-SCALE = 24.0
-"""Pixels a metre."""
+SCALE, SIDE, KEY = 24.0, WORLD * 24.0, 22.0
+"""Pixels a metre, of the world's side, and a line of the key."""
 LEFT, TOP, RIGHT, BOTTOM = 40.0, 14.0, 18.0, 42.0
 """Pixels around the world: a mark at a wall is not cut."""
-KEY = 22.0
-"""Pixels a line of the key."""
 
 Place = tuple[float, float]
 
 
 def draw_map(turtle: tuple[float, float, float] | None, goal: Goal | None, guess: Place | None, outcome: Place) -> str:
     """Return the map as an element of HTML; its alternative text says what is where."""
-    side = WORLD * SCALE
     signs: list[tuple[str, str, str]] = []  # on the map, in the key, and in words
     if turtle is not None:
         there = drawing.turtle(*_pixels(turtle[:2]), turtle[2], SCALE)
@@ -291,20 +285,22 @@ def draw_map(turtle: tuple[float, float, float] | None, goal: Goal | None, guess
     if goal is not None:
         signs.append((_flag(*_pixels(goal), SCALE), _flag(-2, 6, 16), _words("goal", goal)))
     if guess is not None:
-        signs.append((_ring(*_pixels(guess)), _ring(0, 0), _words("your guess", guess)))
-    signs.append((_disc(*_pixels(outcome)), _disc(0, 0), _words("outcome", outcome)))
-    parts = _axes(side)
+        ring = f'fill="none" stroke="{style.BLUE}" stroke-width="3"'
+        signs.append((_disc(*_pixels(guess), 8, ring), _disc(0, 0, 8, ring), _words("your guess", guess)))
+    full = f'fill="{style.PURPLE}"'
+    signs.append((_disc(*_pixels(outcome), 6, full), _disc(0, 0, 6, full), _words("outcome", outcome)))
+    parts = _axes()
     if guess is not None:
         parts.append(_line(*_pixels(guess), *_pixels(outcome), style.INK, 'stroke-dasharray="4 4"'))
     parts += [on_map for on_map, _, _ in signs]
-    top = TOP + side + BOTTOM
+    top = TOP + SIDE + BOTTOM
     for row, (_, sign, words) in enumerate(signs):
         y = top + KEY * (row + 0.5)
         parts.append(f'<g transform="translate({LEFT + 10:g} {number(y, 1)})">{sign}</g>')
         parts.append(drawing.text(LEFT + 28, y + 4, words, 13, "start"))
     description = f"Map of the turtle's world: {'; '.join(words for _, _, words in signs)}."
     picture = drawing.document(
-        round(LEFT + side + RIGHT), round(top + KEY * len(signs) + 4), "Guess and outcome", description, parts
+        round(LEFT + SIDE + RIGHT), round(top + KEY * len(signs) + 4), "Guess and outcome", description, parts
     )
     return drawing.image(picture, description)
 
@@ -319,25 +315,21 @@ def _pixels(place: tuple[float, ...] | Goal) -> Place:
     return LEFT + x * SCALE, TOP + (WORLD - y) * SCALE
 
 
-def _axes(side: float) -> list[str]:
+def _axes() -> list[str]:
     """The walls, a line at each metre, and figures at every second one."""
     parts = []
     for metre in range(1, int(WORLD) + 1):
         x, y = _pixels((metre, metre))
-        parts += [_line(x, TOP, x, TOP + side, style.LINE), _line(LEFT, y, LEFT + side, y, style.LINE)]
+        parts += [_line(x, TOP, x, TOP + SIDE, style.LINE), _line(LEFT, y, LEFT + SIDE, y, style.LINE)]
     for metre in range(0, 11, 2):
         x, y = _pixels((metre, metre))
-        parts += [
-            drawing.text(x, TOP + side + 16, f"{metre}", 11),
-            drawing.text(LEFT - 7, y + 4, f"{metre}", 11, "end"),
-        ]
-    parts.append(drawing.text(LEFT + side / 2, TOP + side + 32, "x in metres", 11))
-    across = f'transform="translate(12 {number(TOP + side / 2, 1)}) rotate(-90)"'
+        parts.append(drawing.text(x, TOP + SIDE + 16, f"{metre}", 11))
+        parts.append(drawing.text(LEFT - 7, y + 4, f"{metre}", 11, "end"))
+    parts.append(drawing.text(LEFT + SIDE / 2, TOP + SIDE + 32, "x in metres", 11))
+    across = f'transform="translate(12 {number(TOP + SIDE / 2, 1)}) rotate(-90)"'
     parts.append(f"<g {across}>{drawing.text(0, 0, 'y in metres', 11)}</g>")
-    size = number(side, 1)
-    frame = f'fill="none" stroke="{style.INK}" stroke-width="1.5"'
-    parts.append(f'<rect x="{LEFT:g}" y="{TOP:g}" width="{size}" height="{size}" {frame}/>')
-    return parts
+    frame = f'width="{number(SIDE, 1)}" height="{number(SIDE, 1)}" fill="none" stroke="{style.INK}" stroke-width="1.5"'
+    return [*parts, f'<rect x="{LEFT:g}" y="{TOP:g}" {frame}/>']
 
 
 def _line(x: float, y: float, to_x: float, to_y: float, colour: str, more: str = "") -> str:
@@ -345,13 +337,8 @@ def _line(x: float, y: float, to_x: float, to_y: float, colour: str, more: str =
     return f'<line {ends} stroke="{colour}" {more}/>'
 
 
-def _ring(x: float, y: float) -> str:
-    place = f'cx="{number(x, 1)}" cy="{number(y, 1)}"'
-    return f'<circle {place} r="8" fill="none" stroke="{style.BLUE}" stroke-width="3"/>'
-
-
-def _disc(x: float, y: float) -> str:
-    return f'<circle cx="{number(x, 1)}" cy="{number(y, 1)}" r="6" fill="{style.PURPLE}"/>'
+def _disc(x: float, y: float, radius: int, look: str) -> str:
+    return f'<circle cx="{number(x, 1)}" cy="{number(y, 1)}" r="{radius}" {look}/>'
 
 
 def _flag(x: float, y: float, scale: float) -> str:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from ..lab.checks.probe import Target
     from ..lab.graph import GraphPicture
     from ..lab.picture import Picture
-    from ..lab.predictions import Asked, Outcome
+    from ..lab.predictions import Outcome, Question
     from ..lab.progress import Progress, ProgressFile
     from ..lab.prompts import Prompt
     from ..lab.recorder import Recorder
@@ -89,7 +89,7 @@ class Inspection:
         on_map: bool = False,
         goal: Any = None,
         guess: Any = None,
-    ) -> Asked:
+    ) -> Question:
         """Ask for a guess, before something is run; `outcome(name, value)` then shows both side by side.
 
         Args:

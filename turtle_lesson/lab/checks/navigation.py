@@ -4,40 +4,32 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from ..path import WORLD
 from ..words import angle, number, point, turned
-from .assertions import no_answer
 from .probe import Answer, Heard, Probe
-from .registry import Expectation
+from .registry import expectation
 from .results import CannotLook, Seen, hinted
+from .streams import gaps_of, no_answer, told
 
 NAVIGATE, NAVIGATE_TYPE = "/navigate_to", "robot_controller/srv/NavigateTo"
 POSE, POSE_TYPE = "/turtle1/pose", "turtlesim/msg/Pose"
 COMMANDS, COMMAND_TYPE = "/turtle1/cmd_vel", "geometry_msgs/msg/Twist"
+TELEPORT, TELEPORT_TYPE = "/turtle1/teleport_absolute", "turtlesim/srv/TeleportAbsolute"
 
 TICK = 0.016
 """Robot time, s, between two poses of turtlesim."""
 
-NEAR = 0.2
-"""A goal is reached within this distance, m."""
-
-ALIGNED = 0.2
-"""Its heading is reached within this angle, rad."""
-
-STILL = 1e-3
-"""A turtle slower than this, m/s and rad/s, stands."""
+NEAR, ALIGNED = 0.2, 0.2
+"""A goal is reached within this distance, m, and its heading within this angle, rad."""
 
 LONGEST = 90.0
 """Robot time, s, that one drive may take."""
 
 AT_REST = 0.5
 """A turtle that has not moved for so long, s, has come to rest."""
-
-TELEPORT, TELEPORT_TYPE = "/turtle1/teleport_absolute", "turtlesim/srv/TeleportAbsolute"
 
 Goal = tuple[float, float, float]
 MIDDLE: Goal = (5.5, 5.5, 0.0)
@@ -49,17 +41,13 @@ class Way:
 
     Attributes:
         name: what rows call the goal, such as "a goal in the west".
-        begin: x and y (m) and the heading (rad) that the turtle is given first.
+        begin: x and y (m) and the heading (rad) that the turtle is given first; None where it starts from where it is.
         goal: the same of the goal.
     """
 
     name: str
-    begin: Goal
+    begin: Goal | None
     goal: Goal
-
-    def __call__(self, pose: Any) -> Goal:
-        """The goal, wherever the turtle is."""
-        return self.goal
 
 
 @dataclass
@@ -95,13 +83,17 @@ class Drive:
 
     def distance(self, at_rest: bool = False) -> float:
         """How far from the goal the turtle was when the answer came, or when it came to rest, m."""
-        end = self.end(at_rest)
-        return math.hypot(self.goal[0] - end.x, self.goal[1] - end.y)
+        return away(self.end(at_rest), self.goal)
 
 
 def is_moving(pose: Any) -> bool:
     """Whether a turtle says that it moves."""
-    return abs(pose.linear_velocity) > STILL or abs(pose.angular_velocity) > STILL
+    return abs(pose.linear_velocity) > 1e-3 or abs(pose.angular_velocity) > 1e-3
+
+
+def away(pose: Any, place: Sequence[float]) -> float:
+    """How far a pose is from a place, m."""
+    return math.hypot(pose.x - place[0], pose.y - place[1])
 
 
 def where(probe: Probe) -> Any:
@@ -121,6 +113,14 @@ def put(probe: Probe, place: Goal) -> None:
     probe.wait(3 * TICK)
 
 
+def drive_round(probe: Probe, speed: float, turn: float, seconds: float) -> None:
+    """Command a circle (m/s and rad/s) for some seconds, ten times a second, then a stop."""
+    for _ in range(round(10 * seconds)):
+        probe.publish(COMMANDS, COMMAND_TYPE, linear__x=speed, angular__z=turn)
+        probe.wait(0.1)
+    probe.publish(COMMANDS, COMMAND_TYPE)
+
+
 def ask_for(probe: Probe, goal: Goal, timeout: float) -> Answer:
     """Ask the navigator for a goal, and let robot time pass until it answers or the timeout (s) is over."""
     x, y, theta = goal
@@ -133,42 +133,36 @@ def ask_soon_for(probe: Probe, goal: Goal) -> Callable[[], Answer | None]:
     return probe.ask_soon(NAVIGATE, NAVIGATE_TYPE, x=x, y=y, theta=theta)
 
 
-def drive(probe: Probe, name: str, choose: Any) -> Drive:
-    """Drive to the goal that `choose(pose)` gives; the first time it is done, from then on remembered by its name.
+def drive(probe: Probe, way: Way) -> Drive:
+    """The drive on a way; the first time it is done, from then on it is remembered.
 
-    On a Way the turtle is put at its beginning, and time passes until it has come to rest.
+    Where the turtle is put at a beginning, time passes until it has come to rest.
     """
-    return probe.once(("drive", name), lambda: _drive(probe, choose))
-
-
-def go(probe: Probe, way: Way) -> Drive:
-    """The drive on a way; the first time it is done, from then on it is remembered."""
-    return drive(probe, way.name, way)
+    return probe.once(way, lambda: _drive(probe, way))
 
 
 def driven(probe: Probe, way: Way) -> Drive:
     """The drive on a way, whose goal was answered. Raises CannotLook where it was not."""
-    it = go(probe, way)
+    it = drive(probe, way)
     it.response  # noqa: B018  (raises where there is none)
     return it
 
 
-def _drive(probe: Probe, choose: Any) -> Drive:
-    if isinstance(choose, Way):
-        put(probe, choose.begin)
+def _drive(probe: Probe, way: Way) -> Drive:
+    if way.begin:
+        put(probe, way.begin)
     begin = where(probe)
-    goal = choose(begin)
     poses = probe.listen(POSE, POSE_TYPE)
     try:
         commands = probe.listen(COMMANDS, COMMAND_TYPE)
     except CannotLook:
         commands = []
     first_pose, first_command = len(poses), len(commands)
-    answer = ask_for(probe, goal, LONGEST)
+    answer = ask_for(probe, way.goal, LONGEST)
     probe.wait(1.0)
-    if isinstance(choose, Way) and answer.response is not None:
+    if way.begin and answer.response is not None:
         come_to_rest(probe, LONGEST)
-    return Drive(goal, begin, answer, commands[first_command:], poses[first_pose:])
+    return Drive(way.goal, begin, answer, commands[first_command:], poses[first_pose:])
 
 
 def at_rest(poses: list[Heard]) -> bool:
@@ -181,70 +175,52 @@ def come_to_rest(probe: Probe, timeout: float) -> None:
     probe.wait_for(lambda: at_rest(probe.listen(POSE, POSE_TYPE)), timeout)
 
 
-def far_away(pose: Any) -> Goal:
-    """The corner that is farthest away."""
-    corners = itertools.product((1.0, WORLD - 1.0), repeat=2)
-    x, y = max(corners, key=lambda place: math.hypot(place[0] - pose.x, place[1] - pose.y))
-    return round(x, 1), round(y, 1), 0.0
-
-
 # -- expectations ------------------------------------------------------------------------------------------------------
 
 
-def answered(way: Way) -> Expectation:
+@expectation("{way.name}: success is True")
+def answered(probe: Probe, way: Way) -> Seen:
     """A goal is answered in time, with success True."""
-
-    def look(probe: Probe) -> Seen:
-        it = go(probe, way)
-        if it.answer.response is None:
-            return no_answer(probe, f"no answer to the goal {point(*it.goal[:2])} in {LONGEST:g} s")
-        seen = f"success is {it.response.success} after {number(it.answer.seconds)} s"
-        return Seen(bool(it.response.success), seen, "What is response.success when on_goal returns the response?")
-
-    return Expectation(f"{way.name}: success is True", look)
+    it = drive(probe, way)
+    if it.answer.response is None:
+        return no_answer(probe, f"no answer to the goal {point(*it.goal[:2])} in {LONGEST:g} s")
+    return Seen(
+        bool(it.response.success), told(it.answer), "What is response.success when on_goal returns the response?"
+    )
 
 
-def arrived(way: Way, at_rest: bool = False) -> Expectation:
+@expectation(f"{{way.name}}: the turtle within {NEAR:g} m of it")
+def arrived(probe: Probe, way: Way, at_rest: bool = False) -> Seen:
     """The turtle is near the goal when the answer comes, or when it has come to rest."""
-
-    def look(probe: Probe) -> Seen:
-        it = driven(probe, way)
-        end, distance = it.end(at_rest), it.distance(at_rest)
-        seen = f"at {point(end.x, end.y)}, {number(distance)} m from {point(*it.goal[:2])}"
-        if at_rest and is_moving(end):
-            seen += f", and still moving after {LONGEST:g} s"
-        when = "in the end" if at_rest else "when the answer comes"
-        step = f"Where is the turtle {when}, and what does /turtle1/pose say on the way?"
-        return Seen(distance <= NEAR, seen, step)
-
-    return Expectation(f"{way.name}: the turtle within {NEAR:g} m of it", look)
+    it = driven(probe, way)
+    end, distance = it.end(at_rest), it.distance(at_rest)
+    seen = f"at {point(end.x, end.y)}, {number(distance)} m from {point(*it.goal[:2])}"
+    if at_rest and is_moving(end):
+        seen += f", and still moving after {LONGEST:g} s"
+    when = "in the end" if at_rest else "when the answer comes"
+    step = f"Where is the turtle {when}, and what does /turtle1/pose say on the way?"
+    return Seen(distance <= NEAR, seen, step)
 
 
-def facing(way: Way, at_rest: bool = False) -> Expectation:
+@expectation(f"{{way.name}}: heading within {ALIGNED:g} rad")
+def facing(probe: Probe, way: Way, at_rest: bool = False) -> Seen:
     """The turtle has the goal's heading when the answer comes or when it has come to rest."""
-
-    def look(probe: Probe) -> Seen:
-        it = driven(probe, way)
-        error = turned(it.goal[2] - it.end(at_rest).theta)
-        return Seen(abs(error) <= ALIGNED, f"{angle(error)} off", "At the goal the turtle turns to the goal's theta.")
-
-    return Expectation(f"{way.name}: heading within {ALIGNED:g} rad", look)
+    it = driven(probe, way)
+    error = turned(it.goal[2] - it.end(at_rest).theta)
+    return Seen(abs(error) <= ALIGNED, f"{angle(error)} off", "At the goal the turtle turns to the goal's theta.")
 
 
-def turns_little(way: Way, most: float) -> Expectation:
+@expectation("{way.name}: reached, with turns of {most:g}° at most")
+def turns_little(probe: Probe, way: Way, most: float) -> Seen:
     """The turtle comes to the goal, and all its turns, to and fro, are an angle (in degrees) at most."""
-
-    def look(probe: Probe) -> Seen:
-        it = driven(probe, way)
-        degrees = math.degrees(turning([it.begin, *(each.message for each in it.poses)]))
-        seen = f"it came within {number(it.distance(at_rest=True))} m and turned by {number(degrees, 0)}° in all"
-        step = hinted(
-            "Between which two headings does the turtle choose the long way round?",
-            "Look at turn_to once more: the exercise “the short way” has hints.",
-        )
-        return Seen(it.distance(at_rest=True) <= NEAR and degrees <= most, seen, step)
-
-    return Expectation(f"{way.name}: reached, with turns of {most:g}° at most", look)
+    it = driven(probe, way)
+    degrees = math.degrees(turning([it.begin, *(each.message for each in it.poses)]))
+    seen = f"it came within {number(it.distance(at_rest=True))} m and turned by {number(degrees, 0)}° in all"
+    step = hinted(
+        "Between which two headings does the turtle choose the long way round?",
+        "Look at turn_to once more: the exercise “the short way” has hints.",
+    )
+    return Seen(it.distance(at_rest=True) <= NEAR and degrees <= most, seen, step)
 
 
 def turning(poses: list[Any]) -> float:
@@ -255,65 +231,51 @@ def turning(poses: list[Any]) -> float:
     return math.fsum(abs(turned(b - a)) for a, b in itertools.pairwise(headings))
 
 
-def honest_time(way: Way, within: float = 0.1) -> Expectation:
+@expectation("time_taken within {within:g} s of the moving time")
+def honest_time(probe: Probe, way: Way, within: float = 0.1) -> Seen:
     """time_taken is how long the turtle really moved, give or take (s)."""
-
-    def look(probe: Probe) -> Seen:
-        it = go(probe, way)
-        begin, end = it.moving()
-        truth, said = end - begin, float(it.response.time_taken)
-        seen = f"it said {number(said)} s; the turtle moved for {number(truth)} s"
-        step = "Which two moments lie between the first command and the one that stops the turtle?"
-        return Seen(abs(said - truth) <= within, seen, step)
-
-    return Expectation(f"time_taken within {within:g} s of the moving time", look)
+    it = drive(probe, way)
+    begin, end = it.moving()
+    truth, said = end - begin, float(it.response.time_taken)
+    seen = f"it said {number(said)} s; the turtle moved for {number(truth)} s"
+    step = "Which two moments lie between the first command and the one that stops the turtle?"
+    return Seen(abs(said - truth) <= within, seen, step)
 
 
-def stopped(way: Way) -> Expectation:
+@expectation("the last command is zero")
+def stopped(probe: Probe, way: Way) -> Seen:
     """The last command is all zero, and the turtle stands when it should have come to rest."""
-
-    def look(probe: Probe) -> Seen:
-        it = driven(probe, way)
-        if not it.commands:
-            raise CannotLook(f"no command came on {COMMANDS}")
-        last = it.commands[-1].message
-        speeds = (last.linear.x, last.linear.y, last.angular.z)
-        if any(speeds):
-            seen = f"it was {number(last.linear.x)} m/s and {number(last.angular.z)} rad/s"
-            return Seen(False, seen, "What is the last command that is published, however the drive ends?")
-        still = not is_moving(it.poses[-1].message)
-        return Seen(still, "it was, and the turtle stands" if still else "it was, but the turtle still moves")
-
-    return Expectation("the last command is zero", look)
+    it = driven(probe, way)
+    if not it.commands:
+        raise CannotLook(f"no command came on {COMMANDS}")
+    last = it.commands[-1].message
+    if any((last.linear.x, last.linear.y, last.angular.z)):
+        seen = f"it was {number(last.linear.x)} m/s and {number(last.angular.z)} rad/s"
+        return Seen(False, seen, "What is the last command that is published, however the drive ends?")
+    still = not is_moving(it.poses[-1].message)
+    return Seen(still, "it was, and the turtle stands" if still else "it was, but the turtle still moves")
 
 
-def steady_commands(way: Way, most: float = 0.15) -> Expectation:
+@expectation("ten commands a second on the way")
+def steady_commands(probe: Probe, way: Way, most: float = 0.15) -> Seen:
     """No two commands on the way are farther apart than this (s): ten a second."""
-
-    def look(probe: Probe) -> Seen:
-        it = go(probe, way)
-        begin, end = it.moving()
-        times = [each.at for each in it.commands if begin - 0.2 <= each.at <= end + 0.2]
-        gaps = [after - before for before, after in itertools.pairwise(times)]
-        if not gaps:
-            return Seen(False, "one command for the whole way", "The turtle forgets a command after 1 s: keep sending.")
-        seen = f"the longest gap was {number(1000 * max(gaps), 0)} ms"
-        return Seen(max(gaps) <= most, seen, "How much time passes between two commands, at the most?")
-
-    return Expectation("ten commands a second on the way", look)
+    it = drive(probe, way)
+    begin, end = it.moving()
+    gaps = gaps_of(each.at for each in it.commands if begin - 0.2 <= each.at <= end + 0.2)
+    if not gaps:
+        return Seen(False, "one command for the whole way", "The turtle forgets a command after 1 s: keep sending.")
+    seen = f"the longest gap was {number(1000 * max(gaps), 0)} ms"
+    return Seen(max(gaps) <= most, seen, "How much time passes between two commands, at the most?")
 
 
-def refuses(what: str, *goals: Goal) -> Expectation:
+@expectation("refuses {what}")
+def refuses(probe: Probe, what: str, *goals: Goal) -> Seen:
     """Goals that make no sense are refused at once: success False within a second, and the turtle stays."""
-
-    def look(probe: Probe) -> Seen:
-        for goal in goals:
-            if fault := _fault(probe, goal):
-                step = "Which of the three numbers has to be looked at, and with which limits, before the goal is accepted?"
-                return Seen(False, f"{_typed(goal)}: {fault}", hinted(step, 2))
-        return Seen(True, f"{len(goals)} goals, all of them refused at once")
-
-    return Expectation(f"refuses {what}", look)
+    for goal in goals:
+        if fault := _fault(probe, goal):
+            step = "Which of the three numbers has to be looked at, and with which limits, before the goal is accepted?"
+            return Seen(False, f"{_typed(goal)}: {fault}", hinted(step, 2))
+    return Seen(True, f"{len(goals)} goals, all of them refused at once")
 
 
 def _typed(goal: Goal) -> str:
@@ -333,22 +295,19 @@ def _fault(probe: Probe, goal: Goal) -> str:
     elif answer.seconds > 1.0:
         fault = f"answered only after {number(answer.seconds)} s"
     else:
-        fault = "the turtle moved" if math.hypot(end.x - begin.x, end.y - begin.y) > 0.05 else ""
+        fault = "the turtle moved" if away(end, (begin.x, begin.y)) > 0.05 else ""
     if fault:
         ask_for(probe, MIDDLE, 5.0)
         come_to_rest(probe, 10.0)
     return fault
 
 
-def accepts(what: str, *ways: Way) -> Expectation:
+@expectation("accepts {what}")
+def accepts(probe: Probe, what: str, *ways: Way) -> Seen:
     """Goals on the boundary of what makes sense are accepted."""
-
-    def look(probe: Probe) -> Seen:
-        for way in ways:
-            response = go(probe, way).response
-            if not response.success:
-                step = "Which numbers does your comparison still accept? The ends belong to the world."
-                return Seen(False, f"{_typed(way.goal)}: success is False", hinted(step, 2))
-        return Seen(True, f"{' and '.join(_typed(way.goal) for way in ways)}")
-
-    return Expectation(f"accepts {what}", look)
+    for way in ways:
+        response = drive(probe, way).response
+        if not response.success:
+            step = "Which numbers does your comparison still accept? The ends belong to the world."
+            return Seen(False, f"{_typed(way.goal)}: success is False", hinted(step, 2))
+    return Seen(True, f"{' and '.join(_typed(way.goal) for way in ways)}")

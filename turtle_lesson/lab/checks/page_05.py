@@ -10,19 +10,15 @@ from typing import Any
 from ...turtlesim.obstacles import Circle
 from ..path import WORLD
 from ..words import angle, count, number
-from .assertions import no_errors, node, publishes
-from .functions import agrees, learner_function, returns
-from .graph_view import field, interface
+from .assertions import agrees, learner_function, no_errors, node, publishes, returns
 from .navigation import where
-from .probe import Heard, Probe
+from .probe import Heard, Probe, field, interface
 from .registry import Expectation, check, expectation
 from .results import CannotLook, Seen, hinted
 from .streams import messages, rate, some
 
+PAGE = "05_obstacle_detector"
 SCAN, SCAN_TYPE = "/obstacles", "sensor_msgs/msg/LaserScan"
-RUN = "ros2 run robot_controller obstacle_detector"
-FILE = "obstacle_detector_node.py"
-RADIUS = 0.3
 AHEAD, AHEAD_TYPE = "/nearest_ahead", "std_msgs/msg/Float32"
 
 FAR = 10.0
@@ -33,29 +29,28 @@ CLOSE = 0.05
 
 
 @check(
-    "scan", points=4, limit=20, learnt="A message can be of the right type and contradict itself; yours no longer does."
+    PAGE, points=4, limit=20, learnt="A message can be of the right type and contradict itself; yours no longer does."
 )
 def scan() -> list[Expectation]:
     """A laser scan that is what it says it is."""
+    fans = ((-1.0, 1.0, 0.5), (-math.pi, math.pi, math.pi / 2), (-1.5, 0.0, 0.5))
+    rounded = ((0.0, 0.3, 0.1), (-0.5, 0.5, 0.001), (-2.0, 2.0, 0.1))
     return [
-        node("/obstacle_detector", RUN),
+        node("/obstacle_detector", "ros2 run robot_controller obstacle_detector"),
         publishes(SCAN, SCAN_TYPE, by="/obstacle_detector"),
         rate(SCAN, SCAN_TYPE, hz=5, within=0.020),
         messages(SCAN, SCAN_TYPE, 'frame_id is "base_link"', _frame, 1.0),
         messages(SCAN, SCAN_TYPE, "it looks from −90° to +90°", _angles, 1.0),
         messages(SCAN, SCAN_TYPE, "a reading for every beam", _readings, 1.0),
         messages(SCAN, SCAN_TYPE, "readings from 0 to 10 m", _ranges, 1.0),
-        _counts(
-            "how_many: other angles, other steps",
-            ((-1.0, 1.0, 0.5), (-math.pi, math.pi, math.pi / 2), (-1.5, 0.0, 0.5)),
-        ),
-        _counts("how_many: also where computers round", ((0.0, 0.3, 0.1), (-0.5, 0.5, 0.001), (-2.0, 2.0, 0.1))),
+        _counts("other angles, other steps", fans),
+        _counts("also where computers round", rounded),
         no_errors(),
     ]
 
 
 @check(
-    "nearest_ahead",
+    PAGE,
     points=4,
     limit=20,
     learnt="The place of a number in a scan says where it was measured, and angles say what matters.",
@@ -71,50 +66,38 @@ def nearest_ahead() -> list[Expectation]:
         _nearest("beams at −29° and +29° count", [(ours, {side * 29: 1.5, side * 35: 1.0}, 1.5) for side in (-1, 1)]),
         _nearest("beams at −31° and +31° do not", [(ours, {side * 31: 1.5}, FAR) for side in (-1, 1)]),
         _nearest("scanners with other angles", [(wide, {28: 1.5, 150: 0.5}, 1.5), (coarse, {-28: 2.5, 32: 1.0}, 2.5)]),
-        _says_ahead,
-        _keeps_quiet,
+        _says_ahead(),
+        _keeps_quiet(),
         no_errors(),
     ]
 
 
-@check("ray_cast", points=5, limit=30, learnt="That is how simulators measure: a ray, a circle, and Pythagoras.")
+@check(PAGE, points=5, limit=30, learnt="That is how simulators measure: a ray, a circle, and Pythagoras.")
 def ray_cast() -> list[Expectation]:
     """A beam that knows where it meets a circle."""
+    pi, root = math.pi, math.sqrt(18)
+    beside = [((0, 0, 0.0, (5, 3, 5)), 1.0), ((0, 0, 0.0, (2, -0.6, 1)), 1.2), ((0, 0, pi / 2, (0.8, 3, 1)), 2.4)]
+    elsewhere = [((5, 5, 0.0, (8, 5, 0.5)), 2.5), ((2, 8, -pi / 4, (5, 5, 1)), root - 1)]
+    just = [((0, 0, 0.0, (3, 0.99, 1)), 3 - 0.141067), ((0, 0, 0.0, (3, -1.01, 1)), FAR)]
     return [
         node("/obstacle_detector"),
         publishes(SCAN, SCAN_TYPE, by="/obstacle_detector"),
-        _meets("a circle straight ahead", [((0, 0, 0.0, (3, 0, 1)), 2.0), ((0, 0, math.pi, (-4, 0, 0.5)), 3.5)], 1),
-        _meets("passed at the side", [((0, 0, math.pi / 2, (3, 0, 1)), FAR), ((0, 0, -0.5, (3, 0, 1)), FAR)], 2),
-        _meets("it is behind", [((0, 0, math.pi, (3, 0, 1)), FAR), ((0, 0, 0.0, (-2, 0.5, 1)), FAR)], 2),
-        _meets(
-            "beside the middle, on both sides",
-            [((0, 0, 0.0, (5, 3, 5)), 1.0), ((0, 0, 0.0, (2, -0.6, 1)), 1.2), ((0, 0, math.pi / 2, (0.8, 3, 1)), 2.4)],
-            3,
-        ),
-        _meets(
-            "just met and just missed",
-            [((0, 0, 0.0, (3, 0.99, 1)), 3 - 0.141067), ((0, 0, 0.0, (3, -1.01, 1)), FAR)],
-            2,
-        ),
+        _meets("a circle straight ahead", [((0, 0, 0.0, (3, 0, 1)), 2.0), ((0, 0, pi, (-4, 0, 0.5)), 3.5)], 1),
+        _meets("passed at the side", [((0, 0, pi / 2, (3, 0, 1)), FAR), ((0, 0, -0.5, (3, 0, 1)), FAR)], 2),
+        _meets("it is behind", [((0, 0, pi, (3, 0, 1)), FAR), ((0, 0, 0.0, (-2, 0.5, 1)), FAR)], 2),
+        _meets("beside the middle, on both sides", beside, 3),
+        _meets("just met and just missed", just, 2),
         _meets("it starts inside", [((0, 0, 0.0, (0.5, 0, 1)), 0.0), ((0, 0, 2.0, (0.5, 0, 1)), 0.0)], 2),
-        _meets(
-            "from another place",
-            [((5, 5, 0.0, (8, 5, 0.5)), 2.5), ((2, 8, -math.pi / 4, (5, 5, 1)), math.sqrt(18) - 1)],
-            1,
-        ),
-        scan_shows_the_circles,
+        _meets("from another place", elsewhere, 1),
+        _shows_the_circles(),
         no_errors(),
     ]
-
-
-# -- the message -------------------------------------------------------------------------------------------------------
 
 
 def _frame(heard: list[Heard]) -> Seen:
     frame = field(heard[-1].message, "header.frame_id")
-    return Seen(
-        frame == "base_link", f'it is "{frame}"', "The header of a message says in which frame its numbers hold."
-    )
+    advice = "The header of a message says in which frame its numbers hold."
+    return Seen(frame == "base_link", f'it is "{frame}"', advice)
 
 
 def _angles(heard: list[Heard]) -> Seen:
@@ -123,7 +106,7 @@ def _angles(heard: list[Heard]) -> Seen:
     return Seen(good, f"from {angle(low)} to {angle(high)}", "Angles are in radians: 90° is half of π.")
 
 
-def beams(message: Any) -> int:
+def _beams(message: Any) -> int:
     """How many readings a scan's angles ask for: both ends have one."""
     width = field(message, "angle_max") - field(message, "angle_min")
     step = field(message, "angle_increment")
@@ -133,11 +116,10 @@ def beams(message: Any) -> int:
 
 
 def _readings(heard: list[Heard]) -> Seen:
-    counts = {(len(field(each.message, "ranges")), beams(each.message)) for each in heard}
+    counts = {(len(field(each.message, "ranges")), _beams(each.message)) for each in heard}
     there, wanted = max(counts, key=lambda pair: abs(pair[0] - pair[1]))
     seen = f"{count(there, 'reading')}, and the angles ask for {wanted}"
-    step = "Both ends have a beam, so there is one beam more than there are steps."
-    return Seen(there == wanted, seen, step)
+    return Seen(there == wanted, seen, "Both ends have a beam, so there is one beam more than there are steps.")
 
 
 def _ranges(heard: list[Heard]) -> Seen:
@@ -150,61 +132,44 @@ def _ranges(heard: list[Heard]) -> Seen:
     return Seen(True, f"from {number(min(readings))} to {number(max(readings))} m")
 
 
-def _counts(expected: str, fans: Iterable[tuple[float, float, float]]) -> Expectation:
+@expectation("how_many: {expected}")
+def _counts(probe: Probe, expected: str, fans: Iterable[tuple[float, float, float]]) -> Seen:
     """how_many gives the beams from one angle to another in such steps, also with the 32-bit angles of a message."""
+    how_many = learner_function(probe, "how_many", "obstacle_detector_node.py")
+    said = []
+    for low, high, step in fans:
+        exact = (low, high, step)
+        for angles in (exact, struct.unpack("3f", struct.pack("3f", *exact))):
+            fan = interface(SCAN_TYPE)()
+            fan.angle_min, fan.angle_max, fan.angle_increment = angles
+            came, wanted = probe.call(how_many, fan), round((high - low) / step) + 1
+            words = f"from {low:.4g} to {high:.4g} in steps of {step:.4g}: {came!r}"
+            if type(came) is not int or came != wanted:
+                advice = "Count on your fingers for a small fan. A number of readings is a whole number."
+                hint = "Open Hint 3." if came == wanted - 1 else "Open Hint 1 and Hint 2."
+                return Seen(False, f"{words}, not {wanted}", hinted(advice, hint))
+        said.append(words)
+    return Seen(True, "; ".join(said))
 
-    def look(probe: Probe) -> Seen:
-        how_many = learner_function(probe, "how_many", FILE)
-        said = []
-        for low, high, step in fans:
-            wanted = round((high - low) / step) + 1
-            for exact in (True, False):
-                angles = [each if exact else _as_float32(each) for each in (low, high, step)]
-                fan = interface(SCAN_TYPE)()
-                fan.angle_min, fan.angle_max, fan.angle_increment = angles
-                came = probe.call(how_many, fan)
-                words = f"from {low:.4g} to {high:.4g} in steps of {step:.4g}: {came!r}"
-                if type(came) is not int or came != wanted:
-                    advice = "Count on your fingers for a small fan. A number of readings is a whole number."
-                    hint = "Open Hint 3." if came == wanted - 1 else "Open Hint 1 and Hint 2."
-                    return Seen(False, f"{words}, not {wanted}", hinted(advice, hint))
-            said.append(words)
-        return Seen(True, "; ".join(said))
-
-    return Expectation(expected, look)
-
-
-def _as_float32(value: float) -> float:
-    """The value after a journey in a message."""
-    return float(struct.unpack("f", struct.pack("f", value))[0])
-
-
-# -- what is ahead -----------------------------------------------------------------------------------------------------
 
 Fan = tuple[int, int, int]
 """First and last angle and step of a scanner, in degrees."""
 
 
-def _nearest(expected: str, examples: Iterable[tuple[Fan, dict[int, float], float]]) -> Expectation:
+@expectation("{expected}")
+def _nearest(probe: Probe, expected: str, examples: Iterable[tuple[Fan, dict[int, float], float]]) -> Seen:
     """nearest_ahead gives the smallest reading ahead; each example: a scanner, its near readings by their angle, the answer."""
-
-    def look(probe: Probe) -> Seen:
-        function = learner_function(probe, "nearest_ahead")
-        words = ""
-        for fan, near, wanted in examples:
-            came = probe.call(function, _scan(fan, near))
-            things = " and ".join(f"{reading:g} m at {at}°" for at, reading in near.items()) or "nothing near"
-            others = "" if fan == (-90, 90, 1) else f" (beams from {fan[0]}° to {fan[1]}°, each {fan[2]}°)"
-            words = f"{things}{others}: {came!r}"
-            if not agrees(came, wanted, 1e-6):
-                advice = hinted(
-                    "At which angle does each of these beams point, and is that at most 30° to a side?",
-                    "Open Hint 2 and Hint 3 under the exercise.",
-                )
-                return Seen(False, f"{words}, not {wanted:g}", advice)
-        return Seen(True, words)
-
-    return Expectation(expected, look)
+    function = learner_function(probe, "nearest_ahead")
+    words = ""
+    for fan, near, wanted in examples:
+        came = probe.call(function, _scan(fan, near))
+        things = " and ".join(f"{reading:g} m at {at}°" for at, reading in near.items()) or "nothing near"
+        others = "" if fan == (-90, 90, 1) else f" (beams from {fan[0]}° to {fan[1]}°, each {fan[2]}°)"
+        words = f"{things}{others}: {came!r}"
+        if not agrees(came, wanted, 1e-6):
+            step = "At which angle does each of these beams point, and is that at most 30° to a side?"
+            return Seen(False, f"{words}, not {wanted:g}", hinted(step, "Open Hint 2 and Hint 3 under the exercise."))
+    return Seen(True, words)
 
 
 def _scan(fan: Fan, near: dict[int, float]) -> Any:
@@ -219,41 +184,42 @@ def _scan(fan: Fan, near: dict[int, float]) -> Any:
 
 @expectation("an obstacle straight ahead is told")
 def _says_ahead(probe: Probe) -> Seen:
-    """An obstacle that the check puts straight ahead is what the node tells, to 5 cm."""
-    distance, before, during = _put_ahead(probe, 0.0)
-    seen = f"{number(during)} m, with its near side at {number(distance)} m; without it {number(before)} m"
+    before, during = _put_at(probe, 0.0)
+    seen = f"{number(during)} m, with its near side at {number(AWAY)} m; without it {number(before)} m"
     step = "Does the node say what nearest_ahead returns for each scan?"
-    return Seen(abs(during - distance) <= CLOSE < before - distance, seen, step)
+    return Seen(abs(during - AWAY) <= CLOSE < before - AWAY, seen, step)
 
 
 @expectation("one at the side is not")
 def _keeps_quiet(probe: Probe) -> Seen:
-    """An obstacle that the check puts at the side changes nothing."""
-    distance, before, during = _put_ahead(probe, 75.0)
-    seen = f"{number(during)} m, although one is {number(distance)} m away at the side; without it {number(before)} m"
+    before, during = _put_at(probe, 75.0)
+    seen = f"{number(during)} m, although one is {number(AWAY)} m away at the side; without it {number(before)} m"
     return Seen(abs(during - before) <= CLOSE, seen, "Leave out the beams that point more than 30° to a side.")
 
 
-def _put_ahead(probe: Probe, degrees: float) -> tuple[float, float, float]:
-    """Put an obstacle in a direction. The distance of its near side, and what was told before and with it (m)."""
-    pose = where(probe)
-    turn, distance = pose.theta + math.radians(degrees), 0.8
-    x, y = (start + way(turn) * (distance + RADIUS) for start, way in ((pose.x, math.cos), (pose.y, math.sin)))
-    if not all(RADIUS * 2 < each < WORLD - RADIUS * 2 for each in (x, y)):
+AWAY, RADIUS = 0.8, 0.3
+"""How far the near side of the obstacle is that the check puts there, and how large that is (m)."""
+
+
+def _put_at(probe: Probe, degrees: float) -> tuple[float, float]:
+    """Put an obstacle in a direction. What was told before and with it (m)."""
+    obstacle = _circle(where(probe), math.radians(degrees), AWAY + RADIUS, RADIUS)
+    if not all(RADIUS * 2 < each < WORLD - RADIUS * 2 for each in (obstacle.x, obstacle.y)):
         raise CannotLook("the turtle stands too near to a wall: turn it to the middle first")
-    before = _told(probe)
-    with probe.obstacles(Circle(x, y, RADIUS)):
-        during = _told(probe)
-    return distance, before, during
+
+    def told() -> float:
+        probe.wait(0.4)
+        return float(field(some(probe, AHEAD, AHEAD_TYPE, 0.5)[-1].message, "data"))
+
+    before = told()
+    with probe.obstacles(obstacle):
+        return before, told()
 
 
-def _told(probe: Probe) -> float:
-    """What the node tells after a moment, m."""
-    probe.wait(0.4)
-    return float(field(some(probe, AHEAD, AHEAD_TYPE, 0.5)[-1].message, "data"))
-
-
-# -- what it sees ------------------------------------------------------------------------------------------------------
+def _circle(pose: Any, turn: float, distance: float, radius: float) -> Circle:
+    """A circle in a direction, as seen from a pose, and at a distance (m)."""
+    bearing = pose.theta + turn
+    return Circle(pose.x + distance * math.cos(bearing), pose.y + distance * math.sin(bearing), radius)
 
 
 def _meets(expected: str, examples: Iterable[tuple[tuple[Any, ...], float]], hint: int) -> Expectation:
@@ -263,7 +229,7 @@ def _meets(expected: str, examples: Iterable[tuple[tuple[Any, ...], float]], hin
 
 
 @expectation("the scan shows the circles of the world")
-def scan_shows_the_circles(probe: Probe) -> Seen:
+def _shows_the_circles(probe: Probe) -> Seen:
     """Each beam of the newest scan ends at the nearest circle of the world, or reads 10 m."""
     circles = [each for each in probe.target.board.obstacles if isinstance(each, Circle)]
     if not circles:
@@ -271,12 +237,13 @@ def scan_shows_the_circles(probe: Probe) -> Seen:
     pose = where(probe)
     probe.wait(0.25)
     message = some(probe, SCAN, SCAN_TYPE, 0.3)[-1].message
-    if len(field(message, "ranges")) != beams(message):
+    if len(field(message, "ranges")) != _beams(message):
         raise CannotLook("the scan has not one reading for each beam")
     low, step = field(message, "angle_min"), field(message, "angle_increment")
+    bearings = [low + i * step for i in range(len(message.ranges))]
     off, at, came = max(
-        (abs(reading - _distance(pose, low + i * step, circles)), low + i * step, reading)
-        for i, reading in enumerate(message.ranges)
+        (abs(reading - _distance(pose, at, circles)), at, reading)
+        for at, reading in zip(bearings, message.ranges, strict=True)
     )
     if off <= CLOSE:
         return Seen(True, f"{count(sum(each < FAR for each in message.ranges), 'beam')} see one")
@@ -303,9 +270,7 @@ def _distance(pose: Any, bearing: float, circles: Iterable[Circle]) -> float:
 def sees_three(probe: Probe) -> Seen:
     """With three pillars in the world, the scans go on and show three things or more."""
     pose = where(probe)
-    around = (Circle(pose.x + 1.0 * math.cos(pose.theta + turn), pose.y + 1.0 * math.sin(pose.theta + turn), 0.2)
-              for turn in (-0.9, 0.0, 0.9))  # fmt: skip
-    with probe.obstacles(*around):
+    with probe.obstacles(*(_circle(pose, turn, 1.0, 0.2) for turn in (-0.9, 0.0, 0.9))):
         probe.wait(0.5)
         heard = some(probe, SCAN, SCAN_TYPE, 2.0)
     near = [sum(each < 1.5 for each in field(one.message, "ranges")) for one in heard]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,40 +12,24 @@ from typing import Any
 
 from ..path import WORLD
 from ..words import count, listed, number, point
-from . import page_04, page_05, page_06
-from .assertions import no_errors, publishes, subscribes
-from .functions import learner_function
-from .graph_view import interface
-from .navigation import NEAR, Drive, Goal, ask_for, drive, where
-from .probe import Heard, Probe, remembered
-from .registry import Expectation, check
+from . import page_05
+from .assertions import learner_function, no_errors, publishes, subscribes
+from .navigation import NEAR, Drive, Goal, Way, ask_for, away, drive, where
+from .page_04 import STATUS, STATUS_TYPE
+from .pages_06_07 import system_is_there
+from .probe import Heard, Probe, interface, remembered
+from .registry import Expectation, check, expectation
 from .results import Advice, CannotLook, Seen, hinted
-from .streams import judge_rate, relays
+from .streams import judge_rate, relays, told
 
-GOALS = ((8.0, 8.0, 1.57), (2.0, 8.0, 3.14), (2.0, 2.0, -1.57), (9.0, 2.0, 0.0), (5.5, 5.5, 0.5))
-"""Driven to in turn: all four quarters of the world, and all directions."""
-
-MINUTES = 5.0
-SETTLING = 1.0
-"""Robot time, s, before the work begins: an interval may still be of the rate that a parameter had before."""
+PAGE = "10_test_and_validate"
 
 VERDICT_TYPE = "std_msgs/msg/Bool"
 BATTERY_VERDICT, ALIVE = "/tests/battery", "/tests/alive"
 
-LIMIT = 0.5
-"""How old the last status may be, s, for the watchdog to call the robot alive."""
-TICK = 0.2
-"""How often the watchdog speaks, s."""
-
-
-# -- a test of one message -----------------------------------------------------------------------------------------------
-
 
 @check(
-    "battery_test",
-    points=3,
-    limit=20,
-    learnt="A test says yes to what is right, both ends included, and no to everything else.",
+    PAGE, points=3, limit=20, learnt="A test says yes to what is right, both ends included, and no to everything else."
 )
 def battery_test() -> list[Expectation]:
     """A test of one message: passes every percentage, and can fail."""
@@ -57,43 +41,42 @@ def battery_test() -> list[Expectation]:
         ({"battery": 150.0}, lambda message: message.data is False, "150 % → False"),
     ]
     return [
-        subscribes(page_04.STATUS, page_04.STATUS_TYPE, by="/tester"),
+        subscribes(STATUS, STATUS_TYPE, by="/tester"),
         publishes(BATTERY_VERDICT, VERDICT_TYPE, by="/tester"),
-        Expectation("0, 50 and 100 % pass", _judged(True, (50.0, 0.0, 100.0), ends)),
-        Expectation("150 and -1 % fail", _judged(False, (150.0, -1.0, 100.5, -0.5), beyond)),
-        Expectation("a battery that is no number fails", _judged(False, (math.nan, math.inf, -math.inf), nan)),
-        relays(page_04.STATUS, page_04.STATUS_TYPE, BATTERY_VERDICT, VERDICT_TYPE, pairs),
+        _judged("0, 50 and 100 % pass", True, ends, 50.0, 0.0, 100.0),
+        _judged("150 and -1 % fail", False, beyond, 150.0, -1.0, 100.5, -0.5),
+        _judged("a battery that is no number fails", False, nan, math.nan, math.inf, -math.inf),
+        relays(STATUS, STATUS_TYPE, BATTERY_VERDICT, VERDICT_TYPE, pairs),
         no_errors(),
     ]
 
 
-def _judged(verdict: bool, charges: Sequence[float], advice: Advice) -> Callable[[Probe], Seen]:
-    def look(probe: Probe) -> Seen:
-        function = learner_function(probe, "battery_ok")
-        for charge in charges:
-            said = probe.call(function, interface(page_04.STATUS_TYPE)(battery=charge))
-            if said is not verdict:
-                return Seen(False, f"battery_ok returned {said!r} for {charge:g} %", advice)
-        return Seen(True, f"battery_ok returned {verdict} for each")
-
-    return look
+@expectation("{expected}")
+def _judged(probe: Probe, expected: str, verdict: bool, advice: Advice, *charges: float) -> Seen:
+    function = learner_function(probe, "battery_ok")
+    for charge in charges:
+        said = probe.call(function, interface(STATUS_TYPE)(battery=charge))
+        if said is not verdict:
+            return Seen(False, f"battery_ok returned {said!r} for {charge:g} %", advice)
+    return Seen(True, f"battery_ok returned {verdict} for each")
 
 
-# -- a test that goes on -------------------------------------------------------------------------------------------------
+LIMIT = 0.5
+"""How old the last status may be, s, for the watchdog to call the robot alive."""
+TICK = 0.2
+"""How often the watchdog speaks, s."""
 
 
-@check(
-    "watchdog", points=4, limit=30, learnt="A watchdog remembers when it last heard something, so it notices silence."
-)
+@check(PAGE, points=4, limit=30, learnt="A watchdog remembers when it last heard something, so it notices silence.")
 def watchdog() -> list[Expectation]:
     """A watchdog that notices when the status stops coming."""
     return [
-        subscribes(page_04.STATUS, page_04.STATUS_TYPE, by="/watchdog"),
+        subscribes(STATUS, STATUS_TYPE, by="/watchdog"),
         publishes(ALIVE, VERDICT_TYPE, by="/watchdog"),
         Expectation("False before the first status", _before_the_first),
         Expectation("True while a status comes every 0.4 s", _while_it_comes),
-        Expectation(f"True until {LIMIT:g} s after the last one", _in_silence(True)),
-        Expectation(f"False from {LIMIT:g} s after the last one on", _in_silence(False)),
+        _in_silence(f"True until {LIMIT:g} s after the last one", True),
+        _in_silence(f"False from {LIMIT:g} s after the last one on", False),
         Expectation("True when it comes again", _when_it_comes_again),
         no_errors(),
     ]
@@ -113,42 +96,29 @@ def _before_the_first(probe: Probe) -> Seen:
     return Seen(said is False, f"a new one says {said!r}", advice)
 
 
-@dataclass(frozen=True)
-class Verdict:
-    """What the watchdog said, and how long after the last status (s)."""
-
-    age: float
-    alive: Any
-
-
 def _while_it_comes(probe: Probe) -> Seen:
-    heard = _verdicts(probe)
-    _speak(probe, heard)
-    step = "What does is_alive compare, and in which unit? A status that came 0.4 s ago is recent enough."
-    wrong = [each.message.data for each in heard if each.message.data is not True]
+    heard = _speak(probe)
     if not heard:
         return _nothing_came(probe)
+    step = "What does is_alive compare, and in which unit? A status that came 0.4 s ago is recent enough."
+    wrong = [each.message.data for each in heard if each.message.data is not True]
     return Seen(not wrong, f"it says {wrong[0] if wrong else True}", hinted(step, 2))
 
 
-def _in_silence(alive: bool) -> Callable[[Probe], Seen]:
-    def look(probe: Probe) -> Seen:
-        verdicts = [each for each in _hush(probe) if (each.age < LIMIT) is alive]
-        if not verdicts:
-            return _nothing_came(probe)
-        wrong = [each for each in verdicts if each.alive is not alive]
-        shown = (wrong or verdicts)[-1 if alive else 0]
-        step = "How long ago did the last status come, by the clock, each time that the timer ticks?"
-        seen = f"{number(shown.age)} s after it: {shown.alive}"
-        return Seen(not wrong, seen, hinted(step, 2))
-
-    return look
+@expectation("{expected}")
+def _in_silence(probe: Probe, expected: str, alive: bool) -> Seen:
+    verdicts = [(age, said) for age, said in _hush(probe) if (age < LIMIT) is alive]
+    if not verdicts:
+        return _nothing_came(probe)
+    wrong = [each for each in verdicts if each[1] is not alive]
+    age, said = (wrong or verdicts)[-1 if alive else 0]
+    step = "How long ago did the last status come, by the clock, each time that the timer ticks?"
+    return Seen(not wrong, f"{number(age)} s after it: {said}", hinted(step, 2))
 
 
 def _when_it_comes_again(probe: Probe) -> Seen:
     _hush(probe)
-    heard = _verdicts(probe)
-    _speak(probe, heard)
+    heard = _speak(probe)
     if not heard:
         return _nothing_came(probe)
     step = "Does every status that comes bring the time up to date?"
@@ -161,61 +131,70 @@ def _nothing_came(probe: Probe) -> Seen:
 
 
 def _verdicts(probe: Probe) -> list[Heard]:
-    """What the watchdog says, from now on. Raises CannotLook where a status comes that is not the check's own."""
-    if others := probe.publishers(page_04.STATUS):
-        raise CannotLook(f"{others[0][0]} publishes {page_04.STATUS}, so there is no silence: stop it first")
+    """What the watchdog says. Raises CannotLook where a status comes that is not the check's own."""
+    if others := probe.publishers(STATUS):
+        raise CannotLook(f"{others[0][0]} publishes {STATUS}, so there is no silence: stop it first")
     return probe.listen(ALIVE, VERDICT_TYPE)
 
 
-def _speak(probe: Probe, heard: list[Heard]) -> None:
-    """A status every 0.4 s; `heard` keeps what is said meanwhile."""
-    probe.publish(page_04.STATUS, page_04.STATUS_TYPE, battery=50.0)
+def _status(probe: Probe, pause: float = 0.0) -> None:
+    """One status, after a pause (s)."""
+    probe.wait(pause)
+    probe.publish(STATUS, STATUS_TYPE, battery=50.0)
+
+
+def _speak(probe: Probe) -> list[Heard]:
+    """A status every 0.4 s: what is said meanwhile."""
+    heard = _verdicts(probe)
+    _status(probe)
     probe.wait(0.01)
     heard.clear()
     for _ in range(4):
-        probe.wait(0.39)
-        probe.publish(page_04.STATUS, page_04.STATUS_TYPE, battery=50.0)
+        _status(probe, 0.39)
         probe.wait(0.01)
+    return heard
 
 
 @remembered
-def _hush(probe: Probe) -> list[Verdict]:
-    """What it says in two silences, with the last status so long before a tick that verdicts come shortly before and after
-    the limit."""
-    heard, found = _verdicts(probe), list[Verdict]()
+def _hush(probe: Probe) -> list[tuple[float, Any]]:
+    """What it says in two silences, each time with how long it is after the last status (s).
+
+    That comes so long before a tick that verdicts come shortly before and after the limit.
+    """
+    heard, found = _verdicts(probe), list[tuple[float, Any]]()
     for before_a_tick in (0.06, 0.14):
         heard.clear()
         if not probe.wait_for(lambda: heard, 1.0):
             return found
-        probe.wait(heard[-1].at + 3 * TICK - before_a_tick - probe.now)
-        probe.publish(page_04.STATUS, page_04.STATUS_TYPE, battery=50.0)
+        _status(probe, heard[-1].at + 3 * TICK - before_a_tick - probe.now)
         last = probe.now
         heard.clear()
         probe.wait(1.2)
-        found += [Verdict(each.at - last, each.message.data) for each in heard]
-    return sorted(found, key=lambda each: each.age)
+        found += [(each.at - last, each.message.data) for each in heard]
+    return sorted(found, key=lambda each: each[0])
 
 
-# -- the whole system ----------------------------------------------------------------------------------------------------
+MINUTES = 5.0
+GOALS = ((8.0, 8.0, 1.57), (2.0, 8.0, 3.14), (2.0, 2.0, -1.57), (9.0, 2.0, 0.0), (5.5, 5.5, 0.5))
+"""Driven to in turn: all four quarters of the world, and all directions."""
+
+PROGRAMS = ("navigator", "status_monitor", "obstacle_detector")
 
 
-@check("system", points=10, limit=420, learnt="Your own system keeps its specification, and you can show it.")
+@check(PAGE, points=10, limit=420, learnt="Your own system keeps its specification, and you can show it.")
 def system() -> list[Expectation]:
     """Your whole system meets its specification, for five minutes."""
     return [
-        *page_06.system_is_there(),
+        *system_is_there(),
         Expectation("all three programs are from your own package", _from_workspace),
         Expectation(f"every goal reached within {NEAR:g} m, for {MINUTES:g} minutes", _reached),
         Expectation("time_taken within 0.1 s of the moving time", _honest),
         Expectation("a near goal is answered within 2 s", _near_goal),
-        Expectation("status every 100 ms ± 10 ms all the time", _statuses),
-        Expectation("a scan every 200 ms ± 20 ms all the time", _scans),
-        page_05.sees_three,
+        _rated("status every 100 ms ± 10 ms all the time", STATUS, Shift.status_rate),
+        _rated("a scan every 200 ms ± 20 ms all the time", page_05.SCAN, Shift.scan_rate),
+        page_05.sees_three(),
         no_errors(),
     ]
-
-
-PROGRAMS = ("navigator", "status_monitor", "obstacle_detector")
 
 
 def running(probe: Probe, program: str) -> list[str]:
@@ -243,24 +222,33 @@ class Shift:
     statuses: list[Heard] = field(default_factory=list)
     scans: list[Heard] = field(default_factory=list)
     whole: bool = True
-    """Whether it went on to its end; it does not where something was wrong after the first goals."""
+    """Whether it took all of its time: it is cut short after a goal that was missed, and where messages come at a
+    wrong rate after the first goals."""
+
+    def status_rate(self) -> Seen:
+        """Whether ten statuses came a second."""
+        return judge_rate(self.statuses, 10, 0.010)
+
+    def scan_rate(self) -> Seen:
+        """Whether five scans came a second."""
+        return judge_rate(self.scans, 5, 0.020)
 
 
 @remembered
 def shift(probe: Probe) -> Shift:
     """Carry the work out. Raises CannotLook where there is no navigator."""
-    probe.wait(SETTLING)
+    probe.wait(1.0)  # an interval may still be of the rate that a parameter had before
     done = Shift()
     with suppress(CannotLook):
-        done.statuses = probe.listen(page_04.STATUS, page_04.STATUS_TYPE)
+        done.statuses = probe.listen(STATUS, STATUS_TYPE)
     with suppress(CannotLook):
         done.scans = probe.listen(page_05.SCAN, page_05.SCAN_TYPE)
     end = probe.now + 60 * MINUTES
     while done.whole and probe.now < end:
-        goal = GOALS[len(done.drives) % len(GOALS)]
-        done.drives.append(drive(probe, f"drive {len(done.drives)}", lambda pose, goal=goal: goal))
+        made = len(done.drives)
+        done.drives.append(drive(probe, Way(f"drive {made}", None, GOALS[made % len(GOALS)])))
         a_round = len(done.drives) % len(GOALS) == 0
-        uneven = a_round and not (_status_rate(done).good and _scan_rate(done).good)
+        uneven = a_round and not (done.status_rate().good and done.scan_rate().good)
         done.whole = not _missed(done.drives[-1]) and not uneven
     return done
 
@@ -274,14 +262,6 @@ def _missed(it: Drive) -> str:
         return ""
     after = number(it.answer.seconds, 1)
     return f"goal {goal}: success is {it.response.success} after {after} s, {number(it.distance())} m away"
-
-
-def _status_rate(done: Shift) -> Seen:
-    return judge_rate(done.statuses, 10, 0.010)
-
-
-def _scan_rate(done: Shift) -> Seen:
-    return judge_rate(done.scans, 5, 0.020)
 
 
 def _reached(probe: Probe) -> Seen:
@@ -311,11 +291,8 @@ def _near_goal(probe: Probe) -> Seen:
     answer = ask_for(probe, goal, 30.0)
     if answer.response is None:
         return Seen(False, "no answer in 30 s", "Ask for that goal alone, and read the navigator's log.")
-    end = where(probe)
-    away = math.dist(goal[:2], (end.x, end.y))
-    seen = f"0.5 m: success is {answer.response.success} after {number(answer.seconds)} s"
-    good = bool(answer.response.success) and answer.seconds <= 2.0 and away <= NEAR
-    return Seen(good, seen, "Is the speed high enough, and does it go on waiting when it is there?")
+    good = bool(answer.response.success) and answer.seconds <= 2.0 and away(where(probe), goal) <= NEAR
+    return Seen(good, f"0.5 m: {told(answer)}", "Is the speed high enough, and does it go on waiting when it is there?")
 
 
 def _just_ahead(pose: Any) -> Goal:
@@ -328,15 +305,9 @@ def _just_ahead(pose: Any) -> Goal:
     raise CannotLook("the turtle stands in a corner")
 
 
-def _statuses(probe: Probe) -> Seen:
+@expectation("{expected}")
+def _rated(probe: Probe, expected: str, topic: str, rate: Callable[[Shift], Seen]) -> Seen:
     done = shift(probe)
-    if not done.statuses:
-        raise CannotLook(f"nothing was heard on {page_04.STATUS}")
-    return _status_rate(done)
-
-
-def _scans(probe: Probe) -> Seen:
-    done = shift(probe)
-    if not done.scans:
-        raise CannotLook(f"nothing was heard on {page_05.SCAN}")
-    return _scan_rate(done)
+    if not (done.statuses if topic == STATUS else done.scans):
+        raise CannotLook(f"nothing was heard on {topic}")
+    return rate(done)

@@ -2,27 +2,23 @@
 
 from __future__ import annotations
 
-import itertools
 import math
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 from ..words import listed, number
-from . import page_04, page_05, page_06, page_10
-from .assertions import no_errors, node, parameter, publishes, subscribes
-from .functions import Example, returns
+from .assertions import no_errors, node, parameter, publishes, returns, subscribes
 from .navigation import COMMAND_TYPE, COMMANDS
+from .page_04 import STATUS, STATUS_TYPE
+from .page_05 import SCAN, SCAN_TYPE
+from .page_10 import PROGRAMS, running
+from .pages_06_07 import system_is_there
 from .probe import Probe, remembered
-from .registry import Expectation, check
-from .results import CannotLook, Seen, hinted
-from .streams import rate
+from .registry import Expectation, check, expectation
+from .results import Advice, CannotLook, Seen, hinted
+from .streams import gaps_of, rate
 
-PLAYER = "rosbag2_player"
-WANTED = "/wanted_vel"
-SPEED = 0.5
-BEAMS = 181
-
-# -- what a robot starts -------------------------------------------------------------------------------------------------
+PAGE = "11_to_a_real_robot"
 
 SETTINGS: tuple[tuple[str, str, int | float], ...] = (
     ("navigator", "goal_timeout", 8.0),
@@ -32,19 +28,24 @@ SETTINGS: tuple[tuple[str, str, int | float], ...] = (
 """Each program with the setting that it is started with on site."""
 
 
-@check("on_site", points=3, limit=30, learnt="A package is built once, and set up where it is started.")
+@check(PAGE, points=3, limit=30, learnt="A package is built once, and set up where it is started.")
 def on_site() -> list[Expectation]:
     """Your exported package is started with the settings of another place, and its files stay as they are."""
     return [
-        *page_06.system_is_there(),
+        *system_is_there(),
         Expectation("the programs are those of the exported package", _exported),
         Expectation("they are the same as in your workspace", _unchanged),
         *(parameter(f"/{program}", name, value) for program, name, value in SETTINGS),
         Expectation("with these values from the start", _from_the_start),
-        rate(page_04.STATUS, page_04.STATUS_TYPE, hz=20),
-        rate(page_05.SCAN, page_05.SCAN_TYPE, hz=10, within=0.020),
+        rate(STATUS, STATUS_TYPE, hz=20),
+        rate(SCAN, SCAN_TYPE, hz=10, within=0.020),
         no_errors(),
     ]
+
+
+def _paths(probe: Probe) -> Iterator[tuple[str, Path]]:
+    """Each program, with the file that runs. Raises CannotLook where one does not run."""
+    return ((program, Path(running(probe, program)[0])) for program in PROGRAMS)
 
 
 def _exported(probe: Probe) -> Seen:
@@ -52,15 +53,12 @@ def _exported(probe: Probe) -> Seen:
     from ...learner.workspace import workspace
 
     elsewhere = {"your workspace": workspace().folder, "the finished package": FINISHED}
-    for program in page_10.PROGRAMS:
-        path = Path(page_10.running(probe, program)[0])
+    for program, path in _paths(probe):
         for name, folder in elsewhere.items():
             if path.is_relative_to(folder):
-                step = hinted(
-                    "Which install/setup.bash was sourced last in this world?",
-                    "Run the cell that builds in robot_ws once more, then launch.",
-                )
-                return Seen(False, f"{program} runs from {name}", step)
+                step = "Which install/setup.bash was sourced last in this world?"
+                hint = "Run the cell that builds in robot_ws once more, then launch."
+                return Seen(False, f"{program} runs from {name}", hinted(step, hint))
     return Seen(True, "they are")
 
 
@@ -68,12 +66,11 @@ def _unchanged(probe: Probe) -> Seen:
     """Whether each program has the text of the learner's own file, which is in the workspace."""
     from ...learner.workspace import workspace
 
-    for program in page_10.PROGRAMS:
-        runs = Path(page_10.running(probe, program)[0])
+    for program, path in _paths(probe):
         mine = workspace().package / workspace().package.name / f"{program}_node.py"
         if not mine.is_file():
             raise CannotLook(f"there is no {mine.name} in your workspace")
-        if runs.read_text(encoding="utf-8").split() != mine.read_text(encoding="utf-8").split():
+        if path.read_text(encoding="utf-8").split() != mine.read_text(encoding="utf-8").split():
             step = "Was the package exported and built after the last change? No setting needs a change of a file."
             return Seen(False, f"{program} differs from {mine.name}", step)
     return Seen(True, "they are")
@@ -81,7 +78,7 @@ def _unchanged(probe: Probe) -> Seen:
 
 def _from_the_start(probe: Probe) -> Seen:
     for program, name, value in SETTINGS:
-        command = page_10.running(probe, program)
+        command = running(probe, program)
         given = [word.rpartition(":=") for word in command if ":=" in word]
         values = [text for key, _, text in given if key.rpartition(":")[2] == name]
         if "--params-file" not in command and (not values or float(values[-1]) != value):
@@ -91,90 +88,70 @@ def _from_the_start(probe: Probe) -> Seen:
     return Seen(True, "they were given when the programs started")
 
 
-# -- a safety stop -------------------------------------------------------------------------------------------------------
-
-FREE: tuple[Example, ...] = (
-    ((2.0, 0.1), True),
-    ((0.55, 0.1), True),
-    ((0.5, 0.1), True),
-    ((2.0, 0.4), True),
-    ((2.0, 0.5), True),
-    ((2.0, 0.0), True),
-    ((math.inf, 0.1), True),
-)
-NEAR: tuple[Example, ...] = (((0.3, 0.1), False), ((0.45, 0.1), False), ((0.0, 0.1), False))
-OLD: tuple[Example, ...] = (((2.0, 3.0), False), ((2.0, 0.6), False), ((math.inf, 0.6), False))
-ODD: tuple[Example, ...] = (
-    ((math.nan, 0.1), False),
-    ((2.0, math.nan), False),
-    ((2.0, -0.1), False),
-    ((2.0, -3.0), False),
-)
+WANTED, SPEED = "/wanted_vel", 0.5
 
 
-@check("safety_stop", points=4, limit=20, learnt="Safe is what was seen to be free a moment ago, and nothing else.")
+@check(PAGE, points=4, limit=20, learnt="Safe is what was seen to be free a moment ago, and nothing else.")
 def safety_stop() -> list[Expectation]:
     """Commands pass while the way is free; otherwise the turtle is told to stand."""
     two = hinted("Two conditions have to hold, both of them. What does the second one ask for?", 1)
     free = hinted("Which of your conditions is too strict? 0.5 m and 0.5 s are still safe.", 1)
     near = hinted("From which distance on is it safe?", 1)
     odd = hinted("Each comparison with nan is false. Does your function say what is safe?", 2)
+    nan, inf = math.nan, math.inf
+    safe = ((2.0, 0.1), (0.55, 0.1), (0.5, 0.1), (2.0, 0.4), (2.0, 0.5), (2.0, 0.0), (inf, 0.1))
     return [
         node("/safety_stop"),
         subscribes(WANTED, COMMAND_TYPE, by="/safety_stop"),
         publishes(COMMANDS, COMMAND_TYPE, by="/safety_stop"),
-        returns("is_safe", FREE, "is_safe: True while nothing is near, as just seen", free),
-        returns("is_safe", NEAR, "is_safe: False where something is near", near),
-        returns("is_safe", OLD, "is_safe: False for an old reading", two),
-        returns("is_safe", ODD, "is_safe: False for nan and for a negative age", odd),
-        _lets_through("0.55 m are free: the command passes", "free", 0.55, SPEED),
-        _lets_through("0.45 m are free: the turtle is stopped", "near", 0.45, 0.0),
-        _lets_through("free again: the command passes", "free again", 0.55, SPEED),
-        _lets_through("no scan for a second: it is stopped", "silent", None, 0.0),
+        _says("True while nothing is near, as just seen", True, safe, free),
+        _says("False where something is near", False, ((0.3, 0.1), (0.45, 0.1), (0.0, 0.1)), near),
+        _says("False for an old reading", False, ((2.0, 3.0), (2.0, 0.6), (inf, 0.6)), two),
+        _says("False for nan and for a negative age", False, ((nan, 0.1), (2.0, nan), (2.0, -0.1), (2.0, -3.0)), odd),
+        _lets_through("0.55 m are free: the command passes", 0.55, SPEED),
+        _lets_through("0.45 m are free: the turtle is stopped", 0.45, 0.0),
+        _lets_through("free again: the command passes", 0.55, SPEED),
+        _lets_through("no scan for a second: it is stopped", None, 0.0),
         no_errors(),
     ]
 
 
-def _lets_through(expected: str, name: str, distance: float | None, speed: float) -> Expectation:
-    def look(probe: Probe) -> Seen:
-        if others := probe.publishers(page_05.SCAN):
-            raise CannotLook(f"{others[0][0]} publishes {page_05.SCAN}, too: stop it first")
-        sent = probe.once(name, lambda: _last_speed(probe, distance))
-        if sent is None:
-            probe.raise_error()
-            return Seen(False, f"nothing came on {COMMANDS}", "Publish something for each message that comes.")
-        step = "What does is_safe say for this distance, and for the age that the scan has then?"
-        return Seen(sent == speed, f"it was sent {number(sent)} m/s", step)
-
-    return Expectation(expected, look)
+def _says(expected: str, safe: bool, readings: tuple[tuple[float, float], ...], advice: Advice) -> Expectation:
+    """is_safe says this of readings: how far it is, m, and how old that is, s."""
+    return returns("is_safe", [(each, safe) for each in readings], f"is_safe: {expected}", advice)
 
 
-def _last_speed(probe: Probe, distance: float | None) -> Any:
-    """Want to drive for 1.2 s, with scans of this distance (m) or with none; the speed that was sent at last (m/s)."""
+@expectation("{expected}")
+def _lets_through(probe: Probe, expected: str, distance: float | None, speed: float) -> Seen:
+    """Wanted to drive for 1.2 s, with scans of this distance (m) or with none: the speed that is sent at last (m/s)."""
+    if others := probe.publishers(SCAN):
+        raise CannotLook(f"{others[0][0]} publishes {SCAN}, too: stop it first")
     heard = probe.listen(COMMANDS, COMMAND_TYPE)
     heard.clear()
     for tick in range(12):
         if distance is not None and tick % 2 == 0:
-            ranges = [distance] * BEAMS
-            probe.publish(page_05.SCAN, page_05.SCAN_TYPE, ranges=ranges, range_max=10.0)
+            probe.publish(SCAN, SCAN_TYPE, ranges=[distance] * 181, range_max=10.0)
             probe.wait(0.02)
         probe.publish(WANTED, COMMAND_TYPE, linear__x=SPEED)
         probe.wait(0.1)
-    return heard[-1].message.linear.x if heard else None
+    if not heard:
+        probe.raise_error()
+        return Seen(False, f"nothing came on {COMMANDS}", "Publish something for each message that comes.")
+    sent = heard[-1].message.linear.x
+    step = "What does is_safe say for this distance, and for the age that the scan has then?"
+    return Seen(sent == speed, f"it was sent {number(sent)} m/s", step)
 
-
-# -- a recorded robot ----------------------------------------------------------------------------------------------------
 
 LONG = 6.0
 """Robot time, s, for which the bag is heard: the page's bag is shorter."""
 
 
-@check("replay", points=3, limit=30, learnt="A recording can take the place of a part that is not there.")
+@check(PAGE, points=3, limit=30, learnt="A recording can take the place of a part that is not there.")
 def replay() -> list[Expectation]:
     """A bag speaks for a status monitor that does not run."""
     return [
         Expectation("no status monitor runs", _no_monitor),
-        Expectation(f"{page_04.STATUS} comes from a bag", _from_a_bag),
+        Expectation(f"{STATUS} comes from a bag", _from_a_bag),
         Expectation("nothing else is played", _nothing_else),
         Expectation("ten messages a second, while the bag is played once", _at_its_pace),
         Expectation(f"it goes on and on: messages in each of {LONG:g} s", _again_and_again),
@@ -194,12 +171,12 @@ def _played(probe: Probe) -> list[str]:
 
 
 def _is_player(end: tuple[str, str]) -> bool:
-    return end[0].rpartition("/")[2].startswith(PLAYER)
+    return end[0].rpartition("/")[2].startswith("rosbag2_player")
 
 
 def _from_a_bag(probe: Probe) -> Seen:
-    probe.wait_for(lambda: probe.publishers(page_04.STATUS), 1.0)  # what runs in the background has just been started
-    ends = probe.publishers(page_04.STATUS)
+    probe.wait_for(lambda: probe.publishers(STATUS), 1.0)  # what runs in the background has just been started
+    ends = probe.publishers(STATUS)
     owners = [owner for owner, _ in ends]
     step = hinted("Does the player still run when the cell is done, and does it play this topic?", 2)
     return Seen(len(ends) == 1 and _is_player(ends[0]), listed(owners) or "no node publishes it", step)
@@ -209,7 +186,7 @@ def _nothing_else(probe: Probe) -> Seen:
     topics = _played(probe)
     if not topics:
         raise CannotLook("no bag is played")
-    others = [topic for topic in topics if topic != page_04.STATUS]
+    others = [topic for topic in topics if topic != STATUS]
     step = hinted("A bag is played with all its topics, unless some are chosen.", 1)
     return Seen(not others, f"{listed(others)}, too" if others else "nothing else is", step)
 
@@ -218,20 +195,18 @@ def _nothing_else(probe: Probe) -> Seen:
 def _times(probe: Probe) -> list[float]:
     """When messages came, in s since it began to listen."""
     began = probe.now
-    return [each.at - began for each in probe.hear(page_04.STATUS, page_04.STATUS_TYPE, LONG)]
+    return [each.at - began for each in probe.hear(STATUS, STATUS_TYPE, LONG)]
 
 
 def _at_its_pace(probe: Probe) -> Seen:
     """By the median gap: where the bag begins again, one gap is another."""
-    times = _times(probe)
-    gaps = sorted(after - before for before, after in itertools.pairwise(times))
+    gaps = sorted(gaps_of(_times(probe)))
     if not gaps:
         return Seen(False, "none came", "Does the player still run when the cell is done?")
     middle = gaps[len(gaps) // 2]
     seen = f"every {number(1000 * middle, 0)} ms ({number(1 / middle, 1) if middle else 'infinite'} Hz)"
-    return Seen(
-        abs(middle - 0.1) <= 0.010, seen, "A bag is played at the rate at which it was recorded, unless told otherwise."
-    )
+    step = "A bag is played at the rate at which it was recorded, unless told otherwise."
+    return Seen(abs(middle - 0.1) <= 0.010, seen, step)
 
 
 def _again_and_again(probe: Probe) -> Seen:

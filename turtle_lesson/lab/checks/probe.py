@@ -6,6 +6,7 @@ several expectations can be about the same drive.
 
 from __future__ import annotations
 
+import importlib
 from collections import Counter
 from collections.abc import Callable, Hashable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager, suppress
@@ -14,13 +15,12 @@ from functools import wraps
 from types import TracebackType
 from typing import Any, Protocol, TypeVar
 
+from ...ros.idl.names import is_hidden, nearest
 from ...ros.sim.interrupts import work_done
 from ..recorder import ObstacleBoard, with_time
 from ..recording import NANOSECONDS, Recording
 from ..words import listed, number
-from .failures import ENDLESS, in_words, never_returned, unreturned
-from .graph_view import GraphView, filled, interface
-from .results import CannotLook, OutOfTime, Stopped
+from .results import ENDLESS, CannotLook, OutOfTime, Stopped, in_words, never_returned, unreturned
 
 T = TypeVar("T")
 
@@ -41,7 +41,7 @@ MOST_HEARD = 500_000
 
 
 class Target(Protocol):
-    """The system that is observed."""
+    """The system that is observed; `session/check_target.py` says what each method does."""
 
     node: Any
     """A node with a hidden name, spun while time passes."""
@@ -53,44 +53,33 @@ class Target(Protocol):
         """What was heard of the turtle so far."""
 
     @property
-    def now(self) -> float:
-        """Robot time, s."""
+    def now(self) -> float: ...
 
     @property
-    def ended(self) -> bool:
-        """Whether this system is gone."""
+    def ended(self) -> bool: ...
 
     @property
-    def errors(self) -> list[tuple[str, Exception]]:
-        """The errors that callbacks of the notebook's cells have raised, or that ended a program; with its name, or ""."""
+    def errors(self) -> list[tuple[str, Exception]]: ...
 
     @property
-    def strands(self) -> list[Any]:
-        """The lines of execution that wait somewhere."""
-
-    def limit_work(self, seconds: float | None) -> None:
-        """Have learner's code stopped after so much more CPU time (s); None: no more."""
-
-    def runs(self, program: str) -> bool:
-        """Whether a program of this name is running."""
+    def strands(self) -> list[Any]: ...
 
     @property
-    def commands(self) -> list[list[str]]:
-        """The command lines of the programs that run, each as its words: what `ps` shows."""
+    def commands(self) -> list[list[str]]: ...
 
-    def published(self, topic: str, by: str) -> int:
-        """How many messages a node's newest publisher of a topic has sent so far."""
+    def limit_work(self, seconds: float | None) -> None: ...
 
-    def call(self, function: Callable[..., Any], *arguments: Any) -> Any:
-        """Call a function of the learner's as a cell would; raises what it raises."""
+    def runs(self, program: str) -> bool: ...
+
+    def published(self, topic: str, by: str) -> int: ...
+
+    def call(self, function: Callable[..., Any], *arguments: Any) -> Any: ...
 
     def launched(
         self, package: str, file_name: str, namespace: str, renamed: Mapping[str, str], arguments: Mapping[str, object]
-    ) -> AbstractContextManager[None]:
-        """Within this block a launch file runs once more, its nodes in a namespace, with some names replaced."""
+    ) -> AbstractContextManager[None]: ...
 
-    def step(self, seconds: float) -> None:
-        """Let robot time pass."""
+    def step(self, seconds: float) -> None: ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,6 +104,48 @@ class Answer:
         return self.answered - self.asked
 
 
+def interface(type_name: str) -> Any:
+    """The class of a type such as "std_msgs/msg/String". Raises CannotLook where it cannot be imported."""
+    package, kind, name = type_name.split("/")
+    try:
+        return getattr(importlib.import_module(f"{package}.{kind}"), name)
+    except Exception as error:  # a package that was built badly can raise anything
+        reason = " ".join(str(error).split())[:160]
+        raise CannotLook(f"the type {type_name} cannot be imported here ({reason})") from None
+
+
+def filled(message: Any, fields: dict[str, Any], type_name: str) -> Any:
+    """The message with its fields set. Raises CannotLook for a field that it does not have."""
+    for path, value in fields.items():
+        *way, last = path.split("__")
+        target = message
+        try:
+            for part in way:
+                target = getattr(target, part)
+            setattr(target, last, value)
+        except (AttributeError, AssertionError, TypeError) as error:
+            reason = " ".join(str(error).split())[:120]
+            raise CannotLook(f"{type_name} cannot hold {path.replace('__', '.')} = {value!r} ({reason})") from None
+    return message
+
+
+def field(message: Any, path: str) -> Any:
+    """What a message has in a field such as "linear.x". Raises CannotLook where there is none."""
+    value = message
+    for part in path.split("."):
+        try:
+            value = getattr(value, part)
+        except AttributeError:
+            raise CannotLook(f"{type(message).__name__} has no field {path}") from None
+    return value
+
+
+def _insist_on(type_name: str, words: str, ends: list[tuple[str, str]]) -> None:
+    types = sorted({kind for _, kind in ends})
+    if type_name not in types:
+        raise CannotLook(f"{words} as {listed(types)}, not as {type_name}")
+
+
 def remembered(look: Callable[[Probe], T]) -> Callable[[Probe], T]:
     """Decorator: a probe carries `look` out once, and remembers what it gave, or the CannotLook that it raised."""
 
@@ -125,8 +156,11 @@ def remembered(look: Callable[[Probe], T]) -> Callable[[Probe], T]:
     return look_once
 
 
-class Probe(GraphView):
-    """One look at a system, for at most `limit` seconds of robot time."""
+class Probe:
+    """One look at a system, for at most `limit` seconds of robot time.
+
+    It sees the graph as any node does; its own endpoints are left out.
+    """
 
     def __init__(self, target: Target, limit: float) -> None:
         self.target = target
@@ -135,7 +169,8 @@ class Probe(GraphView):
         self._until = target.now + limit
         self._limit = limit
         self._work_begin = work_done()
-        self._stopped = ""
+        self.stopped = ""
+        """Why the learner's code was stopped; "" if it was not."""
         self._origin = target.node.get_clock().now().nanoseconds - round(target.now * NANOSECONDS)
         self._memory: dict[Hashable, Any] = {}
         self._clean_up: list[Callable[[], object]] = []
@@ -197,8 +232,8 @@ class Probe(GraphView):
     def _step(self, seconds: float) -> None:
         if self.now + seconds > self._until + 1e-9:
             raise OutOfTime(f"the {self._limit:g} s of robot time that this check may take are over")
-        if not self._stopped and work_done() - self._work_begin > WORK + SLACK:
-            self._stopped = (
+        if not self.stopped and work_done() - self._work_begin > WORK + SLACK:
+            self.stopped = (
                 f"{number(self.now - self.began, 1)} s of robot time took {WORK:g} s of computing: is a timer's period "
                 "tiny, or does a callback compute for long?"
             )
@@ -208,11 +243,11 @@ class Probe(GraphView):
 
     def _raise_if_stopped(self) -> None:
         """Raise Stopped where the learner's code was stopped because it let no time pass; nothing is tried again."""
-        if not self._stopped:
+        if not self.stopped:
             endless = [error for error in self.errors() if isinstance(error, ENDLESS)]
-            self._stopped = never_returned(endless[0]) if endless else ""
-        if self._stopped:
-            raise Stopped(self._stopped)
+            self.stopped = never_returned(endless[0]) if endless else ""
+        if self.stopped:
+            raise Stopped(self.stopped)
 
     def call(self, function: Callable[..., Any], *arguments: Any) -> Any:
         """Call a function of the learner's. Raises what it raises; Stopped if it computes without end."""
@@ -220,8 +255,69 @@ class Probe(GraphView):
         try:
             return self.target.call(function, *arguments)
         except ENDLESS as error:
-            self._stopped = never_returned(error)
-            raise Stopped(self._stopped) from None
+            self.stopped = never_returned(error)
+            raise Stopped(self.stopped) from None
+
+    # -- the graph ---------------------------------------------------------------------------------------------------
+
+    def nodes(self) -> Counter[str]:
+        """How many visible nodes there are of each full name."""
+        names = (f"{space.rstrip('/')}/{name}" for name, space in self.node.get_node_names_and_namespaces())
+        return Counter(name for name in sorted(names) if not is_hidden(name))
+
+    def publishers(self, topic: str) -> list[tuple[str, str]]:
+        """Full name of the node and type of each publisher that others have on a topic."""
+        return self._others(self.node.get_publishers_info_by_topic(topic))
+
+    def subscriptions(self, topic: str) -> list[tuple[str, str]]:
+        """Full name of the node and type of each subscription that others have on a topic."""
+        return self._others(self.node.get_subscriptions_info_by_topic(topic))
+
+    def servers(self, service: str) -> list[tuple[str, str]]:
+        """Full name of the node and type of each service of a name."""
+        found: list[tuple[str, str]] = []
+        for name, amount in self.nodes().items():
+            offers = self._of_node("get_service_names_and_types_by_node", name)
+            # nodes of one name look the same from outside, so each may be one that offers it
+            found += [(name, kind) for offered, kinds in offers if offered == service for kind in kinds] * amount
+        return found
+
+    def subscribed(self, owner: str) -> list[str]:
+        """The names of the topics that a node listens to."""
+        found = self._of_node("get_subscriber_names_and_types_by_node", owner)
+        return [name for name, _ in found if not is_hidden(name)]
+
+    def topics(self) -> list[str]:
+        """The names of all topics that are published, hidden ones left out."""
+        names = [name for name, _ in self.node.get_topic_names_and_types() if not is_hidden(name)]
+        return [name for name in names if self.publishers(name)]
+
+    def services(self) -> list[str]:
+        """The names of all services."""
+        return [name for name, _ in self.node.get_service_names_and_types() if not is_hidden(name)]
+
+    def _of_node(self, query: str, owner: str) -> list[tuple[str, list[str]]]:
+        """What a query of the graph says of a node; nothing where the node has just gone."""
+        from rclpy.node import NodeNameNonExistentError
+
+        namespace, _, base = owner.rpartition("/")
+        try:
+            return list(getattr(self.node, query)(base, namespace or "/"))
+        except NodeNameNonExistentError:
+            return []
+
+    def _others(self, ends: Any) -> list[tuple[str, str]]:
+        me = (self.node.get_name(), self.node.get_namespace())
+        return sorted(
+            (f"{end.node_namespace.rstrip('/')}/{end.node_name}", end.topic_type)
+            for end in ends
+            if (end.node_name, end.node_namespace) != me
+        )
+
+    def like(self, name: str, known: list[str]) -> str:
+        """ ", but there is /robot/staus": a known name that is nearly the one that was looked for; "" if there is none."""
+        found = nearest(name, [each for each in known if each != name], cutoff=0.75)
+        return f", but there is {found}" if found else ""
 
     # -- listening ---------------------------------------------------------------------------------------------------
 
@@ -240,22 +336,20 @@ class Probe(GraphView):
         return heard[before:]
 
     def _listen(self, topic: str, type_name: str) -> list[Heard]:
-        types = sorted({kind for _, kind in self.publishers(topic)})
-        if not types:
+        ends = self.publishers(topic)
+        if not ends:
             raise CannotLook(f"no node publishes {topic}{self.like(topic, self.topics())}")
-        if type_name not in types:
-            raise CannotLook(f"{topic} is published as {listed(types)}, not as {type_name}")
-        message_class = interface(type_name)
+        _insist_on(type_name, f"{topic} is published", ends)
         heard: list[Heard] = []
 
         def hear(message: Any, info: Any) -> None:
             if len(heard) < MOST_HEARD:
                 heard.append(Heard((info["source_timestamp"] - self._origin) / NANOSECONDS, message))
 
-        self.subscribe(message_class, topic, with_time(self.node, hear))
+        self._subscribe(interface(type_name), topic, with_time(self.node, hear))
         return heard
 
-    def subscribe(self, message_class: Any, topic: str, callback: Callable[..., None]) -> None:
+    def _subscribe(self, message_class: Any, topic: str, callback: Callable[..., None]) -> None:
         """Call `callback` with each message until the probe is over; best effort, which hears every publisher."""
         from rclpy.qos import QoSProfile, ReliabilityPolicy
 
@@ -270,7 +364,7 @@ class Probe(GraphView):
             level = line.level[0] if isinstance(line.level, bytes) else int(line.level)
             self.log.append((level, line.name, line.msg))
 
-        self.subscribe(Log, "/rosout", hear)
+        self._subscribe(Log, "/rosout", hear)
 
     def errors(self) -> list[Exception]:
         """What the learner's code has raised since the probe began: in a callback of a cell's node, or in a program."""
@@ -285,11 +379,6 @@ class Probe(GraphView):
         """The programs that an error had ended before the probe began, each with its error in words: the newest of a name."""
         ended = {name: error for name, error in self.target.errors if name and error in self._errors_before}
         return [f"{name} ended with {in_words(error)}" for name, error in ended.items() if not self.target.runs(name)]
-
-    @property
-    def stopped(self) -> str:
-        """Why the learner's code was stopped; "" if it was not."""
-        return self._stopped
 
     def unreturned(self) -> str:
         """The callbacks that are not done at this moment, with the line that each is in; "" if there is none."""
@@ -342,11 +431,10 @@ class Probe(GraphView):
         return look
 
     def _client(self, service: str, type_name: str) -> Any:
-        types = sorted({kind for _, kind in self.servers(service)})
-        if not types:
+        ends = self.servers(service)
+        if not ends:
             raise CannotLook(f"no node offers the service {service}{self.like(service, self.services())}")
-        if type_name not in types:
-            raise CannotLook(f"{service} is offered as {listed(types)}, not as {type_name}")
+        _insist_on(type_name, f"{service} is offered", ends)
         client = self.node.create_client(interface(type_name), service)
         self._clean_up.append(lambda: self.node.destroy_client(client))
         return client

@@ -1,21 +1,39 @@
-"""All checks, by name."""
+"""All checks, by name, and how one is carried out: each expectation is looked at, whatever the others come to."""
 
 from __future__ import annotations
 
 import importlib
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from functools import wraps
+from inspect import signature
+from typing import Concatenate, ParamSpec
 
 from ...learner.story import PAGES
+from ...ros.sim.errors import learners_frames
 from ..words import did_you_mean, enumerated
-from .results import Seen
+from .probe import Probe, Target
+from .results import (
+    BAD,
+    GOOD,
+    NO_ERROR,
+    OPEN,
+    STOP_ADVICE,
+    STOPPED,
+    Advice,
+    CannotLook,
+    CheckResult,
+    Row,
+    Seen,
+    Stopped,
+    in_words,
+    row_of,
+)
 
-if TYPE_CHECKING:
-    from .probe import Probe
+MODULES = ("pages_00_02", "pages_03", "page_04", "page_05", "pages_06_07", "pages_08_09", "page_10", "page_11")
+"""The modules beside this one that define checks; they are imported when a check is first asked for."""
 
-MODULES = tuple(f"page_{page.partition('_')[0]}" for page in PAGES)
-"""The modules beside this one that define checks, one a page; they are imported when a check is first asked for."""
+P = ParamSpec("P")
 
 
 @dataclass(frozen=True)
@@ -26,9 +44,25 @@ class Expectation:
     look: Callable[[Probe], Seen]
 
 
-def expectation(expected: str) -> Callable[[Callable[[Probe], Seen]], Expectation]:
-    """Decorator that makes an expectation of a function that looks; `expected` says it in words."""
-    return lambda look: Expectation(expected, look)
+def expectation(text: str) -> Callable[[Callable[Concatenate[Probe, P], Seen]], Callable[P, Expectation]]:
+    """Decorator: a function that looks, given a probe and arguments, becomes one that makes an expectation of the arguments.
+
+    `text` says in words what is expected; as a format string it may name the arguments.
+    """
+
+    def decorate(look: Callable[Concatenate[Probe, P], Seen]) -> Callable[P, Expectation]:
+        names = signature(look)
+
+        @wraps(look)
+        def make(*given: P.args, **options: P.kwargs) -> Expectation:
+            bound = names.bind(None, *given, **options)
+            bound.apply_defaults()
+            expected = text.format(**bound.arguments)
+            return Expectation(expected, lambda probe: look(probe, *given, **options))
+
+        return make
+
+    return decorate
 
 
 @dataclass(frozen=True)
@@ -40,7 +74,7 @@ class Check:
     page: str
     points: int
     limit: float
-    make: Callable[[], Iterable[Expectation]]
+    make: Maker
     learnt: str = ""
     """What the exercise teaches, in a sentence that is shown when it is passed."""
 
@@ -50,27 +84,28 @@ class Check:
         return tuple(self.make())
 
 
-_checks: dict[str, Check] = {}
 Maker = Callable[[], Iterable[Expectation]]
+_checks: dict[str, Check] = {}
 
 
-def check(name: str, *, points: int, limit: float, learnt: str = "", page: str = "") -> Callable[[Maker], Check]:
+def check(page: str, *, points: int, limit: float, learnt: str = "") -> Callable[[Maker], Check]:
     """Decorator that makes a check of a function which returns its expectations; its docstring is the title.
 
+    The function's name is what `lesson.check` is given.
+
     Args:
-        name: what `lesson.check` is given.
+        page: one of `PAGES`.
         points: what it is worth, if every expectation is met.
         limit: robot time, in s, that it may take at most; what is not looked at by then is marked with –.
         learnt: one sentence that is shown when the check is passed: what the learner can do now.
-        page: one of `PAGES`; the page of the function's module unless told.
     """
-    if page and page not in PAGES:
+    if page not in PAGES:
         raise ValueError(f"there is no page {page!r}. {did_you_mean(page, PAGES)}".strip())
 
     def register(function: Maker) -> Check:
         title = (function.__doc__ or "").strip().splitlines()[0]
-        its_page = page or PAGES[MODULES.index(function.__module__.rpartition(".")[2])]
-        made = _checks[name] = Check(name, title, its_page, points, limit, function, learnt)
+        name = function.__name__
+        made = _checks[name] = Check(name, title, page, points, limit, function, learnt)
         return made
 
     return register
@@ -95,3 +130,58 @@ def find(name: object) -> Check:
         return known[name]
     hint = did_you_mean(name, known) if isinstance(name, str) else ""
     raise ValueError(f"there is no check {name!r}. {hint or f'There are {enumerated(known)}.'}")
+
+
+# -- carrying a check out --------------------------------------------------------------------------------------------------
+
+
+ODD = "Run the cells from the set-up cell on again; if it stays, compare your interfaces and types with the page's."
+
+
+def run(check: Check, target: Target) -> CheckResult:
+    """Look at everything that a check expects of the system at `target`."""
+    began = target.now
+    if target.ended:
+        step = "Use the lesson that start() returned last, or run the set-up cell again."
+        rows = [Row(BAD, "a world to look at", "it was closed by a later start()", Advice(step, step))]
+        rows += [Row(OPEN, each.expected, _because("the world has ended")) for each in check.expectations]
+    else:
+        with Probe(target, check.limit) as probe:
+            rows = _with_errors([_look(each, probe) for each in check.expectations], probe)
+    seconds = round(target.now - began, 3)
+    return CheckResult(check.name, check.title, check.page, check.points, tuple(rows), seconds, check.learnt)
+
+
+def _look(expectation: Expectation, probe: Probe) -> Row:
+    try:
+        seen = Seen(*expectation.look(probe))
+    except Stopped:
+        return Row(OPEN, expectation.expected, _because("your code was stopped"))
+    except CannotLook as reason:
+        return Row(OPEN, expectation.expected, _because(str(reason)))
+    except Exception as error:  # whatever a learner's classes may do
+        if learners_frames(error.__traceback__):
+            return row_of(error, expectation.expected)
+        return Row(BAD, expectation.expected, f"looking at it raised {in_words(error)}", Advice(direction=ODD))
+    if seen.good:
+        return Row(GOOD, expectation.expected, seen.words)
+    advice = seen.advice if isinstance(seen.advice, Advice) else Advice(direction=seen.advice)
+    return Row(BAD, expectation.expected, seen.words, advice)
+
+
+def _with_errors(rows: list[Row], probe: Probe) -> list[Row]:
+    """The rows with the learner's own error first, since it explains the others; nothing is added to a good result."""
+    if probe.stopped:
+        return [
+            Row(STOPPED, "every callback returns", probe.stopped, STOP_ADVICE),
+            *(row for row in rows if row.mark != STOPPED),
+        ]
+    error = next(iter(probe.errors()), None)
+    if error is None or all(row.good for row in rows):
+        return sorted(rows, key=lambda row: not row.trace)
+    first = row_of(error, NO_ERROR)
+    return [first, *(row for row in rows if row.expected != NO_ERROR and row.trace != first.trace)]
+
+
+def _because(reason: str) -> str:
+    return f"not looked at, because {reason}"

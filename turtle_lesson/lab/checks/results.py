@@ -1,13 +1,20 @@
-"""What looking at expectations gives: a row for each (✓, ✗, –, ■), and the table that `lesson.check` answers."""
+"""What looking at expectations gives: a row for each (✓, ✗, –, ■), and the table that `lesson.check` answers.
+
+The learner's own errors become rows, too: in a few lines, and callbacks that have not returned by name and line.
+"""
 
 from __future__ import annotations
 
 import html
 import textwrap
-from collections.abc import Iterable, Iterator
+import traceback
+from collections.abc import Iterator
 from dataclasses import dataclass
+from types import FrameType
 from typing import Any, NamedTuple
 
+from ...ros.sim import errors
+from ...ros.sim.errors import DriveTimeout, NeverReturns
 from ..words import count, number
 
 GOOD, BAD, OPEN, STOPPED = "✓", "✗", "–", "■"
@@ -78,6 +85,9 @@ class Row:
         return self.mark == GOOD
 
 
+NO_ERROR = "no error meanwhile"
+"""What is expected of every learner's code, whatever else a check expects."""
+
 METADATA = "turtle_lesson_check"
 """Where an output's metadata holds the figures of a result, for a program that reads notebooks; they prove nothing."""
 
@@ -115,19 +125,14 @@ class CheckResult:
         return bool(self.rows) and all(row.good for row in self.rows)
 
     @property
-    def stopped(self) -> bool:
-        """Whether the learner's code had to be stopped."""
-        return any(row.mark == STOPPED for row in self.rows)
+    def mark(self) -> str:
+        """✓, ✗, or ■ where the learner's code had to be stopped."""
+        return GOOD if self.passed else STOPPED if any(row.mark == STOPPED for row in self.rows) else BAD
 
     @property
     def earned(self) -> int:
         """All of the points, or none."""
         return self.points if self.passed else 0
-
-    @property
-    def good(self) -> int:
-        """How many rows are ✓."""
-        return sum(row.good for row in self.rows)
 
     def figures(self) -> dict[str, Any]:
         """What a collector of points needs, as JSON can hold it."""
@@ -140,40 +145,22 @@ class CheckResult:
             }
             for row in self.rows
         ]
-        return {
-            "name": self.name,
-            "page": self.page,
-            "points": self.points,
-            "earned": self.earned,
-            "passed": self.passed,
-            "rows": rows,
-        }
+        own = {name: getattr(self, name) for name in ("name", "page", "points", "earned", "passed")}
+        return {**own, "rows": rows}
 
-    # -- in words ----------------------------------------------------------------------------------------------------
+    def _parts(self) -> tuple[str, list[str], str]:
+        """What is said above the rows and below them, and how much robot time it took.
 
-    @property
-    def mark(self) -> str:
-        """✓, ✗, or ■ where the learner's code was stopped."""
-        return GOOD if self.passed else STOPPED if self.stopped else BAD
-
-    @property
-    def _words(self) -> str:
-        done = f"{self.good} of {count(len(self.rows), 'expectation')} met"
+        Below them is what was learnt and the points so far, or where the hints are.
+        """
+        done = f"{sum(row.good for row in self.rows)} of {count(len(self.rows), 'expectation')} met"
         points = f"{self.earned} of {count(self.points, 'point')}"
-        return f"{self.name}: {'stopped; ' if self.stopped else ''}{done}, {points}. {self.title}"
-
-    @property
-    def footnote(self) -> str:
-        """How much robot time it took."""
-        return f"{number(self.seconds, 1)} s of robot time went by." if self.seconds else "No robot time went by."
-
-    @property
-    def closing(self) -> list[str]:
-        """What is said below the rows: what was learnt and the points so far, or where the hints are."""
-        if self.passed:
-            return [line for line in (self.learnt, self.so_far) if line]
-        own = any(row.advice.hint for row in self.rows)
-        return [POINTER] if self.failures > 2 and not own else []
+        title = f"{self.name}: {'stopped; ' if self.mark == STOPPED else ''}{done}, {points}. {self.title}"
+        closing = [self.learnt, self.so_far] if self.passed else []
+        if self.failures > 2 and not (self.passed or any(row.advice.hint for row in self.rows)):
+            closing = [POINTER]
+        time = f"{number(self.seconds, 1)} s of robot time went by." if self.seconds else "No robot time went by."
+        return title, [line for line in closing if line], time
 
     def _groups(self) -> Iterator[list[Row]]:
         """The rows in their order; those that were not looked at for the same reason stand together, at the first."""
@@ -184,39 +171,37 @@ class CheckResult:
                 yield [each for each in self.rows[index:] if (each.mark, each.seen) == (OPEN, row.seen)]
 
     def __repr__(self) -> str:
-        closing = [line for each in self.closing for line in _wrapped(each, "  ", "  ")]
-        return "\n".join(
-            [*_wrapped(f"{self.mark} {self._words}", "", "  "), *self._plain_rows(), *closing, self.footnote]
-        )
-
-    def _plain_rows(self) -> Iterable[str]:
+        title, closing, time = self._parts()
         groups = list(self._groups())
         wide = min(max((len(group[0].expected) for group in groups if len(group) == 1), default=0), WIDEST)
+        lines = _wrapped(f"{self.mark} {title}", "", "  ")
         for row, *more in groups:
-            if more:
-                yield from _wrapped(_folded(row, more), f"  {OPEN} ", "    ")
-                continue
-            first = f"  {row.mark} {row.expected.ljust(wide)}  "
-            if len(row.expected) > wide:
-                yield from _wrapped(row.expected, f"  {row.mark} ", "    ")
-                first = " " * (wide + 6)
-            yield from _wrapped(row.seen, first, " " * (wide + 6))
-            for line in row.trace.splitlines():
-                yield from _wrapped(line, "        ", "          ")
-            if said := row.advice.after(self.failures):
-                yield from _wrapped(said, "      → ", "        ")
+            lines += _wrapped(_folded(row, more), f"  {OPEN} ", "    ") if more else self._plain_row(row, wide)
+        for line in closing:
+            lines += _wrapped(line, "  ", "  ")
+        return "\n".join([*lines, time])
 
-    # -- in a notebook -----------------------------------------------------------------------------------------------
+    def _plain_row(self, row: Row, wide: int) -> Iterator[str]:
+        first, other = f"  {row.mark} {row.expected.ljust(wide)}  ", " " * (wide + 6)
+        if len(row.expected) > wide:
+            yield from _wrapped(row.expected, f"  {row.mark} ", "    ")
+            first = other
+        yield from _wrapped(row.seen, first, other)
+        for line in row.trace.splitlines():
+            yield from _wrapped(line, "        ", "          ")
+        if said := row.advice.after(self.failures):
+            yield from _wrapped(said, "      → ", "        ")
 
     def _repr_html_(self) -> str:
+        title, closing, time = self._parts()
         rows = "".join(self._html_row(row, more) for row, *more in self._groups())
-        closing = "".join(f'<p style="margin: 0.4em 0">{html.escape(line)}</p>' for line in self.closing)
+        below = "".join(f'<p style="margin: 0.4em 0">{html.escape(line)}</p>' for line in closing)
         return (
             f'<div style="border-left: 4px solid {_EDGES[self.mark]}; padding-left: 0.8em">'
-            f'<p style="margin: 0.4em 0">{_html_mark(self.mark)} <strong>{html.escape(self._words)}</strong></p>'
+            f'<p style="margin: 0.4em 0">{_html_mark(self.mark)} <strong>{html.escape(title)}</strong></p>'
             f'<table style="border-collapse: collapse; max-width: 60rem; color: inherit; font-size: inherit">'
             f"<thead><tr><td></td><th {_CELL}>expected</th><th {_CELL}>seen</th></tr></thead>"
-            f"<tbody>{rows}</tbody></table>{closing}<p><small>{self.footnote}</small></p></div>"
+            f"<tbody>{rows}</tbody></table>{below}<p><small>{time}</small></p></div>"
         )
 
     def _html_row(self, row: Row, more: list[Row]) -> str:
@@ -239,13 +224,11 @@ class CheckResult:
 
 
 _CELL = 'style="text-align: left; vertical-align: top; white-space: normal; padding: 0.2em 1em 0.2em 0"'
-_GREEN, _RED, _GREY, _BROWN = "#1a7f37", "#cf222e", "#6e7781", "#9a6700"
-_BADGES = {GOOD: _GREEN, BAD: _RED, OPEN: _GREY, STOPPED: _BROWN}
+_COLOURS = {GOOD: "#1a7f37", BAD: "#cf222e", OPEN: "#6e7781", STOPPED: "#9a6700"}
 """White on each of these has a contrast of 4.5 : 1 or more, and each stands out from a light and from a dark page."""
 _EDGES = {
-    GOOD: f"var(--jp-success-color1, {_GREEN})",
-    BAD: f"var(--jp-error-color1, {_RED})",
-    STOPPED: f"var(--jp-warn-color1, {_BROWN})",
+    mark: f"var(--jp-{name}-color1, {_COLOURS[mark]})"
+    for mark, name in ((GOOD, "success"), (BAD, "error"), (STOPPED, "warn"))
 }
 
 
@@ -256,7 +239,7 @@ def _folded(row: Row, more: list[Row]) -> str:
 def _html_mark(mark: str) -> str:
     style = (
         f"display: inline-block; width: 1.5em; line-height: 1.5em; border-radius: 0.4em; text-align: center; "
-        f"color: #fff; background: {_BADGES[mark]}"
+        f"color: #fff; background: {_COLOURS[mark]}"
     )
     return f'<strong role="img" aria-label="{IN_WORDS[mark]}" style="{style}">{mark}</strong>'
 
@@ -264,3 +247,98 @@ def _html_mark(mark: str) -> str:
 def _wrapped(text: str, first: str, other: str) -> list[str]:
     lines = textwrap.wrap(text, WIDTH, initial_indent=first, subsequent_indent=other, break_on_hyphens=False)
     return [line.rstrip() for line in lines] or [first.rstrip()]
+
+
+# -- errors of the learner's code -----------------------------------------------------------------------------------------
+
+MOST_FRAMES = 4
+"""Lines of a learner's code that are shown of one error: the innermost ones."""
+
+ENDLESS = (NeverReturns, DriveTimeout)
+"""The errors by which code is stopped that never returns: it computes on and on, or waits again and again."""
+
+STOP_ADVICE = Advice(
+    "It was stopped because it would have run forever, and nothing else could happen in its node.",
+    "A callback does a little and returns; a timer calls it again. To wait, let a timer or another callback continue.",
+)
+READ = Advice(direction="Read the error first, then the line above it: what has each name in it at that moment?")
+
+Call = tuple[FrameType, int]
+"""A frame, and the number of the line that it is in."""
+
+
+def shortened(text: str, most: int) -> str:
+    """The text, or as much of it as fits into so many characters, the last of which is an ellipsis."""
+    return text if len(text) <= most else f"{text[: most - 1]}…"
+
+
+def in_words(error: BaseException) -> str:
+    """The kind and the words of an error: "TypeError: unsupported operand …"."""
+    text = shortened(" ".join(str(error).split()), 200)
+    return f"{type(error).__name__}: {text}" if text else type(error).__name__
+
+
+def row_of(error: BaseException, expected: str) -> Row:
+    """The row about an error of the learner's code."""
+    if isinstance(error, ENDLESS):
+        return Row(STOPPED, expected, never_returned(error), STOP_ADVICE)
+    return Row(BAD, expected, in_words(error), READ, _trace_of(error))
+
+
+def _trace_of(error: BaseException) -> str:
+    """The learner's lines that led to an error, outermost first, and the advice that the error carries."""
+    if errors.before_showing is not None:
+        errors.before_showing(error)
+    lines = []
+    for entry in errors.learners_frames(error.__traceback__)[-MOST_FRAMES:]:
+        code = entry.tb_frame.f_code
+        file = errors.shown_path(code.co_filename)
+        place = "" if file == "a cell of this notebook" else f"{file}, "
+        inside = "" if code.co_name == "<module>" else f" in {code.co_name}"
+        lines.append(f"{place}line {entry.tb_lineno}{inside}: {_line(entry.tb_frame, entry.tb_lineno)}")
+    return "\n".join([*lines, *map(str, getattr(error, "__notes__", ()))])
+
+
+def _line(frame: FrameType, number: int) -> str:
+    [summary] = traceback.StackSummary.extract([(frame, number)])
+    return (summary.line or "").strip().partition("\n")[0]
+
+
+def never_returned(error: BaseException) -> str:
+    """Which callback went on without end, and in which line it was stopped."""
+    calls = [(each.tb_frame, each.tb_lineno) for each in errors.traceback_entries(error.__traceback__)]
+    inside = _in_a_callback(calls) or _learners(calls)
+    return _where(inside, "stopped") if inside else "something that was called has not returned, and was stopped"
+
+
+def unreturned(strands: list[Any]) -> list[str]:
+    """The callbacks that parked strands stand in, each as "on_request has not returned: it is in line 7 (`…`)"."""
+    found = []
+    for strand in strands:
+        calls: list[Call] = []
+        frame = strand.gr_frame
+        while frame is not None:
+            calls.insert(0, (frame, frame.f_lineno))
+            frame = frame.f_back
+        if inside := _in_a_callback(calls):
+            found.append(_where(inside, "it is"))
+    return found
+
+
+def _where(calls: list[Call], words: str) -> str:
+    name = calls[0][0].f_code.co_name
+    frame, number = calls[-1]
+    callback = "the program" if name == "<module>" else name
+    return f"{callback} has not returned: {words} in line {number} (`{_line(frame, number)}`)"
+
+
+def _in_a_callback(calls: list[Call]) -> list[Call]:
+    """Of calls, outermost first, the learner's own ones within a callback that an executor runs; the callback first."""
+    executors = ("rclpy._executor", "rclpy.executors")
+    names = [str(frame.f_globals.get("__name__", "")) for frame, _ in calls]
+    spinning = [index for index, name in enumerate(names) if name.startswith(executors)]
+    return _learners(calls[spinning[-1] :]) if spinning else []
+
+
+def _learners(calls: list[Call]) -> list[Call]:
+    return [call for call in calls if errors.is_learners(call[0].f_code.co_filename)]

@@ -1,30 +1,26 @@
-"""Expectations about messages: how often they come, what is in them, and whether one answers another."""
+"""Expectations about messages and requests: how often they come, what is in them, and how they are answered."""
 
 from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 from ..words import count, number
-from .failures import shortened
-from .probe import Heard, Probe
-from .registry import Expectation
-from .results import Advice, CannotLook, Seen
-
-Judge = Callable[[list[Heard]], Seen]
-
-CATCH_UP = 0.001
-"""Robot time, s, before a rate is measured: a timer whose node was not spun for a while ticks once, late, then in step."""
+from .assertions import set_parameter
+from .probe import Answer, Heard, Probe
+from .registry import Expectation, expectation
+from .results import Advice, CannotLook, Seen, hinted, shortened
 
 
 def rate(
-    topic: str, type_name: str, hz: float, within: float = 0.010, seconds: float = 3.0, after: float = CATCH_UP
+    topic: str, type_name: str, hz: float, within: float = 0.010, seconds: float = 3.0, after: float = 0.001
 ) -> Expectation:
     """Messages at a rate: every interval (s) between two of them is 1/hz, give or take `within`.
 
-    Robot time, s: they are heard for `seconds`, which begin `after` the expectation does.
+    Robot time, s: they are heard for `seconds`, which begin `after` the expectation does: a timer whose node was not spun for
+    a while ticks once, late, and then in step.
     """
 
     def look(probe: Probe) -> Seen:
@@ -36,9 +32,14 @@ def rate(
     return Expectation(f"{topic}: a message every {milliseconds}", look)
 
 
+def gaps_of(times: Iterable[float]) -> list[float]:
+    """The times between these, from each to the next."""
+    return [after - before for before, after in itertools.pairwise(times)]
+
+
 def judge_rate(heard: Sequence[Heard], hz: float, within: float, publishers: int = 1) -> Seen:
     """Whether these messages come at a rate, and what to do if not."""
-    gaps = [after.at - before.at for before, after in itertools.pairwise(heard)]
+    gaps = gaps_of(each.at for each in heard)
     if not gaps:
         step = "Is there a timer, with which period (in seconds), and does its callback publish?"
         return Seen(False, f"{count(len(heard), 'message')} in that time", step)
@@ -75,13 +76,12 @@ def _how_to_pace(low: float, high: float, mean: float, hz: float, uneven: bool) 
     return "What is the timer's period, in seconds? Where a parameter sets the rate: what is its value?"
 
 
-def messages(topic: str, type_name: str, expected: str, judge: Judge, seconds: float = 2.0) -> Expectation:
+@expectation("{expected}")
+def messages(
+    probe: Probe, topic: str, type_name: str, expected: str, judge: Callable[[list[Heard]], Seen], seconds: float = 2.0
+) -> Seen:
     """Whatever a function judges of the messages that come in some seconds (at least one, or they are not looked at)."""
-
-    def look(probe: Probe) -> Seen:
-        return judge(some(probe, topic, type_name, seconds))
-
-    return Expectation(expected, look)
+    return judge(some(probe, topic, type_name, seconds))
 
 
 def some(probe: Probe, topic: str, type_name: str, seconds: float) -> list[Heard]:
@@ -92,7 +92,9 @@ def some(probe: Probe, topic: str, type_name: str, seconds: float) -> list[Heard
     return heard
 
 
+@expectation("{heard_on} is answered on {said_on}")
 def relays(
+    probe: Probe,
     heard_on: str,
     heard_type: str,
     said_on: str,
@@ -100,24 +102,24 @@ def relays(
     pairs: Sequence[tuple[dict[str, Any], Callable[[Any], bool], str]],
     next_step: str | Advice = "",
     timeout: float = 1.0,
-) -> Expectation:
+) -> Seen:
     """Each message that is put on one topic is answered on another within the timeout (s).
 
     `pairs`: the fields to send, whether a message is the right answer, and both in words ("21 → 42").
     """
+    if not probe.subscriptions(heard_on):
+        raise CannotLook(f"no node listens to {heard_on}")
+    answers = probe.listen(said_on, said_type)
+    for fields, right, words in pairs:
+        before = len(answers)
+        probe.publish(heard_on, heard_type, **fields)
+        if not probe.wait_for(_any_since(answers, before, right), timeout):
+            return _instead(probe, words, [each.message for each in answers[before:]], timeout, next_step)
+    return Seen(True, ", ".join(words for _, _, words in pairs))
 
-    def look(probe: Probe) -> Seen:
-        if not probe.subscriptions(heard_on):
-            raise CannotLook(f"no node listens to {heard_on}")
-        answers = probe.listen(said_on, said_type)
-        for fields, right, words in pairs:
-            before = len(answers)
-            probe.publish(heard_on, heard_type, **fields)
-            if not probe.wait_for(_any_since(answers, before, right), timeout):
-                return _instead(probe, words, [each.message for each in answers[before:]], timeout, next_step)
-        return Seen(True, ", ".join(words for _, _, words in pairs))
 
-    return Expectation(f"{heard_on} is answered on {said_on}", look)
+def _any_since(answers: list[Heard], before: int, right: Callable[[Any], bool]) -> Callable[[], bool]:
+    return lambda: any(right(each.message) for each in answers[before:])
 
 
 def _instead(probe: Probe, words: str, came: list[Any], timeout: float, advice: str | Advice) -> Seen:
@@ -125,20 +127,74 @@ def _instead(probe: Probe, words: str, came: list[Any], timeout: float, advice: 
     probe.raise_error()
     if came:
         return Seen(False, f"{words}: {brief(came[-1])} came", advice)
-    waiting = probe.unreturned()
-    nothing = f"{words}: nothing came within {timeout:g} s"
-    return Seen(False, f"{nothing}; {waiting}" if waiting else nothing, advice)
-
-
-MOST_WORDS = 120
-"""Characters of a message that are shown."""
+    return Seen(
+        False, "; ".join(filter(None, (f"{words}: nothing came within {timeout:g} s", probe.unreturned()))), advice
+    )
 
 
 def brief(message: Any) -> str:
-    """A message in a few words: the value of its field where it has but one."""
+    """A message in a few words, 120 characters at most: the value of its field where it has but one."""
     names = list(message.get_fields_and_field_types())
-    return shortened(repr(getattr(message, names[0])) if len(names) == 1 else str(message), MOST_WORDS)
+    return shortened(repr(getattr(message, names[0])) if len(names) == 1 else str(message), 120)
 
 
-def _any_since(answers: list[Heard], before: int, right: Callable[[Any], bool]) -> Callable[[], bool]:
-    return lambda: any(right(each.message) for each in answers[before:])
+# -- services, and parameters that change what a node does ----------------------------------------------------------------
+
+
+@expectation("{expected}")
+def answers(
+    probe: Probe,
+    service: str,
+    type_name: str,
+    request: dict[str, Any],
+    right: Callable[[Any], bool],
+    expected: str,
+    next_step: str | Advice = "",
+    timeout: float = 2.0,
+) -> Seen:
+    """A service answers a request rightly within the timeout (s). `expected` says both in words: "2 + 3 is 5"."""
+    answer = probe.ask(service, type_name, timeout, **request)
+    if answer.response is None:
+        return no_answer(probe, f"no answer within {timeout:g} s")
+    return Seen(bool(right(answer.response)), brief(answer.response), next_step)
+
+
+def no_answer(probe: Probe, words: str) -> Seen:
+    """What is said where a request was not answered: the learner's error comes first, or where its callback still is."""
+    probe.raise_error()
+    if waiting := probe.unreturned():
+        return Seen(False, f"{words}; {waiting}", "What does the callback wait for?")
+    return Seen(False, words, "Does the callback end with `return response`?")
+
+
+def told(answer: Answer) -> str:
+    """What an answer says of its success, and when it came."""
+    return f"success is {answer.response.success} after {number(answer.seconds)} s"
+
+
+FLOOD = 100
+"""Messages in a tenth of a second that no rate of a lesson asks for."""
+
+
+@expectation("{parameter} set to {value!r}: {topic} at {value:g} Hz")
+def rate_follows(probe: Probe, owner: str, parameter: str, value: int | float, topic: str, type_name: str) -> Seen:
+    """A rate (Hz) that is really read from a parameter: set it, and the messages come at that rate."""
+    probe.listen(topic, type_name)
+    reason = set_parameter(probe, owner, parameter, value)
+    if reason:
+        return Seen(False, f"it refused: {reason}", f"{value!r} should be allowed for {parameter}.")
+    probe.raise_error()
+    if len(probe.hear(topic, type_name, 0.1)) > FLOOD:
+        nanoseconds = Advice(
+            "The timer's period is next to nothing.",
+            "timer_period_ns counts nanoseconds: one second is 1 000 000 000 of them.",
+        )
+        return Seen(False, f"then more than {FLOOD / 0.1:g} Hz", nanoseconds)
+    probe.wait(0.9)  # one interval may still be of the old rate
+    heard = probe.hear(topic, type_name, max(1.0, 10.0 / value))
+    good, seen, _ = judge_rate(heard, value, 0.1 / value, len(probe.publishers(topic)))
+    follow = hinted(
+        "When does the node read the parameter, and what happens to the timer's period then?",
+        "Open Hints 2 and 3 under the exercise.",
+    )
+    return Seen(good, f"then {seen}", follow)

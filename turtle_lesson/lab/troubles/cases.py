@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Callable
+from dataclasses import dataclass
 from random import Random
 from typing import Any
 
-from ..checks import CannotLook, CheckResult, Expectation, Probe, Seen
+from ...ros.idl.names import nearest
+from ..checks import CannotLook, CheckResult, Expectation, Probe, Seen, expectation
 from . import faults
-from .expect import status_as_specified
 from .faults import Environment, Fault, Trouble
 
 # The troubles: four of the lesson, and bugs that were found in published teaching code.
@@ -34,7 +34,7 @@ TROUBLES: dict[str, Trouble] = {
              "ros2 service list, ros2 node info /navigator; then lesson.plot_sequence() after a call."),
             ("ros2 node list", "ros2 service list", "ros2 node info /navigator", 'lesson.plot_timeline("/navigator")'),
             faults.no_answer,
-            faults.service_rows,
+            lambda: faults.drives((8.0, 5.5), (5.5, 5.5)),
         ),
         Trouble(
             "topic silent",
@@ -44,7 +44,7 @@ TROUBLES: dict[str, Trouble] = {
             ("ros2 node list", "ros2 topic list", "ros2 topic hz /robot/status", "ros2 node info /status_monitor",
              "ros2 param get /status_monitor publish_rate"),
             faults.silent,
-            status_as_specified,
+            faults.status_as_specified,
         ),
         Trouble(
             "turtle stands still",
@@ -72,7 +72,7 @@ TROUBLES: dict[str, Trouble] = {
              "ros2 topic list -t, ros2 topic info /robot/status --verbose."),
             ("ros2 topic list -t", "ros2 topic info /robot/status --verbose", "ros2 node list"),
             faults.typed_wrong,
-            status_as_specified,
+            faults.status_as_specified,
         ),
         Trouble(
             "goal in the west",
@@ -81,7 +81,7 @@ TROUBLES: dict[str, Trouble] = {
              "ros2 topic echo /turtle1/pose --field theta, while it turns; lesson.plot_path()."),
             ("ros2 topic echo /turtle1/pose --field theta", "ros2 topic echo /turtle1/cmd_vel", "ros2 param list /navigator"),
             faults.goal_in_the_west,
-            faults.west_rows,
+            lambda: faults.drives((8.0, 5.5), (2.5, 5.5), (1.0, 5.4)),
         ),
         Trouble(
             "status comes twice",
@@ -101,63 +101,57 @@ TROUBLES: dict[str, Trouble] = {
             ("ros2 topic echo /robot/status --once", "ros2 node info /status_monitor",
              "ros2 topic info /turtle1/pose --verbose"),
             faults.frozen,
-            status_as_specified,
+            faults.status_as_specified,
         ),
     )
 }  # fmt: skip
 
 
-LEVELS = 3
-"""How many hints a case has."""
-
-
+@dataclass(frozen=True, repr=False)
 class Case:
     """One broken system. It does not say what is wrong until that is mended.
 
     Attributes:
         number: by which `lesson.trouble(number)` brings it back.
-        report: what a user says.
         trouble: the name under which it was asked for; None if it was drawn by its number.
+        check: whether the system is well now, from the running graph alone: the same as `lesson.check("trouble")`.
     """
 
-    def __init__(
-        self, number: int, named: bool, trouble: Trouble, fault: Fault, check: Callable[[], CheckResult]
-    ) -> None:
-        self.number = number
-        self.report = trouble.report
-        self.trouble = trouble.name if named else None
-        self._title = f"Case {number}, {trouble.name}" if named else f"Case {number}"
-        self._trouble, self._fault = trouble, fault
-        self._check = check
+    number: int
+    trouble: str | None
+    _trouble: Trouble
+    _fault: Fault
+    check: Callable[[], CheckResult]
+
+    @property
+    def report(self) -> str:
+        """What a user says."""
+        return self._trouble.report
+
+    @property
+    def _title(self) -> str:
+        return f"Case {self.number}, {self.trouble}" if self.trouble else f"Case {self.number}"
 
     def __repr__(self) -> str:
         return (
             f"{self._title}. A user reports: “{self.report}” Look at the running system, mend it, then: case.check(). "
-            f"If you are stuck: case.hint(1), up to {LEVELS}."
+            "If you are stuck: case.hint(1), up to 3."
         )
 
     def _repr_markdown_(self) -> str:
-        lines = (
-            f"**{self._title}.** A user reports:",
-            f"> {self.report}",
-            f"Look at the running system, mend it, then: `case.check()`. If you are stuck: `case.hint(1)`, up to {LEVELS}.",
-        )
-        return "\n\n".join(lines)
+        todo = "Look at the running system, mend it, then: `case.check()`. If you are stuck: `case.hint(1)`, up to 3."
+        return f"**{self._title}.** A user reports:\n\n> {self.report}\n\n{todo}"
 
     def hint(self, level: int = 1) -> str:
         """A hint: 1 says where to look, 2 with what, 3 nearly tells."""
-        if isinstance(level, bool) or not isinstance(level, int) or not 1 <= level <= LEVELS:
-            raise ValueError(f"hints have levels from 1 to {LEVELS}, got {level!r}: try case.hint(1)")
+        if isinstance(level, bool) or not isinstance(level, int) or not 1 <= level <= 3:
+            raise ValueError(f"hints have levels from 1 to 3, got {level!r}: try case.hint(1)")
         return (*self._trouble.hints, self._fault.hint)[level - 1]
 
     @property
     def commands(self) -> tuple[str, ...]:
         """Commands that show what is wrong, whichever of the causes of this symptom it is."""
         return self._trouble.commands
-
-    def check(self) -> CheckResult:
-        """Whether the system is well now, from the running graph alone: the same as `lesson.check("trouble")`."""
-        return self._check()
 
     @property
     def mended(self) -> bool:
@@ -197,7 +191,7 @@ def open_case(environment: Environment, seed: int | None, name: str | None, chec
     environment.start(fault.programs)
     if not fault.simulator:
         environment.stop_simulator()
-    case = Case(number, name is not None, trouble, fault, check)
+    case = Case(number, None if name is None else trouble.name, trouble, fault, check)
     _current = (case, environment)
     return case
 
@@ -205,8 +199,8 @@ def open_case(environment: Environment, seed: int | None, name: str | None, chec
 def _named(name: Any) -> Trouble:
     key = str(name).replace("_", " ").strip().lower()
     if key not in TROUBLES:
-        close = difflib.get_close_matches(key, TROUBLES, 1, 0.5)
-        meant = f' Did you mean "{close[0]}"?' if close else ""
+        close = nearest(key, TROUBLES, cutoff=0.5)
+        meant = f' Did you mean "{close}"?' if close else ""
         raise ValueError(f"there is no trouble {name!r}.{meant} There are: {', '.join(TROUBLES)}.")
     return TROUBLES[key]
 
@@ -217,7 +211,7 @@ def carry_over(before: Any) -> None:
     if before._current is not None:
         case, environment = before._current
         trouble = TROUBLES[case._trouble.name]
-        _current = (Case(case.number, case.trouble is not None, trouble, case._fault, case._check), environment)
+        _current = (Case(case.number, case.trouble, trouble, case._fault, case.check), environment)
 
 
 def _open_case() -> Case | None:
@@ -227,26 +221,27 @@ def _open_case() -> Case | None:
 
 def current_expectations() -> list[Expectation]:
     """What is expected of the system once the current case is mended."""
-
-    def look(probe: Probe) -> Seen:
-        raise CannotLook("there is none in this world yet: case = lesson.trouble(1)")
-
     case = _open_case()
-    return [Expectation("a case that was opened", look)] if case is None else case._trouble.expectations()
+    return case._trouble.expectations() if case else [_some_case()]
+
+
+@expectation("a case that was opened")
+def _some_case(probe: Probe) -> Seen:
+    raise CannotLook("there is none in this world yet: case = lesson.trouble(1)")
 
 
 def expectations_of(number: int, name: str) -> list[Expectation]:
     """What is expected once this case is mended, after the expectation that it is the one that is open."""
+    case = _open_case()
+    open_now = case is not None and (case.number, case.trouble) == (number, name)
+    return [_is_open(number, name), *(TROUBLES[name].expectations() if open_now else [])]
+
+
+@expectation("the case {number}, {name}")
+def _is_open(probe: Probe, number: int, name: str) -> Seen:
     wanted = f'case = lesson.trouble({number}, name="{name}")'
-
-    def look(probe: Probe) -> Seen:
-        case = _open_case()
-        if case is None:
-            return Seen(False, "there is none in this world yet", f"Run the cell with {wanted} first.")
-        return Seen(is_open(case), f"it is {case._title}", f"Another one is asked for: {wanted}")
-
-    def is_open(case: Case | None) -> bool:
-        return case is not None and (case.number, case.trouble) == (number, name)
-
-    first = Expectation(f"the case {number}, {name}", look)
-    return [first, *TROUBLES[name].expectations()] if is_open(_open_case()) else [first]
+    case = _open_case()
+    if case is None:
+        return Seen(False, "there is none in this world yet", f"Run the cell with {wanted} first.")
+    good = (case.number, case.trouble) == (number, name)
+    return Seen(good, f"it is {case._title}", f"Another one is asked for: {wanted}")

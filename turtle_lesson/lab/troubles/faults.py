@@ -1,28 +1,32 @@
-"""What a trouble is, and the faults behind each symptom, one of which is chosen by chance."""
+"""What a trouble is, the faults behind each symptom, one of which is chosen by chance, and what a well system shows."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from pathlib import Path
 from random import Random
 from typing import Any, Protocol
 
-from ..checks import Expectation
-from ..checks.assertions import publishes, subscribes
-from ..checks.navigation import NAVIGATE_TYPE
-from ..checks.streams import rate
-from .expect import (
-    STATUS,
-    STATUS_TYPE,
-    advised,
-    battery_falls,
-    commands_steady,
-    drives,
-    found_in,
-    importable,
-    status_as_specified,
-    there,
+from ..checks import CannotLook, Expectation, Probe, Seen, expectation, interface, remembered
+from ..checks.assertions import node, publishes, subscribes
+from ..checks.navigation import (
+    COMMANDS,
+    LONGEST,
+    NAVIGATE,
+    NAVIGATE_TYPE,
+    NEAR,
+    POSE,
+    POSE_TYPE,
+    Drive,
+    Way,
+    drive,
+    where,
 )
+from ..checks.page_04 import STATUS, STATUS_TYPE
+from ..checks.streams import rate
+from ..words import number, point
 
 
 @dataclass(frozen=True)
@@ -53,7 +57,7 @@ class Fault:
 
     cause: str
     hint: str
-    programs: tuple[Program, ...]
+    programs: tuple[Program, ...] = ()
     simulator: bool = True
     workspace: str = ""
 
@@ -80,46 +84,44 @@ class Trouble:
 
 
 class Environment(Protocol):
-    """The world that a trouble is put into, and what can be done to it by public means."""
-
-    def clear(self) -> None:
-        """End every program but the simulator; the simulator and the package are there again, as before."""
-
-    def start(self, programs: tuple[Program, ...]) -> None:
-        """Launch nodes."""
-
-    def stop_simulator(self) -> None:
-        """Ctrl-C for the turtle simulator."""
-
-    def make_workspace(self, fault: str) -> None:
-        """Copy the package's source into the workspace `trouble_ws`; from now on the package is found nowhere else."""
+    """The world that a trouble is put into; `session/trouble_environment.py` says what each method does."""
 
     @property
-    def ended(self) -> bool:
-        """Whether a newer world has taken its place."""
+    def ended(self) -> bool: ...
+
+    def clear(self) -> None: ...
+
+    def start(self, programs: tuple[Program, ...]) -> None: ...
+
+    def stop_simulator(self) -> None: ...
+
+    def make_workspace(self, fault: str) -> None: ...
 
 
 DRAFT = "robot_draft"
 OTHERS = (MONITOR, DETECTOR)
 
-# -- 1: the custom message cannot be found ------------------------------------------------------------------------------
-
 
 def no_message(chance: Random) -> Fault:
     """A message that no program can use."""
-    kind = chance.choice(("not in CMakeLists.txt", "not built", "not sourced"))
-    hints = {
-        "not in CMakeLists.txt": "Read trouble_ws/src/robot_controller/CMakeLists.txt: which files does "
-        "rosidl_generate_interfaces name?",
-        "not built": "There is a src folder in trouble_ws. Is there an install folder?",
-        "not sourced": "All is built in trouble_ws/install. Has this terminal read its setup file?",
-    }
-    causes = {
-        "not in CMakeLists.txt": "TurtleStatus.msg was not named in CMakeLists.txt, so nothing was generated from it.",
-        "not built": "The package was written but never built.",
-        "not sourced": "The package was built, but its setup file was not sourced.",
-    }
-    return Fault(causes[kind], hints[kind], (), workspace=kind)
+    faults = (
+        Fault(
+            "TurtleStatus.msg was not named in CMakeLists.txt, so nothing was generated from it.",
+            "Read trouble_ws/src/robot_controller/CMakeLists.txt: which files does rosidl_generate_interfaces name?",
+            workspace="not in CMakeLists.txt",
+        ),
+        Fault(
+            "The package was written but never built.",
+            "There is a src folder in trouble_ws. Is there an install folder?",
+            workspace="not built",
+        ),
+        Fault(
+            "The package was built, but its setup file was not sourced.",
+            "All is built in trouble_ws/install. Has this terminal read its setup file?",
+            workspace="not sourced",
+        ),
+    )
+    return chance.choice(faults)
 
 
 def message_rows() -> list[Expectation]:
@@ -130,9 +132,6 @@ def message_rows() -> list[Expectation]:
         importable(NAVIGATE_TYPE),
         *status_as_specified(),
     ]
-
-
-# -- 2: the service does not answer -------------------------------------------------------------------------------------
 
 
 def no_answer(chance: Random) -> Fault:
@@ -153,14 +152,6 @@ def no_answer(chance: Random) -> Fault:
         ),
     )
     return chance.choice(faults)
-
-
-def service_rows() -> list[Expectation]:
-    """The navigator drives."""
-    return drives((8.0, 5.5), (5.5, 5.5))
-
-
-# -- 3: a topic is silent -----------------------------------------------------------------------------------------------
 
 
 def silent(chance: Random) -> Fault:
@@ -184,9 +175,6 @@ def silent(chance: Random) -> Fault:
     return chance.choice(faults)
 
 
-# -- 4: the turtle does not move ----------------------------------------------------------------------------------------
-
-
 def stands(chance: Random) -> Fault:
     """A turtle that gets nowhere."""
     wrong = chance.choice(("/cmd_vel", "/turtle/cmd_vel", "/turtle2/cmd_vel", "/turtle1/command"))
@@ -207,20 +195,19 @@ def stands(chance: Random) -> Fault:
         Fault(
             f"The speed limiter let no more than {speed} m/s through: too little to get anywhere in time.",
             "Commands arrive. How large are they, and which node sends them? ros2 param dump /speed_limiter",
-            (*limited({"max_speed": speed}), *OTHERS),
+            (*_limited({"max_speed": speed}), *OTHERS),
         ),
         Fault(
             f"The speed limiter let a command through every {period:g} s, and the simulator stops a turtle whose last "
             "command is a second old.",
             "How often do commands come, and from which node? ros2 param dump /speed_limiter",
-            (*limited({"command_period": period}), *OTHERS),
+            (*_limited({"command_period": period}), *OTHERS),
         ),
     )
     return chance.choice(faults)
 
 
-def limited(parameters: dict[str, float]) -> tuple[Program, Program]:
-    """A navigator whose commands pass a speed limiter with these parameters."""
+def _limited(parameters: dict[str, float]) -> tuple[Program, Program]:
     return (
         Program("navigator", remaps={"/turtle1/cmd_vel": "/wanted_vel"}),
         Program("speed_limiter", DRAFT, parameters=parameters),
@@ -234,9 +221,6 @@ def motion_rows() -> list[Expectation]:
         *drives((8.0, 5.5), (5.5, 5.5)),
         commands_steady(5.5, 5.5),
     ]
-
-
-# -- more ---------------------------------------------------------------------------------------------------------------
 
 
 def deaf(chance: Random) -> Fault:
@@ -284,11 +268,6 @@ def goal_in_the_west(chance: Random) -> Fault:
     )
 
 
-def west_rows() -> list[Expectation]:
-    """Goals are reached, also due west."""
-    return drives((8.0, 5.5), (2.5, 5.5), (1.0, 5.4))
-
-
 def twice(chance: Random) -> Fault:
     """Everything comes twice."""
     faults = (
@@ -308,7 +287,7 @@ def twice(chance: Random) -> Fault:
 
 def twice_rows() -> list[Expectation]:
     """The status comes once, and the battery falls as specified."""
-    return [*status_as_specified(), battery_falls]
+    return [*status_as_specified(), battery_falls()]
 
 
 def frozen(chance: Random) -> Fault:
@@ -319,3 +298,148 @@ def frozen(chance: Random) -> Fault:
         "ros2 node info /status_monitor: which topic does it hear, and which node publishes that one?",
         (Program("status_monitor", remaps={"/turtle1/pose": wrong}), NAVIGATOR, DETECTOR),
     )
+
+
+# -- what a well system shows ------------------------------------------------------------------------------------------
+
+SLOWEST = 10.0
+"""Robot time, s, within which a goal in the turtle's world is reached; a longer goal_timeout mends nothing."""
+
+
+@expectation("the type {type_name}")
+def importable(probe: Probe, type_name: str) -> Seen:
+    """A type can be used here."""
+    try:
+        interface(type_name)
+    except CannotLook:
+        step = "Named in CMakeLists.txt? Then: colcon build, source install/setup.bash, in the workspace's folder."
+        return Seen(False, "no program can use it here", step)
+    return Seen(True, "it can be used")
+
+
+@expectation("{package} is found in {folder}")
+def found_in(probe: Probe, folder: str, package: str) -> Seen:
+    """A package is found in the workspace of this name, and not elsewhere."""
+    from ament_index_python.packages import PackageNotFoundError, get_package_prefix
+
+    try:
+        prefix = Path(get_package_prefix(package))
+    except PackageNotFoundError:
+        return Seen(False, "it is not found at all", "Which step comes after colcon build?")
+    if folder in prefix.parts:
+        return Seen(True, "it is")
+    step = f"Which setup file was sourced? {folder} has one, too."
+    return Seen(False, f"it is found in {'/'.join(prefix.parts[-3:])}", step)
+
+
+def advised(given: Expectation, step: str, after: float = 0.0) -> Expectation:
+    """The same expectation, looked at after some time (s), and with another next step: here something is to be found."""
+
+    def look(probe: Probe) -> Seen:
+        probe.wait(after)
+        return given.look(probe)._replace(advice=step)
+
+    return Expectation(given.expected, look)
+
+
+def there(name: str, command: str) -> Expectation:
+    """One node of this name; `command` starts it."""
+    step = (
+        f"ros2 node list shows the nodes. One is missing: {command}. There is one too many: jobs and the lines of the "
+        "launch tell its pid; kill."
+    )
+    return advised(node(name), step)
+
+
+def status_as_specified() -> list[Expectation]:
+    """The status: one monitor, the right topic and type, ten messages a second."""
+    ends = f"ros2 topic info {STATUS} --verbose; ros2 node info /status_monitor: what does it publish?"
+    pace = f"ros2 topic hz {STATUS}. Which node publishes it, and what sets its rate?"
+    return [
+        there("/status_monitor", "ros2 run robot_controller status_monitor"),
+        advised(publishes(STATUS, STATUS_TYPE, by="/status_monitor"), ends),
+        # a timer of a second may have begun before its rate was mended
+        advised(rate(STATUS, STATUS_TYPE, 10.0), pace, after=1.5),
+        status_follows(),
+    ]
+
+
+def drives(*goals: tuple[float, float]) -> list[Expectation]:
+    """The navigator drives the turtle to each of these places, and says so."""
+    navigator = there("/navigator", "ros2 run robot_controller navigator")
+    return [navigator, Expectation(f"{NAVIGATE} answers", _answers), *(reaches(x, y) for x, y in goals)]
+
+
+@expectation(f"the goal ({{x:.2f}}, {{y:.2f}}) is reached within {SLOWEST:g} s")
+def reaches(probe: Probe, x: float, y: float) -> Seen:
+    """A goal is answered with success in reasonable time, and the turtle is there."""
+    it = _drive_to(probe, x, y)
+    if it.answer.response is None:
+        return Seen(False, f"no answer in {LONGEST:g} s", 'lesson.plot_timeline("/navigator")')
+    success, end = bool(it.response.success), it.end()
+    seen = f"success is {success} after {number(it.answer.seconds)} s, at {point(end.x, end.y)}"
+    step = "ros2 topic echo /turtle1/cmd_vel during a call: do commands come, how large, how often, from which node?"
+    return Seen(success and it.distance() <= NEAR and it.answer.seconds <= SLOWEST, seen, step)
+
+
+@expectation(f"{COMMANDS}: ten commands a second meanwhile")
+def commands_steady(probe: Probe, x: float, y: float) -> Seen:
+    """On the way to a goal, commands come ten times a second."""
+    it = _drive_to(probe, x, y)
+    begin, end = it.moving()
+    times = [each.at for each in it.commands if begin - 0.2 <= each.at <= end]
+    pause = (times[-1] - times[0]) / (len(times) - 1) if len(times) > 1 else end - begin
+    step = 'lesson.plot_timeline("/turtle1/cmd_vel") after a call. Which node publishes them, and what sets its rate?'
+    return Seen(pause <= 0.125, f"one every {number(pause)} s on average", step)
+
+
+def _drive_to(probe: Probe, x: float, y: float) -> Drive:
+    """The drive to a place. Raises CannotLook where the navigator does not answer at all."""
+    if not _answers(probe).good:
+        raise CannotLook(f"{NAVIGATE} does not answer")
+    return drive(probe, Way(f"to {x} {y}", None, (x, y, 0.0)))
+
+
+@remembered
+def _answers(probe: Probe) -> Seen:
+    """Asked to go where the turtle is, the navigator answers, whether the turtle can move or not."""
+    if not probe.servers(NAVIGATE):
+        step = "ros2 node list, ros2 service list: is the node there, and does it offer the service under another name?"
+        return Seen(False, f"no node offers it{probe.like(NAVIGATE, probe.services())}", step)
+    try:
+        here = where(probe)
+        x, y, theta = here.x, here.y, here.theta
+    except CannotLook:
+        x, y, theta = 5.5, 5.5, 0.0
+    answer = probe.ask(NAVIGATE, NAVIGATE_TYPE, 30.0, x=x, y=y, theta=theta)
+    if answer.response is None:
+        step = 'lesson.plot_timeline("/navigator"): which callback holds the thread? lesson.plot_sequence().'
+        return Seen(False, "no answer in 30 s", step)
+    return Seen(True, f"after {number(answer.seconds)} s")
+
+
+@expectation(f"{STATUS} says where the turtle is")
+def status_follows(probe: Probe) -> Seen:
+    poses, statuses = probe.listen(POSE, POSE_TYPE), probe.listen(STATUS, STATUS_TYPE)
+    probe.wait(0.5)
+    if not poses or not statuses:
+        raise CannotLook(f"nothing came on {STATUS if poses else POSE}")
+    told, true = statuses[-1].message, poses[-1].message
+    seen = f"it says {point(told.x, told.y)}, the turtle is at {point(true.x, true.y)}"
+    good = math.dist((told.x, told.y), (true.x, true.y)) < 0.3
+    step = "ros2 node info /status_monitor: which topic does it hear, and which node publishes that one?"
+    return Seen(good, seen, step)
+
+
+@expectation("the battery falls 1 % a second")
+def battery_falls(probe: Probe) -> Seen:
+    """The battery falls by a tenth of a percent a message, ten times a second."""
+    heard = probe.hear(STATUS, STATUS_TYPE, 2.0)
+    if len(heard) < 2:
+        raise CannotLook(f"nothing came on {STATUS}")
+    first, last = heard[0], heard[-1]
+    if last.message.battery <= 0.0:
+        raise CannotLook("the battery is empty: start the monitor again")
+    fall = (first.message.battery - last.message.battery) / (last.at - first.at)
+    step = 'lesson.plot_timeline("/status_monitor"): how often is each callback called? ros2 node list: how many?'
+    return Seen(abs(fall - 1.0) < 0.1, f"it falls {number(fall, 1)} % a second", step)

@@ -67,4 +67,4 @@ class PredictionWidget(LiveWidget):
 
     def text(self) -> str:
         """The question and the guess."""
-        return self._asked.text()
+        return repr(self._asked)

@@ -1,38 +1,31 @@
-"""Page 08: nodes that go on living while they work, and one that asks another."""
+"""Pages 08 and 09: nodes that go on living while they work, one that asks another, and a broken system that is mended."""
 
 from __future__ import annotations
 
-import itertools
-import math
 from typing import Any
 
+from ..troubles import current_expectations, expectations_of
 from ..words import number, point
-from .assertions import get_parameter, no_answer, no_errors, node, offers, publishes, set_parameter
-from .navigation import NAVIGATE, NEAR, ask_for, where
+from .assertions import get_parameter, no_errors, node, offers, publishes, set_parameter
+from .navigation import NAVIGATE, NEAR, ask_for, away, where
 from .probe import Answer, Heard, Probe, remembered
-from .registry import Expectation, check
+from .registry import Expectation, check, expectation
 from .results import CannotLook, Seen, hinted
-from .streams import rate
+from .streams import gaps_of, no_answer, rate, told
 
-WORK, WORK_TYPE = "/work", "std_srvs/srv/Trigger"
-BEAT, BEAT_TYPE = "/heartbeat", "std_msgs/msg/Int32"
-BELL, BELL_TYPE = "/bell", "std_msgs/msg/Int32"
+PAGE, LAB = "08_executors", "09_debugging_lab"
+WORK, HOME, REQUEST_TYPE = "/work", "/go_home", "std_srvs/srv/Trigger"
+BEAT, BELL, NUMBER_TYPE = "/heartbeat", "/bell", "std_msgs/msg/Int32"
 OVEN, OVEN_TYPE = "/oven", "std_msgs/msg/Bool"
-HOME, HOME_TYPE = "/go_home", "std_srvs/srv/Trigger"
-MIDDLE, AWAY = (5.5, 5.5), (2.0, 8.0, 0.0)
-
 LEAST, MOST = 1.0, 1.2
 """Robot time, s, that the work takes at least and at most."""
 
 LONGEST = 20.0
 """Robot time, s, within which it should be done."""
 
-BAKING = 0.4
-"""Robot time, s, for which the oven is on."""
-
 
 @check(
-    "steady",
+    PAGE,
     points=3,
     limit=20,
     learnt="Two callbacks run side by side if there are two threads, and each is in a callback group of its own.",
@@ -41,36 +34,38 @@ def steady() -> list[Expectation]:
     """A baker whose bell rings on time, whatever the oven does."""
     return [
         node("/baker"),
-        publishes(BELL, BELL_TYPE, by="/baker"),
+        publishes(BELL, NUMBER_TYPE, by="/baker"),
         publishes(OVEN, OVEN_TYPE, by="/baker"),
-        Expectation(f"the oven is on for {BAKING:g} s, once a second", _bakes),
-        rate(BELL, BELL_TYPE, hz=10),
+        _bakes(0.4),
+        rate(BELL, NUMBER_TYPE, hz=10),
         no_errors(),
     ]
 
 
-def _bakes(probe: Probe) -> Seen:
+@expectation("the oven is on for {baking:g} s, once a second")
+def _bakes(probe: Probe, baking: float) -> Seen:
     heard = probe.hear(OVEN, OVEN_TYPE, 4.2)
     on = [each.at for each in heard if each.message.data]
-    lasted = [after.at - before.at for before, after in itertools.pairwise(heard) if before.message.data]
-    again = [after - before for before, after in itertools.pairwise(on)]
-    if not lasted or not again:
+    gaps = zip(heard, gaps_of(each.at for each in heard), strict=False)
+    lasted = [gap for before, gap in gaps if before.message.data]
+    if not lasted or len(on) < 2:
         step = "Is the baker in the executor, and is its oven's callback still as it was?"
         return Seen(False, f"it was switched on {len(on)} times in 4.2 s", step)
-    odd = max(lasted, key=lambda each: abs(each - BAKING)), max(again, key=lambda each: abs(each - 1.0))
-    seen = f"on for {number(odd[0])} s, every {number(odd[1])} s"
-    step = f"The baking takes {BAKING:g} s, once a second, as before. What else has changed?"
-    return Seen(abs(odd[0] - BAKING) <= 0.011 and abs(odd[1] - 1.0) <= 0.011, seen, step)
+    odd = max(lasted, key=lambda each: abs(each - baking))
+    every = max(gaps_of(on), key=lambda each: abs(each - 1.0))
+    step = f"The baking takes {baking:g} s, once a second, as before. What else has changed?"
+    good = abs(odd - baking) <= 0.011 and abs(every - 1.0) <= 0.011
+    return Seen(good, f"on for {number(odd)} s, every {number(every)} s", step)
 
 
-@check("awake", points=5, limit=40, learnt="A callback that awaits, in a callback group of its own, holds nothing up.")
+@check(PAGE, points=5, limit=40, learnt="A callback that awaits, in a callback group of its own, holds nothing up.")
 def awake() -> list[Expectation]:
     """A worker whose heart beats on while it works, and that still answers."""
     return [
         node("/worker"),
-        offers(WORK, WORK_TYPE, by="/worker"),
-        publishes(BEAT, BEAT_TYPE, by="/worker"),
-        rate(BEAT, BEAT_TYPE, hz=10),
+        offers(WORK, REQUEST_TYPE, by="/worker"),
+        publishes(BEAT, NUMBER_TYPE, by="/worker"),
+        rate(BEAT, NUMBER_TYPE, hz=10),
         Expectation(f"{WORK} is answered after {LEAST:g} s", _works),
         Expectation(f"{BEAT} goes on meanwhile", _beats),
         Expectation("a parameter call is answered meanwhile", _answers),
@@ -78,16 +73,16 @@ def awake() -> list[Expectation]:
     ]
 
 
-_STEP = hinted("What does on_work hold while it works: the thread, or the group of the other callbacks?", 2)
+HELD = hinted("What does on_work hold while it works: the thread, or the group of the other callbacks?", 2)
 
 
 @remembered
 def _shift(probe: Probe) -> tuple[float | None, list[Heard], bool]:
     """One request to work: how long until the answer (s), the beats by then, and whether the node answered meanwhile."""
-    beats = probe.listen(BEAT, BEAT_TYPE)
+    beats = probe.listen(BEAT, NUMBER_TYPE)
     probe.wait(0.3)
     first, began = len(beats), probe.now
-    answer = probe.ask_soon(WORK, WORK_TYPE)
+    answer = probe.ask_soon(WORK, REQUEST_TYPE)
     probe.wait(0.2)
     try:
         get_parameter(probe, "/worker", "use_sim_time")
@@ -126,18 +121,17 @@ def _meanwhile(probe: Probe) -> tuple[list[Heard], bool]:
 
 def _beats(probe: Probe) -> Seen:
     beats, _ = _meanwhile(probe)
-    gaps = [after.at - before.at for before, after in itertools.pairwise(beats)]
-    silent = max(gaps, default=LONGEST)
-    return Seen(silent <= 0.15, f"the longest pause was {number(silent)} s", _STEP)
+    silent = max(gaps_of(each.at for each in beats), default=LONGEST)
+    return Seen(silent <= 0.15, f"the longest pause was {number(silent)} s", HELD)
 
 
 def _answers(probe: Probe) -> Seen:
     _, responsive = _meanwhile(probe)
-    return Seen(responsive, "it was" if responsive else "only when the work was done", _STEP)
+    return Seen(responsive, "it was" if responsive else "only when the work was done", HELD)
 
 
 @check(
-    "go_home",
+    PAGE,
     points=5,
     limit=120,
     learnt="A callback may ask another node and await the answer, if the client is not in the callback's own group.",
@@ -146,7 +140,7 @@ def go_home() -> list[Expectation]:
     """A service that asks another service, and does not hang."""
     return [
         node("/concierge"),
-        offers(HOME, HOME_TYPE, by="/concierge"),
+        offers(HOME, REQUEST_TYPE, by="/concierge"),
         Expectation(f"{HOME} is answered with success", _answers_from_home),
         Expectation("the turtle is in the middle by then", _is_home),
         Expectation("if the navigator gives up, so says the answer", _passes_on_no),
@@ -154,28 +148,38 @@ def go_home() -> list[Expectation]:
     ]
 
 
+PASSED_ON = f"What has {NAVIGATE} answered, and what becomes of it?"
+
+
 @remembered
 def _trip(probe: Probe) -> tuple[Answer, Any]:
     """The turtle is driven away, then sent home: the answer, and its pose when that came."""
     if not probe.servers(HOME):
         raise CannotLook(f"no node offers {HOME}{probe.like(HOME, probe.services())}")
-    _drive_away(probe)
-    answer = probe.ask(HOME, HOME_TYPE, LONGEST)
-    return answer, where(probe)
+    return _sent_home(probe), where(probe)
 
 
-def _drive_away(probe: Probe) -> None:
-    away = ask_for(probe, AWAY, LONGEST)
-    if away.response is None or not away.response.success:
+def _sent_home(probe: Probe, patience: float | None = None) -> Answer:
+    """What is answered when the turtle was driven away and is sent home; the navigator may be given so much time (s) for it."""
+    there = ask_for(probe, (2.0, 8.0, 0.0), LONGEST)
+    if there.response is None or not there.response.success:
         raise CannotLook("the navigator did not drive the turtle away from home first: is it running?")
+    if patience and (reason := set_parameter(probe, "/navigator", "goal_timeout", patience)):
+        raise CannotLook(f"the navigator refused a goal_timeout of {patience:g} s: {reason}")
+    return probe.ask(HOME, REQUEST_TYPE, LONGEST)
 
 
 def _answers_from_home(probe: Probe) -> Seen:
     answer, _ = _trip(probe)
     if answer.response is None:
         return _unanswered(probe)
-    seen = f"success is {answer.response.success} after {number(answer.seconds)} s"
-    return Seen(answer.response.success is True, seen, f"What has {NAVIGATE} answered, and what becomes of it?")
+    return Seen(answer.response.success is True, told(answer), PASSED_ON)
+
+
+def _is_home(probe: Probe) -> Seen:
+    _, pose = _trip(probe)
+    step = "Which goal was asked for, and does the answer wait until the turtle is there?"
+    return Seen(away(pose, (5.5, 5.5)) <= NEAR, f"it is at {point(pose.x, pose.y)}", step)
 
 
 def _passes_on_no(probe: Probe) -> Seen:
@@ -185,18 +189,57 @@ def _passes_on_no(probe: Probe) -> Seen:
         raise CannotLook(f"{HOME} is not answered")
     if get_parameter(probe, "/navigator", "goal_timeout") is None:
         return Seen(True, "not tried: the navigator has no goal_timeout")
-    _drive_away(probe)
-    if reason := set_parameter(probe, "/navigator", "goal_timeout", 0.1):
-        raise CannotLook(f"the navigator refused a goal_timeout of 0.1 s: {reason}")
-    answer = probe.ask(HOME, HOME_TYPE, LONGEST)
+    answer = _sent_home(probe, 0.1)
     if answer.response is None:
         return _unanswered(probe)
-    seen = f"success is {answer.response.success}"
-    return Seen(answer.response.success is False, seen, f"What has {NAVIGATE} answered, and what becomes of it?")
+    return Seen(answer.response.success is False, f"success is {answer.response.success}", PASSED_ON)
 
 
-def _is_home(probe: Probe) -> Seen:
-    _, pose = _trip(probe)
-    away = math.dist((pose.x, pose.y), MIDDLE)
-    step = "Which goal was asked for, and does the answer wait until the turtle is there?"
-    return Seen(away <= NEAR, f"it is at {point(pose.x, pose.y)}", step)
+# -- the debugging lab ---------------------------------------------------------------------------------------------------
+
+PATIENCE = 600
+"""Robot time, s, for a case."""
+
+
+@check(LAB, points=1, limit=PATIENCE)
+def trouble() -> list[Expectation]:
+    """A system that works again as specified."""
+    return current_expectations()
+
+
+@check(
+    LAB, points=3, limit=PATIENCE, learnt="A topic has a publisher, a name and a rate, and a command for each of them."
+)
+def topic_case() -> list[Expectation]:
+    """A dashboard that gets ten messages a second."""
+    return expectations_of(9, "topic silent")
+
+
+@check(
+    LAB,
+    points=3,
+    limit=PATIENCE,
+    learnt="A call needs a node, a service of the same name, and a callback that is called.",
+)
+def service_case() -> list[Expectation]:
+    """A navigator that answers its calls."""
+    return expectations_of(9, "service times out")
+
+
+@check(
+    LAB, points=3, limit=PATIENCE, learnt="A message type is named in CMakeLists.txt, built and sourced, in this order."
+)
+def message_case() -> list[Expectation]:
+    """A message type that programs can use."""
+    return expectations_of(12, "message not found")
+
+
+@check(
+    LAB,
+    points=3,
+    limit=PATIENCE,
+    learnt="A command can be followed from the node that sends it to the robot that obeys it.",
+)
+def turtle_case() -> list[Expectation]:
+    """A turtle that gets where it is sent."""
+    return expectations_of(1, "turtle stands still")
