@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from turtle_lesson.ros.ament.cmake import CMakeFile, evaluate, read_calls
-from turtle_lesson.ros.ament.errors import BuildFailure
+from turtle_lesson.ros.ament.package import BuildFailure
 
 
 def lines(text: str) -> list[tuple[str, tuple[str, ...]]]:

@@ -11,7 +11,7 @@ from workspace_cases import change, colcon, make_package, source_in
 
 import turtle_lesson
 from turtle_lesson import Lesson, start
-from turtle_lesson.ros.ament.errors import PackageError
+from turtle_lesson.ros.ament.package import PackageError
 
 FINISHED = Path(turtle_lesson.__file__).parent / "robot_controller"
 

@@ -9,14 +9,14 @@ from pathlib import Path
 import pytest
 
 import turtle_lesson
-from turtle_lesson.ros.ament.errors import (
+from turtle_lesson.ros.ament.index import PackageIndex, find_launch_file, seeing
+from turtle_lesson.ros.ament.package import (
     ExecutableNotFoundError,
     LaunchFileNotFoundError,
+    Package,
     PackageError,
     PackageNotFoundError,
 )
-from turtle_lesson.ros.ament.index import PackageIndex, find_launch_file, seeing
-from turtle_lesson.ros.ament.package import Package
 from turtle_lesson.ros.ament.source import read_source_package
 
 XML = """\

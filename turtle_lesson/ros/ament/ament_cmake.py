@@ -7,23 +7,28 @@ build reports, at its line. Facts: CMake 3.25 and ament_cmake 1.3; only what a p
 from __future__ import annotations
 
 import os
-import re
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable
 from difflib import get_close_matches
-from fnmatch import fnmatchcase
 from pathlib import Path, PurePosixPath
 
 from ..idl.names import did_you_mean
 from ..idl.registry import Registry
 from ..sim.errors import shown_path
 from .catalog import CMAKE_COMMANDS, CMAKE_PACKAGES, COMMANDS_OF, PYTHON_PACKAGES, brought_by, why_not_here
-from .cmake import SHARE, CMakeFile, Command, cmake_message, evaluate, refused, split_at
-from .errors import BuildFailure
+from .cmake import CMakeFile, Command, evaluate, split_at
+from .cmake_commands import (
+    Entry,
+    InterfaceCheck,
+    asks_for_python,
+    definitions,
+    install_entries,
+    install_items,
+    interface_items,
+)
 from .index import package_hint
 from .install_tree import PYTHON_FOLDERS, Environment, Item, Outcome, check_targets, files_in, prefix_of, with_hint
-from .interfaces import InterfaceCheck, definitions, interface_items
 from .manifest import Found, faults_in, hint_for
+from .package import SHARE, BuildFailure, cmake_message, refused
 
 _PACKAGE_XML = f"{SHARE}/ament_cmake_core/cmake/core/ament_package_xml.cmake"
 _EXTENSIONS = f"{SHARE}/ament_cmake_core/cmake/core/ament_execute_extensions.cmake"
@@ -44,29 +49,6 @@ _SITE = PYTHON_FOLDERS["cmake"]
 _MODULES = (
     "CTest", "GNUInstallDirs", "CMakePackageConfigHelpers", "FetchContent", "ExternalProject", "CheckCXXCompilerFlag",
 )  # fmt: skip
-_INSTALLS = ("PROGRAMS", "DIRECTORY", "FILES", "TARGETS", "SCRIPT", "CODE", "EXPORT")
-_INSTALL_WORDS = {
-    "DESTINATION", "RENAME", "PERMISSIONS", "FILE_PERMISSIONS", "DIRECTORY_PERMISSIONS", "CONFIGURATIONS",
-    "COMPONENT", "OPTIONAL", "TYPE", "EXCLUDE_FROM_ALL", "USE_SOURCE_PERMISSIONS", "PATTERN", "REGEX",
-    "EXCLUDE", "FILES_MATCHING", "MESSAGE_NEVER",
-}  # fmt: skip
-_FILTERS = ("PATTERN", "REGEX")
-_RUNS = "OWNER_EXECUTE"
-
-
-@dataclass(frozen=True)
-class _Entry:
-    """A file or folder that `install(…)` names, and the folder it goes to.
-
-    A folder whose name ends in `/` gives its content instead of itself, as in CMake.
-    """
-
-    kind: str
-    source: str
-    destination: str
-    name: str
-    line: int
-    options: tuple[str, ...] = ()
 
 
 def build_ament_cmake(found: Found, environment: Environment) -> Outcome:
@@ -102,7 +84,7 @@ class _Build:
         self.checks: list[InterfaceCheck] = []
         self.warnings: list[str] = []
         self.hints: list[str] = []
-        self.entries: list[_Entry] = []
+        self.entries: list[Entry] = []
         self.python: list[Item] = []
         self.cpp = False
         self.lacking: list[str] = []
@@ -133,8 +115,9 @@ class _Build:
             types = self._types()
             for check in self.checks:
                 check.resolve(types)
-        foreign = [entry for entry in self.entries if entry.kind == "PROGRAMS" and not self._asks_for_python(entry)]
-        items = [item for entry in self.entries if entry not in foreign for item in self._items(entry)]
+        foreign = [entry for entry in self.entries if not asks_for_python(self.found, entry)]
+        wanted = [entry for entry in self.entries if entry not in foreign]
+        items = [item for entry in wanted for item in install_items(self.found, entry, self.hints)]
         items += [*self.python, *interface_items(self.found, self.interfaces)] if self.checks else self.python
         check_targets(items)
         self._warn_of_mode(items)
@@ -188,7 +171,12 @@ class _Build:
             if self.lacking and not get_close_matches(command.name, self.commands, cutoff=0.85):
                 return  # a command of a package that is not here, and no slip of the pen
             raise self._unknown(command, where)
-        about_targets = command.name == "install" and command.args[:1] in {(kind,) for kind in _INSTALLS[3:]}
+        about_targets = command.name == "install" and command.args[:1] in {
+            ("TARGETS",),
+            ("EXPORT",),
+            ("CODE",),
+            ("SCRIPT",),
+        }
         if self.cpp and (about_targets or command.name in {"add_subdirectory", "include"}):
             return
         special: Callable[[Command, str], None] | None = getattr(self, f"_on_{command.name}", None)
@@ -342,7 +330,7 @@ class _Build:
         self._on_ament_package(command, where)
         _, names = split_at(command.args, {"INSTALL_TO_SHARE"})
         for name in names[1:]:
-            self.entries.append(_Entry("DIRECTORY", name, f"share/{self.project}", Path(name).name, command.line))
+            self.entries.append(Entry("DIRECTORY", name, f"share/{self.project}", Path(name).name, command.line))
 
     def _check_xml(self, where: str, caller: str) -> None:
         faults = [f"The manifest contains invalid XML:\n{self.found.xml_error}"] if self.found.xml_error else []
@@ -380,94 +368,10 @@ class _Build:
         types.add(self.found.name, self.found.path, self.interfaces)
         return types
 
-    # -- install ---------------------------------------------------------------------------------------------------
-
     def _on_install(self, command: Command, where: str) -> None:
-        if not command.args:
-            return
-        kind, folder = command.args[0], self.found.path
-        names, options = split_at(command.args[1:], _INSTALL_WORDS)
-        if kind not in _INSTALLS:
-            hint = did_you_mean(kind, _INSTALLS) or f"Known are {', '.join(_INSTALLS[:3])}."
-            raise refused(f"install does not recognize sub-command {kind}", where, hint)
-        if kind == "TARGETS":
-            hint = "A Python program is installed with install(PROGRAMS …)."
-            raise refused(f'install TARGETS given target "{" ".join(names[:1])}" which does not exist.', where, hint)
-        if kind in _INSTALLS[3:]:
-            return
-        for name in names if kind != "DIRECTORY" else ():
-            if (folder / name).is_dir():
-                hint = f"Write install(DIRECTORY {name} …)."
-                raise refused(f'install {kind} given directory "{name}" to install.', where, hint)
-        values = {
-            word: "".join(split_at(options[place + 1 :][:1], _INSTALL_WORDS)[0]) for place, word in enumerate(options)
-        }
-        destination, rename = values.get("DESTINATION", ""), values.get("RENAME", "")
-        if rename and len(names) > 1:
-            hint = "RENAME gives a single name, so install one program at a time: install(PROGRAMS a.py …)."
-            raise refused(f"install {kind} given RENAME option with more than one file.", where, hint)
-        if not destination:
-            hint = f"install({kind} …) needs a DESTINATION, such as lib/${{PROJECT_NAME}}."
-            raise refused(f"install {kind} given no DESTINATION!", where, hint)
-        place = PurePosixPath(destination)
-        if place.is_absolute() or ".." in place.parts or ":" in destination:
-            text = f"DESTINATION {destination} lies outside the package's install folder"
-            hint = "Use lib/${PROJECT_NAME} for programs and share/${PROJECT_NAME} for everything else: "
-            hint += f"share/{self.found.name}."
-            raise refused(text, where, hint)
-        for name in names:
-            inside = kind == "DIRECTORY" and name.endswith("/")
-            own = "" if inside else rename or Path(name).name
-            self.entries.append(_Entry(kind, name, destination.rstrip("/"), own, command.line, options))
-
-    def _asks_for_python(self, entry: _Entry) -> bool:
-        """Whether a program can run here: its first line names no other interpreter. Of a file that is not there it is true."""
-        first = _first_line(self.found.path / entry.source)
-        return not first.startswith("#!") or "python" in first
-
-    def _items(self, entry: _Entry) -> Iterator[Item]:
-        """Where one entry goes, a folder file by file."""
-        folder, is_program = self.found.path, entry.kind == "PROGRAMS"
-        source = folder / entry.source
-        where = f"CMakeLists.txt:{entry.line} (install)"
-        if not source.resolve().is_relative_to(folder.resolve()):
-            raise refused(f"{entry.source} lies outside the package's folder", where, "Put the files into the package.")
-        if not source.exists():
-            text = f'file INSTALL cannot find "{shown_path(str(source))}": No such file or directory.'
-            paths = [
-                path for path in sorted(folder.rglob("*.py" if is_program else "*")) if "__pycache__" not in path.parts
-            ]
-            close = did_you_mean(entry.source.rstrip("/"), [path.relative_to(folder).as_posix() for path in paths])
-            hint = f"CMakeLists.txt, line {entry.line}, names '{entry.source}', which does not exist. {close}".strip()
-            raise refused(text, "cmake_install.cmake:46 (file)", hint, seconds=1.2)
-        target = "/".join(filter(None, (entry.destination, entry.name)))
-        if is_program:
-            self._warn_of_program(entry)
-            yield Item(target, source, program=True)
-        elif source.is_dir():
-            items = list(_directory_items(target, source, entry.options))
-            if entry.destination == f"lib/{self.found.name}" and items and not any(item.program for item in items):
-                self.hints.append(
-                    f"CMakeLists.txt, line {entry.line}: what install(DIRECTORY …) installs cannot be run. Write "
-                    "install(PROGRAMS <file>.py … DESTINATION lib/${PROJECT_NAME}), or add USE_SOURCE_PERMISSIONS."
-                )
-            yield from items
-        else:
-            yield Item(target, source, program=_RUNS in entry.options)
+        self.entries += install_entries(self.found, command)
 
     # -- what would be wrong on a robot, although it builds -----------------------------------------------------------
-
-    def _warn_of_program(self, entry: _Entry) -> None:
-        if entry.destination != f"lib/{self.found.name}":
-            self.hints.append(
-                f"CMakeLists.txt, line {entry.line}: {entry.source} goes to {entry.destination}; ros2 run looks only in "
-                "lib/${PROJECT_NAME}."
-            )
-        elif not _first_line(self.found.path / entry.source).startswith("#!"):
-            self.hints.append(
-                f"{entry.source} does not begin with '#!/usr/bin/env python3': a real ROS 2 could not start it (Exec "
-                "format error)."
-            )
 
     def _warn_of_mode(self, items: list[Item]) -> None:
         """A link has the mode of the file that it leads to; a copy gets one that can be run."""
@@ -535,41 +439,3 @@ Could not find a package configuration file provided by "{name}" with any of the
 
 Add the installation prefix of "{name}" to CMAKE_PREFIX_PATH or set "{name}_DIR" to a directory containing one of the above \
 files. If "{name}" provides a separate development package or SDK, be sure it has been installed."""
-
-
-def _first_line(file: Path) -> str:
-    text = file.read_bytes().split(b"\n", 1)[0] if file.is_file() else b""
-    return text.decode("utf-8", "replace")
-
-
-def _directory_items(target: str, folder: Path, options: Sequence[str]) -> Iterator[Item]:
-    """The files of a folder, as an `install(DIRECTORY …)` with these options installs them below `target`.
-
-    Without USE_SOURCE_PERMISSIONS a copy cannot be run, whatever the file itself can.
-    """
-    general, rest = split_at(options, _FILTERS)
-    filters: list[tuple[str, str, tuple[str, ...]]] = []
-    while len(rest) > 1:
-        words, later = split_at(rest[2:], _FILTERS)
-        filters.append((rest[0], rest[1], words))
-        rest = later
-    for file in files_in(folder):
-        inner = file.relative_to(folder)
-        paths = [folder / path for path in (inner, *inner.parents)]
-        if any("EXCLUDE" in words and _fits(path, kind, text) for kind, text, words in filters for path in paths):
-            continue
-        wanted = [words for kind, text, words in filters if "EXCLUDE" not in words and _fits(file, kind, text)]
-        if "FILES_MATCHING" in general and not wanted:
-            continue
-        modes = [words for words in [*wanted, general] if {"PERMISSIONS", "FILE_PERMISSIONS"} & set(words)]
-        runs = _RUNS in modes[0] if modes else "USE_SOURCE_PERMISSIONS" in general and os.access(file, os.X_OK)
-        yield Item("/".join(filter(None, (target, inner.as_posix()))), file, program=runs)
-
-
-def _fits(path: Path, kind: str, text: str) -> bool:
-    """Whether a filter is about a path: a pattern looks at its last names, a regex at all of it."""
-    if kind == "REGEX":
-        return re.search(text, path.as_posix()) is not None
-    parts = text.strip("/").split("/")
-    last = path.parts[-len(parts) :]
-    return len(last) == len(parts) and all(map(fnmatchcase, last, parts))

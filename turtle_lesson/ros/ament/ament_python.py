@@ -16,14 +16,14 @@ from typing import Any
 
 from ..idl.names import did_you_mean
 from ..sim.errors import shown_path
-from .errors import BuildFailure
 from .install_tree import PYTHON, PYTHON_FOLDERS, Environment, Item, Outcome, check_targets, files_in, with_hint
 from .manifest import Found, hint_for
+from .package import BuildFailure
 from .setup_py import SetupError, install_scripts, read_setup
 
 SITE = PYTHON_FOLDERS["python"]
 _ENTRY = re.compile(r"\s*([\w.-]+)\s*=\s*([\w.]+)\s*:\s*([\w.]+)\s*(\[.*\])?\s*")
-PROGRAMS = ("console_scripts", "gui_scripts")
+_PROGRAMS = ("console_scripts", "gui_scripts")
 
 
 def build_ament_python(found: Found, environment: Environment) -> Outcome:
@@ -54,8 +54,16 @@ class _Build:
         self.setup: dict[str, Any] = {}
 
     def run(self) -> Outcome:
-        self._check()
-        self.setup = read_setup(self.found.path)
+        folder, xml_error = self.found.path, self.found.xml_error
+        if xml_error:
+            hint = f"{shown_path(str(folder / 'package.xml'))}: {xml_error}. {hint_for(xml_error)}".strip()
+            self.hints.append(f"{hint} Until it is mended, colcon takes the folder for a Python package without ROS.")
+        if not (folder / "setup.py").is_file():
+            hint = "An ament_python package is built from its setup.py."
+            if (folder / "CMakeLists.txt").is_file():
+                hint += " There is a CMakeLists.txt: is <build_type>ament_cmake</build_type> meant in package.xml?"
+            raise BuildFailure(f"error: there is no setup.py in {shown_path(str(folder))}\n", hint, seconds=0.1)
+        self.setup = read_setup(folder)
         name = str(self.setup.get("name", ""))
         if name.replace("-", "_") != self.found.name.replace("-", "_"):
             self.hints.append(
@@ -69,53 +77,40 @@ class _Build:
         text = with_hint("".join(self.warnings), self.hints)
         return Outcome(0, text, [], seconds, items, self.found.runtime_dependencies)
 
-    def _check(self) -> None:
-        if self.found.xml_error:
-            file = shown_path(str(self.found.path / "package.xml"))
-            hint = f"{file}: {self.found.xml_error}. {hint_for(self.found.xml_error)}".strip()
-            self.hints.append(f"{hint} Until it is mended, colcon takes the folder for a Python package without ROS.")
-        if not (self.found.path / "setup.py").is_file():
-            where = shown_path(str(self.found.path))
-            hint = "An ament_python package is built from its setup.py."
-            if (self.found.path / "CMakeLists.txt").is_file():
-                hint += " There is a CMakeLists.txt: is <build_type>ament_cmake</build_type> meant in package.xml?"
-            raise BuildFailure(f"error: there is no setup.py in {where}\n", hint, seconds=0.1)
-
     # -- modules ---------------------------------------------------------------------------------------------------
 
     def _modules(self) -> list[Item]:
         items = []
         packages = self._names("packages")
-        top = {name.partition(".")[0] for name in packages}
+        top = sorted({name.partition(".")[0] for name in packages})
         for name in packages:
             if not self._folder(name).is_dir():
                 place = self._folder(name).relative_to(self.found.path).as_posix()
-                text = f"error: package directory '{place}' does not exist\n"
-                raise BuildFailure(text, f"setup.py names it in packages=…; make {place}/__init__.py.", seconds=0.5)
-        if self.environment.symlink:  # colcon then puts the whole source folder on the path
-            for name in sorted(top):
-                folder = self._folder(name)
-                items += [
-                    Item(f"{SITE}/{name}/{file.relative_to(folder).as_posix()}", file) for file in files_in(folder)
-                ]
-        else:
-            items += [item for name in dict.fromkeys(packages) for item in self._files_of(name)]
+                hint = f"setup.py names it in packages=…; make {place}/__init__.py."
+                raise _refused(f"error: package directory '{place}' does not exist", hint)
+        for name in top if self.environment.symlink else dict.fromkeys(packages):
+            folder = self._folder(name)  # with --symlink-install, colcon puts the whole source folder on the path
+            files = files_in(folder) if self.environment.symlink else self._files_of(name)
+            place = f"{SITE}/{name.replace('.', '/')}"
+            items += [Item(f"{place}/{file.relative_to(folder).as_posix()}", file) for file in files]
         for module in self._names("py_modules"):
             file = self.found.path / f"{module}.py"
             if not file.is_file():
-                hint = "setup.py names it in py_modules=…."
-                raise BuildFailure(f"error: file '{module}.py' does not exist\n", hint, seconds=0.5)
+                raise _refused(f"error: file '{module}.py' does not exist", "setup.py names it in py_modules=….")
             items.append(Item(f"{SITE}/{module}.py", file))
         version = self.setup.get("version", "0.0.0")
+        texts = {
+            "PKG-INFO": f"Metadata-Version: 2.1\nName: {self.found.name}\nVersion: {version}\n",
+            "entry_points.txt": "\n".join(
+                f"[{group}]\n" + "".join(f"{line.strip()}\n" for line in lines)
+                for group, lines in self._entries().items()
+            ),
+            "top_level.txt": "".join(f"{name}\n" for name in top),
+        }
         info = f"{SITE}/{self.found.name}-{version}-py{PYTHON.removeprefix('python')}.egg-info"
-        items.append(
-            Item(f"{info}/PKG-INFO", text=f"Metadata-Version: 2.1\nName: {self.found.name}\nVersion: {version}\n")
-        )
-        items.append(Item(f"{info}/entry_points.txt", text=entry_text(self._entries())))
-        items.append(Item(f"{info}/top_level.txt", text="".join(f"{name}\n" for name in sorted(top))))
-        return items
+        return items + [Item(f"{info}/{name}", text=text) for name, text in texts.items()]
 
-    def _files_of(self, package: str) -> list[Item]:
+    def _files_of(self, package: str) -> list[Path]:
         """What is installed of a package: its own modules, and the other files that `package_data=` names."""
         folder = self._folder(package)
         patterns = self.setup.get("package_data") or {}
@@ -123,12 +118,11 @@ class _Build:
         wanted = ["*.py", *_texts(patterns.get("")), *_texts(patterns.get(package))]
         found = [match for pattern in wanted for match in glob(str(folder / pattern), recursive=True)]
         if self.setup.get("include_package_data"):
-            found += files_in_manifest(self.found.path)
+            found += _files_in_manifest(self.found.path)
         inside = [Path(os.path.normpath(match)) for match in found]
-        files = sorted({file for file in inside if file.is_file() and file.is_relative_to(folder)})
-        place = PurePosixPath(SITE, *package.split("."))
-        kept = [file for file in files if file.suffix != ".pyc"]
-        return [Item(f"{place}/{file.relative_to(folder).as_posix()}", file) for file in kept]
+        return sorted(
+            {file for file in inside if file.is_file() and file.is_relative_to(folder) and file.suffix != ".pyc"}
+        )
 
     def _names(self, option: str) -> list[str]:
         """The modules that `packages=` or `py_modules=` lists. setuptools takes `a/b` for `a.b`, too."""
@@ -138,8 +132,8 @@ class _Build:
         if not isinstance(given, list) or not all(
             isinstance(name, str) and all(map(str.isidentifier, name.split("."))) for name in given
         ):
-            text = f"error in {self.found.name} setup command: '{option}' must be a list of module names\n"
-            raise BuildFailure(text, f"Write {option}=['{self.found.name}'], with brackets.", seconds=0.5)
+            text = f"error in {self.found.name} setup command: '{option}' must be a list of module names"
+            raise _refused(text, f"Write {option}=['{self.found.name}'], with brackets.")
         return given
 
     def _folder(self, package: str) -> Path:
@@ -150,8 +144,8 @@ class _Build:
         place = places.get(top) or "/".join(filter(None, (places.get("", ""), top)))
         folder = self.found.path.joinpath(place, *inner)
         if not folder.resolve().is_relative_to(self.found.path.resolve()):
-            text = f"error: package_dir: '{place[:80]}' lies outside the package's folder\n"
-            raise BuildFailure(text, "Put the modules into the package.", seconds=0.5)
+            text = f"error: package_dir: '{place[:80]}' lies outside the package's folder"
+            raise _refused(text, "Put the modules into the package.")
         return folder
 
     # -- data files ------------------------------------------------------------------------------------------------
@@ -166,10 +160,10 @@ class _Build:
             files = entry[1] if isinstance(entry, list) and len(entry) == 2 else None
             if isinstance(files, str) and isinstance(entry[0], str):
                 hint = f"data_files needs a list of files, even for a single one: write ('{entry[0]}', ['{files}'])."
-                raise BuildFailure("AssertionError\n", hint, seconds=0.5)
+                raise _refused("AssertionError", hint)
             if not isinstance(files, list) or not all(isinstance(name, str) for name in [entry[0], *files]):
-                text = f"error: data_files has {str(entry)[:80]}, which is not of the form ('folder', ['file', …])\n"
-                raise BuildFailure(text, "Write ('share/' + package_name, ['package.xml']),.", seconds=0.5)
+                text = f"error: data_files has {str(entry)[:80]}, which is not of the form ('folder', ['file', …])"
+                raise _refused(text, "Write ('share/' + package_name, ['package.xml']),.")
             items += [self._data_file(entry[0], name) for name in files]
         return self._with_markers(items)
 
@@ -177,21 +171,15 @@ class _Build:
         source = self.found.path / name
         parts = PurePosixPath(place.replace(os.sep, "/"))
         if parts.is_absolute() or ".." in parts.parts or ":" in place:
-            text = f"error: data_files: '{place}' lies outside the package's install folder\n"
-            raise BuildFailure(text, f"Use a place such as 'share/{self.found.name}'.", seconds=0.5)
+            text = f"error: data_files: '{place}' lies outside the package's install folder"
+            raise _refused(text, f"Use a place such as 'share/{self.found.name}'.")
         if Path(name).is_absolute():
-            text = f"AssertionError: 'data_files' must be relative, '{name}' is absolute\n"
+            text = f"AssertionError: 'data_files' must be relative, '{name}' is absolute"
             inside = source.relative_to(self.found.path) if source.is_relative_to(self.found.path) else source.name
-            hint = f"Give the path relative to the folder of setup.py: '{inside}'."
-            raise BuildFailure(text, hint, seconds=0.5)
+            raise _refused(text, f"Give the path relative to the folder of setup.py: '{inside}'.")
         if not source.is_file():
-            there = [
-                path.relative_to(self.found.path).as_posix() for path in self.found.path.rglob("*") if path.is_file()
-            ]
-            text = f"error: can't copy '{name}': doesn't exist or not a regular file\n"
-            raise BuildFailure(
-                text, f"setup.py names it in data_files. {did_you_mean(name, there)}".strip(), seconds=0.6
-            )
+            hint = f"setup.py names it in data_files. {did_you_mean(name, self._there('*'))}".strip()
+            raise _refused(f"error: can't copy '{name}': doesn't exist or not a regular file", hint)
         can_run = os.name != "nt" and os.access(source, os.X_OK)  # a program stays one
         return Item((parts / source.name).as_posix(), source, program=can_run)
 
@@ -218,10 +206,10 @@ class _Build:
     # -- programs --------------------------------------------------------------------------------------------------
 
     def _entries(self) -> dict[str, list[str]]:
-        groups = entry_groups(self.setup.get("entry_points") or {})
+        groups = _entry_groups(self.setup.get("entry_points") or {})
         if groups is None:
             hint = "Write entry_points={'console_scripts': ['name = package.module:main']},."
-            raise BuildFailure("error: entry_points must be a dictionary\n", hint, seconds=0.5)
+            raise _refused("error: entry_points must be a dictionary", hint)
         return groups
 
     def _programs(self) -> list[Item]:
@@ -230,15 +218,14 @@ class _Build:
         for name in _texts(self.setup.get("scripts")):
             source = self.found.path / name
             if not source.is_file():
-                text = f"error: file '{source}' does not exist\n"
-                raise BuildFailure(text, f"setup.py names {name} in scripts=….", seconds=0.5)
+                raise _refused(f"error: file '{source}' does not exist", f"setup.py names {name} in scripts=….")
             items.append(Item(f"{place or 'bin'}/{source.name}", source, program=True))
-        for line in program_lines(self._entries()):
+        groups = self._entries()
+        for line in [line for group in _PROGRAMS for line in groups.get(group, [])]:
             match = _ENTRY.fullmatch(line)
             if match is None:
-                text = f"error in {self.found.name} setup command: ('Invalid entry point: ', {line!r})\n"
-                hint = f"It looks like 'my_node = {self.found.name}.my_node:main'."
-                raise BuildFailure(text, hint, seconds=0.5)
+                text = f"error in {self.found.name} setup command: ('Invalid entry point: ', {line!r})"
+                raise _refused(text, f"It looks like 'my_node = {self.found.name}.my_node:main'.")
             name, module, function = match[1], match[2], match[3]
             self._check_entry(name, module, function)
             text = _PROGRAM.format(line=line.strip(), imports=_imports(module, function), function=function)
@@ -260,14 +247,19 @@ class _Build:
             if not re.search(rf"\b{re.escape(function.partition('.')[0])}\b", text):
                 self.hints.append(f"entry point '{name}': {module} has no {function}(), so `ros2 run` will fail.")
         elif own or importlib.util.find_spec(module.partition(".")[0]) is None:
-            modules = [
-                ".".join(path.relative_to(self.found.path).with_suffix("").parts)
-                for path in sorted(self.found.path.rglob("*.py"))
-            ]
-            close = did_you_mean(module, modules)
+            close = did_you_mean(module, [path.removesuffix(".py").replace("/", ".") for path in self._there("*.py")])
             self.hints.append(
                 f"entry point '{name}': there is no module {module}, so `ros2 run` will fail. {close}".strip()
             )
+
+    def _there(self, pattern: str) -> list[str]:
+        """The files of the package that a pattern fits, as seen from its folder."""
+        folder = self.found.path
+        return sorted(path.relative_to(folder).as_posix() for path in folder.rglob(pattern) if path.is_file())
+
+
+def _refused(text: str, hint: str) -> BuildFailure:
+    return BuildFailure(f"{text}\n", hint, seconds=0.5)
 
 
 _PROGRAM = """\
@@ -292,7 +284,7 @@ def _texts(given: Any) -> list[str]:
     return [given] if isinstance(given, str) else [each for each in given or [] if isinstance(each, str)]
 
 
-def entry_groups(given: Any) -> dict[str, list[str]] | None:
+def _entry_groups(given: Any) -> dict[str, list[str]] | None:
     """The lines of each group; None if this is neither a dictionary nor a text with a `[group]` above its lines."""
     groups = _sections(given) if isinstance(given, str) else given
     if not isinstance(groups, dict):
@@ -306,16 +298,6 @@ def entry_groups(given: Any) -> dict[str, list[str]] | None:
     return found
 
 
-def program_lines(groups: dict[str, list[str]]) -> list[str]:
-    """The lines that become programs."""
-    return [line for group in PROGRAMS for line in groups.get(group, [])]
-
-
-def entry_text(groups: dict[str, list[str]]) -> str:
-    """What an installed package's entry_points.txt says, where `importlib.metadata` finds plugins of all packages."""
-    return "\n".join(f"[{group}]\n" + "".join(f"{line.strip()}\n" for line in lines) for group, lines in groups.items())
-
-
 def _sections(text: str) -> dict[str, list[str]]:
     groups: dict[str, list[str]] = {}
     for line in filter(None, map(str.strip, text.splitlines())):
@@ -326,7 +308,7 @@ def _sections(text: str) -> dict[str, list[str]]:
     return groups
 
 
-def files_in_manifest(folder: Path) -> list[str]:
+def _files_in_manifest(folder: Path) -> list[str]:
     """The paths of the files that a folder's MANIFEST.in names; none without one."""
     manifest = folder / "MANIFEST.in"
     if not manifest.is_file():

@@ -20,6 +20,7 @@ from ..sim.simulation import NANOSECONDS
 from ..sim.strand import running_strand
 from .ament_cmake import build_ament_cmake
 from .ament_python import build_ament_python
+from .cmake_commands import definitions
 from .install_tree import (
     Environment,
     Outcome,
@@ -31,7 +32,6 @@ from .install_tree import (
     read_installed,
     write_setup_files,
 )
-from .interfaces import definitions
 from .manifest import Found, in_order, needed_by
 from .source import resource
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from .errors import NotHereError
+from .package import NotHereError
 
 _WINDOWS = "there are no windows here; lesson.dashboard(), lesson.scene() and the lesson's plots draw into the page"
 _GAZEBO = "there is no Gazebo here; the simulated world is turtlesim"

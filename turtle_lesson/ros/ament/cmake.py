@@ -8,17 +8,13 @@ Facts: https://cmake.org/cmake/help/latest/manual/cmake-language.7.html and, for
 from __future__ import annotations
 
 import re
-import textwrap
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from glob import glob
 from pathlib import Path
 
 from ..sim.errors import shown_path
-from .errors import BuildFailure
-
-SHARE = "/opt/ros/humble/share"
-"""Where the real build's own files are; named in the call stacks of its messages."""
+from .package import BuildFailure, refused
 
 COMPILES = {"add_executable", "add_library", "ament_auto_add_executable", "ament_auto_add_library"}
 """The commands by which a package builds something in C++, which is left out here."""
@@ -37,31 +33,15 @@ _INSTALL_FOLDERS = {
 """The variables that include(GNUInstallDirs) sets."""
 
 
-def cmake_message(text: str, where: str, stack: Sequence[str] = (), kind: str = "Error") -> str:
-    """`CMake Error at <where>:` and the text; the paragraphs of the text are separated by empty lines.
-
-    The wrapping is CMake's: lines of at most 77 columns, indented by two, two spaces after a full stop, and lines that
-    begin with a space left as they are.
-    """
-    lines = [f"CMake {kind} at {where}:" if where else f"CMake {kind}:"]
-    for line in text.split("\n"):
-        words = re.sub(r"\. ", ".  ", " ".join(line.split()))
-        wrapped = textwrap.wrap(words, 75, break_long_words=False, break_on_hyphens=False)
-        lines += [f"  {part}" for part in ([line] if line.startswith(" ") else wrapped)] or [""]
-    if stack:
-        lines += ["Call Stack (most recent call first):", *(f"  {call}" for call in stack)]
-    return "\n".join(lines) + "\n\n"
-
-
-def refused(text: str, where: str, hint: str = "", stack: Sequence[str] = (), *, seconds: float = 0.9) -> BuildFailure:
-    """An error of CMake's at a place such as `CMakeLists.txt:12 (install)`."""
-    return BuildFailure(cmake_message(text, where, stack), hint, seconds=seconds)
-
-
 def split_at(args: Sequence[str], words: Collection[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """The arguments before the first of CMake's own words, and those from it on."""
     end = next((place for place, argument in enumerate(args) if argument in words), len(args))
     return tuple(args[:end]), tuple(args[end:])
+
+
+def _unreadable(words: str, place: str | int, line: int, reason: str) -> BuildFailure:
+    """CMake's own words about a text, which name `place`; `reason` says what is wrong in `line`."""
+    return refused(words, f"CMakeLists.txt:{place}", f"CMakeLists.txt, line {line}: {reason}.", seconds=0.1)
 
 
 # -- text to commands ----------------------------------------------------------------------------------------------------
@@ -122,8 +102,8 @@ class _Reader:
         self.take(_SKIPPED)
         if self.text.startswith("#", self.position):
             rest = _shown(self.text[self.text.index("[", self.position + 2) + 1 :])
-            words = f'Expected a command name, got unterminated bracket with text "{rest}".'
-            raise self.error(words, "this #[[ comment never ends; close it with ]]", self.line, self.last_line)
+            words = f'Parse error. Expected a command name, got unterminated bracket with text "{rest}".'
+            raise _unreadable(words, self.last_line, self.line, "this #[[ comment never ends; close it with ]]")
         return self.position < len(self.text)
 
     def got(self) -> tuple[str, int]:
@@ -139,11 +119,6 @@ class _Reader:
                 kind, text = name, match[match.lastindex or 0]
                 break
         return f'{kind} with text "{text[:60]}"', self.line
-
-    def error(self, words: str, reason: str, line: int, place: int = 0) -> BuildFailure:
-        """CMake's own words, which name `place`; `reason` says what is wrong in `line`."""
-        hint = f"CMakeLists.txt, line {line}: {reason}."
-        return refused(f"Parse error. {words}", f"CMakeLists.txt:{place or line}", hint, seconds=0.1)
 
 
 def read_calls(text: str) -> list[Call]:
@@ -167,14 +142,15 @@ def _call(reader: _Reader) -> Call:
     if not name:
         found = reader.text[reader.position : reader.position + 20].split("\n")[0]
         reason = f"expected a command such as find_package(…), found {found!r}"
-        raise reader.error(f"Expected a command name, got {token}.", reason, line, place)
+        raise _unreadable(f"Parse error. Expected a command name, got {token}.", place, line, reason)
     reader.take(_BLANKS)
     if not reader.text.startswith("(", reader.position):
         token, place = reader.got()
         reason = f"expected '(' after {name[0]!r}: a command looks like {name[0]}(…)"
-        if reader.position < len(reader.text):
-            raise reader.error(f'Expected "(", got {token}.', reason, line, place)
-        raise reader.error('Function missing opening "(". End of file reached.', reason, line, place)
+        words = f'Parse error. Expected "(", got {token}.'
+        if reader.position >= len(reader.text):
+            words = 'Unexpected end of file.\nParse error. Function missing opening "(".'
+        raise _unreadable(words, place, line, reason)
     reader.position += 1
     return Call(name[0].lower(), tuple(_arguments(reader, name[0], line)), line)
 
@@ -198,10 +174,10 @@ def _arguments(reader: _Reader, name: str, line: int) -> Iterator[Argument]:
             yield Argument(character, here)
         else:
             rest = _shown(reader.text[reader.position + 1 :])
-            words = f'Function missing ending ")". Instead found unterminated string with text "{rest}".'
-            raise reader.error(words, 'this quote is never closed; end the text with another "', here, reader.last_line)
+            words = f'Parse error. Function missing ending ")". Instead found unterminated string with text "{rest}".'
+            raise _unreadable(words, reader.last_line, here, 'this quote is never closed; end the text with another "')
     reason = f"the '(' of {name} is never closed; put a ')' where its arguments end"
-    raise reader.error('Function missing ending ")". End of file reached.', reason, line)
+    raise _unreadable('Parse error. Function missing ending ")". End of file reached.', line, line, reason)
 
 
 def _shown(rest: str) -> str:
@@ -229,8 +205,7 @@ def _check_blocks(calls: Sequence[Call]) -> None:
 
 def _not_nested(call: Call, reason: str) -> BuildFailure:
     words = "Flow control statements are not properly nested."
-    hint = f"CMakeLists.txt, line {call.line}: {reason}."
-    return refused(words, f"CMakeLists.txt:{call.line} ({call.name})", hint, seconds=0.1)
+    return _unreadable(words, f"{call.line} ({call.name})", call.line, reason)
 
 
 # -- conditions ----------------------------------------------------------------------------------------------------------
@@ -452,8 +427,8 @@ class _Evaluator:
             given = " ".join(f'"{word}"' for word, _ in words)
             said = f"if given arguments:\n\n  {given}\n\nUnknown arguments specified"
             text = " ".join(word for word, _ in words)
-            hint = f"CMakeLists.txt, line {call.line}: if({text}) is not a condition that CMake knows."
-            raise refused(said, f"CMakeLists.txt:{call.line} (if)", hint, seconds=0.1) from None
+            reason = f"if({text}) is not a condition that CMake knows"
+            raise _unreadable(said, f"{call.line} (if)", call.line, reason) from None
 
     def _effect(self, command: Command) -> None:
         variables, args = self.variables, command.args
@@ -494,8 +469,9 @@ class _Evaluator:
                 f"Syntax error in cmake code at\n\n  {file}:{argument.line}\n\nwhen parsing string\n\n  {text}\n\n"
                 "There is an unterminated variable reference."
             )
-            hint = f"CMakeLists.txt, line {argument.line}: '{text}': a ${{ is not closed by }}."
-            raise refused(words, f"CMakeLists.txt:{call.line} ({call.name})", hint, seconds=0.1)
+            raise _unreadable(
+                words, f"{call.line} ({call.name})", argument.line, f"'{text}': a ${{ is not closed by }}"
+            )
         for _ in range(10):  # ${a_${b}} needs a round for each level
             expanded = _VARIABLE.sub(self._replaced, text)
             if expanded == text or "${" not in expanded:

@@ -13,9 +13,9 @@ from ..sim.errors import shown_path
 from ..sim.simulation import NANOSECONDS
 from .build import DEFAULTS, Plan, build
 from .catalog import CMAKE_PACKAGES, PYTHON_PACKAGES
-from .errors import ColconError
 from .install_tree import needs_of, prefix_of
 from .manifest import Found, build_type_hint, discover, in_order, needed_by
+from .package import ColconError
 
 if TYPE_CHECKING:
     from ..runtime.world import World

@@ -13,34 +13,21 @@ from typing import TYPE_CHECKING
 from ..idl.names import did_you_mean
 from ..idl.registry import registry
 from ..sim.errors import shown_path
+from .build import types_for
 from .catalog import CMAKE_PACKAGES, PYTHON_PACKAGES
-from .errors import PackageError
 from .index import is_launch_file
 from .install_tree import Environment, Outcome
 from .manifest import Found, discover, read_found
+from .package import PackageError
 from .source import checked_build
 
 if TYPE_CHECKING:
     from ..distro import Release
     from ..runtime.world import World
 
-__all__ = [
-    "Exported",
-    "export_package",
-]
-
-
 _LEFT_OUT = (
-    "__pycache__",
-    "*.pyc",
-    ".git",
-    ".ipynb_checkpoints",
-    ".mypy_cache",
-    ".pytest_cache",
-    "build",
-    "install",
-    "log",
-)
+    "__pycache__", "*.pyc", ".git", ".ipynb_checkpoints", ".mypy_cache", ".pytest_cache", "build", "install", "log",
+)  # fmt: skip
 _TEXT = {".py", ".xml", ".txt", ".msg", ".srv", ".action", ".cfg", ".yaml", ".yml", ".md", ""}
 _OURS = "turtle_lesson"
 
@@ -57,13 +44,14 @@ class Exported:
     notes: list[str] = field(default_factory=list)
 
     def __repr__(self) -> str:
-        lines = [f"{self.name} is in {shown_path(str(self.package))}/; README.md beside src/ says how to build it."]
-        lines.append(
-            "Copy src/ and README.md to the robot, but not build/, install/ or log/: the robot builds its own."
-        )
-        lines.append(f"programs: {', '.join(self.programs) or 'none'}")
-        lines.append(f"interfaces: {', '.join(self.interfaces) or 'none'}")
-        return "\n".join(lines + [f"look at: {note}" for note in self.notes])
+        lines = [
+            f"{self.name} is in {shown_path(str(self.package))}/; README.md beside src/ says how to build it.",
+            "Copy src/ and README.md to the robot, but not build/, install/ or log/: the robot builds its own.",
+            f"programs: {', '.join(self.programs) or 'none'}",
+            f"interfaces: {', '.join(self.interfaces) or 'none'}",
+            *(f"look at: {note}" for note in self.notes),
+        ]
+        return "\n".join(lines)
 
 
 def export_package(world: World, package: str | Path, to: str | Path, *, overwrite: bool = False) -> Exported:
@@ -81,18 +69,26 @@ def export_package(world: World, package: str | Path, to: str | Path, *, overwri
     found = _find(world, package)
     target = Path(to).expanduser().resolve() / "src" / found.name
     _check_target(found, target, overwrite)
-    outcome = _checked(found)
-    for file, tree in _sources(found.path):
-        for name, line in _imports(tree):
-            if name == _OURS:
-                raise PackageError(
-                    f"this imports {_OURS}", file, line, "A robot does not have it: use only rclpy and the topics."
-                )
+    with tempfile.TemporaryDirectory() as scratch:
+        install, build = Path(scratch, "install"), Path(scratch, "build")
+        environment = Environment(install, build, frozenset(registry.packages()), types_for(found, {}))
+        outcome = checked_build(found, environment)
+    imports = list(_imports(found.path))
+    for file, line, name in imports:
+        if name == _OURS:
+            hint = "A robot does not have it: use only rclpy and the topics."
+            raise PackageError(f"this imports {_OURS}", file, line, hint)
     if target.exists():
         shutil.rmtree(target)
     shutil.copytree(found.path, target, ignore=shutil.ignore_patterns(*_LEFT_OUT))
-    _make_fit(found, target, outcome)
-    result = _describe(found, target, outcome, world.release)
+    for file in target.rglob("*"):  # line ends as Linux wants them
+        if file.is_file() and file.suffix in _TEXT and b"\r\n" in (data := file.read_bytes()):
+            file.write_bytes(data.replace(b"\r\n", b"\n"))
+    for item in outcome.items:
+        if item.program and item.source is not None:
+            (target / item.source.relative_to(found.path)).chmod(0o755)
+    result = _describe(found, target, outcome)
+    result.notes += [*_missing_dependencies(found, imports), *_newer_than(world.release, found), *_left_to_do(target)]
     (target.parent.parent / "README.md").write_text(_readme(result, found), encoding="utf-8", newline="\n")
     return result
 
@@ -126,74 +122,51 @@ def _check_target(found: Found, target: Path, overwrite: bool) -> None:
         raise PackageError(f"{shown_path(str(readme if own else target))} already exists", hint=hint)
 
 
-def _checked(found: Found) -> Outcome:
-    from .build import types_for
-
-    with tempfile.TemporaryDirectory() as scratch:
-        folder = Path(scratch)
-        known = frozenset(registry.packages())
-        return checked_build(found, Environment(folder / "install", folder / "build", known, types_for(found, {})))
-
-
-def _sources(folder: Path) -> Iterator[tuple[Path, ast.Module]]:
+def _imports(folder: Path) -> Iterator[tuple[Path, int, str]]:
+    """What the package's own programs import, with the file and the line."""
     for file in sorted(folder.rglob("*.py")):
-        if not {"build", "install", "log", "test"} & set(file.relative_to(folder).parts):
-            try:
-                yield file, ast.parse(file.read_bytes())
-            except SyntaxError as error:
-                raise PackageError(f"this is not valid Python ({error.msg})", file, error.lineno) from None
+        if {"build", "install", "log", "test"} & set(file.relative_to(folder).parts):
+            continue
+        try:
+            tree = ast.parse(file.read_bytes())
+        except SyntaxError as error:
+            raise PackageError(f"this is not valid Python ({error.msg})", file, error.lineno) from None
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Import):
+                yield from ((file, node.lineno, alias.name.partition(".")[0]) for alias in node.names)
+            elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
+                yield file, node.lineno, node.module.partition(".")[0]
 
 
-def _imports(tree: ast.Module) -> Iterator[tuple[str, int]]:
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Import):
-            yield from ((alias.name.partition(".")[0], node.lineno) for alias in node.names)
-        elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
-            yield node.module.partition(".")[0], node.lineno
-
-
-def _make_fit(found: Found, target: Path, outcome: Outcome) -> None:
-    """Line ends as Linux wants them, and programs that can be run."""
-    for file in target.rglob("*"):
-        if file.is_file() and file.suffix in _TEXT and b"\r\n" in (data := file.read_bytes()):
-            file.write_bytes(data.replace(b"\r\n", b"\n"))
-    for item in outcome.items:
-        if item.program and item.source is not None:
-            (target / item.source.relative_to(found.path)).chmod(0o755)
-
-
-def _describe(found: Found, target: Path, outcome: Outcome, release: Release) -> Exported:
+def _describe(found: Found, target: Path, outcome: Outcome) -> Exported:
     programs = [item.target.rpartition("/")[2] for item in outcome.items if item.program]
     share = f"share/{found.name}/"
     interfaces = [item.target.removeprefix(share) for item in outcome.items if item.source and item.copied]
-    notes = [line.removeprefix("Hint: ") for line in outcome.stderr.splitlines() if line.startswith("Hint: ")]
-    notes += _missing_dependencies(found)
-    notes += _newer_than(release, found)
-    if (Path.cwd() / "src").is_dir() and Path.cwd() in target.parents:
-        notes.append(
-            f"{shown_path(str(target))} lies in this workspace, where colcon build now finds {found.name} twice"
-        )
+    hints = [line.removeprefix("Hint: ") for line in outcome.stderr.splitlines() if line.startswith("Hint: ")]
+    return Exported(target.parent.parent, target, found.name, sorted(programs), sorted(interfaces), hints)
+
+
+def _left_to_do(target: Path) -> Iterator[str]:
+    """What is to be looked at in the exported folder."""
     folder = target.parent.parent
+    if (Path.cwd() / "src").is_dir() and Path.cwd() in target.parents:
+        yield f"{shown_path(str(target))} lies in this workspace, where colcon build now finds {target.name} twice"
     if built := [f"{name}/" for name in ("build", "install", "log") if (folder / name).is_dir()]:
-        notes.append(
-            f"{shown_path(str(folder))} holds {', '.join(built)} from a build on this computer: do not copy them"
-        )
+        yield f"{shown_path(str(folder))} holds {', '.join(built)} from a build on this computer: do not copy them"
     text = (target / "package.xml").read_text(encoding="utf-8")
-    notes += [
-        f"package.xml still says '{word}'" for word in ("TODO: Package description", "TODO: License") if word in text
-    ]
-    return Exported(target.parent.parent, target, found.name, sorted(programs), sorted(interfaces), notes)
+    for word in ("TODO: Package description", "TODO: License"):
+        if word in text:
+            yield f"package.xml still says '{word}'"
 
 
-def _missing_dependencies(found: Found) -> list[str]:
+def _missing_dependencies(found: Found, imports: list[tuple[Path, int, str]]) -> list[str]:
     """Packages that the code imports and that package.xml does not name: `rosdep` would not install them."""
-    known = {*registry.packages(), *CMAKE_PACKAGES, *PYTHON_PACKAGES} - {found.name}
+    known = {*registry.packages(), *CMAKE_PACKAGES, *PYTHON_PACKAGES} - {found.name, *found.dependencies}
     notes: dict[str, str] = {}
-    for file, tree in _sources(found.path):
-        for name, line in _imports(tree):
-            if name in known and name not in found.dependencies:
-                place = f"{file.relative_to(found.path).as_posix()}, line {line}"
-                notes.setdefault(name, f"{place}, imports {name}: add <exec_depend>{name}</exec_depend> to package.xml")
+    for file, line, name in imports:
+        if name in known:
+            place = f"{file.relative_to(found.path).as_posix()}, line {line}"
+            notes.setdefault(name, f"{place}, imports {name}: add <exec_depend>{name}</exec_depend> to package.xml")
     return list(notes.values())
 
 

@@ -11,14 +11,15 @@ from ..idl.names import did_you_mean
 from ..sim.errors import shown_path
 from .catalog import left_out, place_of, why_not_here
 from .cmake import compiled_programs
-from .errors import (
+from .package import (
     CompiledProgramError,
     ExecutableNotFoundError,
     LaunchFileNotFoundError,
     NotHereError,
+    Package,
     PackageNotFoundError,
+    Target,
 )
-from .package import Package, Target
 
 _given: list[PackageIndex] = []
 
@@ -158,32 +159,28 @@ def _close_in_all_words(one: str, other: str) -> bool:
 
 def _no_executable(package: Package, executable: str) -> ExecutableNotFoundError:
     libexec = shown_path(str(package.libexec))
+    text = f"executable '{executable}' not found on the libexec directory '{libexec}'"
     compiled = compiled_programs(package.source) if package.source else {}
     if executable in compiled:
-        text = f"executable '{executable}' not found on the libexec directory '{libexec}'"
         return CompiledProgramError(text, executable, compiled[executable])
-    lying = sorted(path.name for path in package.libexec.iterdir()) if package.libexec.is_dir() else []
-    if executable in lying:
-        file = shown_path(str((package.libexec / executable).resolve()))
-        text = f"executable '{executable}' not found on the libexec directory '{libexec}'"
-        return ExecutableNotFoundError(
-            text, f"The file exists, but is not executable: !chmod +x {file}, then source again."
-        )
-    if not package.executables:
-        prefix = shown_path(str(package.prefix or package.share))
-        text = f"package '{package.name}' found at '{prefix}', but libexec directory '{libexec}' does not exist"
-        if compiled:
-            hint = f"{package.name} has C++ programs alone, which are not built here: {', '.join(compiled)}."
-            return ExecutableNotFoundError(text, f"{did_you_mean(executable, compiled)} {hint}".strip())
-        return ExecutableNotFoundError(
-            text,
-            "The package installs no program; write in its CMakeLists.txt install(PROGRAMS <file> DESTINATION "
-            f"lib/${{PROJECT_NAME}} RENAME {executable}).",
-        )
-    names = ", ".join(sorted(package.executables))
-    close = did_you_mean(executable, package.executables)
-    hint = f"{close} {package.name} has: {names}. {_entry_point(package, executable)}".strip()
-    text = f"executable '{executable}' not found on the libexec directory '{libexec}'"
+    if (file := package.libexec / executable).is_file():
+        place = shown_path(str(file.resolve()))
+        hint = f"The file exists, but is not executable: !chmod +x {place}, then source again."
+        return ExecutableNotFoundError(text, hint)
+    if package.executables:
+        names = ", ".join(sorted(package.executables))
+        close = did_you_mean(executable, package.executables)
+        hint = f"{close} {package.name} has: {names}. {_entry_point(package, executable)}".strip()
+        return ExecutableNotFoundError(text, hint)
+    prefix = shown_path(str(package.prefix or package.share))
+    text = f"package '{package.name}' found at '{prefix}', but libexec directory '{libexec}' does not exist"
+    hint = (
+        "The package installs no program; write in its CMakeLists.txt install(PROGRAMS <file> DESTINATION "
+        f"lib/${{PROJECT_NAME}} RENAME {executable})."
+    )
+    if compiled:
+        hint = f"{package.name} has C++ programs alone, which are not built here: {', '.join(compiled)}."
+        hint = f"{did_you_mean(executable, compiled)} {hint}".strip()
     return ExecutableNotFoundError(text, hint)
 
 

@@ -16,9 +16,8 @@ from pathlib import Path, PurePosixPath
 from ..idl.registry import Registry
 from ..runtime import files
 from ..sim.errors import shown_path
-from .errors import BuildFailure, ColconError
 from .manifest import Found
-from .package import Package
+from .package import BuildFailure, ColconError, Package
 
 PYTHON = "python3.10"
 """The Python of ROS 2 Humble, which is in the names of installed folders, whatever Python runs here."""

@@ -14,7 +14,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 from ..idl.names import did_you_mean
-from .errors import ColconError
+from .package import ColconError
 from .setup_py import SetupError, read_setup
 
 BUILD_TYPES = ("ament_cmake", "ament_python", "cmake")

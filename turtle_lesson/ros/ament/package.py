@@ -1,17 +1,20 @@
-"""A ROS package as the index knows it."""
+"""A ROS package as the index knows it, and what can be wrong with one, each said with what to try."""
 
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import sys
-from collections.abc import Callable, Iterable
+import textwrap
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
 from pathlib import Path
 
 from ..runtime import files
+from ..sim.errors import shown_path
 from ..stdlib.program import run_program
 
 Target = Path | Callable[[], object]
@@ -90,3 +93,129 @@ def forget_below(folders: Iterable[Path]) -> None:
         for cache in list(folder.rglob("__pycache__")):
             with suppress(PermissionError):
                 shutil.rmtree(files.check(cache, removes=True), ignore_errors=True)
+
+
+# -- what can be wrong with a package, or with a name that was asked for, each said with what to try ---------------------
+
+SHARE = "/opt/ros/humble/share"
+"""Where the real build's own files are; named in the call stacks of its messages."""
+
+
+class PackageError(ValueError):
+    """A package cannot be read as it lies there.
+
+    Attributes:
+        reason: what is wrong.
+        file: the file that says so, or None.
+        line: the line in it, counted from 1, or None.
+        hint: what to try, or an empty string.
+    """
+
+    def __init__(self, reason: str, file: Path | None = None, line: int | None = None, hint: str = "") -> None:
+        super().__init__(reason, file, line, hint)
+        self.reason = reason
+        self.file = file
+        self.line = line
+        self.hint = hint
+
+    def __str__(self) -> str:
+        where = shown_path(str(self.file)) if self.file else ""
+        if self.line is not None:
+            where += f", line {self.line}"
+        text = f"{where}: {self.reason}" if where else self.reason
+        return f"{text}. {self.hint}" if self.hint else text
+
+
+class ColconError(Exception):
+    """Why colcon builds nothing at all; the text is what stands after `ERROR:colcon:colcon build: `."""
+
+
+class BuildFailure(Exception):
+    """A package cannot be built: the text that the real tool prints, the exit code, and what to try."""
+
+    def __init__(self, text: str, hint: str = "", *, code: int = 1, seconds: float = 0.9) -> None:
+        super().__init__(text)
+        self.text = text
+        self.hint = hint
+        self.code = code
+        self.seconds = seconds
+
+
+def cmake_message(text: str, where: str, stack: Sequence[str] = (), kind: str = "Error") -> str:
+    """`CMake Error at <where>:` and the text; the paragraphs of the text are separated by empty lines.
+
+    The wrapping is CMake's: lines of at most 77 columns, indented by two, two spaces after a full stop, and lines that
+    begin with a space left as they are.
+    """
+    lines = [f"CMake {kind} at {where}:" if where else f"CMake {kind}:"]
+    for line in text.split("\n"):
+        words = re.sub(r"\. ", ".  ", " ".join(line.split()))
+        wrapped = textwrap.wrap(words, 75, break_long_words=False, break_on_hyphens=False)
+        lines += [f"  {part}" for part in ([line] if line.startswith(" ") else wrapped)] or [""]
+    if stack:
+        lines += ["Call Stack (most recent call first):", *(f"  {call}" for call in stack)]
+    return "\n".join(lines) + "\n\n"
+
+
+def refused(text: str, where: str, hint: str = "", stack: Sequence[str] = (), *, seconds: float = 0.9) -> BuildFailure:
+    """An error of CMake's at a place such as `CMakeLists.txt:12 (install)`."""
+    return BuildFailure(cmake_message(text, where, stack), hint, seconds=seconds)
+
+
+class PackageNotFoundError(KeyError):
+    """No package of this name is in the index (`ament_index_python` raises it under the same name).
+
+    The text is the real one, quotation marks included, followed by what was perhaps meant.
+    """
+
+    def __init__(self, text: str, hint: str = "") -> None:
+        super().__init__(text)
+        self.text = text
+        self.hint = hint
+
+    def __str__(self) -> str:
+        return f"{self.text!r}. {self.hint}" if self.hint else repr(self.text)
+
+
+class _NotInPackageError(LookupError):
+    """A package has not what was asked for. `text` is the real tool's, `hint` ours."""
+
+    def __init__(self, text: str, hint: str = "") -> None:
+        super().__init__(text)
+        self.text = text
+        self.hint = hint
+
+    def __str__(self) -> str:
+        return f"{self.text}. {self.hint}" if self.hint else self.text
+
+
+class ExecutableNotFoundError(_NotInPackageError):
+    """A package has no executable of this name."""
+
+
+class LaunchFileNotFoundError(_NotInPackageError):
+    """A package has installed no launch file of this name, or several."""
+
+
+class NotHereError(NotImplementedError):
+    """A robot would start this, and the simulation cannot. A launch names it, and goes on without it.
+
+    Attributes:
+        what: what it is.
+        why: why it cannot be started.
+        hint: what to do instead, or an empty string.
+    """
+
+    def __init__(self, what: str, why: str, hint: str = "") -> None:
+        super().__init__(f"{what} cannot be started: {why}")
+        self.what = what
+        self.why = why
+        self.hint = hint
+
+
+class CompiledProgramError(ExecutableNotFoundError):
+    """A package's executable is a C++ program, which is not built here. `why` says so in half a sentence."""
+
+    def __init__(self, text: str, executable: str, line: int) -> None:
+        self.why = f"a C++ program (CMakeLists.txt, line {line}), and only Python programs run here"
+        super().__init__(text, f"{executable} is {self.why}.")

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, TextIO
 
 from ..idl.names import did_you_mean
 from ..idl.registry import registry
-from .errors import PackageError
 from .install_tree import (
     LAYOUT,
     PYTHON_FOLDERS,
@@ -21,19 +20,10 @@ from .install_tree import (
     read_installed,
 )
 from .manifest import Found, build_type_hint, read_found
-from .package import Package, PythonProgram, Target, forget_below
+from .package import Package, PackageError, PythonProgram, Target, forget_below
 
 if TYPE_CHECKING:
     from ..runtime.world import World
-
-__all__ = [
-    "make_importable",
-    "overlay",
-    "overlays",
-    "remove_all",
-    "source",
-]
-
 
 _SETUP_FILES = {f"{name}.{shell}" for name in ("setup", "local_setup") for shell in ("bash", "sh", "zsh", "ps1")}
 _UNDERLAY = "/opt/ros/"

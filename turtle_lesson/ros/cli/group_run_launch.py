@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .. import launching
-from ..ament.errors import ExecutableNotFoundError
 from ..ament.index import changed_since_built
+from ..ament.package import ExecutableNotFoundError
 from ..launching import LaunchError
 from ..runtime.console import FileOutput
 from ..runtime.run_world import run_for

@@ -29,8 +29,8 @@ from launch.substitutions import CommandFailure
 
 from .. import hooks
 from ..ament.catalog import why_not_here
-from ..ament.errors import ExecutableNotFoundError, NotHereError, PackageNotFoundError
 from ..ament.index import current_packages
+from ..ament.package import ExecutableNotFoundError, NotHereError, PackageNotFoundError
 from ..runtime.world import current_world
 from ..sim.errors import shown_path
 from ..sim.process import INTERRUPTED

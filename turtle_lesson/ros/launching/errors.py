@@ -12,7 +12,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING
 
 from ..ament import catalog, index
-from ..ament.errors import PackageNotFoundError
+from ..ament.package import PackageNotFoundError
 from ..idl.names import did_you_mean
 from ..sim.errors import is_ours, learners_frames, shorten, shown_path
 

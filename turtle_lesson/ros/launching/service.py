@@ -23,8 +23,8 @@ from launch.events import IncludeLaunchDescription as Included
 from launch.events import Shutdown
 from launch.launch_description_sources import AnyLaunchDescriptionSource
 
-from ..ament.errors import NotHereError
 from ..ament.index import LaunchedPackages, is_launch_file, seeing
+from ..ament.package import NotHereError
 from ..idl.names import did_you_mean
 from ..runtime.run_world import run_for
 from ..runtime.world import current_world

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from turtle_lesson.ros.ament.errors import PackageNotFoundError as PackageNotFoundError
 from turtle_lesson.ros.ament.index import current_packages
+from turtle_lesson.ros.ament.package import PackageNotFoundError as PackageNotFoundError
 
 
 def get_packages_with_prefixes() -> dict[str, str]:

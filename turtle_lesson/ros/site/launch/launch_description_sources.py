@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 from types import ModuleType
 
-from turtle_lesson.ros.ament.errors import PackageNotFoundError
+from turtle_lesson.ros.ament.package import PackageNotFoundError
 from turtle_lesson.ros.sim.errors import shown_path
 
 from ._context import LaunchContext

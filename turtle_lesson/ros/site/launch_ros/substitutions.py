@@ -12,8 +12,8 @@ from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions as pieces
 from launch.utilities import perform_substitutions
 
-from turtle_lesson.ros.ament.errors import ExecutableNotFoundError
 from turtle_lesson.ros.ament.index import current_packages
+from turtle_lesson.ros.ament.package import ExecutableNotFoundError
 
 if TYPE_CHECKING:
     from turtle_lesson.ros.ament.package import Target

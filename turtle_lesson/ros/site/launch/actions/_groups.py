@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any, ClassVar
 
 from turtle_lesson.ros.ament import catalog
-from turtle_lesson.ros.ament.errors import NotHereError
+from turtle_lesson.ros.ament.package import NotHereError
 
 from .._context import EventHandler, LaunchContext
 from .._entities import (

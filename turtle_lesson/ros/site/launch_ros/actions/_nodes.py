@@ -20,7 +20,7 @@ from launch.utilities import ensure_argument_type, text_of
 from rclpy.validate_namespace import validate_namespace
 from rclpy.validate_node_name import validate_node_name
 
-from turtle_lesson.ros.ament.errors import NotHereError
+from turtle_lesson.ros.ament.package import NotHereError
 from turtle_lesson.ros.sim.errors import shown_path
 
 from ..descriptions import ComposableNode

@@ -1,23 +1,181 @@
-"""`rosidl_generate_interfaces`: what it refuses, in its own words, and what a build installs for each interface.
+"""What `install` and `rosidl_generate_interfaces` refuse, in their own words, and what a build installs for them.
 
-Facts: rosidl_cmake 3.1 and rosidl_adapter.
+Facts: CMake 3.25, rosidl_cmake 3.1 and rosidl_adapter.
 """
 
 from __future__ import annotations
 
+import os
 import re
-from collections.abc import Iterator
-from pathlib import Path
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+from pathlib import Path, PurePosixPath
 
 from ..idl import names
 from ..idl.model import Definition, DuplicateName, InvalidDefinition, MessageDefinition, UnknownMessageType
 from ..idl.names import did_you_mean, module_name
 from ..idl.registry import PARSERS, Registry
 from ..sim.errors import shown_path
-from .cmake import SHARE, Command, refused, split_at
-from .errors import BuildFailure
-from .install_tree import PYTHON_FOLDERS, Item
+from .cmake import Command, split_at
+from .install_tree import PYTHON_FOLDERS, Item, files_in
 from .manifest import Found
+from .package import SHARE, BuildFailure, refused
+
+_INSTALLS = ("PROGRAMS", "DIRECTORY", "FILES", "TARGETS", "SCRIPT", "CODE", "EXPORT")
+_INSTALL_WORDS = {
+    "DESTINATION", "RENAME", "PERMISSIONS", "FILE_PERMISSIONS", "DIRECTORY_PERMISSIONS", "CONFIGURATIONS",
+    "COMPONENT", "OPTIONAL", "TYPE", "EXCLUDE_FROM_ALL", "USE_SOURCE_PERMISSIONS", "PATTERN", "REGEX",
+    "EXCLUDE", "FILES_MATCHING", "MESSAGE_NEVER",
+}  # fmt: skip
+_FILTERS = ("PATTERN", "REGEX")
+_RUNS = "OWNER_EXECUTE"
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A file or folder that `install(…)` names, and the folder it goes to.
+
+    A folder whose name ends in `/` gives its content instead of itself, as in CMake.
+    """
+
+    kind: str
+    source: str
+    destination: str
+    name: str
+    line: int
+    options: tuple[str, ...] = ()
+
+
+def install_entries(found: Found, command: Command) -> list[Entry]:
+    """What one `install(…)` names.
+
+    Raises:
+        BuildFailure: CMake would refuse it, or the files go elsewhere than into the package's install folder.
+    """
+    where = f"CMakeLists.txt:{command.line} (install)"
+    if not command.args:
+        return []
+    kind = command.args[0]
+    names, options = split_at(command.args[1:], _INSTALL_WORDS)
+    if kind not in _INSTALLS:
+        hint = did_you_mean(kind, _INSTALLS) or f"Known are {', '.join(_INSTALLS[:3])}."
+        raise refused(f"install does not recognize sub-command {kind}", where, hint)
+    if kind == "TARGETS":
+        hint = "A Python program is installed with install(PROGRAMS …)."
+        raise refused(f'install TARGETS given target "{" ".join(names[:1])}" which does not exist.', where, hint)
+    if kind in _INSTALLS[3:]:
+        return []
+    for name in names if kind != "DIRECTORY" else ():
+        if (found.path / name).is_dir():
+            hint = f"Write install(DIRECTORY {name} …)."
+            raise refused(f'install {kind} given directory "{name}" to install.', where, hint)
+    values = {
+        word: "".join(split_at(options[place + 1 :][:1], _INSTALL_WORDS)[0]) for place, word in enumerate(options)
+    }
+    destination, rename = values.get("DESTINATION", ""), values.get("RENAME", "")
+    if rename and len(names) > 1:
+        hint = "RENAME gives a single name, so install one program at a time: install(PROGRAMS a.py …)."
+        raise refused(f"install {kind} given RENAME option with more than one file.", where, hint)
+    if not destination:
+        hint = f"install({kind} …) needs a DESTINATION, such as lib/${{PROJECT_NAME}}."
+        raise refused(f"install {kind} given no DESTINATION!", where, hint)
+    place = PurePosixPath(destination)
+    if place.is_absolute() or ".." in place.parts or ":" in destination:
+        text = f"DESTINATION {destination} lies outside the package's install folder"
+        hint = "Use lib/${PROJECT_NAME} for programs and share/${PROJECT_NAME} for everything else: "
+        hint += f"share/{found.name}."
+        raise refused(text, where, hint)
+    destination = destination.rstrip("/")
+    own = {name: "" if kind == "DIRECTORY" and name.endswith("/") else rename or Path(name).name for name in names}
+    return [Entry(kind, name, destination, own[name], command.line, options) for name in names]
+
+
+def asks_for_python(found: Found, entry: Entry) -> bool:
+    """Whether an entry is no program, or one that can run here: its first line, if there is one, names no other interpreter."""
+    first = _first_line(found.path / entry.source)
+    return entry.kind != "PROGRAMS" or not first.startswith("#!") or "python" in first
+
+
+def install_items(found: Found, entry: Entry, hints: list[str]) -> Iterator[Item]:
+    """Where one entry goes, a folder file by file. What would be wrong on a robot although it builds is added to `hints`."""
+    folder, is_program = found.path, entry.kind == "PROGRAMS"
+    source = folder / entry.source
+    where = f"CMakeLists.txt:{entry.line} (install)"
+    if not source.resolve().is_relative_to(folder.resolve()):
+        raise refused(f"{entry.source} lies outside the package's folder", where, "Put the files into the package.")
+    if not source.exists():
+        text = f'file INSTALL cannot find "{shown_path(str(source))}": No such file or directory.'
+        paths = [
+            path for path in sorted(folder.rglob("*.py" if is_program else "*")) if "__pycache__" not in path.parts
+        ]
+        close = did_you_mean(entry.source.rstrip("/"), [path.relative_to(folder).as_posix() for path in paths])
+        hint = f"CMakeLists.txt, line {entry.line}, names '{entry.source}', which does not exist. {close}".strip()
+        raise refused(text, "cmake_install.cmake:46 (file)", hint, seconds=1.2)
+    target = "/".join(filter(None, (entry.destination, entry.name)))
+    if is_program:
+        if entry.destination != f"lib/{found.name}":
+            hints.append(
+                f"CMakeLists.txt, line {entry.line}: {entry.source} goes to {entry.destination}; ros2 run looks only in "
+                "lib/${PROJECT_NAME}."
+            )
+        elif not _first_line(found.path / entry.source).startswith("#!"):
+            hints.append(
+                f"{entry.source} does not begin with '#!/usr/bin/env python3': a real ROS 2 could not start it (Exec "
+                "format error)."
+            )
+        yield Item(target, source, program=True)
+    elif source.is_dir():
+        items = list(_directory_items(target, source, entry.options))
+        if entry.destination == f"lib/{found.name}" and items and not any(item.program for item in items):
+            hints.append(
+                f"CMakeLists.txt, line {entry.line}: what install(DIRECTORY …) installs cannot be run. Write "
+                "install(PROGRAMS <file>.py … DESTINATION lib/${PROJECT_NAME}), or add USE_SOURCE_PERMISSIONS."
+            )
+        yield from items
+    else:
+        yield Item(target, source, program=_RUNS in entry.options)
+
+
+def _first_line(file: Path) -> str:
+    text = file.read_bytes().split(b"\n", 1)[0] if file.is_file() else b""
+    return text.decode("utf-8", "replace")
+
+
+def _directory_items(target: str, folder: Path, options: Sequence[str]) -> Iterator[Item]:
+    """The files of a folder, as an `install(DIRECTORY …)` with these options installs them below `target`.
+
+    Without USE_SOURCE_PERMISSIONS a copy cannot be run, whatever the file itself can.
+    """
+    general, rest = split_at(options, _FILTERS)
+    filters: list[tuple[str, str, tuple[str, ...]]] = []
+    while len(rest) > 1:
+        words, later = split_at(rest[2:], _FILTERS)
+        filters.append((rest[0], rest[1], words))
+        rest = later
+    for file in files_in(folder):
+        inner = file.relative_to(folder)
+        paths = [folder / path for path in (inner, *inner.parents[:-1])]
+        if any("EXCLUDE" in words and _fits(path, kind, text) for kind, text, words in filters for path in paths):
+            continue
+        wanted = [words for kind, text, words in filters if "EXCLUDE" not in words and _fits(file, kind, text)]
+        if "FILES_MATCHING" in general and not wanted:
+            continue
+        modes = [words for words in [*wanted, general] if {"PERMISSIONS", "FILE_PERMISSIONS"} & set(words)]
+        runs = _RUNS in modes[0] if modes else "USE_SOURCE_PERMISSIONS" in general and os.access(file, os.X_OK)
+        yield Item("/".join(filter(None, (target, inner.as_posix()))), file, program=runs)
+
+
+def _fits(path: Path, kind: str, text: str) -> bool:
+    """Whether a filter is about a path: a pattern looks at its last names, a regex at all of it."""
+    if kind == "REGEX":
+        return re.search(text, path.as_posix()) is not None
+    parts = text.strip("/").split("/")
+    last = path.parts[-len(parts) :]
+    return len(last) == len(parts) and all(map(fnmatchcase, last, parts))
+
+
+# -- rosidl_generate_interfaces ----------------------------------------------------------------------------------------
 
 _GROUP = "rosidl_interface_packages"
 _WORDS = {"DEPENDENCIES", "LIBRARY_NAME", "SKIP_INSTALL", "SKIP_GROUP_MEMBERSHIP_CHECK", "ADD_LINTER_TESTS"}
