@@ -146,9 +146,6 @@ def _ros2_run(words: list[str], shown: str) -> Program:
     return Program(target, [path.as_posix(), *given.argv], shown)
 
 
-# -- commands that are functions ---------------------------------------------------------------------------------------
-
-
 def _main(words: list[str]) -> Main:
     """The function that a command is.
 

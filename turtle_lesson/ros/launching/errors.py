@@ -8,7 +8,6 @@ import linecache
 import re
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from types import ModuleType
 from typing import TYPE_CHECKING
 
 from ..ament import catalog, index
@@ -106,64 +105,45 @@ def learners_cause(error: BaseException | None) -> BaseException | None:
 
 def _causes(error: BaseException | None) -> list[BaseException]:
     """The error and what it came from, the outermost first."""
-    found = []
-    cause = error
-    while cause is not None:
-        found.append(cause)
-        cause = cause.__cause__
-    return found
+    return [] if error is None else [error, *_causes(error.__cause__)]
 
 
-def reason_of(error: BaseException) -> str:
-    """What the real tool would print of an error."""
-    if isinstance(error, PackageNotFoundError):
-        return repr(error.text)
-    return str(error)
-
-
-Hint = Callable[[re.Match[str]], str]
-
-
-def hint_for(error: BaseException, given: Iterable[str] = ()) -> str:
-    """A sentence on what to try, or nothing.
+def as_launch_error(error: BaseException, written_at: Place | None, given: Iterable[str]) -> LaunchError:
+    """The error as a learner should read it.
 
     Args:
-        error: what went wrong; the errors that it came from are looked at, too.
+        error: what went wrong; the errors that it came from are looked at for a hint, too.
+        written_at: where the action stands that went wrong.
         given: the names of the launch arguments that were given.
     """
-    cause: BaseException | None = error
-    while cause is not None:
-        if hint := _own_hint(cause) or _known(cause, list(given)):
-            return hint
-        cause = cause.__cause__
-    return ""
+    if isinstance(error, LaunchError):
+        return error
+    reason = repr(error.text) if isinstance(error, PackageNotFoundError) else str(error)
+    hints = (_hint(cause, list(given)) for cause in _causes(error))
+    return LaunchError(reason, place_of(error, written_at), next(filter(None, hints), ""))
 
 
-def _own_hint(error: BaseException) -> str:
-    notes = " ".join(getattr(error, "__notes__", []))
-    return str(getattr(error, "hint", "") or notes)
-
-
-def _known(error: BaseException, given: list[str]) -> str:
+def _hint(error: BaseException, given: list[str]) -> str:
     from launch.actions._groups import MissingLaunchArgumentError
 
+    if own := getattr(error, "hint", "") or " ".join(getattr(error, "__notes__", [])):
+        return str(own)
     if isinstance(error, MissingLaunchArgumentError):
-        return _missing_argument(error.argument, given)
+        name = error.argument
+        if close := did_you_mean(name, given):
+            return f"You gave {close.removeprefix('Did you mean ').removesuffix('?')}; did you mean '{name}'?"
+        return f"Give it a value: {name}:=… (in a notebook lesson.launch(…, {name}='…'))."
     if isinstance(error, FileNotFoundError | IsADirectoryError) and isinstance(error.filename, str):
         return _missing_file(Path(error.filename))
-    if (
-        isinstance(error, ModuleNotFoundError)
-        and error.name
-        and (why := catalog.why_not_here(error.name.partition(".")[0]))
-    ):
+    if isinstance(error, ModuleNotFoundError) and (why := catalog.why_not_here(str(error.name).partition(".")[0])):
         return f"{error.name} is not available here: {why}."
     if isinstance(error, SyntaxError):
         return "Look at this line and at the end of the one before: is a comma, a bracket or a quote missing?"
     if type(error).__name__ == "InvalidNodeNameException":
         return "Letters, digits and '_' are allowed, with no digit first."
-    for pattern, hint in _BY_TEXT:
+    for pattern, hint in _BY_TEXT.items():
         if match := re.search(pattern, str(error)):
-            return hint(match)
+            return match.expand(hint) if isinstance(hint, str) else hint(match[1])
     return ""
 
 
@@ -185,73 +165,52 @@ def _missing_file(path: Path) -> str:
     return f"There are: {', '.join(names)}." if names else ""
 
 
-def _missing_argument(name: str, given: list[str]) -> str:
-    close = did_you_mean(name, given)
-    if close:
-        wrong = close.split("'")[1]
-        return f"You gave '{wrong}'; did you mean '{name}'?"
-    return f"Give it a value: {name}:=… (in a notebook lesson.launch(…, {name}='…'))."
-
-
-def _undefined(match: re.Match[str]) -> str:
-    name = match[1]
-    for module, names in _importable().items():
-        if name in names:
-            return f"Add at the top of the file: from {module} import {name}"
-    everything = {known: module for module, names in _importable().items() for known in names}
-    return did_you_mean(name, everything)
-
-
-def _importable() -> dict[str, list[str]]:
-    """The public names of the modules that launch files import from."""
-    names = (
+def _undefined(name: str) -> str:
+    """Where launch files import a name from."""
+    modules = (
         "launch_ros.actions", "launch.actions", "launch.substitutions", "launch.conditions", "launch.event_handlers",
         "launch.launch_description_sources", "launch_ros.substitutions", "ament_index_python.packages", "launch",
         "launch_ros.parameter_descriptions", "launch_ros.descriptions", "launch_ros.event_handlers", "launch.events",
         "launch_ros.events.lifecycle", "launch_xml.launch_description_sources", "launch_yaml.launch_description_sources",
     )  # fmt: skip
-    return {name: _public_names(importlib.import_module(name)) for name in names}
+    homes: dict[str, str] = {}
+    for module in modules:
+        found = importlib.import_module(module)
+        for public in getattr(found, "__all__", vars(found)):
+            homes.setdefault(public, module)
+    if name in homes:
+        return f"Add at the top of the file: from {homes[name]} import {name}"
+    return did_you_mean(name, homes)
 
 
-def _public_names(module: ModuleType) -> list[str]:
-    """What a module says that it exports, or else what was made in its package."""
-    package = f"{module.__name__.partition('.')[0]}."
-    made = [name for name, value in vars(module).items() if f"{getattr(value, '__module__', '')}.".startswith(package)]
-    return getattr(module, "__all__", [name for name in made if not name.startswith("_")])
-
-
-def _unexpected_keyword(match: re.Match[str]) -> str:
+def _unexpected_keyword(name: str) -> str:
     import launch.actions
     import launch_ros.actions
 
     classes = [launch_ros.actions.Node, launch.actions.ExecuteProcess, launch.actions.ExecuteLocal]
-    known = {name for kind in classes for name in inspect.signature(kind).parameters}
-    return did_you_mean(match[1], sorted(known - {"kwargs", "cmd"}))
+    known = {argument for kind in classes for argument in inspect.signature(kind).parameters}
+    return did_you_mean(name, sorted(known - {"kwargs", "cmd"}))
 
 
-def _text_wanted(match: re.Match[str]) -> str:
-    if match[1] == "NoneType":
+def _text_wanted(kind: str) -> str:
+    if kind == "NoneType":
         return "Launch needs text here, but got None: is a variable or a return value empty?"
-    return f"Launch needs text here, but got a value of type {match[1]}: put it in quotes, as in '5.0'."
+    return f"Launch needs text here, but got a value of type {kind}: put it in quotes, as in '5.0'."
 
 
-_BY_TEXT: list[tuple[str, Hint]] = [
-    (r"name '(\w+)' is not defined", _undefined),
-    (r"unexpected keyword argument '(\w+)'", _unexpected_keyword),
-    (r"missing \d+ required keyword-only arguments?: '(\w+)'", lambda match: f"Write {match[1]}='…' in it."),
-    (r"expected 'parameters' to be one of .*'dict'", lambda _: "Put it into a list: parameters=[{…}]"),
-    (r"Failed to normalize given item of type '<class '(\w+)'>'", _text_wanted),
-    (
-        r"'NoneType' object has no attribute 'get_launch_arguments",
-        lambda _: "generate_launch_description() must end with: return LaunchDescription([…])",
+_BY_TEXT: dict[str, str | Callable[[str], str]] = {
+    r"name '(\w+)' is not defined": _undefined,
+    r"unexpected keyword argument '(\w+)'": _unexpected_keyword,
+    r"missing \d+ required keyword-only arguments?: '(\w+)'": r"Write \1='…' in it.",
+    r"expected 'parameters' to be one of .*'dict'": "Put it into a list: parameters=[{…}]",
+    r"Failed to normalize given item of type '<class '(\w+)'>'": _text_wanted,
+    r"'NoneType' object has no attribute 'get_launch_arguments": (
+        "generate_launch_description() must end with: return LaunchDescription([…])"
     ),
-    (
-        r"'(?:list|tuple)' object has no attribute 'get_launch_arguments",
-        lambda _: "Wrap the list: return LaunchDescription([…])",
+    r"'(?:list|tuple)' object has no attribute 'get_launch_arguments": "Wrap the list: return LaunchDescription([…])",
+    r"object has no attribute '(?:visit|describe_sub_entities)'": (
+        "Only actions such as Node(…) can be in a launch description."
     ),
-    (
-        r"object has no attribute '(?:visit|describe_sub_entities)'",
-        lambda _: "Only actions such as Node(…) can be in a launch description.",
-    ),
-    (r"is not a valid standard output config", lambda _: "The usual value is output='screen'."),
-]
+    r"is not a valid standard output config": "The usual value is output='screen'.",
+}
+"""What to try, by the text of an error."""

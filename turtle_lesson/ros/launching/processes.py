@@ -9,9 +9,10 @@ from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Any
 
 from launch import Event
-from launch.events import ExecutionComplete, Shutdown
+from launch.events import Shutdown
 from launch.events.process import (
     ProcessExited,
+    ProcessIO,
     ProcessStarted,
     ProcessStderr,
     ProcessStdout,
@@ -83,19 +84,24 @@ class LineWriter(io.TextIOBase):
 TERMINATED = -15
 """The exit code of a process that was ended by SIGTERM, as launch prints it."""
 
+START_UP = 300_000_000
+"""How long, in ns, a Python program takes from its process's start to its first line. Those of a launch take turns."""
+
+RESPAWN_PAUSE = 0.25
+"""How long, in s, a program that is not Python stays away when it respawns without a delay, so that robot time passes."""
+
 
 class RunningProcess:
     """What launch knows about the process of one action."""
 
-    def __init__(self, owner: Processes, action: ExecuteLocal) -> None:
-        self._owner = owner
-        self._service = owner.service
+    def __init__(self, launch: Processes, action: ExecuteLocal) -> None:
+        self._launch = launch
+        self._service = launch.service
         self.action = action
         self.name = action.process_description.final_name
         self.process: Process | None = None
-        self.retries = 0
+        self._retries = 0
         self._terminated = False
-        self._writers: list[LineWriter] = []
 
     def __repr__(self) -> str:
         return f"<RunningProcess {self.name}, {'alive' if self.alive else 'ended'}>"
@@ -112,49 +118,59 @@ class RunningProcess:
             return None
         return TERMINATED if self._terminated else self.process.exit_code
 
-    def details(self) -> dict[str, Any]:
-        """What its events carry."""
-        return dict(self.action.process_details or {})
-
     @property
-    def is_python(self) -> bool:
+    def _is_python(self) -> bool:
         """Whether a robot starts Python for it: a node of a package, a Python file, a `ros2` command."""
         program = self.action._program
         assert program is not None
         return isinstance(program.target, (Path, PythonProgram)) or PurePath(program.argv[0]).name == "ros2"
 
-    def start(self, world: World, start_up: int) -> None:
-        """Start it at this instant; its main program begins `start_up` ns later."""
+    def say(self, level: str, text: str) -> None:
+        """Print a line of launch's own about it."""
+        self._service.say(level, self.name, text)
+
+    def start(self) -> None:
+        """Start it at this instant, unless the launch is ending; Python programs come up one after the other."""
+        if self._service.context.is_shutdown:
+            return
         program = self.action._program
         assert program is not None and self.action.process_details is not None
-        out, err = self._writer("stdout"), self._writer("stderr")
-        self._writers = [out, err]
-        self.process = world.spawn(
+        streams = {"stdout": self._writer("stdout", ProcessStdout), "stderr": self._writer("stderr", ProcessStderr)}
+
+        def on_exit(process: Process) -> None:
+            for stream in streams.values():
+                stream.finish()
+            self._launch.ended(self)
+
+        self.process = self._service.world.spawn(
             program.target,
             name=self.name.rpartition("-")[0],
             argv=program.argv,
-            stdout=out,
-            stderr=err,
-            on_exit=self._ended,
+            **streams,
+            on_exit=on_exit,
             environ=self.action.process_details["env"],
-            start_up=start_up,
+            start_up=self._launch.next_start_up() if self._is_python else 0,
         )
         self.action.process_details["pid"] = self.process.pid
-        self._service.say("INFO", self.name, f"process started with pid [{self.process.pid}]")
+        self.say("INFO", f"process started with pid [{self.process.pid}]")
+        self._emit(ProcessStarted)
 
-    def _writer(self, stream: str) -> LineWriter:
+    def _writer(self, stream: str, kind: type[ProcessIO]) -> LineWriter:
         shown = stream in self.action._on_screen
 
         def on_line(line: str) -> None:
             if shown:
                 self._service.line(self.action.output_format.format(line=line, this=self.action))
 
-        return LineWriter(on_line, lambda text: self._owner.printed(self, stream, text))
+        return LineWriter(on_line, lambda text: self._emit(kind, text=text.encode()))
 
-    def _ended(self, process: Process) -> None:
-        for writer in self._writers:
-            writer.finish()
-        self._owner.ended(self)
+    def _emit(self, kind: type[Event], **more: Any) -> None:
+        """Let an event about it happen, if a handler waits for it."""
+        context = self._service.context
+        if context._event_handlers:
+            event = kind(**(self.action.process_details or {}), **more)
+            if context.would_handle_event(event):
+                context.emit_event_sync(event)
 
     def last_words(self) -> None:
         """Print how it ended."""
@@ -162,15 +178,20 @@ class RunningProcess:
         self.action.return_code = self.exit_code
         pid = f"pid {self.process.pid}"
         if self.exit_code == 0:
-            self._service.say("INFO", self.name, f"process has finished cleanly [{pid}]")
+            self.say("INFO", f"process has finished cleanly [{pid}]")
         else:
             how = f"[{pid}, exit code {self.exit_code}, cmd '{self.action._program.shown}']"
-            self._service.say("ERROR", self.name, f"process has died {how}.")
+            self.say("ERROR", f"process has died {how}.")
 
-    def wants_respawn(self) -> bool:
-        """Whether it is to be started once more."""
+    def after_end(self) -> None:
+        """Inform the handlers that wait for its end; start it again if it respawns."""
+        self._emit(ProcessExited, returncode=self.exit_code or 0)
+        self.action._complete(self._service.context)
         limit = self.action.respawn_max_retries
-        return self.action._respawns and (limit < 0 or self.retries < limit)
+        if self.action._respawns and (limit < 0 or self._retries < limit) and not self._service.context.is_shutdown:
+            self._retries += 1
+            pause = self.action.respawn_delay or (0.0 if self._is_python else RESPAWN_PAUSE)
+            self._service.call_later(pause, self.start)
 
     def signal(self, name: str) -> None:
         """Send SIGINT or SIGTERM, which a program may handle, or SIGKILL, which none survives."""
@@ -178,21 +199,30 @@ class RunningProcess:
             raise NotImplementedError(f"{name} is not available here; SIGINT, SIGTERM and SIGKILL are")
         if self.process is None or not self.alive:
             return
-        number = signal.Signals[name]
         if name == "SIGINT":
             self.process.interrupt()
-        elif self.process.handles(number):
-            self.process.send_signal(number)
+        elif self.process.handles(signal.Signals[name]):
+            self.process.send_signal(signal.Signals[name])
         else:
             self._terminated = name == "SIGTERM"
             self.process.kill()
 
+    def announce(self, signal_name: str) -> None:
+        """Say that a signal is sent to it."""
+        self.say("INFO", f"sending signal '{signal_name}' to process[{self.name}]")
 
-START_UP = 300_000_000
-"""How long, in ns, a Python program takes from its process's start to its first line. Those of a launch take turns."""
+    def escalate_later(self) -> None:
+        """Send SIGTERM if it is still alive some seconds after SIGINT."""
+        patience = perform_substitutions(self._service.context, self.action.sigterm_timeout)
 
-RESPAWN_PAUSE = 0.25
-"""How long, in s, a program that is not Python stays away when it respawns without a delay, so that robot time passes."""
+        def escalate() -> None:
+            if self.alive:
+                how = f"'{patience}' seconds after receiving 'SIGINT', escalating to 'SIGTERM'"
+                self.say("ERROR", f"process[{self.name}] failed to terminate {how}")
+                self.announce("SIGTERM")
+                self.signal("SIGTERM")
+
+        self._service.call_later(float(patience), escalate)
 
 
 class Processes:
@@ -223,92 +253,52 @@ class Processes:
             self.service.warn_once(f"{action.prefix_left_out} is left out: programs run here without a prefix")
         process = RunningProcess(self, action)
         self._all.append(process)
-        self._start(process)
+        process.start()
 
-    def _start(self, process: RunningProcess) -> None:
-        if not self.service.context.is_shutdown:
-            process.start(self.service.world, self._start_up(process))
-            self._emit(ProcessStarted(**process.details()))
-
-    def _start_up(self, process: RunningProcess) -> int:
-        """How long a process takes until its program begins (ns): Python programs come up one after the other."""
-        if not process.is_python:
-            return 0
+    def next_start_up(self) -> int:
+        """How long the next Python program takes until it begins (ns), as they come up one after the other."""
         now = self.service.world.sim.now
         self.up_at = max(self.up_at, now) + START_UP
         return self.up_at - now
 
-    def printed(self, process: RunningProcess, stream: str, text: str) -> None:
-        """Pass a process's output to its event handlers (OnProcessIO)."""
-        if self.service.context._event_handlers:
-            kind = ProcessStdout if stream == "stdout" else ProcessStderr
-            self._emit(kind(text=text.encode(), **process.details()))
-
     def ended(self, process: RunningProcess) -> None:
-        """A process is dead: say how, inform the callers that wait for it, start it again if it respawns."""
+        """A process is dead: say how, and go on from there."""
         if self._ending is not None:
             self._ending.append(process)
             return
         process.last_words()
         if running_strand() is None:
-            self.service.carry_on(lambda: self._after_end(process))
+            self.service.carry_on(process.after_end)
         else:  # still within the dying process: leave it first
-            self.service.world.sim.call_later(0, self.service.carry_on, lambda: self._after_end(process))
-
-    def _after_end(self, process: RunningProcess) -> None:
-        self._emit(ProcessExited(returncode=process.exit_code or 0, **process.details()))
-        self._emit(ExecutionComplete(action=process.action))
-        if process.wants_respawn() and not self.service.context.is_shutdown:
-            process.retries += 1
-            pause = process.action.respawn_delay or (0.0 if process.is_python else RESPAWN_PAUSE)
-            self.service.call_later(pause, lambda: self._start(process))
-
-    def _emit(self, event: Event) -> None:
-        if self.service.context.would_handle_event(event):
-            self.service.context.emit_event_sync(event)
+            self.service.world.sim.call_later(0, self.service.carry_on, process.after_end)
 
     def react(self, event: Event) -> None:
         """What launch itself does about an event."""
         if isinstance(event, Shutdown):
             self._end(self.alive, said=not event.due_to_sigint)
-        elif isinstance(event, ShutdownProcess):
-            self._end([p for p in self.alive if event.process_matcher(p.action)], said=True)
-        elif isinstance(event, SignalProcess):
-            for process in [p for p in self.alive if event.process_matcher(p.action)]:
-                self._announce(process, event.signal_name)
-                process.signal(event.signal_name)
-
-    def _announce(self, process: RunningProcess, signal_name: str) -> None:
-        text = f"sending signal '{signal_name}' to process[{process.name}]"
-        self.service.say("INFO", process.name, text)
+        elif isinstance(event, ShutdownProcess | SignalProcess):
+            meant = [process for process in self.alive if event.process_matcher(process.action)]
+            if isinstance(event, SignalProcess):
+                for process in meant:
+                    process.announce(event.signal_name)
+                    process.signal(event.signal_name)
+            else:
+                self._end(meant, said=True)
 
     def _end(self, processes: list[RunningProcess], *, said: bool) -> None:
         """Interrupt processes, and see to it that they end. Their last words come after all their output."""
         for process in reversed(processes) if said else ():
-            self._announce(process, "SIGINT")
+            process.announce("SIGINT")
         self._ending = []
         for process in processes:
             process.signal("SIGINT")
         ended, self._ending = self._ending, None
         for process in ended:
             process.last_words()
-            self._after_end(process)
+            process.after_end()
         for process in processes:
             if process.alive:
-                self._escalate_later(process)
-
-    def _escalate_later(self, process: RunningProcess) -> None:
-        patience = perform_substitutions(self.service.context, process.action.sigterm_timeout)
-
-        def escalate() -> None:
-            if process.alive:
-                how = f"'{patience}' seconds after receiving 'SIGINT', escalating to 'SIGTERM'"
-                text = f"process[{process.name}] failed to terminate {how}"
-                self.service.say("ERROR", process.name, text)
-                self._announce(process, "SIGTERM")
-                process.signal("SIGTERM")
-
-        self.service.call_later(float(patience), escalate)
+                process.escalate_later()
 
 
 LOOKS_AGAIN = 0.01
@@ -323,7 +313,6 @@ class RosHelper:
         self._carry_on = carry_on
         self._orders: list[Callable[[], None]] = []
         self._node: Any = None
-        self._executor: Any = None
         self._clients: dict[str, Any] = {}
         self._ended = False
         self._process: Process = world.spawn(self._main, name="launch_ros", argv=["launch_ros"])
@@ -334,12 +323,12 @@ class RosHelper:
 
         rclpy.init(args=[])
         self._node = rclpy.create_node(f"launch_ros_{self._process.pid}", start_parameter_services=False)
-        self._executor = SingleThreadedExecutor()
-        self._executor.add_node(self._node)
+        executor = SingleThreadedExecutor()
+        executor.add_node(self._node)
         self._wakes = self._node.create_guard_condition(self._work)
         self._work()
         try:
-            self._executor.spin()
+            executor.spin()
         except (KeyboardInterrupt, ExternalShutdownException):
             pass
         finally:
@@ -375,7 +364,9 @@ class RosHelper:
         from lifecycle_msgs.srv import ChangeState
 
         def call() -> None:
-            client = self._client(node_name, ChangeState)
+            if node_name not in self._clients:
+                self._clients[node_name] = self._node.create_client(ChangeState, f"{node_name}/change_state")
+            client = self._clients[node_name]
             if not client.service_is_ready():  # wait without holding up what other nodes tell
                 timer: Any = self._node.create_timer(LOOKS_AGAIN, lambda: again(timer))
                 return
@@ -389,11 +380,6 @@ class RosHelper:
             call()
 
         self._order(call)
-
-    def _client(self, node_name: str, kind: Any) -> Any:
-        if node_name not in self._clients:
-            self._clients[node_name] = self._node.create_client(kind, f"{node_name}/change_state")
-        return self._clients[node_name]
 
     def close(self) -> None:
         """End it."""

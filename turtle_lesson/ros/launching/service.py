@@ -30,7 +30,7 @@ from ..runtime.run_world import run_for
 from ..runtime.world import current_world
 from ..sim.errors import shown_path
 from ..sim.simulation import NANOSECONDS
-from .errors import LaunchError, hint_for, learners_cause, place_of, reason_of
+from .errors import LaunchError, as_launch_error, learners_cause
 from .processes import Processes, RosHelper
 
 if TYPE_CHECKING:
@@ -222,13 +222,6 @@ class LaunchService:
             finally:
                 self.context._pop("_locals")
         self.processes.react(event)
-
-
-def as_launch_error(error: BaseException, written_at: tuple[str, int] | None, given: dict[str, str]) -> LaunchError:
-    """The error as a learner should read it."""
-    if isinstance(error, LaunchError):
-        return error
-    return LaunchError(reason_of(error), place_of(error, written_at), hint_for(error, given))
 
 
 def service_here() -> LaunchService:
