@@ -16,12 +16,11 @@ from IPython.core.interactiveshell import InteractiveShell
 from traitlets.config import Config
 
 from turtle_lesson import start
-from turtle_lesson.ros.cli import terminal_files
+from turtle_lesson.ros.cli import terminal
 from turtle_lesson.ros.cli.cells import COMMANDS, UNSURE, translate
 from turtle_lesson.ros.cli.command_hints import ELSEWHERE, advice
 from turtle_lesson.ros.cli.completion import complete
 from turtle_lesson.ros.cli.shell import PROGRAMS
-from turtle_lesson.ros.cli.terminal import BUILTINS
 from turtle_lesson.ros.runtime import files
 from turtle_lesson.ros.runtime.world import current_world
 
@@ -43,7 +42,7 @@ def run(
     """Runs a cell in a fresh world and returns what it printed."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(files, "_home", tmp_path)
-    monkeypatch.setattr(terminal_files, "last_cd", None)
+    monkeypatch.setattr(terminal, "last_cd", None)
     ipython.reset(new_session=False)
     ipython.user_ns["lesson"] = start(seed=0)
     capsys.readouterr()
@@ -572,7 +571,7 @@ def test_tab_leaves_python_alone(run: Run, ipython: InteractiveShell) -> None:
 
 
 def test_every_word_that_may_be_typed_bare_is_known_to_the_terminal(run: Run) -> None:
-    assert {*COMMANDS, *UNSURE} <= {*PROGRAMS, *BUILTINS, *ELSEWHERE}
-    assert {*PROGRAMS, *BUILTINS} <= {*COMMANDS, *UNSURE, "."}
+    assert {*COMMANDS, *UNSURE} <= {*PROGRAMS, *terminal.BUILTINS, *ELSEWHERE}
+    assert {*PROGRAMS, *terminal.BUILTINS} <= {*COMMANDS, *UNSURE, "."}
     assert all(advice([word]) for word in ELSEWHERE)
-    assert not ELSEWHERE & {*PROGRAMS, *BUILTINS}
+    assert not ELSEWHERE & {*PROGRAMS, *terminal.BUILTINS}

@@ -16,7 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as some
 
 from turtle_lesson import start
-from turtle_lesson.ros.cli import terminal_files
+from turtle_lesson.ros.cli import terminal
 from turtle_lesson.ros.cli.shell import begin_here, open_terminal, run_line
 from turtle_lesson.ros.runtime import files
 from turtle_lesson.ros.runtime.world import World, open_world
@@ -146,7 +146,7 @@ def state(place: Path, but: Path) -> dict[str, object]:
 @pytest.fixture
 def mine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The learner's folder, and current."""
-    monkeypatch.setattr(terminal_files, "last_cd", None)
+    monkeypatch.setattr(terminal, "last_cd", None)
     for name in ("OUT", "TURTLE_LESSON_OPENED", "OLDPWD"):  # to have them again afterwards
         monkeypatch.setenv(name, "")
     mine = make(tmp_path)
@@ -507,5 +507,5 @@ def test_whatever_is_typed_nothing_changes_outside(
         monkeypatch.chdir(tmp_path)
         os.environ.clear()
         os.environ.update(environment)
-        terminal_files.last_cd = None
+        terminal.last_cd = None
         shutil.rmtree(deep)

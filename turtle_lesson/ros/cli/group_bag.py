@@ -186,7 +186,6 @@ def _name_by_time() -> str:
 )
 def _info(args: Namespace) -> int:
     """Describe what a bag contains."""
-
     from ..bags.bag import info_text, open_bag
 
     try:
@@ -225,7 +224,6 @@ def _info(args: Namespace) -> int:
 )
 def _play(args: Namespace) -> int:
     """Publish recorded messages again."""
-
     from ..bags.bag import open_bag
     from ..bags.player import Playback, parse_remaps, play
 
@@ -260,7 +258,6 @@ def _play(args: Namespace) -> int:
 @verb("bag reindex", *READER)
 def _reindex(args: Namespace) -> int:
     """Rebuild a bag's lost metadata.yaml."""
-
     from ..bags.bag import METADATA, reindex
 
     folder = Path(args.bag_path).expanduser()

@@ -236,7 +236,6 @@ def _ends(node: Node, action: str, role: str) -> list[tuple[str, list[str]]]:
 )
 def send_goal(args: Namespace) -> None:
     """Send a goal and print its outcome."""
-
     from rosidl_runtime_py.convert import message_to_yaml
 
     kind = class_of(args.action_type, "action")

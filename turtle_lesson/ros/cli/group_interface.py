@@ -61,7 +61,6 @@ _PACKAGE = arg("package_name", "name of the package")
 @verb("interface package", _PACKAGE, in_cell=True)
 def _package(args: Namespace) -> None:
     """List the interfaces of a package."""
-
     from rosidl_runtime_py import get_interfaces
 
     _check_package(args.package_name)
@@ -170,7 +169,6 @@ def _field_type(package: str, line: str) -> FieldType | None:
 @verb("interface proto", TYPE, flag("--no-quotes", "without the quotation marks around it"), in_cell=True)
 def _proto(args: Namespace) -> None:
     """Print an interface with its default values, to fill in."""
-
     from rosidl_runtime_py import message_to_yaml
     from rosidl_runtime_py.utilities import get_interface
 

@@ -103,9 +103,9 @@ def _ask(node: Node, node_name: str, service: str, **request: Any) -> Any:
     return ask(node, getattr(rcl_interfaces.srv, service), f"{node_name}/{words}", not_there, request)
 
 
-def listed(node: Node, name: str, prefixes: list[str] | None = None) -> list[str]:
+def listed(node: Node, name: str) -> list[str]:
     """The names of a node's parameters, sorted."""
-    return sorted(_ask(node, name, "ListParameters", prefixes=prefixes or []).result.names)
+    return sorted(_ask(node, name, "ListParameters").result.names)
 
 
 def set_values(node: Node, node_name: str, names_and_values: list[tuple[str, Any]]) -> Any:
@@ -116,9 +116,11 @@ def set_values(node: Node, node_name: str, names_and_values: list[tuple[str, Any
     return _ask(node, node_name, "SetParameters", parameters=parameters).results
 
 
-def with_reason(text: str, result: Any) -> str:
-    """A text, and the reason that the node gave, if any."""
-    return f"{text}: {result.reason}" if result.reason else text
+def tell(result: Any, done: str, failed: str) -> bool:
+    """Say how setting a parameter went, and the reason that the node gave, if any; whether it was set."""
+    text = done if result.successful else failed
+    print(f"{text}: {result.reason}" if result.reason else text, file=sys.stdout if result.successful else sys.stderr)
+    return bool(result.successful)
 
 
 # -- dump, load ------------------------------------------------------------------------------------------------------
@@ -132,7 +134,6 @@ def with_reason(text: str, result: Any) -> str:
 )
 def dump(args: Namespace) -> None:
     """All parameters of a node, in the format that `load` reads."""
-
     import yaml
     from rclpy.parameter import parameter_value_to_python
 
@@ -172,10 +173,7 @@ def load(args: Namespace) -> None:
         parameters = _read_file(args.parameter_file, name, wildcard=not args.no_use_wildcard)
         messages = [(each, from_python(value, str(value))) for each, value in parameters]
         for (each, _), result in zip(messages, set_values(node, name, messages), strict=True):
-            if result.successful:
-                print(with_reason(f"Set parameter {each} successful", result))
-            else:
-                print(with_reason(f"Set parameter {each} failed", result), file=sys.stderr)
+            tell(result, f"Set parameter {each} successful", f"Set parameter {each} failed")
 
 
 def _read_file(path: str, node_name: str, *, wildcard: bool) -> list[tuple[str, Any]]:
@@ -300,7 +298,6 @@ def set_parameter(args: Namespace) -> None:
 @verb("param delete", *OF_NODE, PARAMETER)
 def delete(args: Namespace) -> None:
     """Delete a parameter."""
-
     from rcl_interfaces.msg import ParameterValue
 
     _change(args, ParameterValue, "Deleted parameter successfully", "Deleting parameter failed")
@@ -311,10 +308,8 @@ def _change(args: Namespace, value: Callable[[], Any], done: str, failed: str) -
     with direct_node(args) as node:
         name = find_node(node, args)
         [result] = set_values(node, name, [(args.parameter_name, value())])
-        if result.successful:
-            print(with_reason(done, result))
+        if tell(result, done, failed):
             return
-        print(with_reason(failed, result), file=sys.stderr)
         known = listed(node, name)
         if args.parameter_name not in known and (hint := suggest(args.parameter_name, known)):
             print(hint, file=sys.stderr)

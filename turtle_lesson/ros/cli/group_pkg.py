@@ -77,7 +77,6 @@ def _prefix(args: Namespace) -> None:
 @verb("pkg xml", PACKAGE, arg("-t --tag", "only this element, such as version"), in_cell=True)
 def _xml(args: Namespace) -> None:
     """Print the package.xml of a package."""
-
     from xml.etree import ElementTree
 
     packages = current_packages()

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, TextIO
 
 from ..runtime.console import BorrowedStream, CellOutput, FileOutput
 from ..sim.process import Process
+from .arguments import printable
 
 if TYPE_CHECKING:
     from ..launching import LaunchHandle
@@ -102,20 +103,11 @@ LONGEST = 1500
 """How many characters of a line of stderr are shown: nobody reads on in a name of 10,000."""
 
 
-class CellErrors(BorrowedStream):
-    """A cell's stderr. It flushes both streams where it writes: else Jupyter would mix up their order."""
+class _Stream(BorrowedStream):
+    """A stream that prints into another one."""
 
-    def __init__(self, target: TextIO, other: TextIO) -> None:
+    def __init__(self, target: Any) -> None:
         self._target = target
-        self._other = other
-
-    def write(self, text: str) -> int:
-        """Print a text, as it is."""
-        self._other.flush()
-        written = self._target.write(text)
-        if text.endswith("\n"):
-            self._target.flush()
-        return written
 
     def flush(self) -> None:
         """Show what was written. Python flushes once more at the very end, when the cell's stream may be closed."""
@@ -123,17 +115,31 @@ class CellErrors(BorrowedStream):
             self._target.flush()
 
 
+class CellErrors(_Stream):
+    """A cell's stderr. It flushes both streams where it writes: else Jupyter would mix up their order."""
+
+    def __init__(self, target: TextIO, other: TextIO) -> None:
+        super().__init__(target)
+        self._other = other
+
+    def write(self, text: str) -> int:
+        """Print a text, as it is."""
+        self._other.flush()
+        written: int = self._target.write(text)
+        if text.endswith("\n"):
+            self._target.flush()
+        return written
+
+
 def cell_streams() -> tuple[TextIO, CellErrors]:
     """The running cell's stdout and stderr."""
     return sys.stdout, CellErrors(sys.stderr, sys.stdout)
 
 
-class Errors(BorrowedStream):
+class Errors(_Stream):
     """A command's stderr: what was typed is repeated in it, so endless lines are cut and control characters named."""
 
-    def __init__(self, target: Any) -> None:
-        self._target = target
-        self._column = 0
+    _column = 0
 
     def write(self, text: str) -> int:
         """Print a text, made fit to be printed."""
@@ -143,19 +149,11 @@ class Errors(BorrowedStream):
 
     def _write_line(self, line: str) -> None:
         end = "\n" if line.endswith("\n") else ""
-        shown = "".join(
-            char if char.isprintable() or char == "\t" else repr(char)[1:-1]
-            for char in line.removesuffix("\n")[:LONGEST]
-        )
+        shown = printable(line.removesuffix("\n")[:LONGEST])
         if self._column < LONGEST:
             self._target.write(shown if self._column + len(line) <= LONGEST else f"{shown}…")
         self._target.write(end)
         self._column = 0 if end else self._column + len(line)
-
-    def flush(self) -> None:
-        """Show what was written. Python flushes once more at the very end, when the cell's stream may be closed."""
-        with suppress(ValueError):
-            self._target.flush()
 
 
 def lasting(stream: Any, simulation: Simulation) -> BorrowedStream:

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any
 from ..idl.names import did_you_mean
 from ..runtime import files
 from ..runtime.console import FileOutput
-from . import terminal_files
+from . import terminal
 from .arguments import cut
 from .command_hints import advice
 from .jobs import cell_streams
@@ -40,7 +40,6 @@ from .script import (
     tokens,
     with_its_program,
 )
-from .terminal import BUILTINS
 from .terminal_io import Terminal, before_a_command, export, set_for_now
 from .verb import INTERRUPTED
 
@@ -123,39 +122,35 @@ class Shell:
         return code
 
     def _one(self, command: Command, given: str | None, out: Any, error: Any) -> int:
-        home, code = files.home(), self.exit_code
-        words = [text for word in command.words for text in expand(word, home=home, exit_code=code)]
+        words = [text for word in command.words for text in self._expand(word)]
         try:
             if command.stdin is not None:
                 given = Path(self._file_name(command.stdin)).read_text(encoding="utf-8")
             to = out
-            if command.stdout is not None or command.stderr is not None:
-                to, error = self._redirected(command, out, error)
+            if command.stdout is not None:
+                sign, word = command.stdout
+                to = _file(self._file_name(word), "a" if sign == ">>" else "w", out)
+            if command.stderr is not None:
+                error = to if command.stderr == TO_STDOUT else _file(self._file_name(command.stderr), "w", error)
             return self._call(words, given, to, error, command.background) if words else 0
-        except (OSError, ValueError, re.error) as mistake:
-            return _said(words[0] if words else "bash", mistake, error)
+        except (OSError, ValueError, re.error) as mistake:  # said without Python's numbers
+            text = str(mistake)
+            if isinstance(mistake, OSError) and mistake.strerror:
+                text = f"{mistake.filename}: {mistake.strerror}" if mistake.filename else mistake.strerror
+            print(f"{cut(words[0] if words else 'bash', 40)}: {cut(text, 300)}", file=error)
+            return 1
         except KeyboardInterrupt:
             raise CommandInterrupted(words) from None
 
+    def _expand(self, word: Word) -> list[str]:
+        return expand(word, home=files.home(), exit_code=self.exit_code)
+
     def _file_name(self, word: Word) -> str:
         """What a `<` or `>` is followed by. Raises ValueError if that is no name or several."""
-        names = expand(word, home=files.home(), exit_code=self.exit_code)
+        names = self._expand(word)
         if len(names) != 1:
             raise ValueError(f"{word.text}: ambiguous redirect: it stands for {len(names)} names, and one is needed")
         return names[0]
-
-    def _redirected(self, command: Command, out: Any, error: Any) -> tuple[Any, Any]:
-        """The streams of a command, some of which may be files. Raises OSError if a file cannot be written."""
-        to: Any = out
-        error_to: Any = error
-        if command.stdout is not None:
-            sign, word = command.stdout
-            to = _file(self._file_name(word), "a" if sign == ">>" else "w", out)
-        if command.stderr == TO_STDOUT:
-            error_to = to
-        elif command.stderr is not None:
-            error_to = _file(self._file_name(command.stderr), "w", error)
-        return to, error_to
 
     def _call(self, words: Sequence[str], given: str | None, out: Any, error: Any, background: bool) -> int:
         if "=" in words[0] and (variables := before_a_command(words)):
@@ -186,8 +181,8 @@ class Shell:
             return NOT_EXECUTABLE
         if (path := script_of(words)) is not None:
             return run_script(self.world, words, path, given, out, error)
-        if name in BUILTINS:
-            return BUILTINS[name](Terminal(self.world, out, error, given), list(words[1:]))
+        if name in terminal.BUILTINS:
+            return terminal.BUILTINS[name](Terminal(self.world, out, error, given), list(words[1:]))
         print(_not_found(words), file=error)
         return NOT_FOUND
 
@@ -198,20 +193,11 @@ def _not_found(words: Sequence[str]) -> str:
     other = advice(words)
     if other:
         return f"{name.lstrip('!')}: {cut(other, 300)}."
-    hint = did_you_mean(name[:100], [*PROGRAMS, *BUILTINS])
+    hint = did_you_mean(name[:100], [*PROGRAMS, *terminal.BUILTINS])
     if re.match(r"\w+[(=\[.]", name):
         hint = "If it is Python, write it on a line of its own: everything after a command belongs to the terminal."
     computer = "This simulated terminal has ros2, colcon, source and a few more; !command runs on your computer."
     return f"{cut(name, 60)}: command not found. {hint or computer}"
-
-
-def _said(name: str, error: Exception, stream: Any) -> int:
-    """Say in a line what went wrong, without Python's numbers; returns the exit code."""
-    text = str(error)
-    if isinstance(error, OSError) and error.strerror:
-        text = f"{error.filename}: {error.strerror}" if error.filename else error.strerror
-    print(f"{cut(name, 40)}: {cut(text, 300)}", file=stream)
-    return 1
 
 
 def _file(name: str, mode: str, instead_of: Any) -> FileOutput:
@@ -224,15 +210,15 @@ def _file(name: str, mode: str, instead_of: Any) -> FileOutput:
 
 def open_terminal() -> None:
     """A new terminal begins where the notebook began: undo what `cd` did."""
-    if terminal_files.last_cd is not None and files.here() == terminal_files.last_cd and files.home().is_dir():
+    if terminal.last_cd is not None and files.here() == terminal.last_cd and files.home().is_dir():
         os.chdir(files.home())
-    terminal_files.last_cd = None
+    terminal.last_cd = None
     files.begin()
 
 
 def begin_here() -> None:
     """The notebook begins: its folder is what `~` is from now on."""
-    if terminal_files.last_cd is None:
+    if terminal.last_cd is None:
         files.begin(notebook=True)
 
 

@@ -73,7 +73,6 @@ PRESET = "sensor_data"
 )
 def echo(args: Namespace) -> None:
     """Print the messages of a topic."""
-
     from rclpy.task import Future
 
     if args.lost_messages:

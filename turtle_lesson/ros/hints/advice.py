@@ -9,10 +9,11 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
+from ..idl.names import did_you_mean
 from ..sim import errors
 from ..sim.errors import is_ours, traceback_entries
 from . import attributes, imports
-from .attributes import meant
+from .attributes import message_class
 
 # -- calls --------------------------------------------------------------------------------------------------------
 # Functions that are called with something else than they take.
@@ -33,7 +34,12 @@ def call_advice(error: BaseException) -> str:
     name, keyword = match[1], match[3]
     if "takes 0 positional arguments but 1 was given" in text and "." in name:
         return f"A method's first parameter is self: def {name.rpartition('.')[2]}(self)"
-    function = _function(name)
+    function, kind = _function(name), None
+    if function is None and name.endswith(".__init__"):
+        kind = message_class(name.partition(".")[0])
+    if kind is not None:
+        fields = list(kind.get_fields_and_field_types())
+        return f"Give the fields by name: {kind.__name__}({', '.join(f'{each}=…' for each in fields[:3])})"
     return "" if function is None else _how(name, function, keyword)
 
 
@@ -47,14 +53,10 @@ def _how(name: str, function: Callable[..., Any], keyword: str | None) -> str:
     owner, _, method = name.rpartition(".")
     if name == "Node.__init__":
         return "A node needs a name: super().__init__('the_name_of_the_node')"
-    if hasattr(getattr(function, "__self__", None), "get_fields_and_field_types"):
-        kind: Any = function.__self__  # type: ignore[attr-defined]
-        fields = list(kind.get_fields_and_field_types())
-        return f"Give the fields by name: {kind.__name__}({', '.join(f'{each}=…' for each in fields[:3])})"
     if owner == "RcutilsLogger":
         return "A log message is one text: put values into it with an f-string, as in f'x is {x}'."
     signature = _signature(function)
-    close = meant(keyword, inspect.signature(function).parameters) if keyword else ""
+    close = did_you_mean(keyword, inspect.signature(function).parameters) if keyword else ""
     return f"{close} It is called as {owner if method == '__init__' else method}({signature})".lstrip()
 
 
@@ -76,7 +78,7 @@ def _default(parameter: inspect.Parameter) -> str:
 
 
 def _function(name: str) -> Callable[..., Any] | None:
-    """The function or method of rclpy, or of a message, of this name."""
+    """The function or method of rclpy of this name."""
     parts = name.split(".")
     for module in [each for key, each in list(sys.modules.items()) if key.partition(".")[0] in _OURS]:
         found: Any = vars(module).get(parts[0])
@@ -84,25 +86,7 @@ def _function(name: str) -> Callable[..., Any] | None:
             found = None if found is None else getattr(found, part, None)
         if inspect.isfunction(found):
             return found
-    return _constructor_of_a_message(parts) if parts[-1] == "__init__" else None
-
-
-def _constructor_of_a_message(parts: list[str]) -> Callable[..., Any] | None:
-    for key, module in list(sys.modules.items()):
-        kind = vars(module).get(parts[0]) if ".msg." in key or ".srv." in key or ".action." in key else None
-        if hasattr(kind, "get_fields_and_field_types"):
-            return _Bound(kind)
     return None
-
-
-class _Bound:
-    """Stands for the constructor of a message class, which is its `__self__`."""
-
-    def __init__(self, kind: Any) -> None:
-        self.__self__ = kind
-
-    def __call__(self) -> None:
-        """Never called."""
 
 
 _OURS = frozenset({"rclpy", "tf2_ros", "message_filters", "ament_index_python", "rosidl_runtime_py"})

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 import inspect
 import re
 import sys
 from types import FrameType
 from typing import Any
 
+from ..idl.names import did_you_mean
 from ..idl.registry import registry
 from ..sim.errors import learners_frames
 
@@ -57,8 +57,8 @@ def _attribute(error: AttributeError) -> str:
             f"Every node already has {taken!r}, which cannot be replaced: choose another name, as in self.my_{taken}."
         )
     if not name and (match := re.match(r"'(\w+)' object has no attribute '(\w+)'", text)):
-        owner, name = _message_of(match[1]), match[2]  # it was to be set
-        return "" if owner is None else _field(owner, name)
+        kind = message_class(match[1])  # its field was to be set
+        return "" if kind is None else _field(kind(), match[2])
     if "Did you mean" in text or not name or name.startswith("__"):
         return ""
     if owner is None:
@@ -71,7 +71,7 @@ def _attribute(error: AttributeError) -> str:
         return f"On a node it is: {OF_OTHERS[name]}."
     if left_out := name_left_out(owner, name):
         return left_out
-    return meant(name, [each for each in dir(owner) if not each.startswith("_")])
+    return did_you_mean(name, [each for each in dir(owner) if not each.startswith("_")])
 
 
 def _of_none(error: BaseException, name: str) -> str:
@@ -105,16 +105,14 @@ def _is_within_ours(error: BaseException) -> bool:
     return not frames or frames[-1] is not trace
 
 
-def _message_of(name: str) -> Any:
-    """A message whose class has this name, or None. Of two such classes the one that was imported first is taken."""
+def message_class(name: str) -> Any:
+    """A message's class of this name, or None. Of two such classes the one that was imported first is taken."""
     for key, module in list(sys.modules.items()):
-        kind: Any = vars(module).get(name) if ".msg._" in key or ".srv._" in key or ".action._" in key else None
+        kind = vars(module).get(name) if re.search(r"\.(msg|srv|action)\._", key) else None
         if hasattr(kind, "get_fields_and_field_types"):
-            return kind()
-    for package in registry.packages():
-        if name in registry.package(package).names_in("msg"):
-            return registry.get(f"{package}/msg/{name}")()
-    return None
+            return kind
+    packages = [each for each in registry.packages() if name in registry.package(each).names_in("msg")]
+    return registry.get(f"{packages[0]}/msg/{name}") if packages else None
 
 
 def _line(error: BaseException) -> str:
@@ -127,7 +125,7 @@ def _line(error: BaseException) -> str:
 def _field(message: Any, name: str) -> str:
     """A message's fields, and where in it a field of this name is."""
     kinds = message.get_fields_and_field_types()
-    close = meant(name, kinds)
+    close = did_you_mean(name, kinds)
     inside = [each for each in kinds if hasattr(getattr(message, each, None), f"_{name}")]
     where = f" {name!r} is a field of {' and of '.join(inside)}: .{inside[0]}.{name}" if inside else ""
     return f"{close or 'The fields are: ' + ', '.join(kinds) + '.'}{where}"
@@ -142,7 +140,7 @@ def _variable(error: NameError) -> str:
     this = frame.f_locals.get("self")
     if this is not None and hasattr(this, name):
         return f"Inside a class, write self.{name}."
-    return _importable(name) or meant(name, [*frame.f_locals, *frame.f_globals, *dir(__builtins__)])
+    return _importable(name) or did_you_mean(name, [*frame.f_locals, *frame.f_globals, *dir(__builtins__)])
 
 
 def _importable(name: str) -> str:
@@ -173,16 +171,6 @@ _FROM = {
     **{name: f"import {name}" for name in ("rclpy", "math", "time", "sys", "os", "random", "threading", "json")},
     "np": "import numpy as np",
 }
-
-
-def meant(name: str, known: Any) -> str:
-    """`Did you mean 'timer_callback'?`, or nothing."""
-    names = [str(each) for each in known]
-    by_lower = {each.lower(): each for each in names}
-    if name.lower() in by_lower:
-        return f"Did you mean '{by_lower[name.lower()]}'?"
-    close = difflib.get_close_matches(name, names, n=1, cutoff=0.7)
-    return f"Did you mean '{close[0]}'?" if close else ""
 
 
 def _case(module: str, name: str) -> str:

@@ -12,7 +12,6 @@ from __future__ import annotations
 import importlib
 import sys
 from collections.abc import Callable
-from functools import partial
 from pathlib import Path
 
 from ..ament.package import Package, Target
@@ -35,24 +34,21 @@ def tf2_packages() -> list[Package]:
 
 def demo_packages() -> list[Package]:
     """The demos, as Python packages and as what they are called where they are C++."""
-    of_both = ("talker", "listener", "add_two_ints_server", "add_two_ints_client", "add_two_ints_client_async")
     demos = f"{__name__}.demos"
-    programs: dict[str, Target] = {name: program(demos, name) for name in of_both}
+    names = ("listener", "add_two_ints_server", "add_two_ints_client", "add_two_ints_client_async")
+    of_both: dict[str, Target] = {name: program(demos, name) for name in names}
+    of_python = {**of_both, "talker": program(demos, "talker", 0, 'Publishing: "{}"')}
     of_cpp = {
-        **programs,
-        "talker": program(demos, "talker_of_cpp"),
+        **of_both,
+        "talker": program(demos, "talker", 1, "Publishing: '{}'"),
         "listener_best_effort": program(demos, "listener_best_effort"),
     }
     return [
-        Package("demo_nodes_py", HERE / "demos", executables=programs),
+        Package("demo_nodes_py", HERE / "demos", executables=of_python),
         Package("demo_nodes_cpp", HERE / "demo_nodes_cpp", executables=of_cpp),
     ]
 
 
-def program(module: str, function: str = "main") -> Callable[[], object]:
-    """What runs a function of a module, which is imported only then."""
-    return partial(_run, module, function)
-
-
-def _run(module: str, function: str) -> object:
-    sys.exit(getattr(importlib.import_module(module), function)())
+def program(module: str, function: str = "main", *arguments: object) -> Callable[[], object]:
+    """What calls a function of a module, which is imported only then."""
+    return lambda: sys.exit(getattr(importlib.import_module(module), function)(*arguments))

@@ -99,25 +99,14 @@ class Publisher(Node):
         for name, value in parameters.items():
             self.declare_parameter(name, value, read_only)
         self._broadcaster = StaticTransformBroadcaster(self)
-        self._broadcaster.sendTransform(self._transform(parameters))
-
-    def _transform(self, values: dict[str, object]) -> TransformStamped:
-        message = TransformStamped(child_frame_id=values["child_frame_id"])
-        message.header.frame_id = values["frame_id"]
+        message = TransformStamped(child_frame_id=parameters["child_frame_id"])
+        message.header.frame_id = parameters["frame_id"]
         message.header.stamp = self.get_clock().now().to_msg()
-        for part in ("translation", "rotation"):
-            for name, value in values.items():
-                if name.startswith(f"{part}."):
-                    setattr(getattr(message.transform, part), name[-1], value)
-        return message
-
-
-def _say(node: Node, values: dict[str, object]) -> None:
-    shift = ", ".join(f"'{values[f'translation.{name}']:f}'" for name in "xyz")
-    turn = ", ".join(f"'{values[f'rotation.{name}']:f}'" for name in "xyzw")
-    ends = f"from '{values['frame_id']}' to '{values['child_frame_id']}'"
-    told = f"translation: ({shift})\nrotation: ({turn})\n{ends}"
-    node.get_logger().info(f"Spinning until stopped - publishing transform\n{told}")
+        for name, value in parameters.items():
+            part, _, axis = name.partition(".")
+            if axis:
+                setattr(getattr(message.transform, part), axis, value)
+        self._broadcaster.sendTransform(message)
 
 
 def main() -> int:
@@ -133,12 +122,17 @@ def main() -> int:
         RcutilsLogger("").error(f"error parsing command line arguments: {error}")
         print(USAGE)
         return 1
+    ends = f"from '{values['frame_id']}' to '{values['child_frame_id']}'"
     if values["frame_id"] == values["child_frame_id"]:
-        ends = f"from '{values['frame_id']}' to '{values['child_frame_id']}'"
         RcutilsLogger("").error(f"cannot publish static transform {ends}: child_frame_id cannot equal frame_id")
         return 1
     with suppress(KeyboardInterrupt, ExternalShutdownException):
         node = Publisher(values)
-        _say(node, values)
+        shift, turn = (
+            ", ".join(f"'{value:f}'" for name, value in values.items() if name.startswith(part))
+            for part in ("translation", "rotation")
+        )
+        told = f"translation: ({shift})\nrotation: ({turn})\n{ends}"
+        node.get_logger().info(f"Spinning until stopped - publishing transform\n{told}")
         rclpy.spin(node)
     return 0

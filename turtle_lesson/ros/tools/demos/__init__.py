@@ -34,38 +34,25 @@ class Talker(Node):
         self._publisher.publish(message)
 
 
-def talker() -> None:
-    """`ros2 run demo_nodes_py talker`: publishes "Hello World" once a second."""
-    _talk_until_ctrl_c(0, 'Publishing: "{}"')
-
-
-def talker_of_cpp() -> None:
-    """`ros2 run demo_nodes_cpp talker`: counts from 1."""
-    _talk_until_ctrl_c(1, "Publishing: '{}'")
-
-
-def _talk_until_ctrl_c(first: int, line: str) -> None:
+def talker(first: int, line: str) -> None:
+    """`talker` of both packages: publishes "Hello World" once a second, until Ctrl-C."""
     rclpy.init()
     with suppress(KeyboardInterrupt, ExternalShutdownException):
         rclpy.spin(Talker(first, line))
 
 
-def listener() -> None:
-    """`listener` of both packages: logs what is published on `chatter`."""
-    _listen_until_ctrl_c(QoSProfile(depth=10))
-
-
-def listener_best_effort() -> None:
-    """`ros2 run demo_nodes_cpp listener_best_effort`: a message that is lost is not sent to it again."""
-    _listen_until_ctrl_c(qos_profile_sensor_data)
-
-
-def _listen_until_ctrl_c(qos: QoSProfile) -> None:
+def listener(qos: QoSProfile | int = 10) -> None:
+    """`listener` of both packages: logs what is published on `chatter`, until Ctrl-C."""
     rclpy.init()
     node = rclpy.create_node("listener")
     node.create_subscription(String, "chatter", lambda said: node.get_logger().info(f"I heard: [{said.data}]"), qos)
     with suppress(KeyboardInterrupt, ExternalShutdownException):
         rclpy.spin(node)
+
+
+def listener_best_effort() -> None:
+    """`ros2 run demo_nodes_cpp listener_best_effort`: a message that is lost is not sent to it again."""
+    listener(qos_profile_sensor_data)
 
 
 class Adder(Node):
