@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from .field_codegen import Kind, class_variable, literal
 from .message import slot_type
 from .model import Constant, Definition, MessageDefinition, ServiceDefinition
@@ -14,16 +12,34 @@ Lines = list[str]
 def message_source(definition: MessageDefinition, kinds: tuple[Kind, ...]) -> str:
     """Metaclass, class and fresh-message function of one message."""
     name = definition.name
+    defaults = [
+        (f"{member.name.upper()}__DEFAULT", kind.fresh)
+        for member, kind in zip(definition.fields, kinds, strict=True)
+        if member.default is not None
+    ]
+    same = [kind.same.format(value=f"self._{kind.name}", other=f"other._{kind.name}") for kind in kinds]
     lines = [
-        *_metaclass(definition, kinds),
-        *_class_head(definition, kinds),
-        *_indent(_constructor(definition, kinds)),
-        *_indent(_equality(kinds)),
+        *_metaclass(definition, defaults),
+        *_class_head(definition, defaults),
+        *_indent(_constructor(name, kinds)),
+        "",
+        "    def __eq__(self, other):",
+        "        return " + " and ".join(["_isinstance(other, self.__class__)", *same]),
         *_indent(_wire_copy(name, kinds)),
     ]
     for kind in kinds:
         lines += _indent(_property(kind))
-    lines += ["", "", *_fresh(name, kinds), f"{name}._FRESH = _fresh_{name}"]
+    lines += [
+        "",
+        "",
+        f"def _fresh_{name}():",
+        '    """A message of default values, made without the constructor."""',
+        f"    new = _new({name})",
+        *_indent(_fresh_fields("new", kinds)),
+        "    return new",
+        "",
+        f"{name}._FRESH = _fresh_{name}",
+    ]
     return "\n".join(lines) + "\n"
 
 
@@ -64,42 +80,32 @@ def _identity(definition: Definition) -> Lines:
     ]
 
 
-def _metaclass(definition: MessageDefinition, kinds: tuple[Kind, ...]) -> Lines:
+def _metaclass(definition: MessageDefinition, defaults: list[tuple[str, str]]) -> Lines:
     lines = [
         f"class Metaclass_{definition.name}(type):",
         f'    """Metaclass of message \'{definition.name}\'."""',
         "",
         f"    _TYPE_SUPPORT = _support_{definition.name}",
     ]
-    for constant in definition.constants:
-        lines += _indent(_read_only(constant.name, f"Message constant '{constant.name}'.", _constant(constant)))
-    for name, fresh in _defaults(definition, kinds):
-        lines += _indent(_read_only(name, "Return default value of a message field.", fresh))
+    members = [(each.name, f"Message constant '{each.name}'.", _constant(each)) for each in definition.constants]
+    members += [(name, "Return default value of a message field.", fresh) for name, fresh in defaults]
+    for name, text, value in members:
+        lines += _indent(["", "@_property", f"def {name}(cls):", f'    """{text}"""', f"    return {value}"])
     return [*lines, "", ""]
-
-
-def _read_only(name: str, text: str, value: str) -> Lines:
-    return ["", "@_property", f"def {name}(cls):", f'    """{text}"""', f"    return {value}"]
 
 
 def _constant(constant: Constant) -> str:
     return literal(constant.type, constant.value)
 
 
-def _defaults(definition: MessageDefinition, kinds: tuple[Kind, ...]) -> Iterator[tuple[str, str]]:
-    for member, kind in zip(definition.fields, kinds, strict=True):
-        if member.default is not None:
-            yield f"{member.name.upper()}__DEFAULT", kind.fresh
-
-
-def _class_head(definition: MessageDefinition, kinds: tuple[Kind, ...]) -> Lines:
+def _class_head(definition: MessageDefinition, defaults: list[tuple[str, str]]) -> Lines:
     name = definition.name
     types = {member.name: str(slot_type(member.type)) for member in definition.fields}
     body = [
         *_docstring(definition, types),
         "",
         *(f"{constant.name} = {_constant(constant)}" for constant in definition.constants),
-        *(f"{default} = {fresh}" for default, fresh in _defaults(definition, kinds)),
+        *(f"{default} = {fresh}" for default, fresh in defaults),
         f"__slots__ = {['_' + member for member in types]!r}",
         f"_fields_and_field_types = {types!r}",
         f"SLOT_TYPES = _slot_types_{name}",
@@ -126,38 +132,22 @@ def _docstring(definition: MessageDefinition, types: dict[str, str]) -> Lines:
     return [f'r"""{head}', *(line.replace('"""', "'''") for line in text), '"""']
 
 
-def _constructor(definition: MessageDefinition, kinds: tuple[Kind, ...]) -> Lines:
-    name = definition.name
+def _constructor(name: str, kinds: tuple[Kind, ...]) -> Lines:
     me = "_self" if any(kind.name == "self" for kind in kinds) else "self"
-    arguments = "".join(f"{kind.name}={_default(name, kind)}, " for kind in kinds)
+    arguments, body = "", []
+    for kind in kinds:
+        default = kind.fresh if kind.shares else f"_unset_{name}_{kind.name}"
+        value = kind.construct.format(value=kind.name) or _stored(kind, kind.name)
+        arguments += f"{kind.name}={default}, "
+        given = value if kind.shares else f"{kind.fresh} if {kind.name} is {default} else {value}"
+        body.append(f"    {me}._{kind.name} = {given}")
     head = f"def __init__({me}, {'*, ' if kinds else ''}{arguments}**_unknown):"
-    refuse = ["    if _unknown:", f"        _refuse_arguments({name}, _unknown)"]
-    return ["", head, *refuse, *(f"    {me}._{kind.name} = {_given(name, kind)}" for kind in kinds)]
-
-
-def _default(name: str, kind: Kind) -> str:
-    return kind.fresh if kind.shares else f"_unset_{name}_{kind.name}"
-
-
-def _given(name: str, kind: Kind) -> str:
-    checked = kind.construct.format(value=kind.name) or _stored(kind, kind.name)
-    if kind.shares:
-        return checked
-    return f"{kind.fresh} if {kind.name} is {_default(name, kind)} else {checked}"
+    return ["", head, "    if _unknown:", f"        _refuse_arguments({name}, _unknown)", *body]
 
 
 def _stored(kind: Kind, value: str) -> str:
     checked = f"{kind.check}({value})"
     return f"({value} if {kind.test.format(value=value)} else {checked})" if kind.test else checked
-
-
-def _equality(kinds: tuple[Kind, ...]) -> Lines:
-    same = [kind.same.format(value=f"self._{kind.name}", other=f"other._{kind.name}") for kind in kinds]
-    return [
-        "",
-        "def __eq__(self, other):",
-        "    return _isinstance(other, self.__class__)" + "".join(f" and {each}" for each in same),
-    ]
 
 
 def _property(kind: Kind) -> Lines:
@@ -197,11 +187,6 @@ def _copy_fields(new: str, old: str, kinds: tuple[Kind, ...], packed: list[tuple
             lines.append(f"{target} = {inner_new} = _new({class_variable(kind.message_class)})")
             lines += _copy_fields(inner_new, inner_old, kind.inlined, packed)
     return lines
-
-
-def _fresh(name: str, kinds: tuple[Kind, ...]) -> Lines:
-    lines = [f"def _fresh_{name}():", '    """A message of default values, made without the constructor."""']
-    return [*lines, f"    new = _new({name})", *_indent(_fresh_fields("new", kinds)), "    return new", ""]
 
 
 def _fresh_fields(new: str, kinds: tuple[Kind, ...]) -> Lines:
