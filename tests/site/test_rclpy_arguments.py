@@ -140,19 +140,12 @@ def test_words_that_cannot_be_read_are_refused_at_the_start_and_logged(
     assert rclpy.ok()
 
 
-@pytest.mark.parametrize(
-    ("words", "complaint"),
-    [
-        (["-e", "a"], "initialize rcl: Enclave name is not valid: 'context name must be absolute, it must lead with a"),
-        (["-e", ""], "initialize rcl: Enclave name is not valid: 'context name must not be empty'. Invalid index: 0"),
-        (["-e", "/a b"], "initialize rcl: Enclave name is not valid: 'context name must not contain characters other"),
-        (["--log-config-file", "x"], "initialize logging: spdlog logging backend doesn't currently support external"),
-    ],
-)
-def test_enclaves_have_names_and_loggers_no_files(world: World, words: list[str], complaint: str) -> None:
-    with pytest.raises(RCLError) as caught:
-        rclpy.init(args=["prog", "--ros-args", *words])
-    assert str(caught.value).startswith(f"failed to {complaint}")
+def test_enclaves_say_nothing_and_loggers_have_no_files(world: World) -> None:
+    with pytest.raises(
+        RCLError, match="failed to initialize logging: spdlog logging backend doesn't currently support"
+    ):
+        rclpy.init(args=["prog", "--ros-args", "--log-config-file", "x"])
+    rclpy.init(args=["prog", "--ros-args", "-e", "any"], context=rclpy.Context())
 
 
 @pytest.mark.parametrize("words", [("prog",), "prog", ["prog", 1], ["prog", None]])

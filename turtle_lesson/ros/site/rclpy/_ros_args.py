@@ -44,7 +44,6 @@ class Arguments:
     """By logger; '' is the default."""
     switches: dict[str, bool] = field(default_factory=dict)
     """Whether logs go to `rosout`, `stdout` and `external-lib`, as far as that is said."""
-    enclave: str = "/"
     log_config_file: str = ""
     unknown: list[str] = field(default_factory=list)
     obsolete: list[str] = field(default_factory=list)
@@ -138,12 +137,10 @@ def _take(word: str, following: Iterator[str], found: Arguments) -> None:
         with _explained(f"log level: '--log-level {rule}'"):
             name, level = read_log_level(rule)
             found.log_levels[name] = level
-    elif word in {"-e", "--enclave"}:
-        found.enclave = _next(word, following)
     elif word == "--log-config-file":
         found.log_config_file = _next(word, following)
-    elif word == "--log-file-name":
-        _next(word, following)
+    elif word in {"-e", "--enclave", "--log-file-name"}:
+        _next(word, following)  # all enclaves are /, and no log files are written
     elif (switch := SWITCH.fullmatch(word)) is not None:
         found.switches[switch[2]] = switch[1] == "enable"
     else:

@@ -8,7 +8,6 @@ import weakref
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from turtle_lesson.ros.rmw.names import namespace_flaw
 from turtle_lesson.ros.runtime.world import current_process
 
 from ._entity import Handle
@@ -65,11 +64,6 @@ class Context:
             RcutilsLogger("rcl").error("Failed to parse global arguments")
             raise RCLError(f"failed to initialize rcl: {error}") from None
         arguments.warn_of_obsolete()
-        if (flaw := namespace_flaw(arguments.enclave)) is not None:
-            text = flaw.reason.replace("namespace", "context name")
-            raise RCLError(
-                f"failed to initialize rcl: Enclave name is not valid: '{text}'. Invalid index: {flaw.place}"
-            )
         return arguments
 
     def _set_up_logging(self) -> None:
