@@ -69,9 +69,6 @@ def translate(lines: list[str], variables: Container[str] = ()) -> list[str]:
     return translated
 
 
-# -- commands ------------------------------------------------------------------------------------------------------------
-
-
 def _command_column(cell: _Cell, at: int) -> int | None:
     """Where in the statement's first line a command begins; None if there is none."""
     if _is_command(cell, at, 0):
@@ -150,9 +147,6 @@ def _call(lines: list[str], column: int) -> list[str]:
     script = "".join([sign, lines[0][found.start("word") :], *lines[1:]]).rstrip("\n")
     call = f"{lines[0][:column]}{found['indent']}get_ipython().run_line_magic({MAGIC!r}, {script!r})"
     return [f"{call}\n", *["\n"] * (len(lines) - 1)]
-
-
-# -- Python --------------------------------------------------------------------------------------------------------------
 
 
 class _Cell:

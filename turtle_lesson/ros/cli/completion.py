@@ -72,9 +72,6 @@ def _colcon(words: Sequence[str]) -> list[str]:
     return ["--packages-select", "--symlink-install", "--event-handlers", *packages]
 
 
-# -- the arguments of a verb ---------------------------------------------------------------------------------------------
-
-
 def _arguments(world: World, verb: Verb, words: list[str], begun: str) -> Iterable[str]:
     parser = verb.parser
     given: list[str] = []  # the words that are neither options nor their values
@@ -99,9 +96,6 @@ def _values(world: World, action: argparse.Action, given: Sequence[str], begun: 
         return [str(choice) for choice in action.choices]
     find = BY_NAME.get(action.dest)
     return [] if find is None else find(world, given, begun)
-
-
-# -- IPython -------------------------------------------------------------------------------------------------------------
 
 
 def install(shell: Any) -> None:
@@ -130,9 +124,6 @@ def _reads_like_a_command(line: str) -> bool:
     """Whether a line begins with a command's name and a blank, with no `=` or the like after it."""
     found = re.match(r"\s*%?(?:terminal\s+)?(\w+)\s+(?![-+*/%&|^@]?=)", line)
     return found is not None and found[1] in COMMANDS
-
-
-# -- files ---------------------------------------------------------------------------------------------------------------
 
 
 def paths(begun: str, *, folders_only: bool = False) -> list[str]:

@@ -104,8 +104,6 @@ def _outcome(
     return future.result()
 
 
-# -- service -----------------------------------------------------------------------------------------------------------
-
 add_type_and_find("service", "srv", SERVICES, services)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from argparse import Namespace
 from collections.abc import Iterator
 from typing import Any
@@ -97,9 +98,6 @@ def _where_is(base: str) -> str:
     return f"Did you mean {' or '.join(map(repr, found[:3]))}?" if found else ""
 
 
-# -- show ----------------------------------------------------------------------------------------------------------------
-
-
 @verb(
     "interface show",
     TYPE,
@@ -113,46 +111,30 @@ def _show(args: Namespace) -> None:
     """Print the definition of an interface."""
     _check(args.type)
     package, _, interface = args.type.partition("/")
-    read = registry.text if args.no_comments else registry.commented
-    for line in _lines(package, read(package, interface), args):
+    for line in _lines(package, interface, args, 0):
         print(line)
 
 
-def _lines(package: str, text: str, args: Namespace) -> Iterator[str]:
-    """The lines of a definition, each field of a message type followed by that type's own lines."""
-    for line in text.rstrip().splitlines() if text.strip() else []:
-        shown = _without_comment(line) if args.no_comments else line.rstrip()
-        if shown or not args.no_comments:
-            yield shown
+def _lines(package: str, interface: str, args: Namespace, depth: int) -> Iterator[str]:
+    """The lines of a definition, each field of a message type followed by that type's own lines, one tab deeper."""
+    commented = args.all_comments or (depth == 0 and not args.no_comments)
+    text = registry.commented(package, interface) if commented else registry.text(package, interface)
+    for line in (text if depth else text.rstrip()).splitlines():
+        shown = line.rstrip() if commented else _without_comment(line)
+        if shown or commented:
+            yield "\t" * depth + shown if shown else ""
         field = _field_type(package, line)
         if field is not None and field.package:
-            yield from _inner(field, args, depth=1)
+            yield from _lines(field.package, f"msg/{field.base}", args, depth + 1)
 
 
-def _inner(field: FieldType, args: Namespace, depth: int) -> Iterator[str]:
-    read = registry.commented if args.all_comments else registry.text
-    for line in read(str(field.package), f"msg/{field.base}").splitlines():
-        shown = line.rstrip() if args.all_comments else _without_comment(line)
-        if shown:
-            yield "\t" * depth + shown
-        elif args.all_comments:
-            yield ""
-        inner = _field_type(str(field.package), line)
-        if inner is not None and inner.package:
-            yield from _inner(inner, args, depth + 1)
+_CODE = re.compile(r"""(?:[^'"#]|(['"]).*?(?:\1|$))*""")
 
 
 def _without_comment(line: str) -> str:
     """A line up to its comment; a `#` in quotes is none."""
-    quote = ""
-    for place, char in enumerate(line):
-        if quote:
-            quote = "" if char == quote else quote
-        elif char in "'\"":
-            quote = char
-        elif char == "#":
-            return line[:place].rstrip()
-    return line.rstrip()
+    found = _CODE.match(line)
+    return found[0].rstrip() if found else ""
 
 
 def _field_type(package: str, line: str) -> FieldType | None:
@@ -161,9 +143,6 @@ def _field_type(package: str, line: str) -> FieldType | None:
         return None
     fields = parse_message(package, "Line", line, "").fields
     return fields[0].type if fields else None
-
-
-# -- proto ---------------------------------------------------------------------------------------------------------------
 
 
 @verb("interface proto", TYPE, flag("--no-quotes", "without the quotation marks around it"), in_cell=True)

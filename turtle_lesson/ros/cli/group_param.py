@@ -123,9 +123,6 @@ def tell(result: Any, done: str, failed: str) -> bool:
     return bool(result.successful)
 
 
-# -- dump, load ------------------------------------------------------------------------------------------------------
-
-
 @verb(
     "param dump",
     *OF_NODE,
@@ -217,9 +214,6 @@ LIST_PATIENCE = 1.0
 """How long, in s, `param list` waits for each node, as the real one does."""
 
 
-# -- list --------------------------------------------------------------------------------------------------------
-
-
 @verb(
     "param list",
     *NODE,
@@ -269,9 +263,6 @@ def _ask_all(node: Node, names: list[str], prefixes: list[str]) -> list[tuple[st
         if client.service_is_ready():
             futures.append((name, client.call_async(ListParameters.Request(prefixes=prefixes))))
     return [(name, future.result() if spin_for(node, LIST_PATIENCE, future) else None) for name, future in futures]
-
-
-# -- get, set, delete, describe ----------------------------------------------------------------------------------
 
 
 @verb("param get", *OF_NODE, PARAMETER, flag("--hide-type", "Print only the value"))

@@ -53,9 +53,6 @@ def hint_for_package(name: str) -> str:
 PACKAGE = arg("package_name", "name of the package")
 
 
-# -- list, prefix, xml ---------------------------------------------------------------------------------------------------
-
-
 @verb("pkg list", in_cell=True)
 def _list(args: Namespace) -> None:
     """List the packages that can be found."""
@@ -97,9 +94,6 @@ def _xml(args: Namespace) -> None:
         print((element.text or "").strip())
 
 
-# -- executables ---------------------------------------------------------------------------------------------------------
-
-
 @verb(
     "pkg executables",
     arg("package_name", "name of the package; all packages if left out", nargs="?"),
@@ -124,9 +118,6 @@ def path_of(package: Package, executable: str) -> Path:
     """Where a real ROS 2 would find a program, or where it lies."""
     target = package.executables[executable]
     return target if package.prefix is None and isinstance(target, Path) else package.libexec / executable
-
-
-# -- create --------------------------------------------------------------------------------------------------------------
 
 
 @verb("pkg create", add_create_arguments, in_cell=True)

@@ -34,9 +34,6 @@ LET_PASS = "let this much robot time pass before {} returns (only here)"
 SIGNAL_TEXTS = {-2: "Interrupt", -9: "Killed", -15: "Terminated"}
 
 
-# -- run -----------------------------------------------------------------------------------------------------------------
-
-
 def _words(name: str, text: str, nargs: str) -> Argument:
     """The words that go on to a program or a launch file; the usage has them as Python 3.11's, whatever the Python."""
 
@@ -102,9 +99,6 @@ def _status(process: Process) -> int:
     """The exit code of a process that has ended, as its parent sees it."""
     code = process.exit_code or 0
     return -15 if code == -9 and process.state(LastSignal).name == "TERM" else code
-
-
-# -- launch --------------------------------------------------------------------------------------------------------------
 
 
 NOTHING = "accepted, but without effect here"
@@ -174,9 +168,6 @@ def _pairs(words: Sequence[str]) -> dict[str, str]:
             raise CommandError(f"malformed launch argument '{cut(word, 100)}', expected format '<name>:=<value>'", hint)
         given[name] = value
     return given
-
-
-# -- both ----------------------------------------------------------------------------------------------------------------
 
 
 def leave(what: Process | LaunchHandle, words: str, seconds: float | None) -> int:

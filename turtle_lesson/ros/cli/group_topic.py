@@ -43,8 +43,6 @@ if TYPE_CHECKING:
     from rclpy.publisher import Publisher
 
 
-# -- pub -------------------------------------------------------------------------------------------------------------
-
 PRESET = "system_default"
 
 
@@ -170,8 +168,6 @@ def _publish(
         node.destroy_timer(timer)
     time.sleep(args.keep_alive)
 
-
-# -- list, info, type, find ------------------------------------------------------------------------------------------
 
 EXAMPLES = ("/turtle1/pose", "geometry_msgs/msg/Twist")
 

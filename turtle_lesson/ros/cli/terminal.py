@@ -135,9 +135,6 @@ def chmod(terminal: Terminal, words: list[str]) -> int:
     return 0
 
 
-# -- rm, cp, mv ------------------------------------------------------------------------------------------------------
-
-
 def rm(terminal: Terminal, words: list[str]) -> int:
     """`rm [-r] [-f] name…`: delete files, and with -r folders."""
     letters, names = options(words)

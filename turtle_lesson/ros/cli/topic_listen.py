@@ -35,8 +35,6 @@ if TYPE_CHECKING:
     from rclpy.task import Future
 
 
-# -- echo --------------------------------------------------------------------------------------------------------------
-
 TRUNCATE = 128
 PRESET = "sensor_data"
 

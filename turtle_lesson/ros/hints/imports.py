@@ -156,12 +156,9 @@ def _of_ones_own(name: str) -> str:
         )
     return (
         "Is the name spelled correctly? A package of your own is found when it is built (colcon build) and sourced "
-        f"(source install/setup.bash); a module beside the program, when its package is installed; {_pip(name)}."
+        "(source install/setup.bash); a module beside the program, when its package is installed; "
+        f"any other when it is installed for this Python (pip install {_ON_PYPI.get(name, name)})."
     )
-
-
-def _pip(name: str) -> str:
-    return f"any other when it is installed for this Python (pip install {_ON_PYPI.get(name, name)})"
 
 
 _TURTLE = " If it has none, an editor may have inserted a line like `from turtle import …`: delete that."
