@@ -12,10 +12,6 @@ class InvalidHandle(RuntimeError):
     """Something is used after it was destroyed."""
 
 
-class RCUtilsError(RuntimeError):
-    """An error that the real rclpy gets from rcutils."""
-
-
 class RMWError(RuntimeError):
     """An error that the real rclpy gets from the middleware."""
 

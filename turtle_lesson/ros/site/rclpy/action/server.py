@@ -183,18 +183,16 @@ class ActionServer(ActionEndpoint):
         self._debug("New goal request with ID: {}", message.goal_id)
         info = GoalInfo(goal_id=message.goal_id)
         key = key_of(message.goal_id)
-        accepted = key not in self._goals and await self._is_acceptable(message.goal)
         handle = None
-        if accepted:
+        if key not in self._goals and await self._is_acceptable(message.goal):
             info.stamp = self._node.get_clock().now().to_msg()
-            accepted = key not in self._goals
-            if not accepted:  # another one of the same number was accepted while the goal callback decided
+            if key in self._goals:  # another one of the same number was accepted while the goal callback decided
                 text = f"Failed to accept new goal with ID {message.goal_id.uuid}: goal ID already exists"
                 self._node.get_logger().error(text)
-        if accepted:
-            handle = self._goals[key] = ServerGoalHandle(self, info, message.goal)
-        response = self._action_type.Impl.SendGoalService.Response(accepted=accepted, stamp=info.stamp)
-        request.answer(response)
+            else:
+                handle = self._goals[key] = ServerGoalHandle(self, info, message.goal)
+        accepted = handle is not None
+        request.answer(self._action_type.Impl.SendGoalService.Response(accepted=accepted, stamp=info.stamp))
         if handle is None:
             self._debug("New goal rejected: {}", message.goal_id)
             return
