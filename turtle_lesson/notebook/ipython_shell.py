@@ -1,4 +1,7 @@
-"""What is special in Jupyter: tracebacks that end at the learner's own line, and commands as in a terminal."""
+"""What is special in Jupyter: tracebacks that end at the learner's own line, and commands as in a terminal.
+
+Where a real ROS 2 is sourced, its own commands are to be used: `!ros2 …`. So nothing of the simulated ones is imported then.
+"""
 
 from __future__ import annotations
 
@@ -9,15 +12,14 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
+from IPython.core.magic import Magics, line_cell_magic, line_magic, magics_class, no_var_expand
+
 from ..ros.sim import errors
 from ..session.robot import real_ros
 
 
 def prepare(shell: Any) -> None:
-    """Have errors in cells shown without the frames of the simulated ROS 2, and `ros2 …` understood in cells.
-
-    Where a real ROS 2 is sourced, its own commands are to be used: `!ros2 …`.
-    """
+    """Have errors in cells shown without the frames of the simulated ROS 2, and `ros2 …` understood in cells."""
     if folder := os.environ.get("TURTLE_LESSON_FOLDER"):  # tests give each page a fresh folder
         os.chdir(folder)
     shell.register_magic_function(solution, "cell")
@@ -25,9 +27,7 @@ def prepare(shell: Any) -> None:
     shell.events.register("post_run_cell", give_import_lock_back)
     shell.set_custom_exc((Exception, KeyboardInterrupt), _show)
     if not real_ros():
-        from . import magics
-
-        magics.install(shell)
+        _understand_commands(shell)
 
 
 def give_import_lock_back(*_: object) -> None:
@@ -75,3 +75,63 @@ def _show(
         shell._showtraceback(kind, error, [f"KeyboardInterrupt: {error}"])
         return
     shell.showtraceback((kind, error, error.__traceback__), tb_offset=0)
+
+
+# -- commands ----------------------------------------------------------------------------------------------------------
+
+
+@magics_class
+class TerminalMagics(Magics):
+    """The terminal of a notebook. Nothing in its lines is expanded: `{…}` and `$…` are YAML, and not Python."""
+
+    @no_var_expand
+    @line_cell_magic
+    def terminal(self, line: str, cell: str | None = None) -> None:
+        """Run commands as in a terminal: `%terminal ros2 topic list && ros2 node list`, or a whole cell of them."""
+        self._run(line if cell is None else f"{line}\n{cell}")
+
+    @no_var_expand
+    @line_magic
+    def ros2(self, line: str) -> None:
+        """The command line of ROS 2. `%ros2 -h` lists its commands."""
+        self._run(f"ros2 {line}")
+
+    @no_var_expand
+    @line_magic
+    def colcon(self, line: str) -> None:
+        """Build the workspace: `%colcon build`."""
+        self._run(f"colcon {line}")
+
+    @no_var_expand
+    @line_magic
+    def source(self, line: str) -> None:
+        """Make what was built findable: `%source install/setup.bash`."""
+        self._run(f"source {line}")
+
+    def _run(self, script: str) -> None:
+        from ..ros.cli.shell import Shell, run_line
+        from ..ros.runtime.world import current_world
+
+        assert self.shell is not None
+        try:
+            run_line(current_world(), script)
+        finally:
+            self.shell.user_ns["_exit_code"] = Shell(current_world()).exit_code
+
+
+def _understand_commands(shell: Any) -> None:
+    """Make an IPython shell understand commands; doing it twice changes nothing."""
+    from ..ros.cli import cells, completion
+    from ..ros.cli.shell import begin_here
+
+    begin_here()
+    shell.register_magics(TerminalMagics)
+    transformers = shell.input_transformer_manager.line_transforms  # before IPython takes the cell for Python
+    transformers[:] = [each for each in transformers if not getattr(each, "is_turtle_lesson", False)]
+
+    def transform(lines: list[str]) -> list[str]:
+        return cells.translate(lines, shell.user_ns)
+
+    transform.is_turtle_lesson = True  # type: ignore[attr-defined]
+    transformers.append(transform)
+    completion.install(shell)

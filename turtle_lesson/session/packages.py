@@ -19,9 +19,13 @@ SIMULATOR: Callable[[], object] = program("turtle_lesson.turtlesim.node")
 
 def underlay_packages() -> list[Package]:
     """The packages of a fresh ROS 2 whose programs `ros2 run` and launch files find: turtlesim, tf2, demos, xacro."""
-    modules = {"draw_square": "draw_square", "mimic": "mimic", "turtle_teleop_key": "teleop_turtle_key"}
+    names = {
+        "draw_square": ("tutorials", "draw_square"),
+        "mimic": ("tutorials", "mimic"),
+        "turtle_teleop_key": ("teleop_turtle_key", "main"),
+    }
     programs: dict[str, Target] = {
-        name: program(f"turtle_lesson.turtlesim.{module}") for name, module in modules.items()
+        name: program(f"turtle_lesson.turtlesim.{module}", function) for name, (module, function) in names.items()
     }
     turtlesim = Package("turtlesim", HERE / "turtlesim", executables={"turtlesim_node": SIMULATOR, **programs})
     packages = [turtlesim, *tf2_packages(), *demo_packages()]

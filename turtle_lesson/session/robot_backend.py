@@ -6,6 +6,7 @@ import atexit
 import inspect
 import threading
 from collections.abc import Callable
+from contextlib import suppress
 from functools import wraps
 from typing import TYPE_CHECKING, Any
 
@@ -140,14 +141,9 @@ Hop = Callable[..., object]
 """Called with an action and its arguments, has the loop call that action."""
 
 LISTS = (
-    "get_node_names_and_namespaces",
-    "get_topic_names_and_types",
-    "get_service_names_and_types",
-    "get_publishers_info_by_topic",
-    "get_subscriptions_info_by_topic",
-    "get_publisher_names_and_types_by_node",
-    "get_subscriber_names_and_types_by_node",
-    "get_service_names_and_types_by_node",
+    *("get_node_names_and_namespaces", "get_topic_names_and_types", "get_service_names_and_types"),
+    *("get_publishers_info_by_topic", "get_subscriptions_info_by_topic", "get_publisher_names_and_types_by_node"),
+    *("get_subscriber_names_and_types_by_node", "get_service_names_and_types_by_node"),
     "get_client_names_and_types_by_node",
 )
 COUNTS = ("count_publishers", "count_subscribers")
@@ -174,8 +170,6 @@ class LabNode(Node):
             "_lab", context=context, use_global_arguments=False, enable_rosout=False, start_parameter_services=False
         )
 
-    # -- what is made ------------------------------------------------------------------------------------------------
-
     def create_subscription(self, msg_type: Any, topic: str, callback: Action, *more: Any, **options: Any) -> Any:
         """As every node's, but `callback(message, info)` works everywhere; info has at least `source_timestamp` (ns)."""
         life = Life(self._lab_hop)
@@ -194,22 +188,17 @@ class LabNode(Node):
         client.call_async = _asking(client.call_async, life)
         return self._keep(client, life)
 
-    # -- what is taken away ------------------------------------------------------------------------------------------
-
     def destroy_subscription(self, subscription: Any) -> bool:
         """As every node's."""
-        self._end(subscription)
-        return super().destroy_subscription(subscription)
+        return self._end(subscription) and super().destroy_subscription(subscription)
 
     def destroy_timer(self, timer: Any) -> bool:
         """As every node's."""
-        self._end(timer)
-        return super().destroy_timer(timer)
+        return self._end(timer) and super().destroy_timer(timer)
 
     def destroy_client(self, client: Any) -> bool:
         """As every node's."""
-        self._end(client)
-        return super().destroy_client(client)
+        return self._end(client) and super().destroy_client(client)
 
     def destroy_node(self) -> None:
         """As every node's. A later query of the graph, such as that of an old widget that is shown again, finds no nodes."""
@@ -219,20 +208,21 @@ class LabNode(Node):
         for name in COUNTS:
             setattr(self, name, lambda *arguments, **options: 0)
 
-    # -- the machinery -----------------------------------------------------------------------------------------------
-
     def _keep(self, entity: Any, life: Life) -> Any:
         self._lab_lives[entity] = life
         return entity
 
-    def _end(self, entity: Any) -> None:
+    def _end(self, entity: Any) -> bool:
+        """What it calls back comes no more. True, so that one can go on with `and`."""
         life = self._lab_lives.pop(entity, None)
         if life is not None:
             life.over = True
+        return True
 
     def _hearing(self, callback: Action, life: Life) -> Action:
-        """A callback that takes as many arguments as this rclpy looks for."""
-        if _takes_one(callback):
+        """A callback that takes as many arguments as this rclpy looks for: whether one is enough is rclpy's own question."""
+        with suppress(TypeError):
+            inspect.signature(callback).bind(object())
             return lambda message: life.hop(callback, message)
         if TELLS_TIMES:
             return lambda message, info: life.hop(callback, message, info)
@@ -254,15 +244,6 @@ class Life:
     def _call(self, action: Action, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> None:
         if not self.over:
             action(*arguments, **keywords)
-
-
-def _takes_one(callback: Action) -> bool:
-    """Whether a callback can be called with a message alone: rclpy's own question."""
-    try:
-        inspect.signature(callback).bind(object())
-    except TypeError:
-        return False
-    return True
 
 
 def _beating(callback: Action, life: Life) -> Action:

@@ -8,7 +8,7 @@ import os
 import socket
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from ..ros.runtime.files import OPENED
@@ -49,11 +49,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options.more = more
     try:
         return options.act(options)
-    except pages.PageError as error:
-        print(f"turtle-lesson {options.command}: {error}", file=sys.stderr)
-        return 1
-    except OSError as error:
-        print(f"turtle-lesson {options.command}: {error.filename}: {error.strerror}", file=sys.stderr)
+    except (pages.PageError, OSError) as error:
+        said = f"{error.filename}: {error.strerror}" if isinstance(error, OSError) else error
+        print(f"turtle-lesson {options.command}: {said}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print("stopped", file=sys.stderr)
@@ -66,90 +64,63 @@ def _parser() -> argparse.ArgumentParser:
         description="Open the lesson's pages in JupyterLab (the default), reset them, grade copies, strip solutions.",
     )
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for add in (_add_open, _add_grade, _add_reset, _add_student):
-        add(commands)
-    return parser
 
-
-def _add_open(commands: argparse._SubParsersAction) -> None:
     text = "Open your own folder of the lesson's pages in JupyterLab. It is made if it does not exist; your work in it stays."
-    opening = commands.add_parser(
-        "open",
-        help="your folder of pages, in JupyterLab",
-        description=f"{text} Other options are passed on to JupyterLab.",
-    )
+    text += " Other options are passed on to JupyterLab."
+    opening = commands.add_parser("open", help="your folder of pages, in JupyterLab", description=text)
+    opening.set_defaults(act=_open)
     where = f"your folder (default: this one if it is yours already, or else {pages.FOLDER} in it)"
     opening.add_argument("folder", nargs="?", type=Path, metavar="DIR", help=where)
     opening.add_argument("--no-browser", action="store_true", help="only print the address")
-    opening.add_argument(
-        "--port", type=int, metavar="N", help="port of this machine (default: 8888 or the next free one)"
-    )
+    port = "port of this machine (default: 8888 or the next free one)"
+    opening.add_argument("--port", type=int, metavar="N", help=port)
     begun = "copy the pages, the workspace and the points that you began in the checkout's notebooks"
     opening.add_argument("--take-along", action="store_true", help=begun)
-    _add_from(opening)
-    opening.set_defaults(act=_open)
 
-
-def _add_from(command: argparse.ArgumentParser) -> None:
-    where = "folder of the published pages (default: those that came with this command)"
-    command.add_argument("--from", dest="source", type=Path, metavar="FOLDER", help=where)
-
-
-def _add_grade(commands: argparse._SubParsersAction) -> None:
     grading = commands.add_parser("grade", help="points for each check", description=GRADE)
     grading.formatter_class = argparse.RawDescriptionHelpFormatter
+    grading.set_defaults(act=_grade)
     grading.add_argument("paths", nargs="+", type=Path, metavar="PATH", help="a notebook, or a folder of notebooks")
     grading.add_argument("--json", action="store_true", help="print JSON, with every row of every check")
     grading.add_argument("--junit", type=Path, metavar="FILE", help="also write a JUnit report")
     grading.add_argument("--csv", type=Path, metavar="FILE", help="also write a table with a line for each copy")
     how_long = f"computing time that one copy may take, s (default: {TIMEOUT:g}); waiting, {PATIENCE} times as long"
-    grading.add_argument("--timeout", type=_seconds, default=TIMEOUT, metavar="SECONDS", help=how_long)
+    seconds = _number(float, 1, 86400, " seconds")
+    grading.add_argument("--timeout", type=seconds, default=TIMEOUT, metavar="SECONDS", help=how_long)
     how_much = f"memory that each process of a copy may take, where the system limits that (default: {MEMORY:g})"
-    grading.add_argument("--memory", type=_gigabytes, default=MEMORY, metavar="GB", help=how_much)
+    grading.add_argument("--memory", type=_number(float, 0.5, 1000, " GB"), default=MEMORY, metavar="GB", help=how_much)
     jobs = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     many = f"copies at once (default: one for each core, here {jobs})"
-    grading.add_argument("--jobs", type=_count, default=jobs, metavar="N", help=many)
-    grading.set_defaults(act=_grade)
+    grading.add_argument("--jobs", type=_number(int, 1, 256), default=jobs, metavar="N", help=many)
 
-
-def _add_reset(commands: argparse._SubParsersAction) -> None:
     text = "Restore the published state of a page, in your folder without outputs."
     text += " Your version is kept beside it, as NAME.mine-1.ipynb."
     reset = commands.add_parser("reset", help="a page as it was published", description=text)
-    reset.add_argument("notebook", type=Path, metavar="NOTEBOOK")
-    _add_from(reset)
     reset.set_defaults(act=_reset)
+    reset.add_argument("notebook", type=Path, metavar="NOTEBOOK")
 
-
-def _add_student(commands: argparse._SubParsersAction) -> None:
-    student = commands.add_parser(
-        "student",
-        help="a page without solutions and outputs",
-        description="Write a page without its solutions and outputs.",
-    )
+    text = "Write a page without its solutions and outputs."
+    student = commands.add_parser("student", help="a page without solutions and outputs", description=text)
+    student.set_defaults(act=_student)
     student.add_argument("notebook", type=Path, metavar="NOTEBOOK")
     where = "file or folder to write to (default: NAME.student.ipynb beside it)"
     student.add_argument("--to", type=Path, metavar="PATH", help=where)
-    student.set_defaults(act=_student)
+
+    where = "folder of the published pages (default: those that came with this command)"
+    for command in (opening, reset):
+        command.add_argument("--from", dest="source", type=Path, metavar="FOLDER", help=where)
+    return parser
 
 
-def _seconds(text: str) -> float:
-    seconds = float(text)
-    if not 1 <= seconds <= 86_400:
-        raise argparse.ArgumentTypeError("must be from 1 to 86400 seconds")
-    return seconds
+def _number(kind: type[int] | type[float], least: float, most: float, unit: str = "") -> Callable[[str], float]:
+    """What reads an option's number, within limits."""
 
+    def number(text: str) -> float:
+        if not least <= kind(text) <= most:
+            raise argparse.ArgumentTypeError(f"must be from {least} to {most}{unit}")
+        return kind(text)
 
-def _gigabytes(text: str) -> float:
-    if not 0.5 <= float(text) <= 1000:
-        raise argparse.ArgumentTypeError("must be from 0.5 to 1000 GB")
-    return float(text)
-
-
-def _count(text: str) -> int:
-    if not 1 <= int(text) <= 256:
-        raise argparse.ArgumentTypeError("must be from 1 to 256")
-    return int(text)
+    return number
 
 
 def _grade(options: argparse.Namespace) -> int:

@@ -78,9 +78,6 @@ def _is_lesson(value: Any) -> bool:
     )
 
 
-# -- importing afresh ----------------------------------------------------------------------------------------------------
-
-
 class _Finder(importlib.abc.MetaPathFinder, importlib.abc.Loader):
     """Imports what was sent, whatever is on the path."""
 
@@ -112,9 +109,6 @@ def _finding(modules: Sent) -> Iterator[None]:
 
 def _forget(modules: Sent) -> dict[str, ModuleType]:
     return {name: sys.modules.pop(name) for name in modules if name in sys.modules}
-
-
-# -- what a copy has replaced --------------------------------------------------------------------------------------------
 
 
 def strangers(home: str, names: dict[str, Any]) -> list[str]:

@@ -6,6 +6,7 @@ import csv
 import io
 import re
 import textwrap
+from collections import Counter
 from collections.abc import Sequence
 from typing import Any
 from xml.etree import ElementTree
@@ -119,12 +120,8 @@ def _cell(text: str) -> str:
     return f"'{words}" if words.startswith(("=", "+", "-", "@")) else words
 
 
-# -- junit --------------------------------------------------------------------------------------------------------
-# What grading has found as a JUnit report: a suite for each copy, a case for each check.
-
-
 def report(graded: Sequence[Graded]) -> str:
-    """The report, as XML."""
+    """A JUnit report, as XML: a suite for each copy, a case for each check."""
     root = ElementTree.Element("testsuites", name="turtle-lesson")
     for copy in graded:
         root.append(_suite(copy))
@@ -133,31 +130,26 @@ def report(graded: Sequence[Graded]) -> str:
 
 
 def _suite(copy: Graded) -> ElementTree.Element:
-    counts: dict[str, int] = {
-        "tests": len(copy.scores) + bool(copy.problem),
-        "failures": sum(each.state == "failed" for each in copy.scores),
-        "skipped": sum(each.state == "not run" for each in copy.scores),
-        "errors": int(bool(copy.problem)),
-    }
-    attributes = {"name": plain(str(copy.path)), **{key: str(count) for key, count in counts.items()}}
-    suite = ElementTree.Element("testsuite", attributes)
+    states = Counter(each.state for each in copy.scores)
+    suite = ElementTree.Element(
+        "testsuite",
+        name=plain(str(copy.path)),
+        tests=str(len(copy.scores) + bool(copy.problem)),
+        failures=str(states["failed"]),
+        skipped=str(states["not run"]),
+        errors=str(int(bool(copy.problem))),
+    )
+    name = plain(str(copy.path.with_suffix("")))
     for score in copy.scores:
-        suite.append(_case(copy, score))
+        case = ElementTree.SubElement(suite, "testcase", classname=name, name=score.name)
+        if score.state == "not run":
+            ElementTree.SubElement(case, "skipped", message="it was not run")
+        elif score.state == "failed":
+            failure = ElementTree.SubElement(case, "failure", message=plain(score.first_miss))
+            failure.text = plain("\n".join(f"{row['mark']} {row['expected']}: {row['seen']}" for row in score.rows))
     if copy.problem:
-        case = ElementTree.SubElement(
-            suite, "testcase", classname=plain(str(copy.path.with_suffix(""))), name="the notebook runs"
-        )
+        case = ElementTree.SubElement(suite, "testcase", classname=name, name="the notebook runs")
         ElementTree.SubElement(case, "error", message=plain(copy.problem))
     if copy.errors:
         ElementTree.SubElement(suite, "system-out").text = plain("\n".join(copy.errors))
     return suite
-
-
-def _case(copy: Graded, score: CheckScore) -> ElementTree.Element:
-    case = ElementTree.Element("testcase", classname=plain(str(copy.path.with_suffix(""))), name=score.name)
-    if score.state == "not run":
-        ElementTree.SubElement(case, "skipped", message="it was not run")
-    elif score.state == "failed":
-        failure = ElementTree.SubElement(case, "failure", message=plain(score.first_miss))
-        failure.text = plain("\n".join(f"{row['mark']} {row['expected']}: {row['seen']}" for row in score.rows))
-    return case

@@ -10,23 +10,38 @@ Where it differs from the real one:
 - there is no window, so the background's parameters can be set, but nothing shows them;
 - a turtle that pushes against a wall is reported when it gets there and then once a second, not 62.5 times a
   second;
-- what ends the real program or leads its turtle to NaN is refused, with an error in the log;
+- what ends the real program or leads its turtle to NaN is refused, with an error in the log; so is a heading to
+  rotate to, with which the real turtle would turn forever;
 - a service answers at once, not at the next tick (its effect on a moving turtle comes with that tick in
   both).
 """
 
+from typing import Any
+
 import rclpy
 from geometry_msgs.msg import Twist
 from rcl_interfaces.msg import IntegerRange, ParameterDescriptor, ParameterEvent
+from rclpy.action import ActionServer, CancelResponse, GoalResponse
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.task import Future
 from std_srvs.srv import Empty
+from turtlesim.action import RotateAbsolute
 from turtlesim.msg import Color, Pose
 from turtlesim.srv import Kill, SetPen, Spawn, TeleportAbsolute, TeleportRelative
 
-from turtle_lesson.turtlesim.rotate_action import RotateAction
-from turtle_lesson.turtlesim.turtle import HEIGHT, QUEUE_DEPTH, TICK, TICK_MS, Turtle, TurtleError
+from turtle_lesson.turtlesim.turtle import (
+    HEIGHT,
+    LARGEST,
+    QUEUE_DEPTH,
+    TICK,
+    TICK_MS,
+    Rotation,
+    Turtle,
+    TurtleError,
+    float32,
+)
 from turtle_lesson.turtlesim.world import TurtleWorld, WallHit
 
 BACKGROUND = {"r": ("Red", 69), "g": ("Green", 86), "b": ("Blue", 255)}
@@ -127,7 +142,7 @@ class TurtlesimNode(Node):
 class ShownTurtle:
     """What ROS sees of one turtle: its topics, its services and its action."""
 
-    def __init__(self, node: Node, turtle: Turtle, turning: list[RotateAction]) -> None:
+    def __init__(self, node: Node, turtle: Turtle, turning: list["RotateAction"]) -> None:
         self._node, self._turtle, self._name = node, turtle, turtle.name
         name = turtle.name
         self._subscription = node.create_subscription(Twist, f"{name}/cmd_vel", self._on_command, QUEUE_DEPTH)
@@ -196,6 +211,87 @@ class ShownTurtle:
         except TurtleError as error:
             self._node.get_logger().error(str(error))
         return response
+
+
+class RotateAction:
+    """The action ``rotate_absolute`` of one turtle: it turns to a heading, with feedback at every tick.
+
+    As in the real turtlesim every goal is accepted, and so is every wish to cancel; a new goal aborts the one before.
+    ``turning`` holds the action while it has a goal; its node calls it at every tick.
+    """
+
+    def __init__(self, node: Node, turtle: Turtle, turning: list["RotateAction"]) -> None:
+        self._node, self._turtle, self._turning = node, turtle, turning
+        self._goal: Any = None
+        self._rotation: Rotation
+        self._results: dict[bytes, Future] = {}
+        self._server = ActionServer(
+            node,
+            RotateAbsolute,
+            f"{turtle.name}/rotate_absolute",
+            self._execute,
+            goal_callback=self._on_goal,
+            handle_accepted_callback=self._on_accepted,
+            cancel_callback=lambda _goal: CancelResponse.ACCEPT,
+        )
+
+    def close(self) -> None:
+        """Take the action out of the graph."""
+        self._server.destroy()
+        if self in self._turning:
+            self._turning.remove(self)
+
+    def before_tick(self) -> None:
+        """Stop turning if that is asked for."""
+        if self._goal.is_cancel_requested:
+            self._node.get_logger().info("Rotation goal canceled")
+            self._turtle.stop_rotating()
+            self._goal.canceled()
+            self._finish()
+
+    def after_tick(self) -> None:
+        """Tell how much is left; end the goal if it is reached."""
+        self._goal.publish_feedback(RotateAbsolute.Feedback(remaining=float32(self._rotation.remaining)))
+        if self._rotation.reached:
+            self._node.get_logger().info("Rotation goal completed successfully")
+            self._goal.succeed()
+            self._finish()
+
+    def _on_goal(self, goal: RotateAbsolute.Goal) -> GoalResponse:
+        if abs(goal.theta) <= LARGEST:
+            return GoalResponse.ACCEPT
+        self._node.get_logger().error(
+            f"Turtle [{self._turtle.name}] cannot rotate to theta={goal.theta}: it must be a finite number"
+        )
+        return GoalResponse.REJECT
+
+    def _on_accepted(self, goal: Any) -> None:
+        if self._goal is not None:
+            self._node.get_logger().warning(
+                "Rotation goal received before a previous goal finished. Aborting previous goal"
+            )
+            self._goal.abort()
+            self._finish()
+        self._goal = goal
+        self._results[_key(goal)] = Future()
+        self._rotation = self._turtle.rotate_to(goal.request.theta)
+        self._turning.append(self)
+        goal.execute()
+
+    async def _execute(self, goal: Any) -> RotateAbsolute.Result:
+        """Wait for the goal's end, which a tick brings about."""
+        result = await self._results[_key(goal)]
+        del self._results[_key(goal)]
+        return result
+
+    def _finish(self) -> None:
+        goal, self._goal = self._goal, None
+        self._turning.remove(self)
+        self._results[_key(goal)].set_result(RotateAbsolute.Result(delta=float32(self._rotation.delta)))
+
+
+def _key(goal: Any) -> bytes:
+    return bytes(goal.goal_id.uuid)
 
 
 def main(args: list[str] | None = None) -> None:

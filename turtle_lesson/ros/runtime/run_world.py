@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
@@ -79,7 +80,7 @@ class Waiter:
                 self._drive(process)
             else:
                 self._live = True
-                self._play(process, rate)
+                _play(self._world, rate, lambda: not process.alive)
         except SimulationError as error:
             process.interrupt()
             return str(error)
@@ -112,15 +113,6 @@ class Waiter:
         while process.alive:
             strand.park()
 
-    def _play(self, process: Process, rate: float) -> None:
-        simulation = self._world.sim
-        began, origin = _real_time(self._world), simulation.now
-        while process.alive:
-            elapsed = round((_real_time(self._world) - began) * rate * NANOSECONDS)
-            simulation.run_until(max(simulation.now, origin + elapsed))
-            if process.alive:
-                real_sleep(LIVE_STEP)
-
 
 def run_for(world: World, seconds: float) -> None:
     """Let robot time pass (s); in live mode at its pace."""
@@ -128,12 +120,17 @@ def run_for(world: World, seconds: float) -> None:
     rate = live_rate(world)
     if rate is None:
         world.sim.run_until(end)
-        return
+    else:
+        _play(world, rate, lambda: world.now >= end, end)
+
+
+def _play(world: World, rate: float, done: Callable[[], bool], end: int | None = None) -> None:
+    """Go on at `rate` times real time until it is done, and not beyond `end` (ns)."""
     began, origin = _real_time(world), world.now
-    while world.now < end:
-        elapsed = round((_real_time(world) - began) * rate * NANOSECONDS)
-        world.sim.run_until(min(end, max(world.now, origin + elapsed)))
-        if world.now < end:
+    while not done():
+        due = max(world.now, origin + round((_real_time(world) - began) * rate * NANOSECONDS))
+        world.sim.run_until(due if end is None else min(end, due))
+        if not done():
             real_sleep(LIVE_STEP)
 
 

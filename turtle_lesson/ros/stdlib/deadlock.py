@@ -1,4 +1,10 @@
-"""Deadlocks: waits without a time limit that can never end are found at once, and explained."""
+"""Deadlocks: waits without a time limit that can never end are found at once, and explained.
+
+They are found in two ways. A circle: a thread waits for a lock that only one thread can release, which waits itself, and so on,
+back to the first. Or nobody is left: all threads of a process wait without a time limit for one another, so that none can ever
+wake another. A thread that sleeps, that spins an executor or that computes might do anything, so as long as there is one,
+nothing is said.
+"""
 
 from __future__ import annotations
 
@@ -16,21 +22,6 @@ from ..sim.strand import Strand
 
 if TYPE_CHECKING:
     from ..sim.process import Process
-
-__all__ = [
-    "IDLE",
-    "look_after",
-    "look_for_hope",
-    "wait_in_vain",
-]
-
-
-# -- hopeless -----------------------------------------------------------------------------------------------------
-# Waits without a time limit that can never end are found at once, and explained.
-# They are found in two ways. A circle: a thread waits for a lock that only one thread can release, which waits
-# itself, and so on, back to the first. Or nobody is left: all threads of a process wait without a time limit for one
-# another, so that none can ever wake another. A thread that sleeps, that spins an executor or that computes might do
-# anything, so as long as there is one, nothing is said.
 
 
 def look_for_hope(strand: Strand) -> None:
@@ -61,14 +52,10 @@ def wait_in_vain(strand: Strand, what: str) -> None:
 def look_after(ended: Strand) -> None:
     """Called when a strand has ended, or does nothing by itself any more: is there hope for those who wait?"""
     process = ended.process
-    waiting = [each for each in living_strands(process) if each.waits_for not in (None, IDLE) and each is not ended]
+    others = [each for each in process.strands if not each.dead and each is not ended]
+    waiting = [each for each in others if each.waits_for not in (None, IDLE)]
     if waiting and process.alive and _nobody_can_act(process, ended):
         _tell(list(_waited_for(waiting[0]))[-1], None)
-
-
-def living_strands(process: Process) -> list[Strand]:
-    """The strands of a process that have not ended."""
-    return [strand for strand in process.strands if not strand.dead]
 
 
 def _waited_for(strand: Strand) -> Iterator[Strand]:
@@ -111,7 +98,7 @@ def _nobody_can_act(process: Process, this: Strand | None) -> bool:
         return False
     if process.is_notebook and process.simulation.driven is None:
         return False
-    if any(_is_held_outside(strand) for strand in living_strands(process)):
+    if any(_is_held_outside(strand) for strand in process.strands if not strand.dead):
         return False
     return all(strand is this or _waits_in_vain(strand) for strand in process.strands)
 
@@ -143,8 +130,7 @@ def _tell_later(victim: Strand) -> None:
         victim.simulation.raise_in(victim, NeverWakes(why_nobody_is_left(victim)))
 
 
-# -- hopeless words -----------------------------------------------------------------------------------------------
-# Messages about waits that can never end: what waits for what, and what to do.
+# -- messages: what waits for what, and what to do ---------------------------------------------------------------------
 
 _OURS = (f"{__package__}.", "turtle_lesson.ros.sim.")
 _ROOMS = {"threading", "queue", "concurrent.futures.thread", "concurrent.futures._base"}
@@ -190,7 +176,8 @@ def why_nobody_is_left(strand: Strand) -> str:
         )
     action = _WHAT_ENDS_IT.get(what, "release it" if what == LOCK else "end that")
     text = f"{_never(what)}: nothing is left in this program that could {action}. {_others(strand)}"
-    return " ".join([text, *_hint(strand)])
+    advice = next(filter(None, (hint(strand) for hint in hints)), "")
+    return f"{text} {advice}".rstrip()
 
 
 def why_in_a_circle(strand: Strand, chain: Sequence[Strand], owner: Strand) -> str:
@@ -247,19 +234,12 @@ def _called_in(frame: FrameType | None) -> str:
 
 
 def _others(strand: Strand) -> str:
-    others = [each for each in strand.process.strands if each is not strand and each.waits_for != IDLE]
-    waiting = [f"{name_of(each)} waits {_where(wait_of(each))}" for each in others if not each.dead and each.waits_for]
+    others = [each for each in strand.process.strands if each is not strand and not each.dead]
+    waits = [(name_of(each), wait_of(each)) for each in others if each.waits_for not in (None, "", IDLE)]
+    waiting = [f"{name} waits {f'in {what}()' if what in _WHAT_ENDS_IT else f'for {what}'}" for name, what in waits]
     return f"Its other threads are waiting as well: {', '.join(waiting)}." if waiting else "It has no other thread."
-
-
-def _where(what: str) -> str:
-    return f"in {what}()" if what in _WHAT_ENDS_IT else f"for {what}"
 
 
 def name_of(strand: Strand) -> str:
     """The name of a thread."""
     return str(hooks.thread_of(strand).name)
-
-
-def _hint(strand: Strand) -> list[str]:
-    return [text for hint in hints if (text := hint(strand))][:1]

@@ -1,9 +1,17 @@
-"""Programs that poll: they ask again and again whether something has happened, and robot time goes on meanwhile."""
+"""Programs that poll: they ask again and again whether something has happened, and robot time goes on meanwhile.
+
+On a robot, a loop that does nothing but ask, such as `while not future.done(): pass`, burns a processor while other threads go
+on. Here nothing else continues before time passes. So polling costs time, as looking at a clock does; but only for those who
+ask very often at the same instant, so that the time of all other programs is left as it is.
+
+A loop that asks nobody, as `while self.pose is None: pass`, is changed when a program's file is compiled: each of its rounds
+takes a little time. A program that has but one thread would wait forever; there the loop is left alone, and is found when it
+has computed for too long.
+"""
 
 from __future__ import annotations
 
 import ast
-import re
 import threading
 from typing import TYPE_CHECKING, Any
 
@@ -16,13 +24,6 @@ from .ownership import notebook_here
 if TYPE_CHECKING:
     from ..sim.simulation import Simulation
 
-
-# -- looking ------------------------------------------------------------------------------------------------------
-# Asking whether something has happened yet.
-# On a robot, a loop that does nothing but ask, such as `while not future.done(): pass`, burns a processor while other
-# threads go on. Here nothing else continues before it lets time pass. So polling costs time, as looking at a clock
-# does; but only for those who ask very often at the same instant, so that the time of all other programs is left as
-# it is.
 
 FREE_LOOKS = 1_000
 """After so many looks at one instant, as much time passes as if each had been a look at a clock."""
@@ -58,33 +59,26 @@ def is_set(self: threading.Event) -> bool:
     return False
 
 
-# -- busy loops ---------------------------------------------------------------------------------------------------
-# Loops that do nothing but look, as in `while self.pose is None: pass`, while another thread is to bring what they
-# wait for.
-# On a robot such a loop burns a processor, and the other thread goes on beside it. Here nobody else goes on before
-# time passes. So when a program's file is compiled, each round of such a loop is made to take a little time. A
-# program that has but one thread would wait forever; there the loop is left alone, and is found when it has computed
-# for too long.
-
 NAME = "__another_look__"
 """What the loops call; the builtins of a program have it."""
 ROUND = 100_000
 """How long a round takes, in ns."""
-_MAY_HAVE_ONE = re.compile(rb"\bwhile\b")
 _NOTHING = (ast.Pass, ast.Continue, ast.Break, ast.Return)
 
 
 def without_busy_loops(source: bytes | str, path: str) -> Any:
     """What to compile instead of a text: itself, or its tree with such loops changed."""
-    raw = source.encode("utf-8", "replace") if isinstance(source, str) else source
-    if not _MAY_HAVE_ONE.search(raw):
+    if not ("while" in source if isinstance(source, str) else b"while" in source):
         return source
     tree = ast.parse(source, path)
     busy = [node for node in ast.walk(tree) if isinstance(node, ast.While) and _only_looks(node.body)]
     if not busy:
         return source
     for loop in busy:
-        loop.body.insert(0, _look(loop.body[0]))
+        look = ast.Expr(ast.Call(ast.Name(NAME, ast.Load()), [], []))
+        for node in ast.walk(look):  # it stands where the first statement does, so that tracebacks tell the same lines
+            ast.copy_location(node, loop.body[0])
+        loop.body.insert(0, look)
     return tree
 
 
@@ -95,14 +89,6 @@ def _only_looks(body: list[ast.stmt]) -> bool:
         or (isinstance(statement, ast.If) and _only_looks(statement.body) and _only_looks(statement.orelse))
         for statement in body
     )
-
-
-def _look(before: ast.stmt) -> ast.stmt:
-    """A statement that stands where another one does, so that tracebacks tell the same lines."""
-    call = ast.Expr(ast.Call(ast.Name(NAME, ast.Load()), [], []))
-    for node in ast.walk(call):
-        ast.copy_location(node, before)
-    return call
 
 
 def another_look() -> None:

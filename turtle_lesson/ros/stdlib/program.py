@@ -1,4 +1,13 @@
-"""Runs a Python file as the main program of a simulated process, with modules and a `sys` of its own."""
+"""Runs a Python file as the main program of a simulated process, with modules and a `sys` of its own.
+
+On a robot each process imports its modules anew, so that two processes share no global variable. Here all live in one
+Python, which has one `sys.modules`. So each program keeps its own modules: its `__main__`, and those that lie in its own
+folders. It has them put into `sys.modules` when it imports something or asks for `sys.modules`, until another process goes
+on. The libraries, which are big and know nothing of each other's users, are shared.
+
+Whose import statement it is, is known from the `__builtins__` that the modules of a program are run with: Python looks
+there for `__import__`. The notebook's own imports never come here.
+"""
 
 from __future__ import annotations
 
@@ -20,10 +29,6 @@ from .terminals import ProgramInput
 
 if TYPE_CHECKING:
     from ..sim.process import Process
-
-
-# -- program ------------------------------------------------------------------------------------------------------
-# Runs a Python file, or a text that stands for one, as the main program of a simulated process.
 
 
 class ProgramFinder:
@@ -63,16 +68,15 @@ def run_program(path: Path, folders: Iterable[Path] = (), text: str | None = Non
     modules.run(str(path), text)
 
 
-# -- program code -------------------------------------------------------------------------------------------------
-# The code of a program's modules. It is compiled once, however many processes run it.
-# Each process gets a copy of the code: Python notes in it what it has learned about the globals that it runs with.
-
 _compiled: dict[str, tuple[bytes, bytes]] = {}
-"""By path: the text of a file, and its code."""
+"""By path: the text of a file, and its code, which is compiled once, however many processes run it."""
 
 
 def code_of(path: str, text: str | None = None) -> CodeType:
-    """The code of a file as it is now, or of a text in its place."""
+    """The code of a file as it is now, or of a text in its place.
+
+    Each process gets a copy of it: Python notes in it what it has learned about the globals that it runs with.
+    """
     if text is not None:
         return compile(without_busy_loops(text, path), path, "exec", dont_inherit=True)
     with open(path, "rb") as file:
@@ -104,15 +108,6 @@ class ProgramLoader(SourceFileLoader):
         """The module's code."""
         return code_of(self.path)
 
-
-# -- program modules ----------------------------------------------------------------------------------------------
-# The Python modules that a program has for itself: its `__main__`, and those that lie in its own folders.
-# On a robot each process imports its modules anew, so that two processes share no global variable. Here all live in
-# one Python, which has one `sys.modules`. So each program keeps its own modules. It has them put into `sys.modules`
-# when it imports something or asks for `sys.modules`, until another process goes on. The libraries, which are big and
-# know nothing of each other's users, are shared.
-# Whose import statement it is, is known from the `__builtins__` that the modules of a program are run with: Python
-# looks there for `__import__`. The notebook's own imports never come here.
 
 on_import: dict[str, Callable[[], ModuleType | None]] = {}
 """By the first name of a module of the standard library: called when a program imports it, and may give another."""
@@ -146,8 +141,6 @@ class ProgramModules:
         function = getattr(function, "__func__", function)
         return getattr(function, "__globals__", {}).get("__builtins__") is self.builtins
 
-    # -- what is in sys.modules --------------------------------------------------------------------------------------------
-
     @property
     def shown(self) -> bool:
         """Whether they are in `sys.modules` now."""
@@ -161,18 +154,18 @@ class ProgramModules:
         if simulation.modules_shown is not None:
             simulation.modules_shown.hide()
         simulation.modules_shown = self
-        self._hidden = _take_out(self._tops())
+        self._hidden = self._taken_out()
         sys.modules.update(self._modules)
 
     def hide(self) -> None:
         """Have it hold again what it held before."""
         self._process.simulation.modules_shown = None
-        self._modules.update(_take_out(self._tops()))
+        self._modules.update(self._taken_out())
         sys.modules.update(self._hidden)
         self._hidden = {}
 
-    def _tops(self) -> set[str]:
-        return {name for name, own in self._own.items() if own}
+    def _taken_out(self) -> dict[str, ModuleType]:
+        return _take_out({name for name, own in self._own.items() if own})
 
     def owns(self, name: str) -> bool:
         """Whether a module is of this program, because it is found in its folders."""
@@ -181,27 +174,23 @@ class ProgramModules:
             self._looked_in = folders
             self._own = {top: True for top, own in self._own.items() if own}
         top = name.partition(".")[0]
-        own = self._own.get(top)
-        if own is None:
-            own = self._own[top] = self._find(top, folders) is not None
-            if own and self.shown:
+        if top not in self._own:
+            self._own[top] = self._find(top, folders) is not None
+            if self._own[top] and self.shown:
                 self._hidden.update(_take_out({top}))
-        return own
+        return self._own[top]
 
     def _own_folders(self) -> list[str]:
         """What the program's import path has beside the libraries."""
         return [folder for folder in self.sys.path if folder in self._folders or folder not in sys.path]
 
-    # -- finding -----------------------------------------------------------------------------------------------------------
-
     def find_spec(self, name: str, path: Sequence[str] | None) -> ModuleSpec | None:
         """Where a module of this program is, None if it is none."""
         if path is None:
             return self._find(name, self._own_folders()) if self.owns(name) else None
-        parent = sys.modules.get(name.rpartition(".")[0])
-        if parent is None or not (_is_folder(parent) or vars(parent).get("__builtins__") is self.builtins):
-            return None
-        return self._find(name, path)
+        parent = vars(sys.modules.get(name.rpartition(".")[0], ModuleType("none")))
+        is_folder = parent.get("__file__") is None and "__path__" in parent  # without __init__.py
+        return self._find(name, path) if is_folder or parent.get("__builtins__") is self.builtins else None
 
     def _find(self, name: str, path: Sequence[str]) -> ModuleSpec | None:
         spec = PathFinder.find_spec(name, path)
@@ -211,8 +200,6 @@ class ProgramModules:
         return importlib.util.spec_from_file_location(
             spec.name, spec.origin, loader=loader, submodule_search_locations=spec.submodule_search_locations
         )
-
-    # -- importing ---------------------------------------------------------------------------------------------------------
 
     def _import(
         self,
@@ -239,11 +226,6 @@ def _exit(code: object = None) -> None:
     raise SystemExit(code)
 
 
-def _is_folder(module: ModuleType) -> bool:
-    """Whether a module is a mere folder, without __init__.py."""
-    return module.__dict__.get("__file__") is None and "__path__" in module.__dict__
-
-
 def _take_out(tops: set[str]) -> dict[str, ModuleType]:
     """Take the modules with these first names out of `sys.modules`."""
     present = [top for top in tops if top in sys.modules]
@@ -264,16 +246,15 @@ def _is_found_elsewhere(name: str, path: Sequence[str]) -> bool:
     return "." not in name and PathFinder.find_spec(name) is not None
 
 
-# -- program sys --------------------------------------------------------------------------------------------------
-# The module `sys` as one program sees it: with its own import path, its own modules, its own streams and hook.
-# All else is the real one's.
-
 _OF_THE_PROCESS = ("argv", "stderr", "stdout")
 _OF_THE_PROGRAM = ("excepthook", "path", "stdin")
 
 
 class ProgramSys(ModuleType):
-    """What `import sys` gives a program. `show` puts its modules into `sys.modules`."""
+    """What `import sys` gives a program: its own import path, modules, streams and hook; all else is the real one's.
+
+    `show` puts its modules into `sys.modules`.
+    """
 
     def __init__(self, process: Process, path: list[str], stdin: ProgramInput, show: Callable[[], None]) -> None:
         super().__init__("sys", sys.__doc__)

@@ -70,11 +70,11 @@ class WorldPopen(_Real):
             pipe = _Pipe(text, self._news, lambda: self._process.exit_code is not None)
             return pipe, pipe
         if wanted == subprocess.DEVNULL:
-            return _Writer(lambda text: None), None
+            return _Writer(), None
         if isinstance(wanted, int):
             raise NotImplementedError("a file descriptor cannot be used here: give the file itself, or PIPE")
         if "b" in getattr(wanted, "mode", ""):
-            return _Writer(lambda text: (wanted.write(text.encode()), wanted.flush())), None
+            return _Writer(wanted), None
         return inherited if wanted is None else wanted, None
 
     def poll(self) -> int | None:
@@ -156,13 +156,15 @@ class _Condition:
 
 
 class _Writer(io.TextIOBase):
-    """Hands on what a child prints."""
+    """Hands on what a child prints, as bytes, to a file; without one, to nobody."""
 
-    def __init__(self, take: Callable[[str], object]) -> None:
-        self._take = take
+    def __init__(self, file: Any = None) -> None:
+        self._file = file
 
     def write(self, text: str) -> int:
-        self._take(text)
+        if self._file is not None:
+            self._file.write(text.encode())
+            self._file.flush()
         return len(text)
 
 
@@ -191,11 +193,6 @@ class _Pipe(io.TextIOBase):
     def _taken(self, count: int) -> str | bytes:
         taken, self._pending = self._pending[:count], self._pending[count:]
         return taken if self._text else taken.encode()
-
-    def __next__(self) -> Any:
-        if line := self.readline():
-            return line
-        raise StopIteration
 
 
 def system(real: Any, command: Any) -> int:

@@ -1,12 +1,13 @@
-"""`ros2 run turtlesim draw_square`: the turtle walks along a square, one side after the other, until Ctrl-C.
+"""Two programs of turtlesim's, in plain ``rclpy``: `ros2 run turtlesim draw_square` and `ros2 run turtlesim mimic`.
 
-Plain ``rclpy``. Facts: ros_tutorials, turtlesim/tutorials/draw_square.cpp of Kilted and newer. Humble's has a mistake:
-it stops after its first goal, which it reckons from (0, 0).
+Facts: ros_tutorials, turtlesim/tutorials/draw_square.cpp of Kilted and newer (Humble's has a mistake: it stops after its first
+goal, which it reckons from (0, 0)), and mimic.cpp.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from contextlib import suppress
 from enum import Enum, auto
 
@@ -33,7 +34,7 @@ class State(Enum):
 
 
 class DrawSquare(Node):
-    """Drives turtle1 by what it hears of its pose."""
+    """The turtle walks along a square, one side after the other, driven by what is heard of its pose."""
 
     def __init__(self) -> None:
         super().__init__("draw_square")
@@ -104,8 +105,34 @@ class DrawSquare(Node):
         self._publisher.publish(message)
 
 
-def main() -> None:
+class Mimic(Node):
+    """One turtle does what another one does: passes the speeds of its pose on as a command.
+
+    `ros2 run turtlesim mimic --ros-args -r input/pose:=turtle1/pose -r output/cmd_vel:=turtle2/cmd_vel`
+    """
+
+    def __init__(self) -> None:
+        super().__init__("turtle_mimic")
+        self._publisher = self.create_publisher(Twist, "output/cmd_vel", 1)
+        self.create_subscription(Pose, "input/pose", self._on_pose, 1)
+
+    def _on_pose(self, pose: Pose) -> None:
+        message = Twist()
+        message.linear.x, message.angular.z = pose.linear_velocity, pose.angular_velocity
+        self._publisher.publish(message)
+
+
+def draw_square() -> None:
     """Run until Ctrl-C."""
+    _run(DrawSquare)
+
+
+def mimic() -> None:
+    """Run until Ctrl-C."""
+    _run(Mimic)
+
+
+def _run(make_node: Callable[[], Node]) -> None:
     rclpy.init()
     with suppress(KeyboardInterrupt, ExternalShutdownException):
-        rclpy.spin(DrawSquare())
+        rclpy.spin(make_node())
