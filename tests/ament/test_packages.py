@@ -141,9 +141,9 @@ def test_packages_are_found_and_can_be_hidden_by_an_overlay() -> None:
     index.add(overlay)
     assert index.names() == ["robot_controller", "turtlesim"]
     assert index.get("robot_controller") is overlay
-    index.remove("robot_controller")
+    index.remove(index.get("robot_controller"))
     assert index.get("robot_controller").prefix == Path("install/robot_controller")
-    index.remove("robot_controller")
+    index.remove(index.get("robot_controller"))
     assert "robot_controller" not in index
     assert repr(index) == "<PackageIndex: turtlesim>"
 
@@ -157,7 +157,7 @@ def test_an_unknown_package_is_refused_in_the_real_words() -> None:
     )
     assert str(caught.value).endswith("\". Did you mean 'robot_controller'?")
     with pytest.raises(KeyError, match="Is it built, and is its setup file sourced"):
-        index.remove("zzz")
+        index.get("zzz")
 
 
 def test_an_unknown_executable_is_refused_in_the_real_words() -> None:

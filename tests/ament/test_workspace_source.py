@@ -139,7 +139,7 @@ def test_twice_is_as_once(package: Path, world: World) -> None:
     for _ in range(3):
         source_in(world)
     assert world.packages.names() == ["robot_controller"]
-    world.packages.remove("robot_controller")
+    world.packages.remove(world.packages.get("robot_controller"))
     assert world.packages.names() == []
 
 

@@ -139,7 +139,7 @@ class TroubleEnvironment:
             colcon.run(self._world, ["build"], stdout=said, stderr=said, cwd=folder)
         remove_all(self._world)
         while PACKAGE in self._world.packages:
-            self._world.packages.remove(PACKAGE)
+            self._world.packages.remove(self._world.packages.get(PACKAGE))
         if PACKAGE in registry.packages():
             registry.remove(PACKAGE)
 

@@ -327,10 +327,10 @@ class CMakeFile:
     """The names of the functions and macros that the text defines, in lower case."""
 
 
-def compiled_programs(folder: Path) -> dict[str, int]:
+def compiled_programs(folder: Path, variables: dict[str, str] | None = None) -> dict[str, int]:
     """What the CMakeLists.txt in a folder builds in C++, each with its line; nothing without a readable one."""
     try:
-        return evaluate((folder / "CMakeLists.txt").read_text(encoding="utf-8"), folder).compiled
+        return evaluate((folder / "CMakeLists.txt").read_text(encoding="utf-8"), folder, variables).compiled
     except (BuildFailure, OSError, UnicodeDecodeError):
         return {}
 
@@ -356,19 +356,10 @@ def evaluate(text: str, folder: Path = Path(), variables: dict[str, str] | None 
         elif command.name.startswith("rclcpp_components_register_node") and command.after("EXECUTABLE"):
             read.compiled[command.after("EXECUTABLE")] = command.line
         elif command.name == "add_subdirectory":
-            read.compiled |= dict.fromkeys(_compiled_below(folder, command, known), command.line)
+            inner = folder.joinpath(*command.args[:1]).resolve()
+            if folder.resolve() in inner.parents:
+                read.compiled |= dict.fromkeys(compiled_programs(inner, dict(known)), command.line)
     return read
-
-
-def _compiled_below(folder: Path, command: Command, variables: dict[str, str]) -> Iterator[str]:
-    """The C++ of an inner folder; nothing is known of one whose file cannot be read."""
-    inner = folder.joinpath(*command.args[:1]).resolve()
-    if folder.resolve() in inner.parents:
-        try:
-            text = (inner / "CMakeLists.txt").read_text(encoding="utf-8")
-            yield from evaluate(text, inner, dict(variables)).compiled
-        except (BuildFailure, OSError, UnicodeDecodeError):
-            return
 
 
 _VARIABLE = re.compile(r"\\(.)|\$\{([^${}]*)\}", re.DOTALL)

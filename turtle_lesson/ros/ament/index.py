@@ -43,15 +43,8 @@ class PackageIndex:
         """Make a package findable."""
         self._layers.setdefault(package.name, []).append(package)
 
-    def remove(self, name: str) -> None:
-        """Take the uppermost package of this name out; what it hid is found again."""
-        self.get(name)
-        self._layers[name].pop()
-        if not self._layers[name]:
-            del self._layers[name]
-
-    def remove_package(self, package: Package) -> None:
-        """Take this very package out, wherever it lies among those of its name; nothing happens if it is not there."""
+    def remove(self, package: Package) -> None:
+        """Take a package out, wherever it lies among those of its name; what it hid is found again."""
         layers = self._layers.get(package.name, [])
         layers[:] = [each for each in layers if each is not package]
         if not layers:

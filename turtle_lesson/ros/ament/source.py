@@ -125,7 +125,7 @@ def _add(world: World, install: Path, name: str) -> None:
 def _remove(world: World, install: Path, name: str) -> None:
     for each in [each for each in overlays(world) if (each.install, each.package.name) == (install, name)]:
         overlays(world).remove(each)
-        world.packages.remove_package(each.package)
+        world.packages.remove(each.package)
         _restore(each)
         for path in each.paths:
             shared = any(path in other.paths for other in overlays(world))  # in a merged install folder
