@@ -211,7 +211,7 @@ NONSENSE: st.SearchStrategy[Any] = (
 KEYS = ["version", "storage_identifier", "relative_file_paths", "duration", "starting_time", "message_count", "files"]
 
 
-@settings(max_examples=60)
+@settings(max_examples=30)
 @given(lies=st.dictionaries(st.sampled_from([*KEYS, "topics_with_message_count", "compression_format"]), NONSENSE))
 @example(lies={"files": ""})
 @example(lies={"relative_file_paths": {}})
