@@ -56,7 +56,12 @@ class Subscriber(SimpleFilter):
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__()
         if len(args) != 3 or not isinstance(args[0], Node):
-            raise _not_three(args)
+            error = TypeError(f"Subscriber() takes a node, a message type and a topic, then keywords; got {args!r}")
+            if len(args) > 3:
+                error.add_note(f"Give the profile of quality by its name: qos_profile={args[3]!r}.")
+            elif args and not isinstance(args[0], Node):
+                error.add_note("The node comes first: Subscriber(self, Image, '/camera').")
+            raise error
         self.node, _, self.topic = args
         kwargs.setdefault("qos_profile", 10)
         self.sub = self.node.create_subscription(*args[1:], self.callback, **kwargs)
@@ -74,15 +79,6 @@ class Subscriber(SimpleFilter):
         if key == "sub":  # it could not be made
             raise AttributeError(key)
         return getattr(self.sub, key)
-
-
-def _not_three(args: tuple[Any, ...]) -> TypeError:
-    error = TypeError(f"Subscriber() takes a node, a message type and a topic, then keywords; got {args!r}")
-    if len(args) > 3:
-        error.add_note(f"Give the profile of quality by its name: qos_profile={args[3]!r}.")
-    elif args and not isinstance(args[0], Node):
-        error.add_note("The node comes first: Subscriber(self, Image, '/camera').")
-    return error
 
 
 class Cache(SimpleFilter):

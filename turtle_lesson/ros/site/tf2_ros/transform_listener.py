@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import suppress
 from threading import Thread
+from typing import Any
 
 from rclpy._hints import no_node
 from rclpy.callback_groups import ReentrantCallbackGroup
@@ -11,6 +13,7 @@ from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
+from rclpy.subscription import Subscription
 from tf2_msgs.msg import TFMessage
 
 from .buffer import Buffer
@@ -50,24 +53,28 @@ class TransformListener:
         if node is not None and not hasattr(node, "create_subscription"):
             raise no_node(node)
         self.buffer = buffer
-        self.node = _own_node() if node is None else node
+        self.node = (
+            node
+            if node is not None
+            else Node(
+                "transform_listener_impl",
+                enable_rosout=False,
+                start_parameter_services=False,
+                parameter_overrides=[Parameter("use_sim_time", value=False)],
+            )
+        )
         # A group that lets a callback which waits for a transform be interrupted by the one that brings it.
         self.group = ReentrantCallbackGroup()
+
+        def listen(
+            topic: str, callback: Callable[[TFMessage], None], qos: Any, durability: DurabilityPolicy
+        ) -> Subscription:
+            qos = qos or QoSProfile(depth=100, durability=durability, history=HistoryPolicy.KEEP_LAST)
+            return self.node.create_subscription(TFMessage, topic, callback, qos, callback_group=self.group)
+
         if not static_only:
-            self.tf_sub = self.node.create_subscription(
-                TFMessage,
-                tf_topic,
-                self.callback,
-                qos or _quality(DurabilityPolicy.VOLATILE),
-                callback_group=self.group,
-            )
-        self.tf_static_sub = self.node.create_subscription(
-            TFMessage,
-            tf_static_topic,
-            self.static_callback,
-            static_qos or _quality(DurabilityPolicy.TRANSIENT_LOCAL),
-            callback_group=self.group,
-        )
+            self.tf_sub = listen(tf_topic, self.callback, qos, DurabilityPolicy.VOLATILE)
+        self.tf_static_sub = listen(tf_static_topic, self.static_callback, static_qos, DurabilityPolicy.TRANSIENT_LOCAL)
         if spin_thread:
             self.executor = SingleThreadedExecutor()
             self.dedicated_listener_thread = Thread(target=self._spin)
@@ -94,16 +101,3 @@ class TransformListener:
         """Put transforms of frames that never move into the buffer."""
         for transform in data.transforms:
             self.buffer.set_transform_static(transform, "default_authority")
-
-
-def _quality(durability: DurabilityPolicy) -> QoSProfile:
-    return QoSProfile(depth=100, durability=durability, history=HistoryPolicy.KEEP_LAST)
-
-
-def _own_node() -> Node:
-    return Node(
-        "transform_listener_impl",
-        enable_rosout=False,
-        start_parameter_services=False,
-        parameter_overrides=[Parameter("use_sim_time", value=False)],
-    )
