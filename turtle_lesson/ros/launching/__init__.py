@@ -18,17 +18,9 @@ from typing import TYPE_CHECKING, Any
 from .errors import LaunchError, find_launch_file
 
 if TYPE_CHECKING:
-    from .service import (
-        LaunchArgument,
-        LaunchHandle,
-        launch_arguments,
-        launch_description,
-        launch_file,
-        show_arguments,
-    )
+    from .service import LaunchHandle, launch_arguments, launch_description, launch_file, show_arguments
 
 __all__ = [
-    "LaunchArgument",
     "LaunchError",
     "LaunchHandle",
     "find_launch_file",

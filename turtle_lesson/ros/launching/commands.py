@@ -16,6 +16,7 @@ import shlex
 import sys
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path, PurePath
 from typing import Any, NoReturn
@@ -69,11 +70,9 @@ def program(words: Sequence[str], *, shell: bool = False) -> Program:
         PackageNotFoundError, ExecutableNotFoundError: if `ros2 run` names what is not there.
     """
     shown = " ".join(words)
-    if shell:
-        return _script(shown, list(words), shown)
     name = PurePath(words[0]).name if words[0] else ""
-    if name in SHELLS and len(words) == 3 and words[1] == "-c":
-        return _script(words[2], list(words), shown)
+    if shell or (name in SHELLS and len(words) == 3 and words[1] == "-c"):
+        return _script(shown if shell else words[2], list(words), shown)
     return _simple(list(words), shown)
 
 
@@ -81,8 +80,7 @@ def _script(text: str, argv: list[str], shown: str) -> Program:
     """A shell's text: one command, or several one after the other."""
     commands = hooks.commands_of_text(text)
     if len(commands) == 1:
-        only = _simple(commands[0][1], shown)
-        return Program(only.target, only.argv, shown)
+        return replace(_simple(commands[0][1], shown), shown=shown)
     mains = [(sign, _main(words)) for sign, words in commands]
 
     def main() -> int:
@@ -140,8 +138,6 @@ def _ros2_run(words: list[str], shown: str) -> Program:
         target = packages.executable(given.package_name, given.executable_name)
     except ExecutableNotFoundError as error:
         raise UnknownCommand("No executable found", error.hint) from None
-    except PackageNotFoundError:
-        raise
     path = packages.get(given.package_name).libexec / given.executable_name
     return Program(target, [path.as_posix(), *given.argv], shown)
 
@@ -155,10 +151,8 @@ def _main(words: list[str]) -> Main:
     name = PurePath(words[0]).name
     if name == "ros2":
         if words[1:2] == ["launch"]:
-            raise ForeignCommand(
-                " ".join(words),
-                "a launch file is included with IncludeLaunchDescription(path_of_the_launch_file)",
-            )
+            why = "a launch file is included with IncludeLaunchDescription(path_of_the_launch_file)"
+            raise ForeignCommand(" ".join(words), why)
         return lambda: hooks.run_ros2(words)
     if name in _SMALL:
         return lambda: _SMALL[name](words[1:])
@@ -167,40 +161,30 @@ def _main(words: list[str]) -> Main:
             f"ExecuteProcess(cmd='{' '.join(words)}'): there is no program called '{words[0]}'",
             "cmd is a list of single words, ['ros2', 'topic', 'list']; a single string needs shell=True.",
         )
-    why = (
-        why_not_here(name)
-        or hooks.advice_about_command([name, *words[1:]])
-        or "it is a program of the operating system"
-    )
-    raise ForeignCommand(name or "a command without a name", why)
+    why = why_not_here(name) or hooks.advice_about_command([name, *words[1:]])
+    raise ForeignCommand(name or "a command without a name", why or "it is a program of the operating system")
 
 
-def _echo(words: Sequence[str]) -> int:
-    end = "\n"
+def _echo(words: Sequence[str]) -> None:
     if words[:1] == ["-n"]:
-        end, words = "", words[1:]
-    print(*words, end=end)
-    return 0
+        print(*words[1:], end="")
+    else:
+        print(*words)
 
 
 def _sleep(words: Sequence[str]) -> int:
     units = {"s": 1.0, "m": 60.0, "h": 3600.0}
     try:
-        seconds = sum(float(word.rstrip("smh")) * units.get(word[-1:], 1.0) for word in words)
-        time.sleep(seconds)
+        time.sleep(sum(float(word.rstrip("smh")) * units.get(word[-1:], 1.0) for word in words))
     except (ValueError, OverflowError):
         print(f"sleep: invalid time interval {' '.join(words)!r}", file=sys.stderr)
         return 1
     return 0
 
 
-def _exit(words: Sequence[str]) -> int:
-    sys.exit(int(words[0]) if words and words[0].isdigit() else 0)
-
-
 _SMALL: dict[str, Callable[[Sequence[str]], Any]] = {
     "echo": _echo,
-    "exit": _exit,
+    "exit": lambda words: sys.exit(int(words[0]) if words and words[0].isdigit() else 0),
     "false": lambda words: 1,
     "sleep": _sleep,
     "true": lambda words: 0,
@@ -247,31 +231,24 @@ def _xacro(words: Sequence[str]) -> str:
     if len(files) != 1:
         raise CommandFailure("xacro needs the name of one file")
     text = _read(files[0])
-    return _processed(words) if re.search(r"<xacro:|\$\{|\$\(", text) else text
-
-
-def _processed(words: Sequence[str]) -> str:
-    """What the program xacro prints, which is installed from PyPI (https://github.com/ros/xacro)."""
+    if not re.search(r"<xacro:|\$\{|\$\(", text):
+        return text
     try:
-        main = importlib.import_module("xacro").main
+        main = importlib.import_module("xacro").main  # from PyPI (https://github.com/ros/xacro)
     except (ImportError, AttributeError):  # not installed, or a mere folder of this name
         raise NotHereError(f"an action that needs `xacro {' '.join(words)}`", why_not_here("xacro")) from None
     out, errors, argv = io.StringIO(), io.StringIO(), sys.argv
-    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
-        sys.argv = ["xacro", *words]
-        try:
+    sys.argv = ["xacro", *words]
+    try:
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
             main()
-        except SystemExit as end:
-            if end.code:
-                raise CommandFailure(
-                    _COLOURS.sub("", errors.getvalue()).strip() or f"xacro: exit code {end.code}"
-                ) from None
-        finally:
-            sys.argv = argv
+    except SystemExit as end:
+        if end.code:
+            said = re.sub(r"\x1b\[[0-9;]*m", "", errors.getvalue()).strip()  # without colours
+            raise CommandFailure(said or f"xacro: exit code {end.code}") from None
+    finally:
+        sys.argv = argv
     return out.getvalue()
-
-
-_COLOURS = re.compile(r"\x1b\[[0-9;]*m")
 
 
 _SETUP = re.compile(r"^\s*(?:(?:source|\.)\s+\S*setup\.\w+\s*(?:&&|;)\s*)+")

@@ -9,7 +9,6 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, redirect_stdout
-from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
 from types import SimpleNamespace
@@ -18,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 from launch import Action, Event, LaunchContext, LaunchDescription, LaunchDescriptionEntity, LaunchDescriptionSource
 from launch._context import as_entities
 from launch._entities import described
-from launch.actions import EmitEvent, IncludeLaunchDescription
+from launch.actions import DeclareLaunchArgument, EmitEvent, IncludeLaunchDescription
 from launch.events import IncludeLaunchDescription as Included
 from launch.events import Shutdown
 from launch.launch_description_sources import AnyLaunchDescriptionSource
@@ -229,36 +228,6 @@ def service_here() -> LaunchService:
     return LaunchService(current_world(), {})
 
 
-@dataclass(frozen=True)
-class LaunchArgument:
-    """One argument that a launch file takes.
-
-    Attributes:
-        name: its name.
-        description: what it is for.
-        default: its default as `--show-args` shows it (`'10'`), or None if it must be given.
-        choices: the values that it may have, or None for any.
-    """
-
-    name: str
-    description: str
-    default: str | None
-    choices: tuple[str, ...] | None = None
-
-
-def _declared_in(description: LaunchDescription) -> list[LaunchArgument]:
-    """The arguments that a description and what it includes declare."""
-    return [
-        LaunchArgument(
-            argument.name,
-            argument.description,
-            None if argument.default_value is None else described(argument.default_value),
-            None if argument.choices is None else tuple(argument.choices),
-        )
-        for argument in description.get_launch_arguments()
-    ]
-
-
 class LaunchHandle:
     """A running launch: its processes, and how to stop it."""
 
@@ -333,7 +302,7 @@ def launch_description(
     return _begin(world, LaunchDescriptionSource(description, "notebook cell"), arguments, "a description")
 
 
-def launch_arguments(world: World, path: Path | str) -> list[LaunchArgument]:
+def launch_arguments(world: World, path: Path | str) -> list[DeclareLaunchArgument]:
     """The arguments that a launch file takes.
 
     Raises:
@@ -342,7 +311,7 @@ def launch_arguments(world: World, path: Path | str) -> list[LaunchArgument]:
     source = AnyLaunchDescriptionSource(_existing(Path(path)))
     try:
         with seeing(LaunchedPackages(world.packages)):
-            return _declared_in(source._get_launch_description(str(path)))
+            return source._get_launch_description(str(path)).get_launch_arguments()
     except Exception as error:
         raise as_launch_error(error, None, {}) from learners_cause(error)
 
@@ -356,7 +325,8 @@ def show_arguments(world: World, path: Path | str) -> str:
     parts = ["Arguments (pass arguments as '<name>:=<value>'):"]
     for argument in launch_arguments(world, path):
         part = f"    '{argument.name}':\n{textwrap.indent(argument.description, '        ')}"
-        parts.append(part + ("" if argument.default is None else f"\n        (default: {argument.default})"))
+        default = argument.default_value
+        parts.append(part + ("" if default is None else f"\n        (default: {described(default)})"))
     return "\n\n".join(parts if len(parts) > 1 else [*parts, "  No arguments."])
 
 
@@ -387,7 +357,8 @@ def _begin(
         service.begin(include)
     except LaunchError as error:
         raise error from learners_cause(error.__cause__)
-    known = [argument.name for argument in _declared_in(source.get_launch_description(service.context))]
+    description = source.get_launch_description(service.context)
+    known = [argument.name for argument in description.get_launch_arguments()]
     for argument in given:  # the real tool says nothing
         if argument not in known and argument not in service.context._configurations_read:
             takes = f"It takes: {', '.join(known)}." if known else "It takes no arguments."

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterable, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar, Union
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, Union
 
 from turtle_lesson.ros.sim.errors import is_ours
 
@@ -110,6 +110,17 @@ def written_at() -> Place | None:
             return frame.f_code.co_filename, frame.f_lineno
         frame = frame.f_back  # type: ignore[assignment]
     return None
+
+
+Failure = TypeVar("Failure", bound=BaseException)
+
+
+def explained(error: Failure, hint: str = "", place: Place | None = None) -> Failure:
+    """The error, with what to try and the place to look at, which are said below its text; what it has already counts."""
+    for name, value in (("hint", hint), ("place", place)):
+        if value and not getattr(error, name, None):
+            setattr(error, name, value)
+    return error
 
 
 class Action(LaunchDescriptionEntity):

@@ -10,7 +10,7 @@ import inspect
 from collections.abc import Callable, Container, Sequence
 from typing import Any, TypeVar
 
-from ._entities import Action, Substitution
+from ._entities import Action, Substitution, explained
 from .frontend import Entity, Parser, expose_substitution
 
 Reader = Callable[[Entity, Parser], Any]
@@ -102,5 +102,4 @@ def _wrong_number(tag: str, names: list[str], least: int) -> TypeError:
     number = f"{least} {'or' if most == least + 1 else 'to'} {most}" if least < most else str(most or "no")
     error = TypeError(f"{tag} substitution expects {number} {'argument' if number == '1' else 'arguments'}")
     shown = " ".join([tag, *(f"<{name}>" for name in names)])
-    error.hint = f"Write $({shown}); put an argument with spaces in quotes."  # type: ignore[attr-defined]
-    return error
+    return explained(error, f"Write $({shown}); put an argument with spaces in quotes.")

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TextIO, TypeVar, get_args, get_origin
 
 from turtle_lesson.ros.idl.names import did_you_mean
 
-from ._entities import LaunchDescription, Place, Substitution, TextSubstitution
+from ._entities import LaunchDescription, Place, Substitution, TextSubstitution, explained
 
 if TYPE_CHECKING:
     from ._entities import Action
@@ -119,10 +119,8 @@ class Entity:
         """The error about an attribute that must be given; what was perhaps given instead is pointed out."""
         error = AttributeError(f"Attribute '{name}' of type '{data_type}' not found in Entity '{self.type_name}'")
         other = next((word for word in given if MEANT.get(word) == name), None)
-        error.hint = (  # type: ignore[attr-defined]
-            f"It is called {name} here, not {other}." if other else f"Give {self.type_name} the attribute {name}."
-        )
-        return error
+        hint = f"It is called {name} here, not {other}." if other else f"Give {self.type_name} the attribute {name}."
+        return explained(error, hint)
 
     def _unexpected(self, what: str, names: set[str], known: set[str]) -> ValueError:
         """The error about names that nobody has asked for, with what was perhaps meant."""
@@ -131,8 +129,7 @@ class Entity:
         hints = [f"Did you mean '{MEANT[name]}'?" for name in found if MEANT.get(name) in known]
         hints += [did_you_mean(str(name)[:100], sorted(known)) for name in found]
         takes = f"`{self.type_name}` can have: {', '.join(sorted(known))}." if known else ""
-        error.hint = next(filter(None, hints), takes)  # type: ignore[attr-defined]
-        return error
+        return explained(error, next(filter(None, hints), takes))
 
 
 def check_is_list_entity(data_type: Any) -> bool:
@@ -173,8 +170,7 @@ def instantiate_action(entity: Entity, parser: Parser) -> Action:
         entity.assert_entity_completely_parsed()
         action: Action = action_type(**kwargs)
     except Exception as error:
-        if getattr(error, "place", None) is None:
-            error.place = entity.place  # type: ignore[attr-defined]
+        explained(error, place=entity.place)
         raise
     action._written_at = entity.place
     return action
@@ -195,10 +191,8 @@ def instantiate_substitution(type_name: str, args: Sequence[Any] | None = None) 
 def _known(methods: dict[str, Callable[..., Any]], name: str, complaint: str) -> Callable[..., Any]:
     if name in methods:
         return methods[name]
-    error = RuntimeError(f"{complaint}{name}")
     close = did_you_mean(str(name)[:100], sorted(methods)) or f"There are: {', '.join(sorted(methods))}."
-    error.hint = _NOT_HERE.get(name) or close  # type: ignore[attr-defined]
-    raise error
+    raise explained(RuntimeError(f"{complaint}{name}"), _NOT_HERE.get(name) or close)
 
 
 def expose_action(name: str) -> Callable[[Exposed], Exposed]:
@@ -229,11 +223,7 @@ IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 
 
 class SubstitutionSyntaxError(ValueError):
-    """A text's `$(…)` are not well formed. `hint` says what to try."""
-
-    def __init__(self, message: str, hint: str = "") -> None:
-        super().__init__(message)
-        self.hint = hint
+    """A text's `$(…)` are not well formed."""
 
 
 def replace_escaped_characters(data: str) -> str:
@@ -356,7 +346,7 @@ class _Reader:
             if self._here
             else ("Unexpected end-of-input")
         )
-        return SubstitutionSyntaxError(f"{what}, at line 1 col {self._at + 1} of {self._text!r}", hint)
+        return explained(SubstitutionSyntaxError(f"{what}, at line 1 col {self._at + 1} of {self._text!r}"), hint)
 
 
 MOST_ACTIONS = 10_000
@@ -435,15 +425,12 @@ class Parser:
             RuntimeError: if the root is not `launch`; and whatever is wrong below it.
         """
         if entity.type_name != "launch":
-            error = RuntimeError("Expected 'launch' as root tag")
-            error.place = entity.place  # type: ignore[attr-defined]
-            raise error
+            raise explained(RuntimeError("Expected 'launch' as root tag"), place=entity.place)
         try:
             deprecated = entity.get_attr("deprecated", optional=True)
             actions = [self.parse_action(child) for child in entity.children]
             entity.assert_entity_completely_parsed()
-        except Exception as wrong:
-            if getattr(wrong, "place", None) is None:
-                wrong.place = entity.place  # type: ignore[attr-defined]
+        except Exception as error:
+            explained(error, place=entity.place)
             raise
         return LaunchDescription(actions, deprecated_reason=deprecated)

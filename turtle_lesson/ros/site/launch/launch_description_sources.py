@@ -11,7 +11,7 @@ from turtle_lesson.ros.ament.package import PackageNotFoundError
 from turtle_lesson.ros.sim.errors import shown_path
 
 from ._context import LaunchContext
-from ._entities import LaunchDescription, SomeSubstitutionsType, described
+from ._entities import LaunchDescription, SomeSubstitutionsType, described, explained
 from .frontend import InvalidFrontendLaunchFileError, InvalidLaunchFileError, Parser
 from .utilities import normalize_to_list_of_substitutions, perform_substitutions
 
@@ -64,10 +64,6 @@ class LaunchDescriptionSource:
 class InvalidPythonLaunchFileError(Exception):
     """A Python launch file lacks what every launch file must have."""
 
-    def __init__(self, message: str, hint: str = "") -> None:
-        super().__init__(message)
-        self.hint = hint
-
 
 def load_python_launch_file_as_module(python_launch_file_path: str) -> ModuleType:
     """Run the file in a fresh module, each time anew."""
@@ -99,7 +95,7 @@ def get_launch_description_from_python_launch_file(python_launch_file_path: str)
 
 def _without_function(path: str, hint: str = "") -> InvalidPythonLaunchFileError:
     missing = "does not contain the required function 'generate_launch_description()'"
-    return InvalidPythonLaunchFileError(f"launch file at '{shown_path(path)}' {missing}", hint)
+    return explained(InvalidPythonLaunchFileError(f"launch file at '{shown_path(path)}' {missing}"), hint)
 
 
 class PythonLaunchDescriptionSource(LaunchDescriptionSource):

@@ -6,14 +6,7 @@ from launch._package import complete_package
 
 from . import actions, descriptions, parameter_descriptions, substitutions
 
-__all__ = [
-    "actions",
-    "descriptions",
-    "event_handlers",
-    "events",
-    "parameter_descriptions",
-    "substitutions",
-]
+__all__ = ["actions", "descriptions", "event_handlers", "events", "parameter_descriptions", "substitutions"]
 
 complete_package(
     "launch_ros",

@@ -7,7 +7,7 @@ from typing import Any
 from xml.parsers import expat
 
 from launch import frontend
-from launch._entities import SomeSubstitutionsType
+from launch._entities import SomeSubstitutionsType, explained
 from launch._package import complete_package
 from launch.frontend import Entity as BaseEntity
 from launch.frontend import check_is_list_entity
@@ -116,10 +116,7 @@ def _tree(text: str, name: str, lines: dict[ET.Element, int]) -> ET.Element:
     try:
         parser.Parse(text.encode(), True)
     except expat.ExpatError as error:
-        broken = ET.ParseError(str(error))
-        broken.place = (name, error.lineno)  # type: ignore[attr-defined]
-        broken.hint = _hint(error)  # type: ignore[attr-defined]
-        raise broken from None
+        raise explained(ET.ParseError(str(error)), _hint(error), (name, error.lineno)) from None
     return builder.close()
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import yaml
 from launch import frontend
-from launch._entities import SomeSubstitutionsType
+from launch._entities import SomeSubstitutionsType, explained
 from launch._package import complete_package
 from launch.frontend import Entity as BaseEntity
 from launch.frontend import check_is_list_entity
@@ -66,11 +66,8 @@ class Entity(BaseEntity):
     def _child(self, item: Any) -> Entity:
         if not isinstance(item, Mapping) or len(item) != 1:
             error = RuntimeError("Subentity must be a dictionary with only one key, which is the entity type")
-            keys = list(item.lines.items()) if isinstance(item, Mapping) else []
-            if keys:
-                error.place = (self.__file, keys[-1][1])  # type: ignore[attr-defined]
-            error.hint = _hint(item)  # type: ignore[attr-defined]
-            raise error
+            lines = list(item.lines.values()) if isinstance(item, Mapping) else []
+            raise explained(error, _hint(item), (self.__file, lines[-1]) if lines else None)
         name = next(iter(item))
         return Entity(item[name], str(name), parent=self, file=self.__file, line=item.lines.get(name))
 
@@ -92,8 +89,7 @@ class Entity(BaseEntity):
         if isinstance(self.__element, dict):
             return self.__element
         error = TypeError(f"Expected a dict or list, got {type(self.__element)}")
-        error.hint = f"Write the attributes of {self.type_name} below it, each on a line of its own."  # type: ignore[attr-defined]
-        raise error
+        raise explained(error, f"Write the attributes of {self.type_name} below it, each on a line of its own.")
 
     def get_attr(self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True) -> Any:
         """As `launch.frontend.Entity.get_attr`. YAML knows types, so a value must be of the one asked for."""
@@ -112,16 +108,14 @@ class Entity(BaseEntity):
                 f"Attribute '{name}' of Entity '{self.type_name}' expected to be of type '{data_type}', "
                 f"got '{type(value)}'"
             )
-            if data_type is str and isinstance(value, bool | int | float):
-                error.hint = f'Put it into quotation marks: {name}: "{value}"'  # type: ignore[attr-defined]
-            raise error
+            is_plain = data_type is str and isinstance(value, bool | int | float)
+            raise explained(error, f'Put it into quotation marks: {name}: "{value}"' if is_plain else "")
         return value
 
     def _nested(self, name: str, value: Any) -> list[Entity]:
         if not isinstance(value, list) or not all(isinstance(item, dict) for item in value):
             error = TypeError(f"Attribute '{name}' of Entity '{self.type_name}' expected to be a list of dictionaries.")
-            error.hint = f"Begin each {name} with a hyphen."  # type: ignore[attr-defined]
-            raise error
+            raise explained(error, f"Begin each {name} with a hyphen.")
         lines = [min(getattr(item, "lines", {}).values(), default=None) for item in value]
         return [
             Entity(item, name, parent=self, file=self.__file, line=line)
@@ -149,15 +143,12 @@ class Parser(frontend.Parser):
         try:
             tree = _tree(text, name)
         except yaml.MarkedYAMLError as error:
-            if error.problem_mark is not None:
-                error.place = (name, error.problem_mark.line + 1)
-            error.hint = _hint_for_syntax(error)
+            mark = error.problem_mark
+            explained(error, _hint_for_syntax(error), None if mark is None else (name, mark.line + 1))
             raise
         if not isinstance(tree, Mapping) or len(tree) != 1:
-            wrong: Any = RuntimeError("Expected only one root")
-            wrong.place = (name, 1)
-            wrong.hint = "The file begins with launch: and all actions are a list below it."
-            raise wrong
+            hint = "The file begins with launch: and all actions are a list below it."
+            raise explained(RuntimeError("Expected only one root"), hint, (name, 1))
         root = next(iter(tree))
         return Entity(tree[root], str(root), file=name, line=tree.lines.get(root, 1)), cls()
 

@@ -14,16 +14,7 @@ from ..events.process import ProcessExited
 from ..frontend import Entity, Parser, expose_action
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
 
-__all__ = [
-    "EmitEvent",
-    "Log",
-    "LogDebug",
-    "LogError",
-    "LogInfo",
-    "LogWarning",
-    "RegisterEventHandler",
-    "Shutdown",
-]
+__all__ = ["EmitEvent", "Log", "LogDebug", "LogError", "LogInfo", "LogWarning", "RegisterEventHandler", "Shutdown"]
 
 LEVELS = {
     "CRITICAL": "critical",

@@ -16,6 +16,7 @@ from .._entities import (
     LaunchDescriptionEntity,
     SomeSubstitutionsType,
     described,
+    explained,
 )
 from .._tags import actions, pair, tags, text, typed
 from ..event_handlers import OnShutdown
@@ -132,8 +133,7 @@ class IncludeLaunchDescription(Action):
         self.launch_description_source = launch_description_source
         if isinstance(launch_arguments, Mapping):
             error = ValueError("launch_arguments is a dictionary, expected pairs of name and value")
-            error.hint = "Write launch_arguments={…}.items()"  # type: ignore[attr-defined]
-            raise error
+            raise explained(error, "Write launch_arguments={…}.items()")
         self.launch_arguments = list(launch_arguments or [])
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
