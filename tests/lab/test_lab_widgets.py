@@ -151,6 +151,12 @@ def test_a_question_that_begins_anew_has_one_widget_in_the_end() -> None:
     assert len(registry._instances) - before == 2 * (KEPT + 1)  # each has a layout, too
 
 
+def test_a_question_whose_widget_was_closed_can_be_asked_anew() -> None:
+    lesson = start()
+    lesson.predict("far", "How far?", unit="m").widget.close()
+    assert repr(lesson.predict("far", "How far now?", unit="m")) == "How far now? – no guess yet."
+
+
 # -- what a page sends ---------------------------------------------------------------------------------------------------
 
 LEAVES = st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=5)

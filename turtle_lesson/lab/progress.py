@@ -71,16 +71,13 @@ class ProgressFile:
         except OSError as error:
             self.remark = f"{self.path.name} cannot be read ({error.strerror}); {KERNEL_ONLY}"
         except (ValueError, RecursionError):
-            self._set_aside(self.path)
+            aside = unused(self.path.with_name(f"{self.path.name}.broken"))
+            try:
+                self.path.rename(aside)
+                self.remark = f"{self.path.name} was damaged. It is kept as {aside.name}, and a new one was started."
+            except OSError:
+                self.remark = f"{self.path.name} is damaged and cannot be replaced."
         return {}, {}
-
-    def _set_aside(self, path: Path) -> None:
-        aside = unused(path.with_name(f"{path.name}.broken"))
-        try:
-            path.rename(aside)
-            self.remark = f"{path.name} was damaged. It is kept as {aside.name}, and a new one was started."
-        except OSError:
-            self.remark = f"{path.name} is damaged and cannot be replaced."
 
     def _write(self) -> None:
         if self.path is None:
@@ -132,19 +129,15 @@ class Progress:
     def __init__(self, checks: Iterable[Check], earned: dict[str, int], remark: str = "") -> None:
         self.remark = remark
         by_page: dict[str, list[Check]] = {}
-        for each in checks:
-            by_page.setdefault(each.page, []).append(each)
-        self.pages = [_score(page, of_page, earned) for page, of_page in by_page.items()]
-
-    @property
-    def earned(self) -> int:
-        """Points earned."""
-        return sum(each.earned for each in self.pages)
-
-    @property
-    def points(self) -> int:
-        """Points to be had."""
-        return sum(each.points for each in self.pages)
+        for check in checks:
+            by_page.setdefault(check.page, []).append(check)
+        self.pages: list[PageScore] = []
+        for page, of_page in by_page.items():
+            got = {each.name: min(earned.get(each.name, 0), each.points) for each in of_page}
+            still = tuple(each.name for each in of_page if got[each.name] < each.points)
+            self.pages.append(PageScore(page, sum(got.values()), sum(each.points for each in of_page), still))
+        self.earned = sum(each.earned for each in self.pages)
+        self.points = sum(each.points for each in self.pages)
 
     def so_far(self, page: str) -> str:
         """The points of a page and in all: "7 of 10 points on this page, 23 of 131 in all."."""
@@ -178,9 +171,3 @@ class Progress:
         head = f"<tr><th {cell}>page</th><th></th><th {cell}>points</th><th {cell}>open</th></tr>"
         table = f"<table><thead>{head}</thead><tbody>{rows}</tbody></table>"
         return f"<p><strong>{self.headline}</strong></p>{table}{remark}"
-
-
-def _score(page: str, checks: list[Check], earned: dict[str, int]) -> PageScore:
-    got = {each.name: min(earned.get(each.name, 0), each.points) for each in checks}
-    still = tuple(each.name for each in checks if got[each.name] < each.points)
-    return PageScore(page, sum(got.values()), sum(each.points for each in checks), still)

@@ -8,6 +8,7 @@ import inspect
 import linecache
 import re
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from types import FunctionType
@@ -68,7 +69,10 @@ def compose(kind: str, code: Mapping[str, str], error: str, graph: str, log: Seq
     """
     if kind not in KINDS:
         raise ValueError(f'there are prompts for "debugging" and for "code review", got {kind!r}')
-    written = "\n\n".join(f"{name}:\n\n{_fenced(text, _language(name))}" for name, text in code.items())
+    languages = {".xml": "xml", ".txt": "cmake", ".msg": "", ".srv": "", ".yaml": "yaml"}
+    written = "\n\n".join(
+        f"{name}:\n\n{_fenced(text, languages.get(Path(name).suffix, 'python'))}" for name, text in code.items()
+    )
     parts = [
         _OPENING[kind],
         f"## Specification\n\n{SPECIFICATION.strip()}",
@@ -79,11 +83,6 @@ def compose(kind: str, code: Mapping[str, str], error: str, graph: str, log: Seq
         "## What I ask\n\n" + "\n".join(f"{number}. {text}" for number, text in enumerate(_QUESTIONS[kind], 1)),
     ]
     return Prompt(kind, re.sub(r"\b0x[0-9a-f]{6,}\b", "0x…", "\n\n".join(parts)))
-
-
-def _language(name: str) -> str:
-    known = {"xml": "xml", "txt": "cmake", "msg": "", "srv": "", "yaml": "yaml"}
-    return known.get(name.rpartition(".")[2], "python") if "." in name else "python"
 
 
 def _fenced(text: str, language: str = "") -> str:
@@ -172,21 +171,12 @@ def _source(target: Any) -> str:
     methods = [getattr(value, "__func__", value) for value in vars(target).values()] if isinstance(target, type) else []
     for method in methods:
         if isinstance(method, FunctionType):
-            text = _class_in("".join(linecache.getlines(method.__code__.co_filename)), target.__name__)
-            if text:
-                return text
+            text = "".join(linecache.getlines(method.__code__.co_filename))
+            with suppress(SyntaxError):
+                for statement in ast.walk(ast.parse(text)):
+                    if isinstance(statement, ast.ClassDef) and statement.name == target.__name__:
+                        return f"{ast.get_source_segment(text, statement)}\n"
     try:
         return inspect.getsource(target)
     except (OSError, TypeError):
         raise ValueError(f"the source of {target!r} cannot be found: give the file, or the text itself") from None
-
-
-def _class_in(text: str, name: str) -> str | None:
-    try:
-        tree = ast.parse(text)
-    except SyntaxError:
-        return None
-    for statement in ast.walk(tree):
-        if isinstance(statement, ast.ClassDef) and statement.name == name:
-            return f"{ast.get_source_segment(text, statement)}\n"
-    return None

@@ -198,13 +198,13 @@ class Form(LiveWidget):
             self.tree = self._whole.state()["parts"]
         has_now = "'now': True" in repr(self.tree)
         self.remark = "The stamp is left out: a line for the terminal cannot know it." if has_now else ""
-        self.line = "" if self.errors else self._terminal_line()
-
-    def _terminal_line(self) -> str:
+        if self.errors:
+            self.line = ""
+            return
         values = self._whole.changed() or {}
-        if self.kind == "service":
-            return f"ros2 service call {self.name} {self.type_name} {_yaml(values)}"
-        return publish_line(self.name, self.type_name, values, None if self._timer is None else self.rate)
+        self.line = f"ros2 service call {self.name} {self.type_name} {_yaml(values)}"
+        if self.kind == "topic":
+            self.line = publish_line(self.name, self.type_name, values, None if self._timer is None else self.rate)
 
     def text(self) -> str:
         """What the form is for, and what it would send."""

@@ -203,14 +203,7 @@ class LivePlot(LiveWidget):
         self._timer: Any = None
         if isinstance(seconds, bool) or not isinstance(seconds, (int, float)) or not 0.1 <= seconds <= 3600:
             raise ValueError(f"seconds must be a number of seconds from 0.1 to 3600, got {seconds!r}: try seconds=30.0")
-        self._refuse_mistakes(backend)
-        super().__init__(backend, seconds=float(seconds))
-        self._listen()
-        self.tick()
-
-    def _refuse_mistakes(self, backend: Backend) -> None:
-        topics = dict(backend.node.get_topic_names_and_types())
-        recorder = backend.recorder
+        topics, recorder = dict(backend.node.get_topic_names_and_types()), backend.recorder
         to_come = {STATUS_TOPIC, SCAN_TOPIC, OBSTACLE_TOPIC, recorder.pose_topic, recorder.command_topic}
         visible = [name for name in topics if not is_hidden(name)]
         for curve in self._curves:
@@ -218,6 +211,9 @@ class LivePlot(LiveWidget):
             if not curve.topic and (meant := mistyped(curve.asked, visible, to_come)):
                 known = f"The topics: {enumerated(visible)}."
                 raise ValueError(f'there is no topic for "{curve.asked}". Did you mean "{meant}"? {known}')
+        super().__init__(backend, seconds=float(seconds))
+        self._listen()
+        self.tick()
 
     def _listen(self) -> None:
         if self._timer is None:
@@ -356,8 +352,6 @@ def _checked(node: Any, fields: Iterable[str]) -> list[str]:
     space = node.get_namespace().rstrip("/")
     return [each if each.startswith("/") else f"{space}/{each}" for each in wanted]
 
-
-# -- live plot picture ----------------------------------------------------------------------------------------------
 
 Window = tuple[str, np.ndarray, np.ndarray]
 """A curve's name, its times (s) and its numbers."""

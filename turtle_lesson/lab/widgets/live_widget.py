@@ -259,6 +259,8 @@ class LiveWidget(anywidget.AnyWidget):
 
 def put_aside(widget: LiveWidget) -> None:
     """Keep a widget that will show nothing new as long as a page shows it, or may do so soon; then it is closed."""
+    if widget.comm is None:  # closed by hand
+        return
     _ended.append(widget)
     unseen = [each for each in _ended if not each.is_seen]
     for each in unseen[:-KEPT]:

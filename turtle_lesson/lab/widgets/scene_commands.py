@@ -127,7 +127,15 @@ SUN = (-5.0, -7.0, 14.0)
 @cache
 def stage() -> list[bytes]:
     """What never changes, in any scene: lights, floor, walls and the turtle itself."""
-    ours = [put("lab", placed(-WORLD / 2, -WORLD / 2)), *_lights(), remove("Grid"), remove("Axes")]
+    hidden = ("SpotLight", "PointLightNegativeX", "PointLightPositiveX")
+    lights = [tell(f"Lights/{name}/<object>", "visible", False) for name in hidden]
+    ours = [
+        put("lab", placed(-WORLD / 2, -WORLD / 2)),
+        *lights,
+        light("Lights/Sun", 0.55, SUN),
+        remove("Grid"),
+        remove("Axes"),
+    ]
     ours.append(show("lab/floor", scene_mesh.floor(), color=_number(scene_mesh.FLOOR)))
     ours += [show("lab/grid", scene_mesh.grid(), color=_number(scene_mesh.GRID)), cast_no_shadow("lab/grid")]
     for number, wall in enumerate(scene_mesh.walls()):
@@ -138,11 +146,6 @@ def stage() -> list[bytes]:
     return ours
 
 
-def _lights() -> list[bytes]:
-    hidden = ("SpotLight", "PointLightNegativeX", "PointLightPositiveX")
-    return [*(tell(f"Lights/{name}/<object>", "visible", False) for name in hidden), light("Lights/Sun", 0.55, SUN)]
-
-
 def turtle_at(x: float, y: float, theta: float) -> bytes:
     """Where the turtle is."""
     return put(TURTLE, placed(x, y, 0.0, theta))
@@ -150,27 +153,22 @@ def turtle_at(x: float, y: float, theta: float) -> bytes:
 
 def trail(path: str, pieces: Sequence[np.ndarray]) -> list[bytes]:
     """A part of the trail, as a ribbon on the floor; nothing of it if there are no pieces."""
-    mesh = scene_mesh.ribbon(pieces)
-    if not len(mesh):
-        return [remove(path)]
-    return [show(path, mesh, lit=False, color=_number(scene_mesh.TRAIL)), cast_no_shadow(path)]
+    return _flat(path, scene_mesh.ribbon(pieces), scene_mesh.TRAIL)
 
 
 def scan(message: object, x: float, y: float, theta: float) -> list[bytes]:
     """What the laser saw, from where the turtle was just then."""
     free, marks = scene_mesh.fan(read_beams(message), x, y, theta)
     look = {"opacity": 0.2, "depthWrite": False}
-    drawn = [
-        ("lab/scan/free", free, scene_mesh.FREE, look),
-        ("lab/scan/hits", marks, scene_mesh.HIT, {"opacity": 0.85}),
-    ]
-    commands = []
-    for path, mesh, colour, material in drawn:
-        if len(mesh):
-            commands += [show(path, mesh, lit=False, color=_number(colour), **material), cast_no_shadow(path)]
-        else:
-            commands.append(remove(path))
-    return commands
+    commands = _flat("lab/scan/free", free, scene_mesh.FREE, **look)
+    return commands + _flat("lab/scan/hits", marks, scene_mesh.HIT, opacity=0.85)
+
+
+def _flat(path: str, mesh: Mesh, colour: str, **look: Any) -> list[bytes]:
+    """A mesh that light does not change; nothing of it if it is empty."""
+    if not len(mesh):
+        return [remove(path)]
+    return [show(path, mesh, lit=False, color=_number(colour), **look), cast_no_shadow(path)]
 
 
 def obstacles(these: Iterable[Obstacle]) -> list[bytes]:

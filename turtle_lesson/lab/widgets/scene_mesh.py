@@ -101,11 +101,9 @@ def placed(x: float = 0.0, y: float = 0.0, z: float = 0.0, turn: float = 0.0, si
     return np.array([[cos, -sin, 0, x], [sin, cos, 0, y], [0, 0, size, z], [0, 0, 0, 1.0]])
 
 
-# -- scene turtle ---------------------------------------------------------------------------------------------------
-# The turtle of few flat faces; from above it is the turtle of the plots.
-
 LENGTH = 0.95
-"""From its nose to its tail, m. All that follows is in parts of this length: it looks along +x, its middle is (0, 0)."""
+"""From the turtle's nose to its tail, m. It has few flat faces, and from above it is the turtle of the plots. All that follows
+is in parts of this length: it looks along +x, its middle is (0, 0)."""
 
 CREST = "#2fb98f"
 """The plates along the middle of its back."""
@@ -212,8 +210,6 @@ def _tail() -> Mesh:
     return loft([np.tile([tip, 0.0, 0.07], (4, 1)), around], SKIN)
 
 
-# -- scene world ----------------------------------------------------------------------------------------------------
-
 FLOOR, GRID, WALL = "#fbfbf8", "#dcdcd5", "#c9ced6"
 """On a light page; on a dark one the browser takes darker ones (js/scene_theme.js)."""
 OBSTACLE, OBSTACLE_EDGE = "#eeb655", "#a86f00"
@@ -266,11 +262,6 @@ def outline(obstacle: Obstacle, sides: int = 36) -> np.ndarray:
     return (flat @ matrix[:3, :3].T + matrix[:3, 3])[:, :2]
 
 
-def obstacle_mesh(obstacle: Obstacle) -> Mesh:
-    """An obstacle as a block on the floor."""
-    return prism(outline(obstacle), 0.0, OBSTACLE_HEIGHT, OBSTACLE)
-
-
 def ribbon(pieces: Sequence[np.ndarray], width: float = 0.07, height: float = 0.012) -> Mesh:
     """Lines on the floor, each through points (n by 2) in their order: two triangles a step."""
     quads = [_quads(np.asarray(piece, float), width / 2) for piece in pieces if len(piece) > 1]
@@ -298,21 +289,16 @@ def fan(beams: Beams, x: float, y: float, theta: float) -> tuple[Mesh, Mesh]:
     reach = reach_of(beams)
     ends = np.where(beams.sees, np.minimum(beams.ranges, reach), reach)
     turns = beams.angles + theta
-    far = _to_edge(x, y, turns, ends)
-    flat = np.column_stack([x + far * np.cos(turns), y + far * np.sin(turns)])
+    along, up = np.cos(turns), np.sin(turns)
+    with np.errstate(divide="ignore", invalid="ignore"):  # how far each beam goes before it ends, or leaves the world
+        to_side = np.maximum(-x / along, (WORLD - x) / along)
+        to_end = np.maximum(-y / up, (WORLD - y) / up)
+    far = np.maximum(np.fmin(np.fmin(to_side, to_end), ends), 0.0)
+    flat = np.column_stack([x + far * along, y + far * up])
     rim = np.column_stack([flat, np.full(len(flat), BEAM_HEIGHT)])
     middle = np.tile([x, y, BEAM_HEIGHT], (max(len(rim) - 1, 0), 1))
     free = triangles(np.stack([middle, rim[:-1], rim[1:]], axis=1), FREE)
     return free, _marks(beams, ends).moved(placed(x, y, 0.0, theta))
-
-
-def _to_edge(x: float, y: float, turns: np.ndarray, ends: np.ndarray) -> np.ndarray:
-    """How far each beam goes before it ends, or leaves the world."""
-    along, up = np.cos(turns), np.sin(turns)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        to_side = np.maximum(-x / along, (WORLD - x) / along)
-        to_end = np.maximum(-y / up, (WORLD - y) / up)
-    return np.maximum(np.fmin(np.fmin(to_side, to_end), ends), 0.0)
 
 
 def _marks(beams: Beams, ends: np.ndarray, low: float = 0.03, high: float = 0.2) -> Mesh:

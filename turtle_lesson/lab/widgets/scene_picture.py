@@ -13,7 +13,7 @@ from ..picture import Picture
 from ..scan import read_beams
 from ..words import angle, count, listed, number, point
 from . import scene_mesh
-from .scene_mesh import Mesh, joined, placed
+from .scene_mesh import Mesh, joined, placed, prism
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -38,25 +38,22 @@ def draw_scene(recording: Recording, goal: Goal | None) -> Picture:
         axes = style.axes_at(figure, 0.15, 0.15, 6.1, 4.0)
         axes.set(aspect="equal")
         axes.set_axis_off()
-        _draw_floor(axes, recording)
+        _draw(axes, scene_mesh.floor(), layer=1, alpha=0.08)
+        _draw(axes, scene_mesh.grid(), layer=2, alpha=0.5)
+        trail = Trail()
+        trail.follow(recording.poses)
+        _draw(axes, scene_mesh.ribbon([*trail.old, trail.tip]), layer=3, lit=False)
         _draw_things(axes, recording, goal, pose)
         axes.autoscale_view(tight=True)
         style.heading(figure, "The world in three dimensions", brief(recording, goal, beams=False).rstrip("."))
     return Picture(text, figure)
 
 
-def _draw_floor(axes: Axes, recording: Recording) -> None:
-    """What lies on the floor: nothing of it hides anything."""
-    _draw(axes, scene_mesh.floor(), layer=1, alpha=0.08)
-    _draw(axes, scene_mesh.grid(), layer=2, alpha=0.5)
-    trail = Trail()
-    trail.follow(recording.poses)
-    _draw(axes, scene_mesh.ribbon([*trail.old, trail.tip]), layer=3, lit=False)
-
-
 def _draw_things(axes: Axes, recording: Recording, goal: Goal | None, pose: tuple[float, float, float]) -> None:
     """What stands there, the farthest first."""
-    things = [[each] for each in (*scene_mesh.walls(), *map(scene_mesh.obstacle_mesh, recording.obstacles.values()))]
+    outlines = map(scene_mesh.outline, recording.obstacles.values())
+    blocks = [prism(each, 0.0, scene_mesh.OBSTACLE_HEIGHT, scene_mesh.OBSTACLE) for each in outlines]
+    things = [[each] for each in (*scene_mesh.walls(), *blocks)]
     there = placed(pose[0], pose[1], 0.0, pose[2])
     facing_us = math.cos(pose[2] - AROUND) > 0
     things.append([piece.moved(there) for piece in scene_mesh.layers(head_in_front=facing_us)])
