@@ -13,12 +13,10 @@ from typing import TYPE_CHECKING, Any
 
 from .arguments import arg, duration, flag, frequency
 from .typed_values import (
-    add_type_and_find,
+    add_verbs,
     class_of,
-    list_arguments,
     name_argument,
     populate,
-    print_names,
     read_yaml,
     stamp,
     types_of,
@@ -104,13 +102,7 @@ def _outcome(
     return future.result()
 
 
-add_type_and_find("service", "srv", SERVICES, services)
-
-
-@verb("service list", flag("-t --show-types", "Show each service's type beside it"), *list_arguments("service"))
-def list_services(args: Namespace) -> None:
-    """The names of the services that are offered."""
-    print_names("service", services, args)
+add_verbs("service", "srv", SERVICES, services, of_list="The names of the services that are offered")
 
 
 @verb("service info", name_argument("service", SERVICES[0]))
@@ -180,13 +172,7 @@ def actions(node: Node, include_hidden: bool = False) -> dict[str, list[str]]:
     return dict(node.get_action_names_and_types())
 
 
-add_type_and_find("action", "action", ACTIONS, actions)
-
-
-@verb("action list", flag("-t --show-types", "Show each action's type beside it"), *list_arguments("action"))
-def list_actions(args: Namespace) -> None:
-    """The names of the actions that nodes offer or use."""
-    print_names("action", actions, args)
+add_verbs("action", "action", ACTIONS, actions, of_list="The names of the actions that nodes offer or use")
 
 
 @verb(

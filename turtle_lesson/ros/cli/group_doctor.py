@@ -34,7 +34,7 @@ def _doctor(args: Namespace) -> int:
         _introduce(node)
         if args.report:
             _report(node)
-        complaints = [*_same_names(node), *_lonely_topics(node)]
+        complaints = _complaints(node)
     for text in complaints:
         print(f"WARNING: {text}", file=sys.stderr)
     print()
@@ -70,14 +70,10 @@ def _report(node: Node) -> None:
         print("\n".join(lines) or "none")
 
 
-def _same_names(node: Node) -> list[str]:
+def _complaints(node: Node) -> list[str]:
+    """Names that several nodes have, and topics that only have one side, as the real doctor tells them."""
     counts = Counter(node_names(node))
-    return [f"{count} nodes share the name {name}" for name, count in counts.items() if count > 1]
-
-
-def _lonely_topics(node: Node) -> list[str]:
-    """Topics that only have one side, as the real doctor tells them."""
-    found = []
+    found = [f"{count} nodes share the name {name}" for name, count in counts.items() if count > 1]
     for name in topics(node):
         publishers, subscriptions = node.count_publishers(name), node.count_subscribers(name)
         if is_hidden(name) or name in {"/rosout", "/parameter_events"}:
@@ -98,24 +94,16 @@ class _Daemon:
     running: bool = True
 
 
-@verb("daemon start", in_cell=True)
-def _start(args: Namespace) -> None:
-    """Start the daemon."""
-    daemon = current_world().notebook.state(_Daemon)
-    print("The daemon is already running" if daemon.running else "The daemon has been started")
-    daemon.running = True
+def _add_daemon(name: str, help_text: str, up: str, down: str, after: bool | None = None) -> None:
+    """Add a verb that says whether the daemon is up or down, and that may change it."""
+
+    @verb(f"daemon {name}", help_text=help_text, in_cell=True)
+    def work(args: Namespace) -> None:
+        daemon = current_world().notebook.state(_Daemon)
+        print(f"The daemon {up if daemon.running else down}")
+        daemon.running = daemon.running if after is None else after
 
 
-@verb("daemon status", in_cell=True)
-def _status(args: Namespace) -> None:
-    """Show whether the daemon is running."""
-    daemon = current_world().notebook.state(_Daemon)
-    print("The daemon is running" if daemon.running else "The daemon is not running")
-
-
-@verb("daemon stop", in_cell=True)
-def _stop(args: Namespace) -> None:
-    """Stop the daemon."""
-    daemon = current_world().notebook.state(_Daemon)
-    print("The daemon has been stopped" if daemon.running else "The daemon is not running")
-    daemon.running = False
+_add_daemon("start", "Start the daemon", "is already running", "has been started", True)
+_add_daemon("status", "Show whether the daemon is running", "is running", "is not running")
+_add_daemon("stop", "Stop the daemon", "has been stopped", "is not running", False)

@@ -29,15 +29,10 @@ def find_prefix(name: str) -> Path | None:
     """The folder that a package is installed in; None if there is no such package."""
     packages = current_packages()
     if name in packages:
-        return place_of(packages.get(name))
+        return packages.get(name).prefix or packages.get(name).share
     if name in registry.packages():
         return registry.package(name).directory
     return SITE / name if name in package_names() else None
-
-
-def place_of(package: Package) -> Path:
-    """The folder that a package is installed in, or that it is used from as it lies there."""
-    return package.prefix or package.share
 
 
 def not_found(name: str) -> CommandError:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from . import topic_listen  # noqa: F401 - echo, hz, bw and delay are verbs of this command
 from .arguments import LONGEST, NODE, NODE_WITHOUT_DAEMON, arg, duration, either, flag, frequency, seconds, unsigned_int
 from .typed_values import (
-    add_type_and_find,
+    add_verbs,
     class_of,
     list_arguments,
     name_argument,
@@ -171,7 +171,7 @@ def _publish(
 
 EXAMPLES = ("/turtle1/pose", "geometry_msgs/msg/Twist")
 
-add_type_and_find("topic", "msg", EXAMPLES, topics, *NODE)
+add_verbs("topic", "msg", EXAMPLES, topics, *NODE)
 
 
 @verb(

@@ -155,21 +155,40 @@ def types_of(kind: str, name: str, known: dict[str, list[str]]) -> list[str]:
     return known[name]
 
 
-def add_type_and_find(kind: str, folder: str, examples: tuple[str, str], known: Known, *common: Argument) -> None:
-    """Add the verbs `type` and `find` of topics, services or actions.
+def add_verbs(
+    kind: str, folder: str, examples: tuple[str, str], known: Known, *common: Argument, of_list: str = ""
+) -> None:
+    """Add the verbs `type`, `find` and perhaps `list` of topics, services or actions.
 
     Args:
         kind: "topic", "service" or "action".
         folder: the kind of their types: "msg", "srv" or "action".
         examples: the name of one, and of a type.
         known: finds those that are there.
-        common: arguments of both verbs.
+        common: arguments that `type` and `find` have beside their own.
+        of_list: the help of `list`; without one it is not added.
     """
     article = "An" if kind == "action" else "A"
 
+    def chosen(args: Namespace) -> dict[str, list[str]]:
+        with direct_node(args) as node:
+            return known(node, getattr(args, f"include_hidden_{kind}s", False))
+
+    if of_list:
+        types = flag("-t --show-types", f"Show each {kind}'s type beside it")
+
+        @verb(f"{kind} list", types, *list_arguments(kind), help_text=of_list)
+        def print_names(args: Namespace) -> None:
+            found = chosen(args)
+            if getattr(args, f"count_{kind}s"):
+                print(len(found))
+                return
+            for name, types in found.items():
+                print(f"{name} [{', '.join(types)}]" if args.show_types else name)
+
     @verb(f"{kind} type", *common, name_argument(kind, examples[0]), help_text=f"{article} {kind}'s type")
     def print_type(args: Namespace) -> None:
-        """Print the types of a name. For an unknown one the real tool says nothing, and ends with exit code 1."""
+        """For an unknown name the real tool says nothing, and ends with exit code 1."""
         with direct_node(args) as node:
             there = known(node, True)
         print(*types_of(kind, getattr(args, f"{kind}_name"), there), sep="\n")
@@ -178,28 +197,14 @@ def add_type_and_find(kind: str, folder: str, examples: tuple[str, str], known: 
 
     @verb(f"{kind} find", *common, wanted, *list_arguments(kind, "find"), help_text=f"The {kind}s of a type")
     def print_found(args: Namespace) -> None:
-        """Print the names that have a type, or how many these are."""
-        with direct_node(args) as node:
-            there = known(node, getattr(args, f"include_hidden_{kind}s", False))
         type_name = getattr(args, f"{kind}_type")
-        found = [name for name, types in there.items() if type_name in types]
+        found = [name for name, types in chosen(args).items() if type_name in types]
         if getattr(args, f"count_{kind}s"):
             print(len(found))
         elif found:
             print(*found, sep="\n")
         elif about := unknown_type(type_name, folder):
             print(about, file=sys.stderr)
-
-
-def print_names(kind: str, known: Known, args: Namespace) -> None:
-    """Print the names that `list` is to show, or how many there are."""
-    with direct_node(args) as node:
-        found = known(node, getattr(args, f"include_hidden_{kind}s", False))
-    if getattr(args, f"count_{kind}s"):
-        print(len(found))
-        return
-    for name, types in found.items():
-        print(f"{name} [{', '.join(types)}]" if args.show_types else name)
 
 
 # -- quality of service ----------------------------------------------------------------------------------------------
