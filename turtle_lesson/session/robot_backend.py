@@ -82,8 +82,6 @@ class RobotBackend:
             self._closing.set()
             self._executor.create_task(lambda: None)  # which ends its waiting
 
-    # -- in the thread -----------------------------------------------------------------------------------------------
-
     def _spin(self) -> None:
         while not self.ended:
             try:
@@ -104,8 +102,6 @@ class RobotBackend:
             self.loop.soon(action, *arguments)
         except RuntimeError:  # the loop is closed: Python is about to end, and takes care of the rest
             self._closing.set()
-
-    # -- in the loop -------------------------------------------------------------------------------------------------
 
     def _carry_out(self, action: Callable[..., object], arguments: tuple[Any, ...]) -> None:
         if not self.ended:

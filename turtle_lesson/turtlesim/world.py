@@ -9,9 +9,7 @@ from typing import NamedTuple
 
 from turtle_lesson.turtlesim.canvas import Canvas
 
-from .turtle import HEIGHT, LARGEST, TICK, WIDTH, Turtle, TurtleError, float32
-
-__all__ = ["HEIGHT", "TICK", "WIDTH", "Turtle", "TurtleError", "TurtleWorld", "WallHit"]
+from .turtle import HEIGHT, LARGEST, WIDTH, Turtle, TurtleError, float32
 
 _NAME = re.compile(r"/?[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*")
 

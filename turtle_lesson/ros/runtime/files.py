@@ -1,4 +1,10 @@
-"""The learner's files: which of them a command may change, how they are written, and how large YAML may be."""
+"""The learner's files: which of them a command may change, how they are written, and how large YAML may be.
+
+A command of the terminal (also a redirection, `ros2 bag record`, `ros2 pkg create`, `colcon build`) changes files in the
+learner's folder only, through no `cd`, path or symbolic link, and leaves the lesson's pages in it alone. `check` decides that,
+before each change. It is not asked where a call names the place (`lesson.export(to=…)`) or where the learner's own Python code
+writes; what Python keeps in a `__pycache__` beside an imported module does not count.
+"""
 
 from __future__ import annotations
 
@@ -13,14 +19,6 @@ import yaml
 
 from .. import hooks
 
-# -- files --------------------------------------------------------------------------------------------------------
-# The learner's files: which of them a command may change, and writing whole or not at all.
-# A command of the terminal (also a redirection, `ros2 bag record`, `ros2 pkg create`, `colcon build`) changes files
-# in the learner's folder only, through no `cd`, path or symbolic link, and leaves the lesson's pages in it alone.
-# `check` decides that, before each change. It is not asked where a call names the place (`lesson.export(to=…)`) or
-# where the learner's own Python code writes; what Python keeps in a `__pycache__` beside an imported module does not
-# count.
-
 OPENED = "TURTLE_LESSON_OPENED"
 """The environment variable in which `turtle-lesson open` names the folder that it opens JupyterLab on."""
 
@@ -30,9 +28,6 @@ in_use: set[Path] = set()
 _opened = os.environ.get(OPENED)  # read once: `export` in the terminal does not widen the learner's folder
 _home: Path | None = None
 _of_notebook = False
-
-
-# -- the learner's folder ----------------------------------------------------------------------------------------------
 
 
 def here() -> Path:
@@ -60,9 +55,6 @@ def begin(*, notebook: bool = False) -> None:
 def folder() -> Path:
     """The learner's folder: the one that `turtle-lesson open` was given, if the notebook is in it, or else `home()`."""
     return Path(_opened) if _opened and home().is_relative_to(_opened) else home()
-
-
-# -- what a command may change -----------------------------------------------------------------------------------------
 
 
 def check(path: str | os.PathLike[str], *, follow: bool = True, removes: bool = False) -> Path:
@@ -122,13 +114,11 @@ def copy(source: Path, target: Path, left_out: Callable[[str, list[str]], Iterab
         shutil.copy(source, check(target))
 
 
-# -- what the lesson itself writes -------------------------------------------------------------------------------------
-
-
 def write(file: Path, text: str) -> None:
-    """Write a text file in one step, also where an interrupt or a full disk comes between. Folders are made as needed.
+    """Write a text file of the lesson's own in one step, also where an interrupt or a full disk comes between.
 
-    The file keeps its permissions, and a link keeps pointing to it. Raises OSError, with the old text still in place.
+    Folders are made as needed. The file keeps its permissions, and a link keeps pointing to it. Raises OSError, with the old
+    text still in place.
     """
     file = Path(os.path.realpath(file))
     file.parent.mkdir(parents=True, exist_ok=True)
@@ -142,10 +132,8 @@ def write(file: Path, text: str) -> None:
         beside.unlink(missing_ok=True)
 
 
-# -- bounded yaml -------------------------------------------------------------------------------------------------
-# YAML that somebody else may have written: refused before a short text has become something huge.
-# With aliases (`*name`) a few lines can stand for billions of values, and brackets can be nested until Python's stack
-# ends.
+# -- YAML that somebody else may have written --------------------------------------------------------------------------
+# With aliases (`*name`) a few lines can stand for billions of values, and brackets can be nested until Python's stack ends.
 
 LONGEST = 1_000_000
 """How many characters are read."""

@@ -27,15 +27,6 @@ from ..stdlib.program import run_program
 if TYPE_CHECKING:
     from ..ament.index import PackageIndex
 
-__all__ = [
-    "World",
-    "current_process",
-    "current_world",
-    "open_world",
-    "wall_time",
-]
-
-
 FIRST_PID = 1001
 
 
@@ -103,7 +94,7 @@ class World:
         self.processes.append(process)
         process.environ = encoded(environ)
         process.environ.setdefault(*encoded({VARIABLE: self.release.name}).popitem())
-        process.start(_program(target) if isinstance(target, Path) else target, start_up)
+        process.start(partial(run_program, target) if isinstance(target, Path) else target, start_up)
         return process
 
     def close(self) -> None:
@@ -115,17 +106,7 @@ class World:
         self.sim.close()
 
 
-def _program(path: Path) -> Callable[[], object]:
-    """What runs a Python file as the main program of a process."""
-    return partial(run_program, path)
-
-
 _current: World | None = None
-
-
-def _notebook() -> Process | None:
-    """The process of the notebook, if a world is open."""
-    return None if _current is None else _current.notebook
 
 
 def _is_learners(filename: str) -> bool:
@@ -136,7 +117,7 @@ def _is_learners(filename: str) -> bool:
     return Path(filename).parent == Path.cwd() or any(Path(filename).is_relative_to(folder) for folder in folders)
 
 
-ownership.Notebook.process = staticmethod(_notebook)
+ownership.Notebook.process = staticmethod(lambda: None if _current is None else _current.notebook)
 ownership.Notebook.is_learners = staticmethod(_is_learners)
 
 

@@ -43,8 +43,6 @@ from . import (
 from .ownership import facade, in_no_strand
 from .program import ProgramFinder, on_import
 
-__all__ = ["FINDERS", "PRIVATE_NAMES", "TABLE", "Patch", "Stage", "install", "original", "uninstall"]
-
 
 class Stage(IntEnum):
     """When a row is put in."""
