@@ -179,6 +179,9 @@ class _Build:
         }
         if self.cpp and (about_targets or command.name in {"add_subdirectory", "include"}):
             return
+        if command.name in _EMPTY and not command.args:
+            name, hint = _EMPTY[command.name]
+            raise refused(f"{name} called with incorrect number of arguments", where, hint)
         special: Callable[[Command, str], None] | None = getattr(self, f"_on_{command.name}", None)
         if special is not None:
             special(command, where)
@@ -198,14 +201,7 @@ class _Build:
         self.modern = True
 
     def _on_project(self, command: Command, where: str) -> None:
-        if not command.args:
-            hint = "Write the package's name in it, as in package.xml."
-            raise refused("project PROJECT called with incorrect number of arguments", where, hint)
         self.project, self.project_line = command.args[0], command.line
-
-    def _on_set(self, command: Command, where: str) -> None:
-        if not command.args:
-            raise refused("set called with incorrect number of arguments", where, "It looks like set(NAME value).")
 
     def _on_include(self, command: Command, where: str) -> None:
         name = "".join(command.args[:1])
@@ -231,8 +227,6 @@ class _Build:
             self.warnings.append("".join(command.args[kind == "NOTICE" :]) + "\n")
 
     def _on_find_package(self, command: Command, where: str) -> None:
-        if not command.args:
-            raise refused("find_package called with incorrect number of arguments", where)
         name, required = command.args[0], "REQUIRED" in command.args
         known = {*CMAKE_PACKAGES, *self.environment.findable, *self.environment.types.packages()}
         if name in (known - {self.found.name}) | self.environment.findable:
@@ -416,6 +410,13 @@ class _Build:
             f"nothing will be installed from them.{'' if installed else hint}"
         )
 
+
+_EMPTY = {
+    "find_package": ("find_package", "It looks like find_package(rclpy REQUIRED)."),
+    "project": ("project PROJECT", "Write the package's name in it, as in package.xml."),
+    "set": ("set", "It looks like set(NAME value)."),
+}
+"""What CMake calls the commands that need arguments, and what to try."""
 
 _ELSEWHERE = "Only CMakeLists.txt itself is read here: write the lines of that file into it."
 _NO_PROJECT = (

@@ -206,11 +206,19 @@ class _Build:
     # -- programs --------------------------------------------------------------------------------------------------
 
     def _entries(self) -> dict[str, list[str]]:
-        groups = _entry_groups(self.setup.get("entry_points") or {})
-        if groups is None:
+        """The lines of each group of entry points, which may also be one text with a `[group]` above its lines."""
+        given = self.setup.get("entry_points") or {}
+        groups = _sections(given) if isinstance(given, str) else given
+        if not isinstance(groups, dict):
             hint = "Write entry_points={'console_scripts': ['name = package.module:main']},."
             raise _refused("error: entry_points must be a dictionary", hint)
-        return groups
+        found: dict[str, list[str]] = {}
+        for group, lines in groups.items():
+            if isinstance(lines, str):
+                found[str(group)] = [line for line in lines.splitlines() if line.strip()]
+            else:
+                found[str(group)] = list(map(str, lines if isinstance(lines, list) else [lines] if lines else []))
+        return found
 
     def _programs(self) -> list[Item]:
         place = install_scripts(self.found.path)
@@ -282,20 +290,6 @@ def _imports(module: str, function: str) -> str:
 def _texts(given: Any) -> list[str]:
     """The texts of an option that may be a list, a text or left out."""
     return [given] if isinstance(given, str) else [each for each in given or [] if isinstance(each, str)]
-
-
-def _entry_groups(given: Any) -> dict[str, list[str]] | None:
-    """The lines of each group; None if this is neither a dictionary nor a text with a `[group]` above its lines."""
-    groups = _sections(given) if isinstance(given, str) else given
-    if not isinstance(groups, dict):
-        return None
-    found: dict[str, list[str]] = {}
-    for group, lines in groups.items():
-        if isinstance(lines, str):
-            found[str(group)] = [line for line in lines.splitlines() if line.strip()]
-        else:
-            found[str(group)] = list(map(str, lines if isinstance(lines, list) else [lines] if lines else []))
-    return found
 
 
 def _sections(text: str) -> dict[str, list[str]]:

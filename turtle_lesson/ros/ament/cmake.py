@@ -292,7 +292,7 @@ class _Condition:
     def _truth(self, text: str, quoted: bool) -> bool:
         if text.upper() in _TRUE:
             return True
-        value = "" if quoted else self.variables.get(text, "").upper()
+        value = "" if quoted or text.upper() in _FALSE else self.variables.get(text, "").upper()
         return value not in _FALSE and not value.endswith("-NOTFOUND")
 
 

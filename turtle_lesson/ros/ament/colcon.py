@@ -361,18 +361,19 @@ def _without_cmake_arguments(words: list[str], parser: argparse.ArgumentParser) 
     return kept
 
 
+_WITHOUT_EFFECT = "accepted, but without effect here"
+_FLAGS = {
+    "--merge-install": "one folder for all packages instead of one for each",
+    "--symlink-install": "link to the files in src/, so that an edit takes effect at once",
+    "--continue-on-error": "continue with the packages that do not depend on a failed one",
+}
+
+
 def _add_build(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--build-base", default="build", help="folder for intermediate files (default: build)")
     parser.add_argument("--install-base", default="install", help="folder for installed files (default: install)")
-    parser.add_argument(
-        "--merge-install", action="store_true", help="one folder for all packages instead of one for each"
-    )
-    parser.add_argument(
-        "--symlink-install", action="store_true", help="link to the files in src/, so that an edit takes effect at once"
-    )
-    parser.add_argument(
-        "--continue-on-error", action="store_true", help="continue with the packages that do not depend on a failed one"
-    )
+    for option, text in _FLAGS.items():
+        parser.add_argument(option, action="store_true", help=text)
     parser.add_argument(
         "--executor",
         choices=["parallel", "sequential"],
@@ -384,11 +385,10 @@ def _add_build(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--event-handlers", nargs="*", metavar="NAME+", help="e.g. console_direct+ shows all output")
     for option in sorted(_CMAKE_ARGUMENTS):
-        parser.add_argument(option, nargs="*", metavar="*", help="accepted, but without effect here")
+        parser.add_argument(option, nargs="*", metavar="*", help=_WITHOUT_EFFECT)
     parser.add_argument("--allow-overriding", nargs="+", default=[], metavar="PKG_NAME", help="of an underlay")
-    parser.add_argument("--cmake-clean-first", action="store_true", help="accepted, but without effect here")
-    parser.add_argument("--cmake-clean-cache", action="store_true", help="accepted, but without effect here")
-    parser.add_argument("--cmake-force-configure", action="store_true", help="accepted, but without effect here")
+    for option in ("--cmake-clean-first", "--cmake-clean-cache", "--cmake-force-configure"):
+        parser.add_argument(option, action="store_true", help=_WITHOUT_EFFECT)
 
 
 def overridden(world: World, chosen: list[Found], install: Path, allowed: list[str]) -> str:
