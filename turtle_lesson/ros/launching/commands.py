@@ -266,7 +266,11 @@ def plan(args: Any, shell: bool) -> tuple[Any, list[str]] | None:
     if shell and words:
         words[0] = _SETUP.sub("", words[0])  # what a setup file sets up is there already
     line = " ".join(words)
-    if not line.strip() or (type(getcurrent()) is not Strand and not _of_a_cell(line)):
+    notebook = (
+        notebook_here()
+    )  # a cell, or a launch file that it loads, may run `ros2` commands, which only the world has
+    of_cell = notebook is not None and not notebook.simulation.running and line.split()[:1] == ["ros2"]
+    if not line.strip() or not (of_cell or type(getcurrent()) is Strand):
         return None
     if line.startswith("ros2 launch ") and not (shell and set(line) & set(";&|<>")):
         words = line.split() if shell else words
@@ -280,12 +284,6 @@ def plan(args: Any, shell: bool) -> tuple[Any, list[str]] | None:
             raise NotImplementedError(_refusal(line, error)) from None
         return None
     return found.target, found.argv
-
-
-def _of_a_cell(line: str) -> bool:
-    """Whether a cell, or a launch file that it loads, runs a `ros2` command, which only the world has."""
-    notebook = notebook_here()
-    return notebook is not None and not notebook.simulation.running and line.split()[:1] == ["ros2"]
 
 
 def _refusal(line: str, error: Exception) -> str:

@@ -35,7 +35,9 @@ if TYPE_CHECKING:
 class LineWriter(io.TextIOBase):
     """A text stream that hands on whole lines; what has no end yet waits until `finish`."""
 
-    def __init__(self, on_line: Callable[[str], None], on_text: Callable[[str], None] | None = None) -> None:
+    encoding = "utf-8"
+
+    def __init__(self, on_line: Callable[[str], None], on_text: Callable[[str], None]) -> None:
         super().__init__()
         self._on_line = on_line
         self._on_text = on_text
@@ -46,23 +48,13 @@ class LineWriter(io.TextIOBase):
         """Always."""
         return True
 
-    def isatty(self) -> bool:
-        """Never: a launched process has no terminal."""
-        return False
-
-    @property
-    def encoding(self) -> str:  # type: ignore[override]
-        """UTF-8."""
-        return "utf-8"
-
     def write(self, text: str) -> int:
         """Take text; whole lines are handed on at once."""
         if not isinstance(text, str):
             raise TypeError(f"write() argument must be str, not {type(text).__name__}")
-        if self._on_text is not None and text:
-            self._unheard += text
-            if text.endswith("\n"):  # what one print() gives is heard as one piece
-                self._tell()
+        self._unheard += text
+        if text.endswith("\n"):  # what one print() gives is heard as one piece
+            self._tell()
         *lines, self._rest = (self._rest + text).split("\n")
         for line in lines:
             self._on_line(line.removesuffix("\r"))
@@ -77,7 +69,7 @@ class LineWriter(io.TextIOBase):
 
     def _tell(self) -> None:
         unheard, self._unheard = self._unheard, ""
-        if self._on_text is not None and unheard:
+        if unheard:
             self._on_text(unheard)
 
 

@@ -406,17 +406,9 @@ class Parser:
             raise RuntimeError(f"a launch file of more than {MOST_ACTIONS} actions; does it repeat itself?")
         return instantiate_action(entity, self)
 
-    def parse_substitution(self, value: str) -> list[Substitution]:
-        """The pieces of a text with substitutions in it."""
-        return parse_substitution(value)
-
-    def parse_if_substitutions(self, value: Any) -> Any:
-        """A value, with substitutions where its texts have any."""
-        return parse_if_substitutions(value)
-
-    def escape_characters(self, value: str) -> str:
-        """The text without the backslashes that take a character's meaning away."""
-        return replace_escaped_characters(value)
+    parse_substitution = staticmethod(parse_substitution)
+    parse_if_substitutions = staticmethod(parse_if_substitutions)
+    escape_characters = staticmethod(replace_escaped_characters)
 
     def parse_description(self, entity: Entity) -> LaunchDescription:
         """The description that a root entity stands for.

@@ -207,15 +207,9 @@ def file_for_this_launch(owner: object, name: str, text: str) -> Path:
 
 
 TYPES: dict[str, Any] = {
-    "bool": bool,
-    "int": int,
-    "float": float,
-    "str": str,
+    **{kind.__name__: kind for kind in PLAIN},
     "yaml": None,
-    "list_of_bool": list[bool],
-    "list_of_int": list[int],
-    "list_of_float": list[float],
-    "list_of_str": list[str],
+    **{f"list_of_{kind.__name__}": list[kind] for kind in PLAIN},  # type: ignore[valid-type]
 }
 """What the attribute `type` of a parameter can be."""
 
