@@ -90,8 +90,20 @@ class Constant:
         return f"{self.type} {self.name}={value}"
 
 
+class _Named:
+    __slots__ = ()
+    package: str
+    folder: str
+    name: str
+
+    @property
+    def full_name(self) -> str:
+        """Name as ROS writes it, e.g. `geometry_msgs/msg/Twist`; services behind an action are `…/action/X_SendGoal`."""
+        return f"{self.package}/{self.folder}/{self.name}"
+
+
 @dataclass(frozen=True, slots=True)
-class MessageDefinition:
+class MessageDefinition(_Named):
     """A message, or one part of a service or action: its fields and constants in the order of the file."""
 
     package: str
@@ -102,18 +114,13 @@ class MessageDefinition:
     folder: str = "msg"
     file: str | None = None
 
-    @property
-    def full_name(self) -> str:
-        """Name as ROS writes it, e.g. `geometry_msgs/msg/Twist`."""
-        return f"{self.package}/{self.folder}/{self.name}"
-
     def parts(self) -> tuple[MessageDefinition, ...]:
         """The messages in this definition: itself."""
         return (self,)
 
 
 @dataclass(frozen=True, slots=True)
-class ServiceDefinition:
+class ServiceDefinition(_Named):
     """A service: its request and its response, as messages `X_Request` and `X_Response`."""
 
     package: str
@@ -124,18 +131,13 @@ class ServiceDefinition:
     file: str | None = None
     folder: str = "srv"
 
-    @property
-    def full_name(self) -> str:
-        """Name as ROS writes it, e.g. `turtlesim/srv/Spawn`; those behind an action are `…/action/X_SendGoal`."""
-        return f"{self.package}/{self.folder}/{self.name}"
-
     def parts(self) -> tuple[MessageDefinition, ...]:
         """Request and response."""
         return self.request, self.response
 
 
 @dataclass(frozen=True, slots=True)
-class ActionDefinition:
+class ActionDefinition(_Named):
     """An action: its goal, result and feedback, as messages `X_Goal`, `X_Result` and `X_Feedback`."""
 
     package: str
@@ -147,11 +149,6 @@ class ActionDefinition:
     file: str | None = None
     folder: str = "action"
 
-    @property
-    def full_name(self) -> str:
-        """Name as ROS writes it, e.g. `turtlesim/action/RotateAbsolute`."""
-        return f"{self.package}/action/{self.name}"
-
     def parts(self) -> tuple[MessageDefinition, ...]:
         """Goal, result and feedback."""
         return self.goal, self.result, self.feedback
@@ -160,35 +157,29 @@ class ActionDefinition:
 Definition = MessageDefinition | ServiceDefinition | ActionDefinition
 
 
-# -- actions ------------------------------------------------------------------------------------------------------
-# The services and messages that ROS derives from an action: how goal, result and feedback travel.
-# Which fields they have follows `rosidl_parser.definition.Action`.
-
-GOAL_ID = Field(FieldType("UUID", "unique_identifier_msgs"), "goal_id")
-STAMP = Field(FieldType("Time", "builtin_interfaces"), "stamp")
-ACCEPTED = Field(FieldType("bool"), "accepted")
-STATUS = Field(FieldType("int8"), "status")
-
-
 def derived_parts(action: ActionDefinition) -> tuple[MessageDefinition, ...]:
-    """Requests and responses of the services SendGoal and GetResult, then the feedback message."""
-    return (
-        _part(action, "SendGoal_Request", GOAL_ID, _own(action, "goal")),
-        _part(action, "SendGoal_Response", ACCEPTED, STAMP),
-        _part(action, "GetResult_Request", GOAL_ID),
-        _part(action, "GetResult_Response", STATUS, _own(action, "result")),
-        _part(action, "FeedbackMessage", GOAL_ID, _own(action, "feedback")),
+    """The messages in which ROS carries an action: of the services SendGoal and GetResult, then the feedback message.
+
+    Which fields they have follows `rosidl_parser.definition.Action`.
+    """
+
+    def part(suffix: str, *fields: Field) -> MessageDefinition:
+        text = "".join(f"{field}\n" for field in fields)
+        return MessageDefinition(action.package, f"{action.name}_{suffix}", fields, (), text, "action", action.file)
+
+    goal, result, feedback = (
+        Field(FieldType(each.name, action.package, folder="action"), each.name.rpartition("_")[2].lower())
+        for each in action.parts()
     )
-
-
-def _own(action: ActionDefinition, part: str) -> Field:
-    return Field(FieldType(f"{action.name}_{part.capitalize()}", action.package, folder="action"), part)
-
-
-def _part(action: ActionDefinition, suffix: str, *fields: Field) -> MessageDefinition:
-    text = "".join(f"{field}\n" for field in fields)
-    name = f"{action.name}_{suffix}"
-    return MessageDefinition(action.package, name, fields, (), text, "action", action.file)
+    goal_id = Field(FieldType("UUID", "unique_identifier_msgs"), "goal_id")
+    stamp = Field(FieldType("Time", "builtin_interfaces"), "stamp")
+    return (
+        part("SendGoal_Request", goal_id, goal),
+        part("SendGoal_Response", Field(FieldType("bool"), "accepted"), stamp),
+        part("GetResult_Request", goal_id),
+        part("GetResult_Response", Field(FieldType("int8"), "status"), result),
+        part("FeedbackMessage", goal_id, feedback),
+    )
 
 
 # -- what can be wrong with a definition --------------------------------------------------------------------------
