@@ -187,7 +187,7 @@ def leave(what: Process | LaunchHandle, words: str, seconds: float | None) -> in
         cell = sys.stdout.instead_of if isinstance(sys.stdout, FileOutput) else sys.stdout
         stop = f"To stop it, as Ctrl-C would: kill -INT %{job.number}"
         print(f"[{job.number}] {cut(job.words, 200)} is still running. {stop}", file=cell)
-        for twin in jobs(world).like(job):
+        for twin in (each for each in jobs(world).running if each is not job and each.words == job.words):
             twice = f"The same command is running as [{twin.number}], so everything in it exists twice now."
             print(f"{twice} To stop that one: kill -INT %{twin.number}", file=cell)
         if len(world.graph.servers("/spawn")) > simulators and any(

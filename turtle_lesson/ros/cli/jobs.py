@@ -40,10 +40,6 @@ class Jobs:
         self._jobs = [job for job in self._jobs if job.running]
         return list(self._jobs)
 
-    def like(self, job: Job) -> list[Job]:
-        """The other running jobs that were started with the same words."""
-        return [each for each in self.running if each is not job and each.words == job.words]
-
     def get(self, number: int) -> Job | None:
         """The running job of this number."""
         return next((job for job in self.running if job.number == number), None)

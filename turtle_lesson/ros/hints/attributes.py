@@ -9,7 +9,7 @@ from types import FrameType
 from typing import Any
 
 from ..idl.names import did_you_mean
-from ..idl.registry import registry
+from ..idl.registry import FOLDERS, registry
 from ..sim.errors import learners_frames
 
 OF_OTHERS = {
@@ -149,7 +149,7 @@ def _importable(name: str) -> str:
         return f"Add at the top of the file: {_FROM[name]}"
     usual = ("std_msgs", "geometry_msgs", "sensor_msgs", "nav_msgs", "std_srvs", "example_interfaces", "turtlesim")
     for package in (each for each in usual if each in registry.packages()):
-        for folder in ("msg", "srv", "action"):
+        for folder in FOLDERS:
             if name in registry.package(package).names_in(folder):
                 return f"Add at the top of the file: from {package}.{folder} import {name}"
     return ""

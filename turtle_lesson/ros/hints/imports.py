@@ -10,7 +10,7 @@ from types import ModuleType
 
 from ..ament.catalog import missing_module
 from ..idl.names import did_you_mean
-from ..idl.registry import INSTALLED_SEPARATELY, SHARE, registry
+from ..idl.registry import FOLDERS, INSTALLED_SEPARATELY, SHARE, registry
 from .attributes import module_left_out, name_left_out
 
 # -- devices ------------------------------------------------------------------------------------------------------
@@ -48,8 +48,6 @@ def device_advice(error: BaseException) -> str:
         return KEYS
     return SCREEN if any(words in text for words in _SCREEN_WORDS) else ""
 
-
-FOLDERS = ("msg", "srv", "action")
 
 FROM_ROS_1 = {
     "rospy": "rospy is ROS 1's library; in ROS 2 it is rclpy.",
