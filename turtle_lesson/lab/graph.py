@@ -61,6 +61,12 @@ def read_system(node: Any) -> list[NodeView]:
     return [found[name] for name in sorted(found)]
 
 
+def node_names(node: Any) -> list[str]:
+    """The full names of all nodes that `node` sees in the graph, sorted; those of twins several times."""
+    names = node.get_node_names_and_namespaces()
+    return sorted(f"{namespace.rstrip('/')}/{name}" for name, namespace in names)
+
+
 def _visible(names_and_types: list[tuple[str, list[str]]]) -> Ends:
     return {
         name: sorted(types)

@@ -12,7 +12,7 @@ import numpy as np
 from ..ros.idl.names import is_hidden
 from ..ros.rmw.trace import TOPICS
 from . import style
-from .graph import EVERYWHERE, PARAMETER_SERVICES
+from .graph import EVERYWHERE, PARAMETER_SERVICES, node_names
 from .picture import Picture
 from .recording import NANOSECONDS, nanoseconds
 from .words import count, listed, number, rate
@@ -49,8 +49,7 @@ def plot_timeline(trace: Any, node: Any, *rows: str, since: float | None = None,
     """
     window = window_of(trace.now, since, until)
     topics = [name for name, _ in node.get_topic_names_and_types()]
-    alive = [f"{namespace.rstrip('/')}/{name}" for name, namespace in node.get_node_names_and_namespaces()]
-    lanes = lanes_of(trace, rows, topics, alive, window)
+    lanes = lanes_of(trace, rows, topics, node_names(node), window)
     if not lanes:
         return Picture("No callback has run yet. Start a node, and let robot time pass: lesson.run(1.0).")
     if window.begin == window.end:

@@ -12,7 +12,7 @@ import traitlets
 
 from ...ros.idl.names import is_hidden
 from .. import style
-from ..graph import EVERYWHERE
+from ..graph import EVERYWHERE, node_names
 from ..path import plot_path
 from ..picture import SHARPNESS, Picture
 from ..recorder import Channel
@@ -288,9 +288,7 @@ def level_name(level: Any) -> str:
 
 def look(node: Any) -> list[dict[str, Any]]:
     """What the system needs, and the other nodes, from the graph that `node` (an rclpy Node) sees."""
-    places = node.get_node_names_and_namespaces()
-    names = [f"{namespace.rstrip('/')}/{name}" for name, namespace in places]
-    found = Counter(name for name in names if not is_hidden(name))
+    found = Counter(name for name in node_names(node) if not is_hidden(name))
     nodes = [_light(name, "node", found[name]) for name in NODES]
     extra = [{**_light(name, "node", found[name]), "state": "extra"} for name in sorted(found) if name not in NODES]
     offering = {service: servers(node, service) for service in SERVICES}

@@ -9,6 +9,7 @@ from typing import Any
 import traitlets
 
 from ...ros.idl.names import is_hidden
+from ..graph import node_names
 from ..words import count, did_you_mean, enumerated
 from .backend import Backend
 from .lazy_endpoints import DISCOVERY, in_a_moment
@@ -244,7 +245,7 @@ class ParametersPanel(LiveWidget):
 
     def _why_nothing(self) -> str:
         if not self._there:
-            others = [each for each in node_names(self.backend.node) if not is_hidden(each)]
+            others = sorted({each for each in node_names(self.backend.node) if not is_hidden(each)})
             return f"{self.node_name} is gone. The nodes now: {enumerated(others)}."
         if self._trouble:
             return self._trouble
@@ -284,12 +285,6 @@ def _item(found: Found) -> dict[str, Any]:
     return item | (limits[0] if limits else {})
 
 
-def node_names(node: Any) -> list[str]:
-    """The full names of all nodes in the graph, sorted."""
-    names = node.get_node_names_and_namespaces()
-    return sorted({f"{namespace.rstrip('/')}/{name}" for name, namespace in names})
-
-
 def _look_up(node: Any, name: str) -> str:
     """The full name of a node that is there. Raises ValueError with what was meant perhaps."""
     if not isinstance(name, str) or not name:
@@ -298,7 +293,7 @@ def _look_up(node: Any, name: str) -> str:
     names = node_names(node)
     if full in names:
         return full
-    visible = [each for each in names if not is_hidden(each)]
+    visible = sorted({each for each in names if not is_hidden(each)})
     hint = did_you_mean(full, visible) or f"The nodes: {enumerated(visible)}."
     raise ValueError(f'there is no node called "{name}" now. {hint}')
 

@@ -69,7 +69,7 @@ class ScenePage:
             policy=POLICY,
             title=html.escape(title),
             css=styles("base", "scene", "scene_page"),
-            state=json.dumps(_written(state), sort_keys=True).replace("<", "\\u003c"),
+            state=json.dumps(state, sort_keys=True, default=_written).replace("<", "\\u003c"),
             script=script(*VIEW_SCRIPTS, "scene_page"),
         )
 
@@ -88,27 +88,15 @@ class ScenePage:
         return f'<iframe title="{html.escape(self.text)}" {look} srcdoc="{html.escape(self.html)}"></iframe>'
 
 
-def snapshot_page(scene: Scene) -> ScenePage:
-    """The scene as it is now, as a page."""
-    scene.redraw()
-    return ScenePage("3-D scene", f"Snapshot of the {scene.text()}", state_of(scene))
-
-
 def state_of(scene: Scene) -> dict[str, Any]:
     """What a view needs to know."""
     state: dict[str, Any] = {name: getattr(scene, name) for name in ("bundle", "turtle", *PARTS)}
     return {**state, "description": scene.description, "words": "", "ended": False}
 
 
-def _written(value: Any) -> Any:
+def _written(value: bytes) -> dict[str, str]:
     """Bytes as text that JavaScript's `atob` reads, marked as such."""
-    if isinstance(value, bytes):
-        return {"base64": base64.b64encode(value).decode("ascii")}
-    if isinstance(value, list):
-        return [_written(each) for each in value]
-    if isinstance(value, dict):
-        return {name: _written(each) for name, each in value.items()}
-    return value
+    return {"base64": base64.b64encode(value).decode("ascii")}
 
 
 PERIOD = 0.1

@@ -55,14 +55,13 @@ class Teleop(LiveWidget):
         if not isinstance(topic, str) or not topic:
             raise ValueError(f'the topic to drive on must be a name such as "/turtle1/cmd_vel", got {topic!r}')
         name = backend.node.resolve_topic_name(topic)
-        self._message = Twist
         self._publisher = LazyPublisher(backend, name, Twist, TYPE)
         self._timer: Any = None
         self._last_sign = -math.inf
-        super().__init__(backend, topic=name, unheard=self._publisher.why_unheard())
+        super().__init__(backend, topic=name)
         if backend.keyboard is not None:
             backend.keyboard.has_keys = True
-        self._look_for_program()
+        self.tick()
 
     def do_drive(self, forward: float, turn: float) -> None:
         """The stick is held, and is here: both from -1 to 1, turning to the left positive."""
@@ -109,14 +108,11 @@ class Teleop(LiveWidget):
 
     def tick(self) -> None:
         self._watch()
-        self._look_for_program()
+        if self.backend.keyboard is not None:
+            self.program = self.backend.keyboard.reader
         self._publisher.flush()
         if self.due("listeners", 2):
             self.unheard = self._publisher.why_unheard()
-
-    def _look_for_program(self) -> None:
-        if self.backend.keyboard is not None:
-            self.program = self.backend.keyboard.reader
 
     def left(self) -> None:
         self.do_release()
@@ -140,7 +136,7 @@ class Teleop(LiveWidget):
         self._publish()
 
     def _publish(self) -> None:
-        message = self._message()
+        message = self._publisher.message_class()
         message.linear.x = self.stick["forward"] * self.limits["forward"]
         message.angular.z = self.stick["turn"] * self.limits["turn"]
         self._publisher.publish(message)
