@@ -14,7 +14,7 @@ import yaml
 
 from ..sim.simulation import NANOSECONDS
 from . import BagError
-from .scan import BagTopic, Contents, scanned
+from .scan import Contents, scanned
 
 STORAGES = {".mcap": "mcap", ".db3": "sqlite3"}
 METADATA = "metadata.yaml"
@@ -164,12 +164,19 @@ def reindex(folder: Path) -> Bag:
 
     Raises BagError if nothing there can be read.
     """
+    from rosbags.rosbag2.metadata import dump_qos_v8
+
     bag = open_bag(folder, listed_only=False)
+    topics = []
+    for topic in bag.topics:
+        about = {"name": topic.name, "type": topic.type_name, "serialization_format": topic.serialization}
+        about["offered_qos_profiles"] = dump_qos_v8(topic.profiles)
+        topics.append({"topic_metadata": about, "message_count": topic.count})
     found = {
         "version": VERSION,
         "storage_identifier": bag.storage,
         **_extent(bag),
-        "topics_with_message_count": [_described(topic) for topic in bag.topics],
+        "topics_with_message_count": topics,
         "compression_format": "",
         "compression_mode": "",
         "relative_file_paths": [file.name for file in bag.files],
@@ -185,14 +192,6 @@ def _extent(bag: Bag) -> dict[str, Any]:
         "starting_time": {"nanoseconds_since_epoch": NEVER if bag.start is None else bag.start},
         "message_count": bag.message_count,
     }
-
-
-def _described(topic: BagTopic) -> dict[str, Any]:
-    from rosbags.rosbag2.metadata import dump_qos_v8
-
-    about = {"name": topic.name, "type": topic.type_name, "serialization_format": topic.serialization}
-    about["offered_qos_profiles"] = dump_qos_v8(topic.profiles)
-    return {"topic_metadata": about, "message_count": topic.count}
 
 
 def info_text(bag: Bag) -> str:

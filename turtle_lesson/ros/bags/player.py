@@ -15,7 +15,7 @@ from ..idl.registry import registry
 from ..rmw.transport import LATENCY, LATENCY_SPREAD
 from ..sim.simulation import NANOSECONDS
 from . import BagError
-from .writer import schema_text, type_hash
+from .writer import profile_of, schema_text, type_hash
 
 if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
@@ -141,17 +141,13 @@ class Player:
 
 def offer_of(profiles: Sequence[Qos]) -> QoSProfile:
     """What a player offers for a topic whose publishers offered `profiles`: the weakest that all of them kept to."""
-    from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+    from rclpy.qos import DurabilityPolicy, HistoryPolicy, ReliabilityPolicy
 
-    depths = [profile.depth for profile in profiles]
-    reliable = all(profile.reliability.value != ReliabilityPolicy.BEST_EFFORT for profile in profiles)
-    latched = bool(profiles) and all(each.durability.value == DurabilityPolicy.TRANSIENT_LOCAL for each in profiles)
-    keep_all = any(profile.history.value == HistoryPolicy.KEEP_ALL for profile in profiles)
-    return QoSProfile(
-        history=HistoryPolicy.KEEP_ALL if keep_all else HistoryPolicy.KEEP_LAST,
-        depth=max(depths, default=0) or 10,
-        reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
-        durability=DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE,
+    return profile_of(
+        reliable=all(profile.reliability.value != ReliabilityPolicy.BEST_EFFORT for profile in profiles),
+        latched=bool(profiles) and all(each.durability.value == DurabilityPolicy.TRANSIENT_LOCAL for each in profiles),
+        keep_all=any(profile.history.value == HistoryPolicy.KEEP_ALL for profile in profiles),
+        depth=max((profile.depth for profile in profiles), default=0) or 10,
     )
 
 

@@ -20,7 +20,7 @@ from ..idl.names import did_you_mean, is_hidden
 from ..idl.registry import registry
 from ..sim.simulation import EPOCH, NANOSECONDS
 from . import BagError, UnrecordableType
-from .writer import BagWriter, is_there
+from .writer import BagWriter, is_there, profile_of
 
 if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
@@ -212,15 +212,9 @@ def request_for(qualities: Sequence[Any]) -> QoSProfile:
 
     A real recorder keeps ten messages and loses the rest of a burst; this one keeps all.
     """
-    from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
-
     reliable = all(quality.reliable for quality in qualities)
     latched = bool(qualities) and all(quality.latched for quality in qualities)
-    return QoSProfile(
-        history=HistoryPolicy.KEEP_ALL,
-        reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
-        durability=DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE,
-    )
+    return profile_of(reliable=reliable, latched=latched, keep_all=True)
 
 
 def _class_of(name: str, types: list[str]) -> Any:

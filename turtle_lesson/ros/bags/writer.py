@@ -255,3 +255,15 @@ def as_recorded(profile: QoSProfile) -> Qos:
         duration("liveliness_lease_duration"),
         policies["avoid_ros_namespace_conventions"],
     )
+
+
+def profile_of(*, reliable: bool, latched: bool, keep_all: bool, depth: int = 0) -> QoSProfile:
+    """The profile with which messages are recorded or played."""
+    from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+
+    return QoSProfile(
+        history=HistoryPolicy.KEEP_ALL if keep_all else HistoryPolicy.KEEP_LAST,
+        depth=depth,
+        reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE,
+    )
