@@ -84,9 +84,9 @@ class Robot(Views):
         self._check_connected()
         return super().plot_graph()
 
-    def _widget(self, key: Hashable, make: Callable[[Backend], Widget]) -> Widget:
+    def _widget(self, kind: Callable[..., Widget], *arguments: Hashable) -> Widget:
         self._check_connected()
-        return super()._widget(key, make)
+        return super()._widget(kind, *arguments)
 
     def _check_connected(self) -> None:
         if self._backend.ended:

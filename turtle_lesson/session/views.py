@@ -40,18 +40,17 @@ class Views:
 
     # -- widgets -----------------------------------------------------------------------------------------------------
 
-    def _widget(self, key: Hashable, make: Callable[[Backend], Widget]) -> Widget:
-        """The widget of this key; made now if there is none yet."""
+    def _widget(self, kind: Callable[..., Widget], *arguments: Hashable) -> Widget:
+        """The widget of this kind and these arguments; made now if there is none yet."""
         if not hasattr(self, "_widgets"):
             self._widgets = {}
             self._make_backend().at_close.append(self._end_widgets)
-        widgets = self._widgets
-        if key not in widgets or widgets[key].comm is None:  # not made yet, or closed
+        widget = self._widgets.get((kind, arguments))
+        if widget is None or widget.comm is None:  # not made yet, or closed
             from ..lab.widgets.backend import Link
 
-            backend: Any = Link(self._make_backend())
-            widgets[key] = make(backend)
-        return widgets[key]
+            widget = self._widgets[kind, arguments] = kind(Link(self._make_backend()), *arguments)
+        return widget
 
     def _end_widgets(self) -> None:
         for widget in self._widgets.values():
@@ -61,43 +60,43 @@ class Views:
         """A map that is alive: click on it, and the turtle goes there; drag to say how it shall face."""
         from ..lab.widgets.goal_pad import GoalPad
 
-        return self._widget("goal pad", GoalPad)
+        return self._widget(GoalPad)
 
     def dashboard(self) -> Dashboard:
         """Everything at once: map, clock, status, scan, rates, nodes, services and log."""
         from ..lab.widgets.dashboard import Dashboard
 
-        return self._widget("dashboard", Dashboard)
+        return self._widget(Dashboard)
 
     def teleop(self, topic: str = "/turtle1/cmd_vel") -> Teleop:
         """Drive by hand, with keys or a stick: publishes geometry_msgs/msg/Twist on a topic."""
         from ..lab.widgets.teleop import Teleop
 
-        return self._widget(("teleop", topic), lambda backend: Teleop(backend, topic))
+        return self._widget(Teleop, topic)
 
     def form(self, name: str) -> Form:
         """A form for the messages of a topic, or for the requests of a service: "/turtle1/cmd_vel", "/navigate_to"."""
         from ..lab.widgets.form import Form
 
-        return self._widget(("form", name), lambda backend: Form(backend, name))
+        return self._widget(Form, name)
 
     def live_plot(self, *fields: str, seconds: float = 30.0) -> LivePlot:
         """Curves that go on: a topic and a field each, such as "/robot/status/battery" or "/turtle1/pose/x"."""
         from ..lab.widgets.live_plot import LivePlot
 
-        return self._widget(("live plot", fields, seconds), lambda backend: LivePlot(backend, fields, seconds))
+        return self._widget(LivePlot, fields, seconds)
 
     def parameters(self, node: str) -> ParametersPanel:
         """The parameters of a node, each with a slider or a field: "/navigator"."""
         from ..lab.widgets.parameters import ParametersPanel
 
-        return self._widget(("parameters", node), lambda backend: ParametersPanel(backend, node))
+        return self._widget(ParametersPanel, node)
 
     def scene(self) -> Scene:
         """The world in three dimensions."""
         from ..lab.widgets.scene import Scene
 
-        return self._widget("scene", Scene)
+        return self._widget(Scene)
 
     # -- pictures ----------------------------------------------------------------------------------------------------
 

@@ -34,11 +34,6 @@ def signal(strand: Strand, signalnum: int, handler: Any) -> Any:
     if number in _UNTOUCHABLE:
         raise OSError(22, "Invalid argument")
     before = _handler_of(process, number)
-    _keep(process, number, handler)
-    return before
-
-
-def _keep(process: Process, number: int, handler: Any) -> None:
     be_careful(process.simulation)
     process.signal_handlers.pop(number, None)
     if handler is module.SIG_IGN or (handler is module.SIG_DFL and number in _IGNORED_BY_DEFAULT):
@@ -47,6 +42,7 @@ def _keep(process: Process, number: int, handler: Any) -> None:
         process.signal_handlers[number] = lambda *_: process.kill()
     elif handler not in (module.SIG_DFL, module.default_int_handler):
         process.signal_handlers[number] = handler
+    return before
 
 
 def _ignore(number: int, frame: object) -> None:
