@@ -78,7 +78,13 @@ SPEED, TURN, CIRCLE = 0.5, 1.6, 4.0
 
 @dataclass
 class Ride:
-    """Each status of a time while the turtle drove a circle, with the pose before it; and the last of the time after it."""
+    """What the status said while the turtle drove a circle, and in the second after that.
+
+    Attributes:
+        pairs: each status, with the pose before it.
+        driving: the pairs during the drive.
+        at_rest: the statuses after the turtle had stopped.
+    """
 
     pairs: list[tuple[Heard, Heard]]
     driving: list[tuple[Heard, Heard]]

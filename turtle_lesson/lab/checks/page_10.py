@@ -159,7 +159,7 @@ def _speak(probe: Probe) -> list[Heard]:
 def _hush(probe: Probe) -> list[tuple[float, Any]]:
     """What it says in two silences, each time with how long it is after the last status (s).
 
-    That comes so long before a tick that verdicts come shortly before and after the limit.
+    The last status comes so long before a tick that there are verdicts shortly before and after the limit.
     """
     heard, found = _verdicts(probe), list[tuple[float, Any]]()
     for before_a_tick in (0.06, 0.14):

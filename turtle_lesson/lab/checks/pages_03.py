@@ -278,7 +278,7 @@ GUARD = hinted(
 
 @remembered
 def _crowd(probe: Probe) -> tuple[Answer | None, list[Answer], Any]:
-    """A goal, and two others that come while it is under way: the answers, and where the turtle came to rest."""
+    """Ask for a goal, and for two others while it is under way: the answers, and where the turtle came to rest."""
     put(probe, (3.0, 3.0, 0.0))
     first = ask_soon_for(probe, FIRST)
     probe.wait(HALFWAY)

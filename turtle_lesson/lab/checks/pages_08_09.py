@@ -160,7 +160,7 @@ def _trip(probe: Probe) -> tuple[Answer, Any]:
 
 
 def _sent_home(probe: Probe, patience: float | None = None) -> Answer:
-    """What is answered when the turtle was driven away and is sent home; the navigator may be given so much time (s) for it."""
+    """Drive the turtle away and send it home: the answer. `patience` is the navigator's new goal_timeout (s), if any."""
     there = ask_for(probe, (2.0, 8.0, 0.0), LONGEST)
     if there.response is None or not there.response.success:
         raise CannotLook("the navigator did not drive the turtle away from home first: is it running?")
@@ -197,19 +197,17 @@ def _passes_on_no(probe: Probe) -> Seen:
 
 # -- the debugging lab ---------------------------------------------------------------------------------------------------
 
-PATIENCE = 600
-"""Robot time, s, for a case."""
+CASE = 600
+"""Robot time, s, that the check of a case may take."""
 
 
-@check(LAB, points=1, limit=PATIENCE)
+@check(LAB, points=1, limit=CASE)
 def trouble() -> list[Expectation]:
     """A system that works again as specified."""
     return current_expectations()
 
 
-@check(
-    LAB, points=3, limit=PATIENCE, learnt="A topic has a publisher, a name and a rate, and a command for each of them."
-)
+@check(LAB, points=3, limit=CASE, learnt="A topic has a publisher, a name and a rate, and a command for each of them.")
 def topic_case() -> list[Expectation]:
     """A dashboard that gets ten messages a second."""
     return expectations_of(9, "topic silent")
@@ -218,7 +216,7 @@ def topic_case() -> list[Expectation]:
 @check(
     LAB,
     points=3,
-    limit=PATIENCE,
+    limit=CASE,
     learnt="A call needs a node, a service of the same name, and a callback that is called.",
 )
 def service_case() -> list[Expectation]:
@@ -226,9 +224,7 @@ def service_case() -> list[Expectation]:
     return expectations_of(9, "service times out")
 
 
-@check(
-    LAB, points=3, limit=PATIENCE, learnt="A message type is named in CMakeLists.txt, built and sourced, in this order."
-)
+@check(LAB, points=3, limit=CASE, learnt="A message type is named in CMakeLists.txt, built and sourced, in this order.")
 def message_case() -> list[Expectation]:
     """A message type that programs can use."""
     return expectations_of(12, "message not found")
@@ -237,7 +233,7 @@ def message_case() -> list[Expectation]:
 @check(
     LAB,
     points=3,
-    limit=PATIENCE,
+    limit=CASE,
     learnt="A command can be followed from the node that sends it to the robot that obeys it.",
 )
 def turtle_case() -> list[Expectation]:

@@ -45,9 +45,9 @@ class Expectation:
 
 
 def expectation(text: str) -> Callable[[Callable[Concatenate[Probe, P], Seen]], Callable[P, Expectation]]:
-    """Decorator: a function that looks, given a probe and arguments, becomes one that makes an expectation of the arguments.
+    """Decorator: a function that looks, with a probe and other arguments, then takes the others and returns an expectation.
 
-    `text` says in words what is expected; as a format string it may name the arguments.
+    `text` says in words what is expected; it is a format string, which may name the arguments.
     """
 
     def decorate(look: Callable[Concatenate[Probe, P], Seen]) -> Callable[P, Expectation]:
@@ -57,8 +57,7 @@ def expectation(text: str) -> Callable[[Callable[Concatenate[Probe, P], Seen]], 
         def make(*given: P.args, **options: P.kwargs) -> Expectation:
             bound = names.bind(None, *given, **options)
             bound.apply_defaults()
-            expected = text.format(**bound.arguments)
-            return Expectation(expected, lambda probe: look(probe, *given, **options))
+            return Expectation(text.format(**bound.arguments), lambda probe: look(probe, *given, **options))
 
         return make
 
