@@ -108,7 +108,7 @@ class CheckTarget:
 
     def call(self, function: Callable[..., Any], *arguments: Any) -> Any:
         """Call a function of the learner's as a cell would: it may sleep, and is stopped if it computes without end."""
-        return drive_within(LONGEST_CALLBACK, self._world.sim, self._world.notebook, lambda: function(*arguments))
+        return drive_within(LONGEST_CALLBACK, self._world.sim, self._world.notebook, function, *arguments)
 
     def step(self, seconds: float) -> None:
         """Let robot time pass. Raises KeyboardInterrupt, and SimulationError where the world itself cannot go on."""

@@ -224,7 +224,7 @@ class LiveWidget(anywidget.AnyWidget):
 
     def _forget(self) -> None:
         """Keep the last words only: a notebook's `Out` holds each widget that was shown for as long as its kernel lives."""
-        values = self._trait_values
+        values = vars(self)["_trait_values"]
         for name in vars(self).keys() - _LAST:
             delattr(self, name)
         self._trait_values = {name: values[name] for name in ("comm", "layout", "words", "ended") if name in values}

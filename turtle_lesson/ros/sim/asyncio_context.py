@@ -9,8 +9,6 @@ from __future__ import annotations
 
 import asyncio
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from types import MethodType
 from typing import TYPE_CHECKING, Any
 
@@ -29,29 +27,29 @@ def _park(simulation: Simulation, strand: Strand) -> None:
     if asyncio._get_running_loop() is None:
         type(simulation).park(simulation, strand)
     else:
-        with loop_aside():
+        with LoopAside():
             type(simulation).park(simulation, strand)
     while strand.calls:
         function, *strand.calls = strand.calls
         function()
 
 
-@contextmanager
-def loop_aside() -> Iterator[None]:
+class LoopAside:
     """While others go on, put aside the asyncio loop that runs here, with its task and its care for generators."""
-    loop, hooks = asyncio._get_running_loop(), sys.get_asyncgen_hooks()
-    task = None if loop is None else asyncio.current_task(loop)
-    if loop is not None and task is not None:
-        _leave_task(loop, task)
-    asyncio._set_running_loop(None)
-    sys.set_asyncgen_hooks(None, None)
-    try:
-        yield
-    finally:
-        asyncio._set_running_loop(loop)
-        sys.set_asyncgen_hooks(*hooks)
-        if loop is not None and task is not None:
-            _enter_task(loop, task)
+
+    def __enter__(self) -> None:
+        self.loop, self.hooks = asyncio._get_running_loop(), sys.get_asyncgen_hooks()
+        self.task = None if self.loop is None else asyncio.current_task(self.loop)
+        if self.loop is not None and self.task is not None:
+            _leave_task(self.loop, self.task)
+        asyncio._set_running_loop(None)
+        sys.set_asyncgen_hooks(None, None)
+
+    def __exit__(self, *error: object) -> None:
+        asyncio._set_running_loop(self.loop)
+        sys.set_asyncgen_hooks(*self.hooks)
+        if self.loop is not None and self.task is not None:
+            _enter_task(self.loop, self.task)
 
 
 _tasks: Any = asyncio.tasks

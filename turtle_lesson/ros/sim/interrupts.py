@@ -13,6 +13,7 @@ waits for something outside, and the lesson's own nodes, only cause a notice.
 from __future__ import annotations
 
 import _thread
+import os
 import signal
 import sys
 import threading
@@ -22,7 +23,7 @@ from itertools import takewhile
 from types import FrameType, TracebackType
 from typing import TYPE_CHECKING, Any
 
-from .asyncio_context import loop_aside
+from .asyncio_context import LoopAside
 from .errors import NeverReturns, is_learners
 from .strand import Strand, running_strand
 
@@ -34,6 +35,7 @@ JUPYTER = {"IPython", "comm", "debugpy", "ipykernel", "jupyter_client", "tornado
 """The packages that Jupyter's kernel is made of."""
 
 _monotonic, _sleep = time.monotonic, time.sleep  # the real ones, whatever they become
+_set_handler = getattr(sys.modules["_signal"], "signal", signal.signal)  # which looks up no names, as each run needs it
 _signal_thread, _main_thread = getattr(signal, "pthread_kill", None), threading.main_thread()
 
 patience = 10.0
@@ -70,11 +72,11 @@ class Guard:
         self.interrupted = False
         self._previous: Any = None
         self._outer: Guard | None = None
-        self._active = threading.current_thread() is threading.main_thread()
+        self._active = _thread.get_ident() == _main_thread.ident
 
     def __enter__(self) -> Guard:
         if self._active:
-            self._previous = signal.signal(signal.SIGINT, self._on_signal)
+            self._previous = _set_handler(signal.SIGINT, self._on_signal)
             self._outer = watchdog.watch(self)
         return self
 
@@ -84,7 +86,7 @@ class Guard:
         if self._active:
             watchdog.watch(self._outer)
             if self._previous is not None:
-                signal.signal(signal.SIGINT, self._previous)
+                _set_handler(signal.SIGINT, self._previous)
 
     def raise_if_interrupted(self) -> None:
         """Raise KeyboardInterrupt in the cell if the user asked for it while the simulation ran."""
@@ -122,7 +124,7 @@ class Guard:
             raise KeyboardInterrupt  # a module that is frozen half imported could have other threads wait for its lock
         strand.frozen_at = now
         self.simulation.put_back(strand)
-        with loop_aside():
+        with LoopAside():
             self.simulation.hub.switch()
 
     def _say_that_it_goes_on(self, strand: Strand | None) -> None:
@@ -177,25 +179,31 @@ class Watchdog:
         self._guard: Guard | None = None
         self._change = threading.RLock()  # or the main thread could be interrupted when its run is over
         self._wanted = threading.Event()
+        self._rests = True
         self._thread: threading.Thread | None = None
 
     def watch(self, guard: Guard | None) -> Guard | None:
         """Watch this guard's run from now on, or none. Returns the guard that was watched before."""
         with self._change:
             before, self._guard = self._guard, guard
-        if guard is None:
-            self._wanted.clear()
-            return before
-        guard.seen = None
-        self.start()
-        self._wanted.set()
+            if guard is not None:
+                guard.seen = None
+                if self._thread is None:
+                    self.start()
+                if self._rests:
+                    self._rests = False
+                    self._wanted.set()
         return before
 
     def start(self) -> None:
         """Have the thread run."""
-        if self._thread is None or not self._thread.is_alive():
+        if self._thread is None:
             self._thread = threading.Thread(target=self._loop, name="turtle_lesson watchdog", daemon=True)
             self._thread.start()
+
+    def begin_anew(self) -> None:
+        """In a forked process no thread but the one that forked goes on, and what others held is held for ever."""
+        self.__init__()  # type: ignore[misc]
 
     def stop(self) -> None:
         """Have it end, until the next run; it watches nothing now."""
@@ -203,6 +211,7 @@ class Watchdog:
         if thread is not None:
             self._wanted.set()
             thread.join()
+            self._rests = True
             self._wanted.clear()
 
     def _loop(self) -> None:
@@ -212,10 +221,13 @@ class Watchdog:
             _sleep(min(0.25, patience / 4, interrupt_patience / 4))
 
     def look(self) -> None:
-        """Interrupt the main thread if the clock has stood still for too long since it was first seen to."""
+        """Interrupt the main thread if the clock has stood still for too long since it was first seen to; else rest."""
         with self._change:
             if self._guard is not None:
                 self._look_at(self._guard)
+            elif not self._rests:
+                self._rests = True
+                self._wanted.clear()
 
     def _look_at(self, guard: Guard) -> None:
         state, now, work = (guard.simulation.now, guard.interrupted), _monotonic(), work_done()
@@ -252,6 +264,8 @@ def _interrupt_main_thread() -> None:
 
 
 watchdog = Watchdog()
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=watchdog.begin_anew)
 
 
 # -- what the main thread is doing ---------------------------------------------------------------------------------------

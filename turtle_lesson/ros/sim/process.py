@@ -143,7 +143,8 @@ class Process:
 
     def add_strand(self, target: Callable[[], Any]) -> Strand:
         """Make another line of execution in this process; it starts when it is made ready."""
-        self.strands = [strand for strand in self.strands if not strand.dead]
+        while self.strands and self.strands[-1].dead:  # a notebook's end with the call that they were made for
+            self.strands.pop()
         strand = Strand(self, target)
         self.strands.append(strand)
         return strand

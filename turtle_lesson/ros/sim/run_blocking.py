@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 DRIVE_LIMIT = 900 * 1_000_000_000
 """How much robot time, in ns, a blocking call from a notebook cell may take before it is given up."""
 
+_current_thread = threading.current_thread  # the real one, whatever it becomes
+
 LOCK = "the lock"
 """What a strand waits for of which no more is known."""
 
@@ -28,20 +30,22 @@ T = TypeVar("T")
 class Call:
     """A call that runs in a strand of its own, and what has become of it."""
 
-    def __init__(self, simulation: Simulation, process: Process, function: Callable[[], Any]) -> None:
+    def __init__(
+        self, simulation: Simulation, process: Process, function: Callable[..., Any], *arguments: Any, **keywords: Any
+    ) -> None:
         self.simulation = simulation
-        self.function = function
+        self.function, self.arguments, self.keywords = function, arguments, keywords
         self.done = False
         self.value: Any = None
         self.error: BaseException | None = None
         self.strand: Strand = process.add_strand(self._run)
-        self.strand.thread = threading.current_thread()  # for the learner it is the cell that calls
+        self.strand.thread = _current_thread()  # for the learner it is the cell that calls
         simulation.driven = self.strand
         simulation.put_back(self.strand)
 
     def _run(self) -> None:
         try:
-            self.value = self.function()
+            self.value = self.function(*self.arguments, **self.keywords)
         except BaseException as error:
             self.error = error
         self.done = True
@@ -63,14 +67,16 @@ def drive(simulation: Simulation, process: Process, function: Callable[..., T], 
 
     Raises what the function raises, and KeyboardInterrupt if the user interrupts: the call then gets it, too.
     """
-    return drive_within(DRIVE_LIMIT, simulation, process, lambda: function(*arguments, **keywords))
+    return drive_within(DRIVE_LIMIT, simulation, process, function, *arguments, **keywords)
 
 
-def drive_within(limit: int, simulation: Simulation, process: Process, function: Callable[[], T]) -> T:
-    """The same for a function without arguments, with another limit of robot time (ns), after which DriveTimeout is raised."""
+def drive_within(
+    limit: int, simulation: Simulation, process: Process, function: Callable[..., T], *arguments: Any, **keywords: Any
+) -> T:
+    """The same with another limit of robot time (ns), after which DriveTimeout is raised."""
     with Guard(simulation) as guard:  # from here on an interrupt is noted, and raised as the very last act
         simulation.check_it_can_run()
-        call = Call(simulation, process, function)
+        call = Call(simulation, process, function, *arguments, **keywords)
         simulation.run_guarded(simulation.now + limit)
         simulation.driven = None
         if not call.done:

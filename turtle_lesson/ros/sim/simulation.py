@@ -20,7 +20,7 @@ from typing import Any
 
 from greenlet import GreenletExit
 
-from .asyncio_context import loop_aside
+from .asyncio_context import LoopAside
 from .errors import SimulationError, WorldClosed
 from .interrupts import Guard
 from .keyboard import Keyboard
@@ -198,7 +198,7 @@ class Simulation(Face):
                 self._cell = self._cell.now()
             if strand.cell is not self._cell:
                 self._cell.show_to(strand)
-            with loop_aside():
+            with LoopAside():
                 go()
         finally:
             self.hub, self._halted, self._limit, self._raising = hub, halted, limit, raising
@@ -226,7 +226,7 @@ class Simulation(Face):
         self._limit = limit
         self._halted = False
         self.running = True
-        with loop_aside():  # a simulated process is no part of Jupyter's event loop
+        with LoopAside():  # a simulated process is no part of Jupyter's event loop
             try:
                 self._loop()
             finally:

@@ -96,11 +96,11 @@ def get_global_executor() -> Executor:
     """
     own = current_process().state(RclpyState)
     executor = own.executor
-    if executor is None or not executor.context.ok():
+    if executor is None or not executor._context.ok():
         from .executors import SingleThreadedExecutor
 
         executor = own.executor = SingleThreadedExecutor()
-        if executor.context.ok():
+        if executor._context.ok():
             executor.context.on_shutdown(executor.shutdown)
     return executor
 

@@ -30,6 +30,8 @@ class Entity:
 
     callback: Any
     _kind = GUARD
+    _missed = False
+    """Whether there may be work that came while no executor had its node."""
     _traced: Callback | None = None
     """Where its runs are noted, if the world keeps a trace of them."""
     _outlived = False
@@ -55,7 +57,9 @@ class Entity:
     def _signal(self) -> None:
         """Tell the executor that there may be work."""
         executor = self._executor
-        if executor is not None and self._listed_in is not executor:
+        if executor is None:
+            self._missed = True
+        elif self._listed_in is not executor:
             self._listed_in = executor
             executor._signalled.append(self)
             strand = executor._waiter

@@ -120,7 +120,8 @@ class ExecutorBase:
         for entity in node._ros_waiting_entities:
             if comes_again and entity._turn is not NO_TURN:
                 entity._executor = self  # type: ignore[assignment]
-                if entity._has_work():
+                if entity._missed:
+                    entity._missed = False
                     entity._signal()
             else:
                 self._adopt(entity, node)
@@ -183,7 +184,9 @@ class ExecutorBase:
                 if job.__class__ is Task:
                     if not job._done:
                         return job
-                elif job._executor is self and job._has_work():
+                elif job._executor is not self:
+                    job._missed = True
+                elif job._has_work():
                     if job._begin(job):
                         return job
                     self._blocked.append(job)

@@ -88,7 +88,9 @@ class Executor(ExecutorBase):
                 if len(signalled) == 1 and not self._batch and not self._resumed and not self._polled:
                     entity = signalled.pop()
                     entity._listed_in = None
-                    if entity._executor is self and entity._has_work():
+                    if entity._executor is not self:
+                        entity._missed = True
+                    elif entity._has_work():
                         if entity._begin(entity):
                             execute(entity)
                         else:
