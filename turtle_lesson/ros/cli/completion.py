@@ -46,7 +46,9 @@ def complete(world: World, line: str) -> list[str]:
 def _candidates(world: World, words: list[str], begun: str) -> Iterable[str]:
     program, *rest = words
     if program == "colcon":
-        return _colcon(rest)
+        packages = {path.parent.name for path in Path("src").glob("**/package.xml")}
+        options = ["--packages-select", "--symlink-install", "--event-handlers", *packages]
+        return options if rest else ["build", "graph", "list"]
     if program in {"jobs", "pwd"}:
         return []
     if program == "kill":
@@ -63,13 +65,6 @@ def _candidates(world: World, words: list[str], begun: str) -> Iterable[str]:
         return [*group.members, "--help", group.flag[0]]
     verb = group.members.get(name)
     return _arguments(world, verb, rest[rest.index(name or rest[0]) + 1 :], begun) if isinstance(verb, Verb) else []
-
-
-def _colcon(words: Sequence[str]) -> list[str]:
-    if not words:
-        return ["build", "graph", "list"]
-    packages = {path.parent.name for path in Path("src").glob("**/package.xml")}
-    return ["--packages-select", "--symlink-install", "--event-handlers", *packages]
 
 
 def _arguments(world: World, verb: Verb, words: list[str], begun: str) -> Iterable[str]:

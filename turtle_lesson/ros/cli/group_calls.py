@@ -222,6 +222,9 @@ def send_goal(args: Namespace) -> None:
     """Send a goal and print its outcome."""
     from rosidl_runtime_py.convert import message_to_yaml
 
+    def print_feedback(message: Any) -> None:
+        print(f"Feedback:\n    {message_to_yaml(message.feedback)}")
+
     kind = class_of(args.action_type, "action")
     values = read_yaml(args.values)
     with direct_node(args, f"{HIDDEN_PREFIX}_send_goal_{args.action_type.replace('/', '_')}") as node:
@@ -235,7 +238,7 @@ def send_goal(args: Namespace) -> None:
             raise _not_offered("action", client._name, kind._TYPE_NAME, actions(node))
         print(f"Sending goal:\n     {message_to_yaml(goal)}")
         until = now() + (args.seconds or LONGEST_ANSWER)
-        future = client.send_goal_async(goal, _print_feedback if args.feedback else None)
+        future = client.send_goal_async(goal, print_feedback if args.feedback else None)
         handle = _outcome(
             node,
             future,
@@ -259,12 +262,6 @@ def send_goal(args: Namespace) -> None:
             raise
         print(f"Result:\n    {message_to_yaml(with_result.result)}")
         print(f"Goal finished with status: {_status(with_result.status)}")
-
-
-def _print_feedback(message: Any) -> None:
-    from rosidl_runtime_py.convert import message_to_yaml
-
-    print(f"Feedback:\n    {message_to_yaml(message.feedback)}")
 
 
 def _status(status: int) -> str:

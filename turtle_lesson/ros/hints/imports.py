@@ -83,7 +83,8 @@ def _no_module(name: str) -> str:
         return missing
     if rest and (parent := module_left_out(name) or _newer(top, name) or _parent(name)):
         return parent
-    close = difflib.get_close_matches(top, _known_modules(), n=1, cutoff=0.8)
+    site = sorted(path.name for path in (Path(__file__).parents[1] / "site").iterdir() if path.is_dir())
+    close = difflib.get_close_matches(top, [*registry.packages(), *site], n=1, cutoff=0.8)
     return f"Did you mean '{close[0]}'?" if close else _of_ones_own(top)
 
 
@@ -131,11 +132,6 @@ def _submodules(module: ModuleType) -> set[str]:
         value.__name__.rpartition(".")[2] for path, value in inner if value.__name__ == path
     }  # launch's have no file
     return {name for name in found if not name.startswith("_")}
-
-
-def _known_modules() -> list[str]:
-    site = Path(__file__).parents[1] / "site"
-    return [*registry.packages(), *sorted(path.name for path in site.iterdir() if path.is_dir())]
 
 
 _OF_MESSAGES = re.compile(r"_(msgs|srvs|actions|interfaces?)$")
