@@ -5,7 +5,7 @@
     bag = bags.bag.open_bag("run1")                 # a damaged one, too: bag.damage says what is lost
     for topic, time, type_name, data in bag.messages(): ...
 
-`rosbags` reads and writes the files. It is imported when it is first needed, since that takes half a second.
+`rosbags` writes the files. It is imported when it is first needed, since that takes half a second.
 """
 
 from __future__ import annotations
