@@ -27,7 +27,7 @@ def wait_for_message(
     assert strand is not None
     strand.activity = f"wait_for_message on {topic}"
     simulation = strand.simulation
-    subscription = node.create_subscription(msg_type, topic, _not_called, qos_profile)
+    subscription = node.create_subscription(msg_type, topic, None, qos_profile)  # type: ignore[arg-type]
     subscription._executor = None  # nobody else is to take what comes
     wake_up = WakeUp(node.context)
     subscription._reader.wake = wake_up.wake
@@ -37,10 +37,6 @@ def wait_for_message(
         return (True, subscription._take()[0]) if subscription._has_work() else (False, None)
     finally:
         node.destroy_subscription(subscription)
-
-
-def _not_called(message: Any) -> None:
-    """The callback of a subscription whose messages are taken by hand."""
 
 
 __getattr__ = reexported(__name__)
