@@ -23,9 +23,8 @@ from itertools import takewhile
 from types import FrameType, TracebackType
 from typing import TYPE_CHECKING, Any
 
-from .asyncio_context import LoopAside
 from .errors import NeverReturns, is_learners
-from .strand import Strand, running_strand
+from .strand import LoopAside, Strand, running_strand
 
 if TYPE_CHECKING:
     from .simulation import Simulation

@@ -7,6 +7,7 @@ after the other, in the order in which they were woken.
 
 from __future__ import annotations
 
+import asyncio
 import gc
 import sys
 import weakref
@@ -20,11 +21,10 @@ from typing import Any
 
 from greenlet import GreenletExit
 
-from .asyncio_context import LoopAside
 from .errors import SimulationError, WorldClosed
 from .interrupts import Guard
 from .keyboard import Keyboard
-from .strand import Cell, Face, Strand, running_greenlet, running_strand
+from .strand import Cell, Face, LoopAside, Strand, running_greenlet, running_strand
 
 NANOSECONDS = 1_000_000_000
 EPOCH = 1_800_000_000 * NANOSECONDS
@@ -331,6 +331,30 @@ class Simulation(Face):
         _undead.extend(strand for strand in self._strands if strand and not strand.dead)
         self._heap.clear()
         self._ready.clear()
+
+
+class CarefulSimulation(Simulation):
+    """A simulation in which a program uses asyncio or handles signals.
+
+    A strand takes the note of the asyncio loop that runs along when it parks, and a handler of a signal is called where the
+    process waits. Both would slow every switch, so a simulation becomes one of these when it is first needed.
+    """
+
+    def park(self, strand: Strand) -> None:
+        """See Simulation."""
+        if asyncio._get_running_loop() is None:
+            super().park(strand)
+        else:
+            with LoopAside():
+                super().park(strand)
+        while strand.calls:
+            function, *strand.calls = strand.calls
+            function()
+
+
+def be_careful(simulation: Simulation) -> None:
+    """Let all strands of a simulation park with care from now on."""
+    simulation.__class__ = CarefulSimulation
 
 
 def _collects_garbage() -> bool:

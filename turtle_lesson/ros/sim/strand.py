@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import sys
 from collections.abc import Callable, Sequence
 from contextvars import Context, ContextVar, copy_context
@@ -217,3 +218,29 @@ class Face:
     def cell_stdout(self) -> Any:
         """Where the running cell prints to."""
         return sys.stdout if self._face is None else self._cell_face[1]
+
+
+# -- asyncio ------------------------------------------------------------------------------------------------------
+# The asyncio loop that runs is noted in the state of the real thread, which all strands share.
+
+
+class LoopAside:
+    """While others go on, put aside the asyncio loop that runs here, with its task and its care for generators."""
+
+    def __enter__(self) -> None:
+        self.loop, self.hooks = asyncio._get_running_loop(), sys.get_asyncgen_hooks()
+        self.task = None if self.loop is None else asyncio.current_task(self.loop)
+        if self.loop is not None and self.task is not None:
+            _leave_task(self.loop, self.task)
+        asyncio._set_running_loop(None)
+        sys.set_asyncgen_hooks(None, None)
+
+    def __exit__(self, *error: object) -> None:
+        asyncio._set_running_loop(self.loop)
+        sys.set_asyncgen_hooks(*self.hooks)
+        if self.loop is not None and self.task is not None:
+            _enter_task(self.loop, self.task)
+
+
+_tasks: Any = asyncio.tasks
+_enter_task, _leave_task = _tasks._enter_task, _tasks._leave_task

@@ -14,10 +14,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from ..sim.asyncio_context import be_careful
 from ..sim.errors import SimulationError
 from ..sim.process import Process
-from ..sim.simulation import CLOCK_READ, NANOSECONDS
+from ..sim.simulation import CLOCK_READ, NANOSECONDS, be_careful
 from ..sim.strand import Strand, running_strand
 from .deadlock import LOOP, look_for_hope
 from .locks import nanoseconds

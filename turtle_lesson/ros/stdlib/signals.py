@@ -14,10 +14,9 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from ..sim.asyncio_context import be_careful
 from ..sim.errors import is_library
 from ..sim.process import Process
-from ..sim.simulation import NANOSECONDS
+from ..sim.simulation import NANOSECONDS, be_careful
 from ..sim.strand import Strand, running_strand
 
 _UNTOUCHABLE = {getattr(module, "SIGKILL", -1), getattr(module, "SIGSTOP", -1)}
