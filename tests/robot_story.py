@@ -127,14 +127,18 @@ class Turtle:
 async def hears_poses(stage: Any) -> Any:
     recorder = stage.robot._recording
     await until(lambda: len(recorder.poses) > 30 and len(recorder.statuses) > 3 and recorder.last_scan)
-    before = len(recorder.poses)
+    before, began = len(recorder.poses), stage.robot.now
     time.sleep(0.5)  # a cell that computes
-    during = len(recorder.poses)
+    during, ended = len(recorder.poses), stage.robot.now
     await until(lambda: len(recorder.poses) > before + 25)
     stamps = recorder.poses.array()["stamp"]
-    steps = (stamps[1:] - stamps[:-1]) / 1e6
-    now = stage.robot.now - float(recorder.seconds(stamps[-1]))
-    return {"during": during - before, "longest": float(steps.max()), "least": float(steps.min()), "age": now}
+    times = recorder.seconds(stamps)
+    return {
+        "during": during - before,
+        "stamped_meanwhile": int(((times > began) & (times < ended)).sum()),
+        "least": float((stamps[1:] - stamps[:-1]).min()),
+        "age": stage.robot.now - float(times[-1]),
+    }
 
 
 @scene

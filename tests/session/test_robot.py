@@ -70,8 +70,8 @@ def test_nothing_of_the_lab_ever_runs_in_another_thread(story):
 def test_poses_are_heard_with_their_times_even_while_a_cell_computes(story):
     facts = story("hears_poses")
     assert facts["during"] == 0
-    assert facts["least"] >= 0 and facts["longest"] < 300  # ms; the cell took 500
-    assert 0 <= facts["age"] < 0.5
+    assert facts["least"] >= 0 and facts["stamped_meanwhile"] > 0
+    assert 0 <= facts["age"] < 60  # s: it is the same clock
 
 
 def test_a_goal_reaches_the_service_and_its_answer_comes_back_in_the_loop(story):
