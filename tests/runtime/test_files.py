@@ -344,6 +344,14 @@ def test_to_source_a_workspace_elsewhere_leaves_it_as_it_is(mine: Path, type_lin
     assert state(mine.parent, mine) == before
 
 
+def test_no_folder_is_copied_into_itself_through_a_link_at_its_target(mine: Path, type_line: Type) -> None:
+    type_line("mkdir -p s/a/b t/s")
+    (mine / "t/s/a").symlink_to(mine / "s/a/b", target_is_directory=True)
+    code, _, error = type_line("cp -r s t")
+    assert code == 1 and "no folder takes the place of a link" in error
+    assert not list((mine / "s/a/b").iterdir())
+
+
 # -- which folder it is --------------------------------------------------------------------------------------------------
 
 
@@ -484,7 +492,7 @@ LINES = [
 lines = some.builds(str.format, some.sampled_from(LINES), paths, paths, paths)
 
 
-@settings(max_examples=100)
+@settings(max_examples=100, database=None)  # which would be written and cleared outside
 @given(some.lists(lines, min_size=1, max_size=8))
 def test_whatever_is_typed_nothing_changes_outside(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, script: list[str]

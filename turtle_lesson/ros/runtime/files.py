@@ -106,7 +106,10 @@ def copy(source: Path, target: Path, left_out: Callable[[str, list[str]], Iterab
         place.unlink(missing_ok=True)
         place.symlink_to(os.readlink(source))
     elif source.is_dir():
-        check(target).mkdir(parents=True, exist_ok=True)
+        place = check(target)
+        if target.is_symlink():  # through which a folder could be copied into itself, for ever
+            raise FileExistsError(errno.EEXIST, "a link has its name, and no folder takes the place of a link", str(target))
+        place.mkdir(parents=True, exist_ok=True)
         names = os.listdir(source)
         for name in sorted({*names} - {*(left_out(str(source), names) if left_out else ())}):
             copy(source / name, target / name, left_out)
