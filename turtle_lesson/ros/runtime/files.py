@@ -108,7 +108,9 @@ def copy(source: Path, target: Path, left_out: Callable[[str, list[str]], Iterab
     elif source.is_dir():
         place = check(target)
         if target.is_symlink():  # through which a folder could be copied into itself, for ever
-            raise FileExistsError(errno.EEXIST, "a link has its name, and no folder takes the place of a link", str(target))
+            raise FileExistsError(
+                errno.EEXIST, "a link has its name, and no folder takes the place of a link", str(target)
+            )
         place.mkdir(parents=True, exist_ok=True)
         names = os.listdir(source)
         for name in sorted({*names} - {*(left_out(str(source), names) if left_out else ())}):
