@@ -561,3 +561,17 @@ def test_a_library_that_measures_garbage_collections_lets_no_time_pass(world: Wo
     world.spawn(collecting, name="collecting")
     world.sim.run_until(SECOND)
     assert seen == [0, 1_000]
+
+
+def test_five_hundred_programs_may_begin_at_one_instant(world: World) -> None:
+    log: list[float] = []
+
+    def main() -> None:
+        for _ in range(2):
+            log.append(world.now // SECOND)
+            time.sleep(1.0)
+
+    for number in range(500):
+        world.spawn(main, name=f"p{number}")
+    world.sim.run_until(2 * SECOND)
+    assert log == [0] * 500 + [1] * 500

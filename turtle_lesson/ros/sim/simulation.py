@@ -302,10 +302,16 @@ class Simulation(Face):
         """
         strand.parked = True
         following = self._next_strand()
-        if following is None:
-            self.hub.switch()
-        elif following is not strand:
+        if following is strand:
+            return
+        if following:
             self._go_on_with(following)
+            return
+        if (
+            following is not None
+        ):  # it has not begun: begun from here, it would count the calls of this strand as its own
+            self._ready.appendleft(following)
+        self.hub.switch()
 
     def halt(self) -> None:
         """Stop the loop as soon as the running strand lets go, even if it only looks at the clock in a loop."""
