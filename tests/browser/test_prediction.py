@@ -47,7 +47,7 @@ def test_a_place_is_guessed_by_keys_alone(window: Page) -> None:
     for key in ["ArrowLeft", "ArrowLeft", "Shift+ArrowUp", "Enter"]:
         guess.press(key)
     expect(window.locator(".tl-prediction .tl-said").first).to_contain_text("Recorded: (4.54, 5.64) m.")
-    assert value(window, "asked.question.guess") == pytest.approx((4.544, 5.644), abs=1e-3)
+    assert value(window, "asked.guess") == pytest.approx((4.544, 5.644), abs=1e-3)
     assert window.locator(".jp-Notebook .jp-Cell").count() == len(CELLS) - 1, "no key became a shortcut"
 
 

@@ -30,8 +30,16 @@ A view gives one every 20 s, and a browser may hold up those of a hidden window 
 
 FOLDER = Path(__file__).with_name("js")
 
-_LAST = {"_trait_notifiers", "_trait_validators", "_cross_validation_lock", "is_made", "text", "picture"}
-"""The attributes that a closed widget still needs; the first three are those of traitlets."""
+_LAST = {
+    "_trait_values",
+    "_trait_notifiers",
+    "_trait_validators",
+    "_cross_validation_lock",
+    "is_made",
+    "text",
+    "picture",
+}
+"""The attributes that a closed widget still needs; the first four are those of traitlets."""
 
 _ended: list[LiveWidget] = []
 
@@ -225,9 +233,9 @@ class LiveWidget(anywidget.AnyWidget):
     def _forget(self) -> None:
         """Keep the last words only: a notebook's `Out` holds each widget that was shown for as long as its kernel lives."""
         values = vars(self)["_trait_values"]
+        self._trait_values = {name: values[name] for name in ("comm", "layout", "words", "ended") if name in values}
         for name in vars(self).keys() - _LAST:
             delattr(self, name)
-        self._trait_values = {name: values[name] for name in ("comm", "layout", "words", "ended") if name in values}
         self._msg_callbacks = CallbackDispatcher()
 
     def _let_go(self) -> None:
