@@ -204,8 +204,6 @@ class Channel:
             self._subscription = self.node.create_subscription(
                 message_type, self.topic, listener, quality, raw=self.raw
             )
-            if hasattr(self._subscription, "_hear_at_once"):  # in the simulation no executor has to do with it
-                self._subscription._hear_at_once()
 
     def close(self) -> None:
         """Unsubscribe."""

@@ -27,8 +27,6 @@ class Reader(End):
         self.beside: list[deque[Any]] = []
         """Queues in step with `queue`, which somebody keeps beside it."""
         self.wake: Callable[[], object] = nobody
-        self.hear: Callable[[Any, int, int], object] | None = None
-        """Gets each message, when it was sent and when it arrived (ns), at once, where one does without the queue."""
         self._deadline: Watchdog | None = None
 
     def keep_times(self) -> None:
@@ -81,9 +79,6 @@ class Reader(End):
             self.topic.simulation.at(sent + lifespan, self._expire, wire)
         if self._deadline is not None:
             self._deadline.renew()
-        if self.hear is not None:
-            self.hear(wire, sent, now)
-            return
         self.queue.append(wire)
         if self.times is not None:
             self.times.append((sent, now))

@@ -62,14 +62,13 @@ class Writer(End):
 
     def _deliver(self, parcel: tuple[tuple[Reader, ...], Any]) -> None:
         readers, wire = parcel
-        message = None
+        first = True
         for reader in readers:
-            message = wire if message is None else wire._wire_copy()
-            if reader.hear is not None:
-                now = self._simulation.now
-                reader.hear(message, now - self._latency, now)
-                continue
-            reader.queue.append(message)
+            if first:
+                reader.queue.append(wire)
+                first = False
+            else:
+                reader.queue.append(wire._wire_copy())
             if reader.times is not None:
                 now = self._simulation.now
                 reader.times.append((now - self._latency, now))

@@ -94,17 +94,6 @@ class Subscription(Entity):
         sent, received = times.popleft()
         return (message, {"source_timestamp": EPOCH + sent, "received_timestamp": EPOCH + received})
 
-    def _hear_at_once(self) -> None:
-        """Have the callback called where messages arrive, by no executor: for an observer's, which never waits or raises."""
-        if not self.raw:
-            self._reader.hear = self._heard
-
-    def _heard(self, message: Any, sent: int, received: int) -> None:
-        if self._reader.times is None:
-            self.callback(message)
-        else:
-            self.callback(message, {"source_timestamp": EPOCH + sent, "received_timestamp": EPOCH + received})
-
     def destroy(self) -> None:
         """Leave the topic."""
         if not self._destroyed:
