@@ -141,11 +141,11 @@ class Callback:
     open: list[tuple[int, int]] = field(default_factory=list)
     _ended: array[int] = field(default_factory=lambda: array("q"))
 
-    def end_run(self, ready: int, began: int, now: int) -> None:
+    def end_run(self, begun: tuple[int, int], now: int) -> None:
         """One of the open runs is over."""
-        self.open.remove((ready, began))
+        self.open.remove(begun)
         ended = self._ended
-        ended.extend((ready, began, now))
+        ended.extend((*begun, now))
         if len(ended) > FULL:
             del ended[: -LIMIT * 3]
 

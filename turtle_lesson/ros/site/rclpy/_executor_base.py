@@ -254,7 +254,8 @@ class ExecutorBase:
             if traced is not None:
                 began, arrivals = self._simulation.now, traced.arrivals
                 ready = job._next if arrivals is None else arrivals.popleft() if arrivals else began
-                traced.open.append((ready, began))
+                begun = (ready, began)
+                traced.open.append(begun)
             try:
                 arguments = job._take()
                 if arguments is not None:
@@ -266,7 +267,7 @@ class ExecutorBase:
                 raise
             finally:
                 if traced is not None:
-                    traced.end_run(ready, began, self._simulation.now)
+                    traced.end_run(begun, self._simulation.now)
                 job._end_run(job)
                 if self._blocked:
                     self._retry_blocked()

@@ -60,7 +60,7 @@ def note_end(task: Task, traced: Callback, begun: tuple[int, int], simulation: S
     free = task._finally
 
     def end() -> None:
-        traced.end_run(*begun, simulation.now)
+        traced.end_run(begun, simulation.now)
         if free is not None:
             free()
 

@@ -292,7 +292,7 @@ class ActionServer(ActionEndpoint):
         try:
             yield
         finally:
-            record.end_run(*begun, trace.now)
+            record.end_run(begun, trace.now)
 
     def notify_goal_done(self) -> None:
         """A goal has ended: look which ones have expired. The server does that for itself, too."""
