@@ -225,16 +225,31 @@ def test_fifty_steps_in_a_second_are_fifty_steps(board: Board) -> None:
     assert value(board.page, "lesson.now") == pytest.approx(begun + 5)
 
 
+def second_window(browser: Browser, lab: Lab, problems: list[str]) -> Page:
+    """A window that has opened the saved page and shows its dashboard.
+
+    JupyterLab gives a widget up for good if its kernel tells of it just as the two seconds end that JupyterLab waits for
+    it, which happens on a busy machine (renderModel of jupyterlab-manager). Such a window is closed and opened again.
+    """
+    for _ in range(20):
+        page = new_window(browser, problems, width=900)
+        open_notebook(page, lab, NAME)
+        given_up = page.get_by_text("Error displaying widget: model not found")
+        given_up.or_(page.locator(WIDGETS["Dashboard"][1])).first.wait_for(state="attached")
+        problems[:] = [problem for problem in problems if not problem.startswith("Error: widget model not found")]
+        if given_up.count() == 0:
+            return page
+        page.close()
+    raise AssertionError("JupyterLab gave up the widgets of twenty windows")
+
+
 def test_a_window_that_opens_the_saved_page_is_in_step(
     board: Board, browser: Browser, lab: Lab, problems: list[str]
 ) -> None:
     execute(board.page, "docmanager:save")
-    page = new_window(browser, problems, width=900)
-    open_notebook(page, lab, NAME)
+    page = second_window(browser, lab, problems)
     other = Board(page)  # which no cell had to be run for
     expect(other.states).to_have_text(board.states.all_inner_texts())
-    early = "Error: widget model not found"  # what JupyterLab says of a widget that it draws before the kernel has told of it
-    problems[:] = [problem for problem in problems if not problem.startswith(early)]
     other.click(9.0, 9.0)
     for each in (board, other):
         expect(each.states.first).to_have_text("reached")
