@@ -153,7 +153,8 @@ class Graph:
 
     def add_client(self, node: NodeEntry, name: str, type_name: str) -> ClientEnd:
         """A node's new client."""
-        client = ClientEnd(node, name, type_name, self.simulation, self.network)
+        offered = self._servers.setdefault(name, [])
+        client = ClientEnd(node, name, type_name, offered, self.simulation, self.network)
         client.trace = self.trace
         node.clients.append(client)
         self._clients.setdefault(name, []).append(client)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from .transport import ReliableLine, latency_of, nobody
 
@@ -15,14 +15,16 @@ if TYPE_CHECKING:
     from .trace import Call, Trace
 
 
-class Request(NamedTuple):
-    """A request on its way: who asked whom, the number it has there, and the message."""
+class Request:
+    """A request on its way: who asked, the number it has there, and the message."""
 
-    client: ClientEnd
-    number: int
-    message: Any
-    server: ServerEnd
-    call: Call | None = None
+    __slots__ = ("call", "client", "message", "number")
+
+    def __init__(self, client: ClientEnd, number: int, message: Any, call: Call | None) -> None:
+        self.client = client
+        self.number = number
+        self.message = message
+        self.call = call
 
     def answer(self, message: Any) -> None:
         """Send the answer to the client that asked."""
@@ -56,10 +58,22 @@ class ServerEnd:
 
 
 class ClientEnd:
-    """A client's end: answers that have arrived, as (number of the request, response)."""
+    """A client's end: answers that have arrived, as (number of the request, response).
 
-    def __init__(self, node: NodeEntry, name: str, type_name: str, simulation: Simulation, network: Network) -> None:
+    `offered` are the services of this name, of any type; the graph keeps the list.
+    """
+
+    def __init__(
+        self,
+        node: NodeEntry,
+        name: str,
+        type_name: str,
+        offered: list[ServerEnd],
+        simulation: Simulation,
+        network: Network,
+    ) -> None:
         self.node = node
+        self.offered = offered
         self.name = name
         self.type_name = type_name
         self.queue: deque[tuple[int, Any]] = deque()
@@ -73,31 +87,31 @@ class ClientEnd:
         self.trace: Trace | None = None
         self._calls: dict[int, Call] = {}
 
-    def ask(self, servers: list[ServerEnd], message: Any) -> int:
-        """Send a request to the servers; returns its number, by which the answer will be known."""
-        self._sent += 1
-        arrival = self.simulation.now + self.latency
-        call = None
+    def ask(self, message: Any) -> int:
+        """Send a request to all servers; returns its number, by which the answer will be known."""
+        self._sent = number = self._sent + 1
+        simulation, call = self.simulation, None
         if self.trace is not None:
-            call = self._calls[self._sent] = self.trace.asked(self, message._wire_copy())
-        for server in servers:
-            request = Request(self, self._sent, message._wire_copy(), server, call)
-            if self._lines is None:
-                self.simulation.at(arrival, server.receive, request)
-            else:
-                self._line_to(server.receive, server.node).send(request, self.simulation.now)
-        return self._sent
+            call = self._calls[number] = self.trace.asked(self, message._wire_copy())
+        for server in self.offered:
+            if server.type_name == self.type_name:
+                request = Request(self, number, message._wire_copy(), call)
+                if self._lines is None:
+                    simulation.at(simulation.now + self.latency, server.receive, request)
+                else:
+                    self._line_to(server.receive, server.node).send(request, simulation.now)
+        return number
 
     def reply(self, number: int, message: Any) -> None:
         """Send an answer back to this client."""
-        arrival = self.simulation.now + self.latency
+        simulation = self.simulation
         if self.trace is not None and number in self._calls:
             self.trace.answered(self._calls[number], message._wire_copy())
         answer = (number, message._wire_copy())
         if self._lines is None:
-            self.simulation.at(arrival, self._receive, answer)
+            simulation.at(simulation.now + self.latency, self._receive, answer)
         else:
-            self._line_to(self._receive, self.node).send(answer, self.simulation.now)
+            self._line_to(self._receive, self.node).send(answer, simulation.now)
 
     def take(self) -> tuple[int, Any]:
         """The oldest answer, with the number of its request."""

@@ -10,8 +10,9 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from turtle_lesson.ros.runtime.world import current_process
+from turtle_lesson.ros.sim.strand import Strand, getcurrent
 
-from ._blocking import drives_the_simulation, in_a_plain_cell, spin_live
+from ._blocking import drive, in_a_plain_cell, spin_live
 from ._hints import explain_missing
 from ._state import RclpyState
 from .context import Context
@@ -21,6 +22,8 @@ from .task import Future
 from .utilities import get_default_context, get_rmw_implementation_identifier, ok, shutdown, try_shutdown
 
 if TYPE_CHECKING:
+    from turtle_lesson.ros.sim.process import Process
+
     from .executors import Executor
     from .node import Node
     from .parameter import Parameter
@@ -94,9 +97,13 @@ def get_global_executor() -> Executor:
 
     `rclpy.shutdown()` shuts it down, too: so `rclpy.spin` in another thread returns in silence (rclpy's __init__.py).
     """
-    own = current_process().state(RclpyState)
+    return _executor_of(current_process())
+
+
+def _executor_of(process: Process) -> Executor:
+    own = process.state(RclpyState)
     executor = own.executor
-    if executor is None or not executor._context.ok():
+    if executor is None or executor._context.ended or not executor._context.initialized:
         from .executors import SingleThreadedExecutor
 
         executor = own.executor = SingleThreadedExecutor()
@@ -139,10 +146,13 @@ def create_node(
     )
 
 
-@drives_the_simulation
 def spin_once(node: Node, *, executor: Executor | None = None, timeout_sec: float | None = None) -> None:
     """Run one callback of the node, or wait until the timeout (s) for one to become ready; None waits forever."""
-    executor = get_global_executor() if executor is None else executor
+    strand = getcurrent()
+    if type(strand) is not Strand:
+        drive(spin_once, node, executor=executor, timeout_sec=timeout_sec)
+        return
+    executor = _executor_of(strand.process) if executor is None else executor
     try:
         executor.add_node(node)
         executor.spin_once(timeout_sec=timeout_sec)
@@ -170,12 +180,15 @@ def _spin(node: Node, executor: Executor) -> None:
         executor.remove_node(node)
 
 
-@drives_the_simulation
 def spin_until_future_complete(
     node: Node, future: Future, executor: Executor | None = None, timeout_sec: float | None = None
 ) -> None:
     """Run the node's callbacks until the future is done, or the timeout (s) has passed; None waits forever."""
-    executor = get_global_executor() if executor is None else executor
+    strand = getcurrent()
+    if type(strand) is not Strand:
+        drive(spin_until_future_complete, node, future, executor, timeout_sec)
+        return
+    executor = _executor_of(strand.process) if executor is None else executor
     try:
         executor.add_node(node)
         executor.spin_until_future_complete(future, timeout_sec)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from types import GenericAlias
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from turtle_lesson.ros.idl import checks
 from turtle_lesson.ros.rmw.service import ClientEnd
@@ -52,6 +52,7 @@ class Client(Entity):
         end.wake = self._signal
         self._of_node = node
         self.srv_type = srv_type
+        self._request_type = srv_type.Request
         self.srv_name = srv_name
         self.qos_profile = qos_profile
         self._waiting: dict[int, Future] = {}
@@ -98,22 +99,22 @@ class Client(Entity):
 
     def call_async(self, request: Any) -> Future:
         """Send a request; the future will have the response. Raises TypeError for anything but a request."""
-        self._check_request(request)
+        if not isinstance(request, self._request_type):
+            self._refuse(request)
+        future = Future(executor=self._executor)
         if self._destroyed:
             self._check_alive()
-            return Future(executor=self._executor)  # after rclpy.shutdown() a request goes nowhere, as on a robot
-        future = Future(executor=self._executor)
+            return future  # after rclpy.shutdown() a request goes nowhere, as on a robot
         future._answered_by = self
         if not checks.when_assigned:
             request = checks.sendable(request)
-        future._request_number = number = self._end.ask(self._servers(), request)
+        future._request_number = number = self._end.ask(request)
         self._waiting[number] = future
         return future
 
-    def _check_request(self, request: Any) -> None:
-        if not isinstance(request, self.srv_type.Request):
-            name = f"{self.srv_type.__name__}.Request"
-            raise TypeError(f"a request of {self.srv_name} is of type {name}, got {shown(request)}: try {name}(…)")
+    def _refuse(self, request: Any) -> NoReturn:
+        name = f"{self.srv_type.__name__}.Request"
+        raise TypeError(f"a request of {self.srv_name} is of type {name}, got {shown(request)}: try {name}(…)")
 
     @drives_the_simulation
     def call(self, request: Any, timeout_sec: float | None = None) -> Any:
@@ -125,7 +126,8 @@ class Client(Entity):
         strand = running_strand()
         assert strand is not None
         strand.activity = f"the call of {self._end.name}"
-        self._check_request(request)
+        if not isinstance(request, self._request_type):
+            self._refuse(request)
         if timeout_sec is None and (problem := why_never_answered(self, strand)):
             raise NeverWakes(f"this call of {self._end.name} can never be answered: {problem}")
         return self._answer_to(self.call_async(request), strand, timeout_sec)
@@ -179,14 +181,15 @@ class Client(Entity):
         return bool(self._end.queue)
 
     def _take(self) -> tuple[Any, ...] | None:
-        number, response = self._end.take()
-        if self._end.queue:
+        queue = self._end.queue
+        number, response = queue.popleft()
+        if queue:
             self._signal()
         future = self._waiting.pop(number, None)
         return None if future is None else (future, response)
 
     def _set_result(self, future: Future, response: Any) -> None:
-        if not future.cancelled():
+        if not future._cancelled:
             future._executor = self._executor
             future.set_result(response)
 

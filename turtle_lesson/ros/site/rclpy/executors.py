@@ -32,6 +32,7 @@ from ._executor_base import (
     TimeoutObject,
 )
 from ._reexports import reexported
+from ._spin_until import spin_until
 from ._state import RclpyState
 from .context import Context
 from .task import Future, Task, at_once
@@ -121,16 +122,20 @@ class Executor(ExecutorBase):
         else:
             drive(self.spin_once, timeout_sec)
 
-    @drives_the_simulation
     def spin_until_future_complete(self, future: Future, timeout_sec: float | None = None) -> None:
         """Run callbacks until the future is done, or the timeout (s) is over."""
-        strand = running_strand()
-        assert strand is not None
+        strand = getcurrent()
+        if type(strand) is not Strand:
+            drive(self.spin_until_future_complete, future, timeout_sec)
+            return
         strand.activity = "spin_until_future_complete"
         self._watch(future)
-        deadline = self._deadline(timeout_sec)
-        if deadline is None and (problem := why_never_done(future, self, strand)):
+        deadline = None if timeout_sec is None else self._deadline(timeout_sec)
+        if deadline is None and future._answered_by is not None and (problem := why_never_done(future, self, strand)):
             raise NeverWakes(problem)
+        if deadline is None and type(self) is SingleThreadedExecutor:
+            spin_until(self, strand, future)
+            return
         while self._context.ok() and not future._is_done() and not future.cancelled() and not self._is_shutdown:
             if deadline is not None and self._simulation.now >= deadline:
                 return
@@ -152,7 +157,8 @@ class Executor(ExecutorBase):
 
     @at_once
     def _on_done(self, _: Future) -> None:
-        self.wake()
+        if self._waiter is not None:
+            self._simulation.wake(self._waiter)
 
     def _spin_once(self, strand: Strand, deadline: int | None, condition: Condition) -> None:
         self._spinning.append(strand)

@@ -34,6 +34,7 @@ class Service(Entity):
         self._server = server
         server.wake = self._signal
         self.srv_type = srv_type
+        self._response_type = srv_type.Response
         self.srv_name = srv_name
         self.qos_profile = qos_profile
         self._asking: dict[int, Any] = {}
@@ -55,11 +56,13 @@ class Service(Entity):
         return bool(self._server.queue)
 
     def _take(self) -> tuple[Any, ...]:
-        request = self._server.take()
-        if self._server.queue:
+        queue = self._server.queue
+        request = queue.popleft()
+        if queue:
             self._signal()
-        self._asking[id(request.message)] = request
-        return (request.message, self.srv_type.Response())
+        message = request.message
+        self._asking[id(message)] = request
+        return (message, self._response_type())
 
     def _done_with(self, arguments: tuple[Any, ...], result: Any) -> None:
         # A program may have put a function of its own in place of `send_response`, to answer later.
@@ -67,12 +70,12 @@ class Service(Entity):
 
     def send_response(self, response: Any, header: Any) -> None:
         """Answer a request: `header` tells which one (what rclpy hands over when a callback has returned)."""
-        if not isinstance(response, self.srv_type.Response):
+        if not isinstance(response, self._response_type):
             raise TypeError(
                 f"the callback of {self.service_name} returned {response!r}, where {self.srv_type.__name__}.Response is "
                 "expected: end it with `return response`"
             )
-        header.answer(response if checks.when_assigned else checks.sendable(response))
+        header.client.reply(header.number, response if checks.when_assigned else checks.sendable(response))
 
     def destroy(self) -> None:
         """Stop offering the service."""

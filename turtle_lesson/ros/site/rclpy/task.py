@@ -171,8 +171,10 @@ class Future:
         for callback in callbacks:
             if self._executor is None:
                 self._call_or_warn(callback)
+            elif getattr(callback, "_at_once", False):
+                callback(self)
             else:
-                self._call(callback)
+                self._executor.create_task(callback, self)
 
     def _call_or_warn(self, callback: Callable[[Future], Any]) -> None:
         """The code that sets the result is not to blame for what is done with it, so an error is only reported."""
