@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from ..learner.story import FINISHED, HERE
 from ..ros import launching
 from ..ros.ament import colcon
-from ..ros.ament.package import Package
+from ..ros.ament.package import Package, PythonProgram, Target
 from ..ros.ament.source import overlay, overlays, remove_all
 from ..ros.cli.jobs import Job, jobs
 from ..ros.idl.registry import registry
@@ -32,6 +32,15 @@ MARK = ".made_for_a_case"
 """An empty file in a `trouble_ws` that was made here: only such a folder is ever replaced."""
 
 DRAFTS = HERE / "lab" / "troubles" / "robot_draft"
+SMALL_NODES = {
+    "laser": "Laser",
+    "obstacle_alarm": "ObstacleAlarm",
+    "speed_limiter": "SpeedLimiter",
+    "status_text": "StatusText",
+    "status_twice": "StatusTwice",
+}
+"""The programs of robot_draft that are a class in its `small_nodes.py`; the others are files."""
+
 STAYS = frozenset({"lab", "turtlesim", "turtlesim_node"})
 MESSAGE_FILE = re.compile(r'"?\bmsg/TurtleStatus\.msg"?')
 
@@ -52,8 +61,7 @@ class TroubleEnvironment:
         sourced = list(dict.fromkeys(each.install for each in overlays(world)))
         self._sourced = world.notebook.state(_SourcedBefore, sourced)
         if "robot_draft" not in world.packages:
-            files = {path.stem: path for path in sorted(DRAFTS.glob("*.py"))}
-            world.packages.add(Package("robot_draft", DRAFTS, executables=dict(files)))
+            world.packages.add(Package("robot_draft", DRAFTS, executables=_draft_programs()))
 
     @property
     def ended(self) -> bool:
@@ -142,6 +150,14 @@ class TroubleEnvironment:
             self._world.packages.remove(self._world.packages.get(PACKAGE))
         if PACKAGE in registry.packages():
             registry.remove(PACKAGE)
+
+
+def _draft_programs() -> dict[str, Target]:
+    programs: dict[str, Target] = {path.stem: path for path in DRAFTS.glob("navigator_*.py")}
+    for name, node in SMALL_NODES.items():
+        text = f"import small_nodes\nsmall_nodes.run(small_nodes.{node})\n"
+        programs[name] = PythonProgram(DRAFTS / name, (), text)
+    return programs
 
 
 def remove_scratch() -> None:
