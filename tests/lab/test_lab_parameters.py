@@ -9,17 +9,18 @@ import pytest
 from lab_fakes import order
 
 from turtle_lesson import Lesson, start
-from turtle_lesson.lab.widgets.parameters import (
+from turtle_lesson.lab.widgets.message_types import (
     BOOL,
+    BYTES,
     DOUBLE,
     DOUBLES,
     INTEGER,
     NOT_SET,
     STRING,
     STRINGS,
-    read,
-    shown,
-    to_python,
+    parameter_to_python,
+    read_parameter,
+    shown_parameter,
 )
 
 
@@ -204,13 +205,14 @@ def test_a_change_while_time_goes_on_needs_no_step() -> None:
         ("[1, 2]", DOUBLES, [1.0, 2.0]),
         ("[]", STRINGS, []),
         ("[a, b]", STRINGS, ["a", "b"]),
+        ("[0, 255]", BYTES, [0, 255]),
         ("5", NOT_SET, 5),
         ("true", NOT_SET, True),
         ("hello", NOT_SET, "hello"),
     ],
 )
 def test_values_are_read_by_their_type(typed: Any, kind: int, value: Any) -> None:
-    assert to_python(read(typed, kind)) == value
+    assert parameter_to_python(read_parameter(typed, kind)) == value
 
 
 @pytest.mark.parametrize(
@@ -228,9 +230,9 @@ def test_values_are_read_by_their_type(typed: Any, kind: int, value: Any) -> Non
 )
 def test_what_a_value_cannot_be(typed: Any, kind: int, said: str) -> None:
     with pytest.raises(ValueError) as raised:
-        read(typed, kind)
+        read_parameter(typed, kind)
     assert said in str(raised.value)
 
 
 def test_values_as_they_stand_in_a_field() -> None:
-    assert [shown(each) for each in (None, 1.0, "a", ["x", "y: z"])] == ["", "1.0", "a", "[x, 'y: z']"]
+    assert [shown_parameter(each) for each in (None, 1.0, "a", ["x", "y: z"])] == ["", "1.0", "a", "[x, 'y: z']"]

@@ -86,14 +86,14 @@ def parameter(probe: Probe, owner: str, name: str, value: Any) -> Seen:
 
 def get_parameter(probe: Probe, owner: str, name: str) -> Any:
     """The value of a node's parameter, None if it has none. Raises CannotLook where the node does not answer."""
-    from ..widgets.parameters import to_python
+    from rclpy.parameter import parameter_value_to_python
 
     if owner not in probe.nodes():
         raise CannotLook(f"there is no node {owner}")
     if name not in _ask(probe, owner, "list").result.names:
         return None
     values = _ask(probe, owner, "get", names=[name]).values
-    return to_python(values[0]) if values else None
+    return parameter_value_to_python(values[0]) if values else None
 
 
 def set_parameter(probe: Probe, owner: str, name: str, value: Any) -> str:

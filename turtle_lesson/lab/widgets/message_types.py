@@ -1,4 +1,4 @@
-"""Message types as data: which fields a class has, of which kind, and which constants.
+"""Message types as data: which fields a class has, of which kind, and which constants; and the values of parameters.
 
 Everything is read from what the generated Python classes of any ROS 2 offer (`get_fields_and_field_types`, constants as
 attributes in capitals), so it works alike with the simulated ones and with the real ones.
@@ -14,9 +14,8 @@ from typing import Any
 
 import numpy as np
 
-INTEGERS = {f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)}
 FLOATS = {"float", "double"}
-WHOLE = INTEGERS | {"octet", "char"}
+WHOLE = {"octet", "char"} | {f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)}
 NAMES = {"float": "float32", "double": "float64", "boolean": "bool", "octet": "byte"}
 """How a .msg file calls what a Python class calls by its IDL name."""
 
@@ -170,3 +169,80 @@ def plain(value: Any, kind: Kind | None = None) -> Any:
         return value[0] if len(value) == 1 else list(value)
     numbers = value.tolist() if hasattr(value, "tolist") else value  # numpy's arrays and those of the array module
     return [plain(each, kind) for each in numbers]
+
+
+# -- parameters ------------------------------------------------------------------------------------------------------
+
+ARRAYS = ("byte array", "bool array", "integer array", "double array", "string array")
+TYPES = ("not set", "bool", "integer", "double", "string", *ARRAYS)
+"""By number of rcl_interfaces/msg/ParameterType."""
+
+NOT_SET, BOOL, INTEGER, DOUBLE, STRING, BYTES, BOOLS, INTEGERS, DOUBLES, STRINGS = range(10)
+ELEMENTS = {
+    BYTES: (int, "whole numbers"),
+    BOOLS: (bool, "true and false"),
+    INTEGERS: (int, "whole numbers"),
+    DOUBLES: (float, "numbers"),
+    STRINGS: (str, "texts"),
+}
+
+
+def parameter_to_python(value: Any) -> Any:
+    """What an rcl_interfaces/msg/ParameterValue holds, bytes as numbers; None if it is not set."""
+    from rclpy.parameter import parameter_value_to_python
+
+    found = parameter_value_to_python(value)
+    return [each[0] for each in found] if value.type == BYTES else found
+
+
+def shown_parameter(value: Any) -> str:
+    """A value as it stands in a field: YAML for arrays."""
+    if value is None:
+        return ""
+    if isinstance(value, list):
+        import yaml
+
+        return yaml.safe_dump(value, default_flow_style=True, width=float("inf"), allow_unicode=True).strip()
+    return value if isinstance(value, str) else repr(value)
+
+
+def read_parameter(typed: Any, kind: int, dynamic: bool = False) -> Any:
+    """An rcl_interfaces/msg/ParameterValue from what was typed. Raises ValueError, in words, for what it cannot be.
+
+    `kind` is the number of the type; a dynamically typed parameter, and one that is not set, takes what YAML makes of it.
+    """
+    from rclpy.parameter import Parameter, get_parameter_value
+
+    if dynamic or kind == NOT_SET:
+        return get_parameter_value(str(typed))
+    return Parameter("", Parameter.Type(kind), _converted(typed, kind)).get_parameter_value()
+
+
+def _converted(typed: Any, kind: int) -> Any:
+    """What was typed, as a parameter of this type holds it."""
+    if kind == BOOL and not isinstance(typed, bool):
+        raise ValueError(f"expected true or false, got {typed!r}")
+    if kind == BOOL:
+        return typed
+    if kind == INTEGER:
+        return read_integer(str(typed), "int64")
+    if kind == DOUBLE:
+        return read_float(str(typed), "double")
+    if kind == STRING:
+        return str(typed)
+    import yaml
+
+    from ...ros.runtime.files import safe_load
+
+    try:
+        value = safe_load(str(typed))
+    except yaml.YAMLError:
+        raise ValueError(f'"{typed}" is not valid YAML: lists are written [1, 2, 3]') from None
+    element, words = ELEMENTS[kind]
+    if not isinstance(value, list):
+        raise ValueError(f"a list of {words} is expected, such as [{'a, b' if element is str else '1, 2'}]")
+    made: list[Any] = [float(each) if element is float and type(each) is int else each for each in value]
+    for each in made:
+        if type(each) is not element:
+            raise ValueError(f"a list of {words} is expected, and {each!r} is none")
+    return [bytes([each]) for each in made] if kind == BYTES else made

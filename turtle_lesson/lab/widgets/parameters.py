@@ -14,7 +14,16 @@ from ..words import count, did_you_mean, enumerated
 from .backend import Backend
 from .lazy_endpoints import DISCOVERY, in_a_moment
 from .live_widget import LiveWidget
-from .message_types import read_float, read_integer
+from .message_types import (
+    BOOL,
+    DOUBLE,
+    INTEGER,
+    NOT_SET,
+    TYPES,
+    parameter_to_python,
+    read_parameter,
+    shown_parameter,
+)
 
 SERVICES = {
     "list": "ListParameters",
@@ -23,19 +32,6 @@ SERVICES = {
     "set": "SetParameters",
 }
 """What is asked of the node, and the type of each service in rcl_interfaces; its name is /node/<what>_parameters."""
-
-ARRAYS = ("byte array", "bool array", "integer array", "double array", "string array")
-TYPES = ("not set", "bool", "integer", "double", "string", *ARRAYS)
-"""By number of rcl_interfaces/msg/ParameterType."""
-
-NOT_SET, BOOL, INTEGER, DOUBLE, STRING, BYTES, BOOLS, INTEGERS, DOUBLES, STRINGS = range(10)
-ELEMENTS = {
-    BYTES: (int, "whole numbers"),
-    BOOLS: (bool, "true and false"),
-    INTEGERS: (int, "whole numbers"),
-    DOUBLES: (float, "numbers"),
-    STRINGS: (str, "texts"),
-}
 
 
 @dataclass(slots=True)
@@ -169,7 +165,7 @@ class ParametersPanel(LiveWidget):
         descriptors += [ParameterDescriptor()] * (len(names) - len(descriptors))
         self._found = {name: self._found.get(name) or Found(name) for name in names}
         for found, value, descriptor in zip(self._found.values(), values, descriptors, strict=True):
-            found.value, found.type, found.descriptor = to_python(value), value.type, descriptor
+            found.value, found.type, found.descriptor = parameter_to_python(value), value.type, descriptor
         self._known = True
 
     def _follow(self, event: Any) -> None:
@@ -177,7 +173,7 @@ class ParametersPanel(LiveWidget):
             return
         for parameter in event.changed_parameters:
             if found := self._found.get(parameter.name):
-                found.value, found.type = to_python(parameter.value), parameter.value.type
+                found.value, found.type = parameter_to_python(parameter.value), parameter.value.type
         for parameter in event.deleted_parameters:
             self._found.pop(parameter.name, None)
         if any(parameter.name not in self._found for parameter in event.new_parameters):
@@ -197,7 +193,7 @@ class ParametersPanel(LiveWidget):
         if found is None:
             raise ValueError(f"{self.node_name} has no parameter {name!r}.")
         try:
-            wanted = read(value, found.type or found.descriptor.type, found.descriptor.dynamic_typing)
+            wanted = read_parameter(value, found.type or found.descriptor.type, found.descriptor.dynamic_typing)
         except ValueError as error:
             self._told(found, f"Not asked: {error}")
             return
@@ -208,7 +204,7 @@ class ParametersPanel(LiveWidget):
         def told(answer: Any) -> None:
             result = next(iter(answer.results), None)
             if result is not None and result.successful:
-                found.value, found.type = to_python(wanted), wanted.type
+                found.value, found.type = parameter_to_python(wanted), wanted.type
                 self._told(found, "")
             else:
                 self._told(found, f"Refused: {(result.reason if result else '') or 'refused, without a reason'}")
@@ -230,7 +226,7 @@ class ParametersPanel(LiveWidget):
         """The node has answered, or was not asked: `trouble` says why nothing changed, "" if it did."""
         found.pending, found.error = False, trouble
         found.answers += 1
-        now = shown(found.value)
+        now = shown_parameter(found.value)
         self.words = f"{found.name} stays {now}. {trouble}" if trouble else f"{found.name} is {now} now."
         self._show()
 
@@ -258,7 +254,7 @@ class ParametersPanel(LiveWidget):
         problem = self._why_nothing()
         if problem:
             return f"Parameters of {self.node_name}: {problem}"
-        found = [f"{each.name} = {shown(each.value)}" for each in self._found.values()]
+        found = [f"{each.name} = {shown_parameter(each.value)}" for each in self._found.values()]
         return f"{self.node_name} has {count(len(found), 'parameter')}: {', '.join(found)}."
 
 
@@ -275,7 +271,7 @@ def _item(found: Found) -> dict[str, Any]:
         "name": found.name,
         "type": TYPES[found.type],
         "control": control,
-        "value": found.value if isinstance(found.value, bool) else shown(found.value),
+        "value": found.value if isinstance(found.value, bool) else shown_parameter(found.value),
         "help": " ".join(filter(None, (descriptor.description, descriptor.additional_constraints))),
         "error": found.error,
         "pending": found.pending,
@@ -296,87 +292,3 @@ def _look_up(node: Any, name: str) -> str:
     visible = sorted({each for each in names if not is_hidden(each)})
     hint = did_you_mean(full, visible) or f"The nodes: {enumerated(visible)}."
     raise ValueError(f'there is no node called "{name}" now. {hint}')
-
-
-def to_python(value: Any) -> Any:
-    """What an rcl_interfaces/msg/ParameterValue holds, bytes as numbers; None if it is not set."""
-    if not NOT_SET < value.type < len(TYPES):
-        return None
-    found = getattr(value, _field(value.type))
-    return [each[0] if isinstance(each, bytes) else each for each in found] if value.type >= BYTES else found
-
-
-def _field(kind: int) -> str:
-    return f"{TYPES[kind].replace(' ', '_')}_value"
-
-
-def shown(value: Any) -> str:
-    """A value as it stands in a field: YAML for arrays."""
-    if value is None:
-        return ""
-    if isinstance(value, list):
-        import yaml
-
-        return yaml.safe_dump(value, default_flow_style=True, width=float("inf"), allow_unicode=True).strip()
-    return value if isinstance(value, str) else repr(value)
-
-
-def read(typed: Any, kind: int, dynamic: bool = False) -> Any:
-    """An rcl_interfaces/msg/ParameterValue from what was typed. Raises ValueError, in words, for what it cannot be.
-
-    `kind` is the number of the type; a dynamically typed parameter, and one that is not set, takes what YAML makes of it.
-    """
-    from rcl_interfaces.msg import ParameterValue
-
-    if dynamic or kind == NOT_SET:
-        value, kind = _guessed(typed)
-    else:
-        value = _converted(typed, kind)
-    message = ParameterValue(type=kind)
-    setattr(message, _field(kind), [bytes([each]) for each in value] if kind == BYTES else value)
-    return message
-
-
-def _guessed(typed: Any) -> tuple[Any, int]:
-    """A value of any type, and which: as `ros2 param set` reads it."""
-    value = typed if isinstance(typed, bool) else _yaml(str(typed))
-    for element, kind in ((bool, BOOL), (int, INTEGER), (float, DOUBLE)):
-        if type(value) is element:
-            return value, kind
-    for kind in (BOOLS, INTEGERS, DOUBLES, STRINGS):
-        if isinstance(value, list) and all(type(each) is ELEMENTS[kind][0] for each in value):
-            return value, kind
-    return str(typed), STRING
-
-
-def _converted(typed: Any, kind: int) -> Any:
-    if kind == BOOL and not isinstance(typed, bool):
-        raise ValueError(f"expected true or false, got {typed!r}")
-    if kind == BOOL:
-        return typed
-    if kind == INTEGER:
-        return read_integer(str(typed), "int64")
-    if kind == DOUBLE:
-        return read_float(str(typed), "double")
-    if kind == STRING:
-        return str(typed)
-    value = _yaml(str(typed))
-    element, words = ELEMENTS[kind]
-    if not isinstance(value, list):
-        raise ValueError(f"a list of {words} is expected, such as [{'a, b' if element is str else '1, 2'}]")
-    made: list[Any] = [float(each) if element is float and type(each) is int else each for each in value]
-    for each in made:
-        if type(each) is not element:
-            raise ValueError(f"a list of {words} is expected, and {each!r} is none")
-    return made
-
-
-def _yaml(text: str) -> Any:
-    import yaml
-
-    from ...ros.runtime.files import safe_load
-
-    try:
-        return safe_load(text)
-    except yaml.YAMLError:
-        raise ValueError(f'"{text}" is not valid YAML: lists are written [1, 2, 3]') from None

@@ -1,6 +1,7 @@
 """Five small nodes, each of them a program of its own: a laser, an alarm, a speed limiter, and two monitors of the status."""
 
 import math
+from collections.abc import Callable
 
 import rclpy
 from geometry_msgs.msg import Twist
@@ -16,7 +17,7 @@ BEAMS = 181
 
 
 class Laser(Node):
-    """Publishes /obstacles as scanners do that are sold: with best effort, five times a second. A wall is half a metre ahead."""
+    """Publishes /obstacles five times a second, with best effort as most scanners do. A wall is half a metre ahead."""
 
     def __init__(self) -> None:
         super().__init__("laser")
@@ -118,11 +119,11 @@ class StatusTwice(Node):
         self.battery = max(0.0, self.battery - 0.1)
 
 
-def run(kind: type[Node]) -> None:
-    """Run a node of this class until it is interrupted."""
+def run(make_node: Callable[[], Node]) -> None:
+    """Make a node, and spin it until it is interrupted."""
     rclpy.init()
     try:
-        rclpy.spin(kind())
+        rclpy.spin(make_node())
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:
