@@ -17,8 +17,7 @@ from traitlets.config import Config
 
 from turtle_lesson import start
 from turtle_lesson.ros.cli import terminal
-from turtle_lesson.ros.cli.cells import COMMANDS, UNSURE, translate
-from turtle_lesson.ros.cli.command_hints import ELSEWHERE, advice
+from turtle_lesson.ros.cli.cells import COMMANDS, ELSEWHERE, UNSURE, advice, translate
 from turtle_lesson.ros.cli.completion import complete
 from turtle_lesson.ros.cli.shell import PROGRAMS
 from turtle_lesson.ros.runtime import files

@@ -12,8 +12,7 @@ from command_cases import type_in
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from turtle_lesson.ros.cli.parser import GROUPS
-from turtle_lesson.ros.cli.run_command import run
+from turtle_lesson.ros.cli.run_command import GROUPS, run
 from turtle_lesson.ros.cli.verb import Verb
 from turtle_lesson.ros.runtime.world import World, open_world
 

@@ -14,8 +14,7 @@ from hypothesis import strategies as some
 
 from turtle_lesson.ros.cli.arguments import WIDTH
 from turtle_lesson.ros.cli.jobs import CellErrors, Errors
-from turtle_lesson.ros.cli.parser import GROUPS, NOT_HERE, ROS2
-from turtle_lesson.ros.cli.run_command import run
+from turtle_lesson.ros.cli.run_command import GROUPS, NOT_HERE, ROS2, run
 from turtle_lesson.ros.cli.script import Operator, UnfinishedError, Word, command_end, tokens
 from turtle_lesson.ros.cli.shell import run_line
 from turtle_lesson.ros.cli.verb import Verb

@@ -11,8 +11,7 @@ import rclpy
 from command_cases import cases, check, shape, type_in
 from command_interfaces import interfaces  # noqa: F401
 
-from turtle_lesson.ros.cli.parser import parse
-from turtle_lesson.ros.cli.run_command import run
+from turtle_lesson.ros.cli.run_command import parse, run
 from turtle_lesson.ros.runtime.world import World, current_world
 
 pytestmark = pytest.mark.usefixtures("interfaces")

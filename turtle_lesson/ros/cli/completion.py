@@ -20,7 +20,7 @@ from ..runtime.world import current_world
 from .cells import COMMANDS, inner_places
 from .group_pkg import package_names
 from .jobs import jobs
-from .parser import GROUPS
+from .run_command import GROUPS
 from .script import Operator, UnfinishedError, Word, tokens
 from .typed_values import interface_names
 from .verb import Verb, absolute

@@ -1,27 +1,29 @@
-"""The `ros2` command line: each command runs as a simulated process, and answers as the real tool does.
+"""The `ros2` command line: which commands and verbs there are, reading `ros2 <command> <verb> …`, and running it.
 
-code = run(world, ["ros2", "topic", "list"])        # prints into the cell; returns the exit code
-
-What commands in launch files need of the terminal (`turtle_lesson/ros/launching/commands.py`) is here, too.
+Each command runs as a simulated process, and answers as the real tool does. What commands in launch files need of the
+terminal (`turtle_lesson/ros/launching/commands.py`) is here, too.
 """
 
 from __future__ import annotations
 
 import contextlib
 import sys
-from collections.abc import Sequence
-from functools import partial
+from argparse import Namespace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property, partial
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..idl.names import did_you_mean
 from ..launching.commands import ForeignCommand, UnknownCommand
 from ..runtime.run_world import Waiter
 from ..runtime.world import current_process
-from .arguments import Stop
+from .arguments import WIDTH, Stop, cut
 from .jobs import Errors, Job, cell_streams, jobs, lasting
-from .parser import Call, parse
 from .script import ShellSyntaxError, UnfinishedError, expand, pipelines, tokens
-from .verb import INTERRUPTED, Invocation
+from .verb import INTERRUPTED, VERBS, Invocation, Verb
 
 if TYPE_CHECKING:
     from ..runtime.world import World
@@ -138,3 +140,165 @@ def run_arguments(words: list[str]) -> Any:
         return parse(words).arguments
     except Stop as stop:
         raise UnknownCommand(stop.text) from None
+
+
+# -- which commands and verbs there are, and reading them --------------------------------------------------------------
+
+
+@dataclass
+class Call:
+    """A verb, and the arguments to run it with."""
+
+    verb: Verb
+    arguments: Namespace
+
+
+@dataclass(frozen=True)
+class Group:
+    """A word that is followed by others: one of the commands, or `ros2` itself.
+
+    Attributes:
+        prog: all the words up to it.
+        help: what it is for.
+        module: the module of its verbs; none for `ros2` itself.
+        flag: an option of its own, and what that does.
+    """
+
+    prog: str
+    help: str
+    module: str = ""
+    flag: tuple[str, str] = ("", "")
+
+    @cached_property
+    def members(self) -> Mapping[str, Group | Verb]:
+        """Its commands or verbs by name, in alphabetical order; a verb without a name is the command itself."""
+        if not self.module:
+            return GROUPS
+        import_module(f"{__package__}.group_{self.module}")
+        return dict(sorted(VERBS[self.prog.removeprefix("ros2 ")].items()))
+
+    def find(self, name: str) -> Group | Verb:
+        """Its member of a name. Raises Stop if there is none."""
+        if not self.module and name in NOT_HERE:
+            raise Stop(f"ros2 {name}: not available in this simulation: {NOT_HERE[name]}. A real ROS 2 has it.", 2)
+        found = self.members.get("doctor" if not self.module and name == "wtf" else name)
+        if found is not None:
+            return found
+        listed = ", ".join(map(repr, self.members))
+        error = f"error: argument Call `{self.prog} <command> -h` for more detailed usage.: invalid choice"
+        text = f"{self.usage}\n{self.prog}: {error}: {cut(repr(name), 200)} (choose from {listed})"
+        raise Stop(f"{text}\n{did_you_mean(name[:100], self.members)}".rstrip("\n"), 2)
+
+    def take_options(self, rest: list[str]) -> bool:
+        """Take its options off the words after it; whether its own flag was among them. Raises Stop to print its help."""
+        given = False
+        while rest and rest[0].startswith("-"):
+            option = rest.pop(0)
+            if option in {"-h", "--help"}:
+                if rest and not rest[0].startswith("-"):
+                    self.find(
+                        rest[0]
+                    )  # as in ros2cli/command/__init__.py, a wrong name is noticed before help is printed
+                raise Stop(self.text, 0)
+            if option != self.flag[0]:
+                raise _unrecognized([option], ["-h", "--help", self.flag[0]])
+            given = True
+        if not rest:
+            raise Stop(self.text, 0)
+        return given
+
+    @property
+    def usage(self) -> str:
+        """Its usage as argparse of Python 3.11 breaks it: a placeholder that is too long on a line of its own."""
+        begin = f"usage: {self.prog} [-h]" + (f" [{self.flag[0]}]" if self.flag[0] else "")
+        placeholder = f"Call `{self.prog} <command> -h` for more detailed usage. ..."
+        if len(f"{begin} {placeholder}") <= WIDTH:
+            return f"{begin} {placeholder}"
+        indent = " " * len(f"usage: {self.prog}")
+        lines, line = [begin], indent
+        for word in placeholder.split():
+            if len(f"{line} {word}") > WIDTH:
+                lines.append(line)
+                line = indent
+            line += f" {word}"
+        return "\n".join([*lines, line])
+
+    @property
+    def text(self) -> str:
+        """Its help: what it prints when it stands alone."""
+        lines = [self.usage, "", self.help, "", "options:"]
+        for option, text in (("-h, --help", "show this help and do nothing"), self.flag):
+            if option:
+                lines += [f"  {option:<20}  {text}"] if len(option) <= 20 else [f"  {option}", f"{'':24}{text}"]
+        width = max(map(len, self.members))
+        lines += ["", "Commands:", *(f"  {name:<{width}}  {each.help}" for name, each in self.members.items())]
+        return "\n".join([*lines, "", f"  Call `{self.prog} <command> -h` for more detailed usage."])
+
+
+def parse(words: Sequence[str]) -> Call:
+    """Find what `ros2 <words>` asks for.
+
+    Raises:
+        Stop: if it asks for help, or is not understood.
+    """
+    found: Group | Verb = ROS2
+    rest, given = list(words), {}
+    while isinstance(found, Group):
+        if "" not in found.members:
+            given[found.flag[0]] = found.take_options(rest)
+        found = found.find("" if "" in found.members else rest.pop(0))
+    arguments, unknown = found.parser.parse_known_args(rest)
+    if unknown:
+        raise _unrecognized(unknown, found.parser.option_names(), hasattr(arguments, "values"))
+    for option, value in given.items():
+        name = option.lstrip("-").replace("-", "_")
+        setattr(arguments, name, value or getattr(arguments, name, False))
+    return Call(found, arguments)
+
+
+def _unrecognized(words: Sequence[str], options: Iterable[str], takes_values: bool = False) -> Stop:
+    lines = [ROS2.usage, f"ros2: error: unrecognized arguments: {cut(' '.join(words), 200)}"]
+    if words[0].startswith("-"):
+        name = words[0].partition("=")[0][:100]
+        lines.append(did_you_mean(name, [option for option in options if len(option) > 2]))
+    elif takes_values:
+        lines.append('Put the values in quotes, so that they form one word: "{x: 5.0, y: 5.0}"')
+    return Stop("\n".join(filter(None, lines)), 2)
+
+
+_ABOUT = "ros2 is the command line of ROS 2: each command looks at, or changes, the system that is running."
+ROS2 = Group("ros2", _ABOUT, flag=("--use-python-default-buffering", "accepted, but without effect here"))
+
+_HIDDEN_SERVICES = ("--include-hidden-services", "also count services with a hidden name")
+_HIDDEN_TOPICS = ("--include-hidden-topics", "also count topics with a hidden name")
+
+GROUPS = {
+    group.prog.removeprefix("ros2 "): group
+    for group in (
+        Group("ros2 action", "Find actions, and send them goals", "calls"),
+        Group("ros2 bag", "Record messages, look at recordings, play them back", "bag"),
+        Group("ros2 daemon", "The helper that remembers the graph between commands", "node"),
+        Group("ros2 doctor", "Describe this simulation, what is running, and what looks wrong", "node"),
+        Group("ros2 interface", "What messages, services and actions look like", "pkg"),
+        Group("ros2 launch", "Start everything that a launch file describes", "run_launch"),
+        Group("ros2 lifecycle", "Show managed nodes and their states, and trigger transitions", "node"),
+        Group("ros2 node", "Which nodes there are, and what each one does", "node"),
+        Group("ros2 param", "Read and change the parameters of nodes", "param"),
+        Group("ros2 pkg", "Find packages, and create new ones", "pkg"),
+        Group("ros2 run", "Start one program of a package", "run_launch"),
+        Group("ros2 service", "Find services and call them", "calls", _HIDDEN_SERVICES),
+        Group("ros2 topic", "Listen to topics, publish on them, measure them", "topic", _HIDDEN_TOPICS),
+    )
+}
+
+NOT_HERE = {
+    "component": "there are no composable nodes here",
+    "control": "there is no ros2_control here",
+    "extension_points": "its commands cannot be extended",
+    "extensions": "its commands cannot be extended",
+    "multicast": "there is no network between the nodes here",
+    "plugin": "there are no plugins here",
+    "security": "there is no network between the nodes here",
+    "test": "write tests with pytest instead",
+}
+"""Commands of a real ros2 that this simulation lacks, and why."""

@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING, Any
 from ..ament.index import current_packages
 from ..ament.install_tree import python_folders
 from ..ament.package import PythonProgram
-from .jobs import lasting
-from .terminal_io import with_values
+from .jobs import lasting, with_values
 
 if TYPE_CHECKING:
     from ..runtime.world import World

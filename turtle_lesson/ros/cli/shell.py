@@ -22,8 +22,8 @@ from ..runtime import files
 from ..runtime.console import FileOutput
 from . import terminal
 from .arguments import cut
-from .command_hints import advice
-from .jobs import cell_streams
+from .cells import advice
+from .jobs import Terminal, before_a_command, cell_streams, export, set_for_now
 from .run_command import run as run_ros2
 from .script import (
     NOT_EXECUTABLE,
@@ -40,7 +40,6 @@ from .script import (
     tokens,
     with_its_program,
 )
-from .terminal_io import Terminal, before_a_command, export, set_for_now
 from .verb import INTERRUPTED
 
 if TYPE_CHECKING:

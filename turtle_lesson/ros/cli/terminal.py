@@ -13,8 +13,7 @@ from ..idl.names import did_you_mean
 from ..runtime import files
 from ..runtime.run_world import run_for
 from ..sim.errors import shown_path
-from .jobs import SIGNALS, Job, jobs, send
-from .terminal_io import Builtin, Terminal, export, options, printenv, unset
+from .jobs import SIGNALS, Builtin, Job, Terminal, export, jobs, options, printenv, send, unset
 
 if TYPE_CHECKING:
     from ..sim.process import Process
