@@ -1,10 +1,6 @@
 """Programs that come with a ROS 2: `ros2 run tf2_ros …`, `tf2_tools …`, `demo_nodes_py …`. Each is a plain rclpy program.
 
-- ``tf2_echo``: prints the transform between two frames, again and again;
-- ``tf2_monitor``: prints how old transforms are when they arrive;
-- ``static_transform_publisher``: publishes a frame that never moves;
-- ``view_frames``: prints the tree of all frames;
-- ``demos``: talker, listener, and a service that adds; ``demo_nodes_cpp`` has the launch files for them.
+`tf2` has those about frames, `demos` a talker, a listener, and a service that adds; `demo_nodes_cpp` has launch files for them.
 """
 
 from __future__ import annotations
@@ -12,9 +8,14 @@ from __future__ import annotations
 import importlib
 import sys
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..ament.package import Package, Target
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
 
 HERE = Path(__file__).resolve().parent
 SITE = HERE.parent / "site"
@@ -27,7 +28,7 @@ _PROGRAMS = {
 def tf2_packages() -> list[Package]:
     """The packages with these programs, for a world to have."""
     return [
-        Package(package, SITE / "tf2_ros", executables={name: program(f"{__name__}.{name}") for name in names})
+        Package(package, SITE / "tf2_ros", executables={name: program(f"{__name__}.tf2", name) for name in names})
         for package, names in _PROGRAMS.items()
     ]
 
@@ -52,3 +53,13 @@ def demo_packages() -> list[Package]:
 def program(module: str, function: str = "main", *arguments: object) -> Callable[[], object]:
     """What calls a function of a module, which is imported only then."""
     return lambda: sys.exit(getattr(importlib.import_module(module), function)(*arguments))
+
+
+def spin(make: Callable[[], Node]) -> int:
+    """Make a program's node and spin it until Ctrl-C; the exit code."""
+    import rclpy
+    from rclpy.executors import ExternalShutdownException
+
+    with suppress(KeyboardInterrupt, ExternalShutdownException):
+        rclpy.spin(make())
+    return 0

@@ -6,16 +6,15 @@ demo_nodes_cpp of Humble). Each program is plain rclpy.
 
 from __future__ import annotations
 
-from contextlib import suppress
-
 import rclpy
 from example_interfaces.srv import AddTwoInts
 from rclpy.client import Client
-from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, qos_profile_sensor_data
 from rclpy.task import Future
 from std_msgs.msg import String
+
+from .. import spin
 
 
 class Talker(Node):
@@ -37,8 +36,7 @@ class Talker(Node):
 def talker(first: int, line: str) -> None:
     """`talker` of both packages: publishes "Hello World" once a second, until Ctrl-C."""
     rclpy.init()
-    with suppress(KeyboardInterrupt, ExternalShutdownException):
-        rclpy.spin(Talker(first, line))
+    spin(lambda: Talker(first, line))
 
 
 def listener(qos: QoSProfile | int = 10) -> None:
@@ -46,8 +44,7 @@ def listener(qos: QoSProfile | int = 10) -> None:
     rclpy.init()
     node = rclpy.create_node("listener")
     node.create_subscription(String, "chatter", lambda said: node.get_logger().info(f"I heard: [{said.data}]"), qos)
-    with suppress(KeyboardInterrupt, ExternalShutdownException):
-        rclpy.spin(node)
+    spin(lambda: node)
 
 
 def listener_best_effort() -> None:
@@ -71,8 +68,7 @@ class Adder(Node):
 def add_two_ints_server() -> None:
     """`add_two_ints_server`: answers until Ctrl-C."""
     rclpy.init()
-    with suppress(KeyboardInterrupt, ExternalShutdownException):
-        rclpy.spin(Adder())
+    spin(lambda: Adder())
 
 
 def add_two_ints_client() -> None:
