@@ -15,7 +15,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..ros.ament.create import TO_DO_DESCRIPTION, cmake_lists
 from ..ros.runtime import files
 from ..ros.runtime.files import home
 from . import story
@@ -221,6 +220,8 @@ def _sources(folder: Path) -> list[Path]:
 
 def _is_template(path: str, text: str) -> bool:
     """Whether a file is still as `ros2 pkg create` made it."""
+    from ..ros.ament.create import TO_DO_DESCRIPTION, cmake_lists
+
     if path == "CMakeLists.txt":
         return text == cmake_lists(PACKAGE)
     return path == "package.xml" and TO_DO_DESCRIPTION in text

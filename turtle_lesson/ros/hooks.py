@@ -42,6 +42,11 @@ plan_child: Callable[[Any, bool], tuple[Any, list[str]] | None]
 """The program by which the world runs a command of `subprocess` or (True) a shell's line, and its arguments; None if the
 computer is to run it."""
 
+# -- idl asks runtime --------------------------------------------------------------------------------------------------
+
+learners_folder: Callable[[], Path]
+"""The folder with the learner's files."""
+
 # -- runtime asks ament, hints and the lesson --------------------------------------------------------------------------
 
 package_index: Callable[[], PackageIndex]

@@ -292,7 +292,8 @@ def environment(folder: Path, mark: str, package: str) -> dict[str, str]:
     paths = os.pathsep.join([package, *filter(None, [kept.get("PYTHONPATH")])])
     one_thread = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"), "1")
     user = {"PYTHONUSERBASE": site.getuserbase()} if site.ENABLE_USER_SITE else {}
-    return {**kept, **home, **one_thread, **user, "PYTHONPATH": paths, MARK: mark, "TURTLE_LESSON_PROGRESS": "off"}
+    off = dict.fromkeys(("TURTLE_LESSON_PROGRESS", "TURTLE_LESSON_CACHE"), "off")
+    return {**kept, **home, **one_thread, **user, **off, "PYTHONPATH": paths, MARK: mark}
 
 
 def take_fonts(folder: Path) -> None:

@@ -131,6 +131,7 @@ def _grade(options: argparse.Namespace) -> int:
     def tell(done: int, amount: int, copy: Graded) -> None:
         print(f"{done} of {amount}: {in_a_line(copy)}", file=sys.stderr, flush=True)
 
+    os.environ["TURTLE_LESSON_CACHE"] = "off"  # a copy runs with the teacher's rights, and could have written into it
     graded = grade(copies, options.timeout, options.jobs, tell, options.memory)
     print(json.dumps(as_json(graded), indent=1, ensure_ascii=False) if options.json else in_words(graded))
     for file, text in ((options.junit, report.report), (options.csv, as_csv)):

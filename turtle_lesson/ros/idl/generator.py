@@ -17,6 +17,7 @@ from typing import Any
 
 from . import message
 from .checks import FLOAT_BOUNDS
+from .code_cache import compiled
 from .field_codegen import Kind, kind_of, weight_of
 from .message import slot_type
 from .model import (
@@ -176,7 +177,7 @@ class _Builder:
             self._source += "\n\n"
         first_line = self._source.count("\n")
         self._source += source
-        exec(compile("\n" * first_line + source, self._file, "exec"), self._globals)
+        exec(compiled("\n" * first_line + source, self._file), self._globals)
 
     def _kind(self, definition: MessageDefinition, member: Field) -> Kind:
         try:

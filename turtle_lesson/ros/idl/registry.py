@@ -341,13 +341,9 @@ class InterfaceFinder:
         parts = fullname.split(".")
         if len(parts) > 3 or (len(parts) > 1 and parts[1] not in FOLDERS):
             return None
-        try:
-            owner = self.registry.package(parts[0])
-        except LookupError:
+        if not self.registry.knows(parts[0]) or _is_found_elsewhere(fullname, path, target):
             return None
-        if _is_found_elsewhere(fullname, path, target):
-            return None
-        return self._spec(fullname, owner, parts[1:])
+        return self._spec(fullname, self.registry.package(parts[0]), parts[1:])
 
     def _spec(self, fullname: str, owner: Package, inner: list[str]) -> ModuleSpec | None:
         if not inner:
