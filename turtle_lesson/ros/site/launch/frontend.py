@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO, TypeVar, get_args, get_origin
 
@@ -80,16 +81,33 @@ class Entity:
         place: the file and line where it is written, if that is known.
     """
 
-    def __init__(self, type_name: str, parent: Entity | None, place: Place | None) -> None:
+    def __init__(
+        self, element: Any, type_name: str, *, parent: Entity | None = None, file: str = "", line: int | None = None
+    ) -> None:
         self.type_name = type_name
         self.parent = parent
-        self.place = place
-        self._asked: set[str] = set()
-        self._read: set[str] = set()
+        self._element = element
+        self._file: str = file or (parent._file if parent is not None else "")
+        self.place: Place | None = (self._file, line) if self._file and line is not None else None
+        # What was asked for, and what of it was there: names by what the format calls them, such as `attribute(s)`.
+        self._asked: defaultdict[str, set[str]] = defaultdict(set)
+        self._read: defaultdict[str, set[str]] = defaultdict(set)
 
     @property
     def children(self) -> list[Entity]:
         """The entities in it."""
+        raise NotImplementedError
+
+    def _given(self) -> dict[str, Mapping[str, Any]]:
+        """Everything in it by name, for each kind of names that its format has."""
+        raise NotImplementedError
+
+    def _nested(self, name: str, given: Any) -> list[Entity]:
+        """The entities of a name."""
+        raise NotImplementedError
+
+    def _value(self, name: str, given: Mapping[str, Any], data_type: Any, can_be_str: bool) -> Any:
+        """The value of a name. Raises TypeError if it is of another type."""
         raise NotImplementedError
 
     def assert_entity_completely_parsed(self) -> None:
@@ -98,7 +116,9 @@ class Entity:
         Raises:
             ValueError: naming what nobody knows.
         """
-        raise NotImplementedError
+        for kind, given in self._given().items():
+            if left := set(given) - self._read[kind]:
+                raise self._unexpected(kind, left, self._asked[kind])
 
     def get_attr(self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True) -> Any:
         """An attribute's value, or the nested entities of that name if `data_type` is `List[Entity]`.
@@ -113,7 +133,15 @@ class Entity:
             AttributeError: if it is absent.
             TypeError: if it is of another type.
         """
-        raise NotImplementedError
+        is_nested = check_is_list_entity(data_type)
+        kind, given = list(self._given().items())[0 if is_nested else -1]
+        self._asked[kind].add(name)
+        if name not in given:
+            if optional:
+                return None
+            raise self._absent(name, data_type, given)
+        self._read[kind].add(name)
+        return self._nested(name, given[name]) if is_nested else self._value(name, given, data_type, can_be_str)
 
     def _absent(self, name: str, data_type: Any, given: Iterable[Any]) -> AttributeError:
         """The error about an attribute that must be given; what was perhaps given instead is pointed out."""

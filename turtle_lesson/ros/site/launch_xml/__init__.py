@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from collections.abc import Mapping
 from typing import Any
 from xml.parsers import expat
 
@@ -10,64 +11,50 @@ from launch import frontend
 from launch._entities import SomeSubstitutionsType, explained
 from launch._package import complete_package
 from launch.frontend import Entity as BaseEntity
-from launch.frontend import check_is_list_entity
 from launch.launch_description_sources import FrontendLaunchDescriptionSource
 from launch.utilities import get_typed_value
 
 __all__ = ["Entity", "Parser"]
 
 
-class Entity(BaseEntity):
-    """A tag, its attributes, and the tags in it. XML knows text only, so values are made what is asked for."""
+TAGS, ATTRIBUTES = "nested tag(s)", "attribute(s)"
 
-    def __init__(
-        self,
-        xml_element: ET.Element,
-        *,
-        parent: Entity | None = None,
-        file: str = "",
-        lines: dict[ET.Element, int] | None = None,
-    ) -> None:
-        self.__element = xml_element
-        self.__file = file
-        self.__lines = lines or {}
-        self.__read_tags: set[str] = set()
-        self.__asked_tags: set[str] = set()
-        line = self.__lines.get(xml_element)
-        super().__init__(xml_element.tag, parent, (file, line) if file and line is not None else None)
+
+class Element(ET.Element):
+    """A tag that knows its line, counted from 1."""
+
+    line: int | None = None
+
+
+class Entity(BaseEntity):
+    """A tag, its attributes, and the tags in it. XML knows text only, so values are made what is asked for.
+
+    An attribute `name-sep` says what parts the items of the list `name`.
+    """
+
+    def __init__(self, xml_element: ET.Element, *, parent: BaseEntity | None = None, file: str = "") -> None:
+        line = getattr(xml_element, "line", None)
+        super().__init__(xml_element, xml_element.tag, parent=parent, file=file, line=line)
 
     @property
     def children(self) -> list[BaseEntity]:
         """The tags in it."""
-        self.__read_tags = {inner.tag for inner in self.__element}
-        return [self._inner(inner) for inner in self.__element]
+        self._read[TAGS] = {inner.tag for inner in self._element}
+        return [Entity(inner, parent=self) for inner in self._element]
 
-    def _inner(self, element: ET.Element) -> Entity:
-        return Entity(element, parent=self, file=self.__file, lines=self.__lines)
+    def _given(self) -> dict[str, Mapping[str, Any]]:
+        return {
+            TAGS: {inner.tag: self._element.findall(inner.tag) for inner in self._element},
+            ATTRIBUTES: self._element.attrib,
+        }
 
-    def assert_entity_completely_parsed(self) -> None:
-        """Check that every attribute and tag in it was asked for."""
-        tags = {inner.tag for inner in self.__element} - self.__read_tags
-        if tags:
-            raise self._unexpected("nested tag(s)", tags, self.__asked_tags)
-        attributes = set(self.__element.attrib) - self._read
-        if attributes:
-            raise self._unexpected("attribute(s)", attributes, self._asked)
+    def _nested(self, name: str, given: list[ET.Element]) -> list[BaseEntity]:
+        return [Entity(inner, parent=self) for inner in given]
 
-    def get_attr(self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True) -> Any:
-        """As `launch.frontend.Entity.get_attr`; `name-sep` says what parts the items of a list."""
-        if check_is_list_entity(data_type):
-            return self._nested(name, data_type, optional)
-        self._asked.add(name)
-        if name not in self.__element.attrib:
-            if optional:
-                return None
-            raise self._absent(name, data_type, self.__element.attrib)
-        self._read.add(name)
-        value: Any = self.__element.attrib[name]
-        separator = self.__element.attrib.get(f"{name}-sep")
+    def _value(self, name: str, given: Mapping[str, Any], data_type: Any, can_be_str: bool) -> Any:
+        value, separator = given[name], given.get(f"{name}-sep")
         if separator is not None:
-            self._read.add(f"{name}-sep")
+            self._read[ATTRIBUTES].add(f"{name}-sep")
             value = value.split(separator) if separator else [value]
         try:
             return get_typed_value(value, data_type, can_be_str=can_be_str)
@@ -76,16 +63,6 @@ class Entity(BaseEntity):
                 f"Attribute '{name}' of Entity '{self.type_name}' expected to be of type '{data_type}'."
                 f"'{value}' can not be converted to one of those types"
             ) from None
-
-    def _nested(self, name: str, data_type: Any, optional: bool) -> list[Entity] | None:
-        self.__asked_tags.add(name)
-        found = [inner for inner in self.__element if inner.tag == name]
-        if found:
-            self.__read_tags.add(name)
-            return [self._inner(inner) for inner in found]
-        if optional:
-            return None
-        raise self._absent(name, data_type, [])
 
 
 class Parser(frontend.Parser):
@@ -98,17 +75,16 @@ class Parser(frontend.Parser):
         Raises:
             xml.etree.ElementTree.ParseError: if it is not well formed.
         """
-        lines: dict[ET.Element, int] = {}
-        return Entity(_tree(text, name, lines), file=name, lines=lines), cls()
+        return Entity(_tree(text, name), file=name), cls()
 
 
-def _tree(text: str, name: str, lines: dict[ET.Element, int]) -> ET.Element:
-    """The elements of a text; `lines` gets the line of each."""
-    builder = ET.TreeBuilder()
+def _tree(text: str, name: str) -> ET.Element:
+    """The elements of a text."""
+    builder = ET.TreeBuilder(element_factory=Element)
     parser = expat.ParserCreate()
 
     def start(tag: str, attributes: dict[str, str]) -> None:
-        lines[builder.start(tag, attributes)] = parser.CurrentLineNumber
+        builder.start(tag, attributes).line = parser.CurrentLineNumber  # type: ignore[attr-defined]
 
     parser.StartElementHandler = start
     parser.EndElementHandler = builder.end

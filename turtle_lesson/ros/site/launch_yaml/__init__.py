@@ -10,7 +10,6 @@ from launch import frontend
 from launch._entities import SomeSubstitutionsType, explained
 from launch._package import complete_package
 from launch.frontend import Entity as BaseEntity
-from launch.frontend import check_is_list_entity
 from launch.launch_description_sources import FrontendLaunchDescriptionSource
 from launch.utilities import is_instance_of
 
@@ -18,6 +17,9 @@ from turtle_lesson.ros.runtime.files import BoundedLoader
 from turtle_lesson.ros.sim.errors import shown_path
 
 __all__ = ["Entity", "Parser"]
+
+
+KEYS = "key(s)"
 
 
 class Mapping(dict[Any, Any]):
@@ -29,27 +31,16 @@ class Mapping(dict[Any, Any]):
 
 
 class Entity(BaseEntity):
-    """An item: its name, and what stands below it, a mapping or a list of further items."""
+    """An item: its name, and what stands below it, a mapping or a list of further items.
 
-    def __init__(
-        self,
-        element: Any,
-        type_name: str,
-        *,
-        parent: Entity | None = None,
-        file: str = "",
-        line: int | None = None,
-    ) -> None:
-        super().__init__(type_name, parent, (file, line) if file and line is not None else None)
-        self.__element = element
-        self.__file = file
-        self.__children_read = False
+    YAML knows types, so a value must be of the one that is asked for.
+    """
 
     @property
     def children(self) -> list[BaseEntity]:
         """The items below it: its list, or the list called `children` in its mapping."""
-        self._asked.add("children")
-        below = self.__element
+        self._asked[KEYS].add("children")
+        below = self._element
         if not isinstance(below, dict | list):
             raise TypeError(f"Expected a dict or list, got {type(below)}")
         if isinstance(below, dict):
@@ -58,51 +49,32 @@ class Entity(BaseEntity):
                     f"Expected entity `{self.type_name}` to have children entities."
                     "That can be a list of subentities or a dictionary with a `children` list element"
                 )
-            self._read.add("children")
             below = below["children"]
-        self.__children_read = True
+        self._read[KEYS].add("children")
         return [self._child(item) for item in (below if isinstance(below, list) else [below])]
 
     def _child(self, item: Any) -> Entity:
         if not isinstance(item, Mapping) or len(item) != 1:
             error = RuntimeError("Subentity must be a dictionary with only one key, which is the entity type")
             lines = list(item.lines.values()) if isinstance(item, Mapping) else []
-            raise explained(error, _hint(item), (self.__file, lines[-1]) if lines else None)
+            raise explained(error, _hint(item), (self._file, lines[-1]) if lines else None)
         name = next(iter(item))
-        return Entity(item[name], str(name), parent=self, file=self.__file, line=item.lines.get(name))
+        return Entity(item[name], str(name), parent=self, line=item.lines.get(name))
 
     def assert_entity_completely_parsed(self) -> None:
-        """Check that every key in it was asked for."""
-        if isinstance(self.__element, list):
-            if not self.__children_read:
-                raise ValueError(f"Unexpected nested entity(ies) found in `{self.type_name}`: {self.__element}")
-            return
-        keys = set(self._mapping) - self._read
-        if keys:
-            raise self._unexpected("key(s)", keys, self._asked)
+        """Check that every key in it was asked for, or the list that it is."""
+        if isinstance(self._element, list) and "children" not in self._read[KEYS]:
+            raise ValueError(f"Unexpected nested entity(ies) found in `{self.type_name}`: {self._element}")
+        super().assert_entity_completely_parsed()
 
-    @property
-    def _mapping(self) -> dict[Any, Any]:
-        """What stands below it, if that is a mapping or nothing."""
-        if self.__element is None:
-            return {}
-        if isinstance(self.__element, dict):
-            return self.__element
-        error = TypeError(f"Expected a dict or list, got {type(self.__element)}")
-        raise explained(error, f"Write the attributes of {self.type_name} below it, each on a line of its own.")
+    def _given(self) -> dict[str, Any]:
+        if not isinstance(self._element, dict | list | None):
+            error = TypeError(f"Expected a dict or list, got {type(self._element)}")
+            raise explained(error, f"Write the attributes of {self.type_name} below it, each on a line of its own.")
+        return {KEYS: self._element if isinstance(self._element, dict) else {}}
 
-    def get_attr(self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True) -> Any:
-        """As `launch.frontend.Entity.get_attr`. YAML knows types, so a value must be of the one asked for."""
-        self._asked.add(name)
-        below = {} if isinstance(self.__element, list) else self._mapping
-        if name not in below:
-            if optional:
-                return None
-            raise self._absent(name, data_type, below)
-        self._read.add(name)
-        value = below[name]
-        if check_is_list_entity(data_type):
-            return self._nested(name, value)
+    def _value(self, name: str, given: Any, data_type: Any, can_be_str: bool) -> Any:
+        value = given[name]
         if not is_instance_of(value, data_type, can_be_str=can_be_str):
             error = TypeError(
                 f"Attribute '{name}' of Entity '{self.type_name}' expected to be of type '{data_type}', "
@@ -112,15 +84,12 @@ class Entity(BaseEntity):
             raise explained(error, f'Put it into quotation marks: {name}: "{value}"' if is_plain else "")
         return value
 
-    def _nested(self, name: str, value: Any) -> list[Entity]:
-        if not isinstance(value, list) or not all(isinstance(item, dict) for item in value):
+    def _nested(self, name: str, given: Any) -> list[BaseEntity]:
+        if not isinstance(given, list) or not all(isinstance(item, dict) for item in given):
             error = TypeError(f"Attribute '{name}' of Entity '{self.type_name}' expected to be a list of dictionaries.")
             raise explained(error, f"Begin each {name} with a hyphen.")
-        lines = [min(getattr(item, "lines", {}).values(), default=None) for item in value]
-        return [
-            Entity(item, name, parent=self, file=self.__file, line=line)
-            for item, line in zip(value, lines, strict=True)
-        ]
+        lines = [min(getattr(item, "lines", {}).values(), default=None) for item in given]
+        return [Entity(item, name, parent=self, line=line) for item, line in zip(given, lines, strict=True)]
 
 
 def _hint(item: Any) -> str:
