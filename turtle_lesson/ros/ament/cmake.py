@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from glob import glob
 from pathlib import Path
 
@@ -46,15 +46,58 @@ def _unreadable(words: str, place: str | int, line: int, reason: str) -> BuildFa
 
 # -- text to commands ----------------------------------------------------------------------------------------------------
 
+_TOKEN = re.compile(
+    r"""(?P<skipped>[ \t\r]+|\#\[(=*)\[.*?\]\2\]|\#(?!\[=*\[)[^\n]*)
+    |\#\[=*\[(?P<open_comment>.*)
+    |(?P<newline>\s)
+    |(?P<left>\()|(?P<right>\))
+    |\[(=*)\[\n?(?P<bracket>.*?)\]\7\]
+    |"(?P<quoted>(?:[^"\\]|\\.)*)"
+    |(?P<identifier>[A-Za-z_]\w*)(?=[\s()\#]|\Z)
+    |(?P<unquoted>(?:[^\s()\#"\\]|\\.|(?<=[^\s()])"[^"]*")+)
+    |["\\](?P<open_string>.*)""",
+    re.DOTALL | re.VERBOSE,
+)
+_KINDS = {
+    "left": "left paren",
+    "right": "right paren",
+    "bracket": "bracket argument",
+    "quoted": "quoted argument",
+    "unquoted": "unquoted argument",
+    "open_comment": "unterminated bracket",
+    "open_string": "unterminated string",
+}
+"""What CMake calls the tokens whose names in the pattern are others."""
+
+_OPEN = {
+    "unterminated bracket": "this #[[ comment never ends; close it with ]]",
+    "unterminated string": 'this quote is never closed; end the text with another "',
+}
+
 
 @dataclass(frozen=True)
-class Argument:
-    """One argument as written. `quoted` ones stay one argument, `raw` ones ([[…]]) are never expanded."""
+class Token:
+    """One token: its kind in CMake's words, its text without quotes, its line, and the line at which CMake says so."""
 
+    kind: str
     text: str
     line: int
-    quoted: bool = False
-    raw: bool = False
+    place: int
+
+    @property
+    def raw(self) -> bool:
+        """Whether it is a `[[…]]`, in which nothing is replaced."""
+        return self.kind == "bracket argument"
+
+    @property
+    def quoted(self) -> bool:
+        """Whether it stays one argument."""
+        return self.raw or self.kind == "quoted argument"
+
+    def refusal(self, words: str, reason: str) -> BuildFailure:
+        """The error of CMake's that this token is found where another one must be; `reason` says it for people."""
+        said = f'{words} {self.kind} with text "{_shown(self.text)}".'
+        return _unreadable(said, self.place, self.line, _OPEN.get(self.kind, reason))
 
 
 @dataclass(frozen=True)
@@ -62,63 +105,20 @@ class Call:
     """One command as written: its name in lower case, its arguments, the line where it begins."""
 
     name: str
-    args: tuple[Argument, ...]
+    args: tuple[Token, ...]
     line: int
 
 
-_SKIPPED = re.compile(r"(?:\s+|#\[(=*)\[.*?\]\1\]|#(?!\[=*\[)[^\n]*)*", re.DOTALL)
-"""Spaces, line ends and comments of both kinds."""
-
-_BLANKS = re.compile(r"[ \t\r]*")
-_NAME = re.compile(r"[A-Za-z_]\w*")
-_BRACKET = re.compile(r"\[(=*)\[\n?(.*?)\]\1\]", re.DOTALL)
-_QUOTED = re.compile(r'"((?:[^"\\]|\\.)*)"', re.DOTALL)
-_PLAIN = re.compile(r'(?:[^\s()#"\\]|\\.|(?<=[^\s()])"[^"]*")+')
-
-
-class _Reader:
-    """Walks over the text once; `position` is the next character to read."""
-
-    def __init__(self, text: str) -> None:
-        self.text = text
-        self.position = 0
-
-    @property
-    def line(self) -> int:
-        return self.text.count("\n", 0, self.position) + 1
-
-    @property
-    def last_line(self) -> int:
-        return self.text.count("\n") + 1
-
-    def take(self, pattern: re.Pattern[str]) -> re.Match[str] | None:
-        """What the pattern matches here, stepped over; None if it does not match."""
-        if match := pattern.match(self.text, self.position):
-            self.position = match.end()
-        return match
-
-    def more(self) -> bool:
-        """Step over what is no code; whether anything is left."""
-        self.take(_SKIPPED)
-        if self.text.startswith("#", self.position):
-            rest = _shown(self.text[self.text.index("[", self.position + 2) + 1 :])
-            words = f'Parse error. Expected a command name, got unterminated bracket with text "{rest}".'
-            raise _unreadable(words, self.last_line, self.line, "this #[[ comment never ends; close it with ]]")
-        return self.position < len(self.text)
-
-    def got(self) -> tuple[str, int]:
-        """What CMake calls the token that comes next, and the line at which it says so."""
-        rest = self.text[self.position :]
-        if rest[:1] == "\n":
-            return f'newline with text "{_shown(rest[:1])}"', self.line + 1
-        if rest[:1] in {"(", ")"}:
-            return f'{"left" if rest[0] == "(" else "right"} paren with text "{rest[0]}"', self.line
-        kind, text = "unquoted", rest
-        for name, pattern in (("quoted argument", _QUOTED), ("identifier", _NAME), ("unquoted argument", _PLAIN)):
-            if match := pattern.match(rest):
-                kind, text = name, match[match.lastindex or 0]
-                break
-        return f'{kind} with text "{text[:60]}"', self.line
+def _tokens(text: str) -> Iterator[Token]:
+    """The tokens of a text, without spaces and comments."""
+    line, last = 1, text.count("\n") + 1
+    for match in _TOKEN.finditer(text):
+        name = match.lastgroup or ""
+        kind = _KINDS.get(name, name)
+        if name != "skipped":
+            place = last if kind in _OPEN else line + (name == "newline")
+            yield Token(kind, match[name].replace("\\\n", "") if name == "quoted" else match[name], line, place)
+        line += match[0].count("\n")
 
 
 def read_calls(text: str) -> list[Call]:
@@ -127,57 +127,39 @@ def read_calls(text: str) -> list[Call]:
     Raises:
         BuildFailure: the text is no CMake, or its blocks are not nested.
     """
-    reader = _Reader(text)
+    tokens = _tokens(text)
     calls = []
-    while reader.more():
-        calls.append(_call(reader))
+    for token in tokens:
+        if token.kind == "newline":
+            continue
+        if token.kind != "identifier":
+            reason = f"expected a command such as find_package(…), found {token.text[:20]!r}"
+            raise token.refusal("Parse error. Expected a command name, got", reason)
+        calls.append(Call(token.text.lower(), tuple(_arguments(tokens, token)), token.line))
     _check_blocks(calls)
     return calls
 
 
-def _call(reader: _Reader) -> Call:
-    line = reader.line
-    token, place = reader.got()
-    name = reader.take(_NAME)
-    if not name:
-        found = reader.text[reader.position : reader.position + 20].split("\n")[0]
-        reason = f"expected a command such as find_package(…), found {found!r}"
-        raise _unreadable(f"Parse error. Expected a command name, got {token}.", place, line, reason)
-    reader.take(_BLANKS)
-    if not reader.text.startswith("(", reader.position):
-        token, place = reader.got()
-        reason = f"expected '(' after {name[0]!r}: a command looks like {name[0]}(…)"
-        words = f'Parse error. Expected "(", got {token}.'
-        if reader.position >= len(reader.text):
-            words = 'Unexpected end of file.\nParse error. Function missing opening "(".'
-        raise _unreadable(words, place, line, reason)
-    reader.position += 1
-    return Call(name[0].lower(), tuple(_arguments(reader, name[0], line)), line)
-
-
-def _arguments(reader: _Reader, name: str, line: int) -> Iterator[Argument]:
+def _arguments(tokens: Iterator[Token], name: Token) -> Iterator[Token]:
     """The arguments up to the parenthesis that ends the command; inner ones are arguments of their own."""
+    reason = f"expected '(' after {name.text!r}: a command looks like {name.text}(…)"
+    opening = next(tokens, None)
+    if opening is None:
+        words = 'Unexpected end of file.\nParse error. Function missing opening "(".'
+        raise _unreadable(words, name.line, name.line, reason)
+    if opening.kind != "left paren":
+        raise replace(opening, line=name.line).refusal('Parse error. Expected "(", got', reason)
     depth = 1
-    while reader.more():
-        here = reader.line
-        if match := reader.take(_BRACKET):
-            yield Argument(match[2], here, quoted=True, raw=True)
-        elif match := reader.take(_QUOTED):
-            yield Argument(match[1].replace("\\\n", ""), here, quoted=True)
-        elif match := reader.take(_PLAIN):
-            yield Argument(match[0], here)
-        elif (character := reader.text[reader.position]) in "()":
-            reader.position += 1
-            depth += 1 if character == "(" else -1
-            if depth == 0:
-                return
-            yield Argument(character, here)
-        else:
-            rest = _shown(reader.text[reader.position + 1 :])
-            words = f'Parse error. Function missing ending ")". Instead found unterminated string with text "{rest}".'
-            raise _unreadable(words, reader.last_line, here, 'this quote is never closed; end the text with another "')
-    reason = f"the '(' of {name} is never closed; put a ')' where its arguments end"
-    raise _unreadable('Parse error. Function missing ending ")". End of file reached.', line, line, reason)
+    for token in tokens:
+        if token.kind in _OPEN:
+            raise token.refusal('Parse error. Function missing ending ")". Instead found', "")
+        depth += {"left paren": 1, "right paren": -1}.get(token.kind, 0)
+        if depth == 0:
+            return
+        if token.kind != "newline":
+            yield token
+    reason = f"the '(' of {name.text} is never closed; put a ')' where its arguments end"
+    raise _unreadable('Parse error. Function missing ending ")". End of file reached.', name.line, name.line, reason)
 
 
 def _shown(rest: str) -> str:
@@ -449,7 +431,7 @@ class _Evaluator:
             else:  # a list, whose elements are arguments of their own
                 yield from (part.replace("\\;", ";") for part in re.split(r"(?<!\\);", text) if part)
 
-    def _expanded(self, argument: Argument, call: Call) -> str:
+    def _expanded(self, argument: Token, call: Call) -> str:
         """The argument with its variables and escapes put in; an unset variable is empty, as in CMake."""
         text = argument.text
         if argument.raw:
