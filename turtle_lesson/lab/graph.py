@@ -46,13 +46,13 @@ def read_system(node: Any) -> list[NodeView]:
 
     found: dict[str, NodeView] = {}
     for name, namespace in sorted(node.get_node_names_and_namespaces()):
-        full_name = f"{namespace.rstrip('/')}/{name}"
-        if full_name in found:
-            found[full_name].copies += 1
-        elif not is_hidden(full_name):
+        node_name = full_name(name, namespace)
+        if node_name in found:
+            found[node_name].copies += 1
+        elif not is_hidden(node_name):
             with suppress(NodeNameNonExistentError):  # gone since the list was made
-                found[full_name] = NodeView(
-                    full_name,
+                found[node_name] = NodeView(
+                    node_name,
                     publishes=_visible(node.get_publisher_names_and_types_by_node(name, namespace)),
                     hears=_visible(node.get_subscriber_names_and_types_by_node(name, namespace)),
                     offers=_visible(node.get_service_names_and_types_by_node(name, namespace)),
@@ -61,10 +61,45 @@ def read_system(node: Any) -> list[NodeView]:
     return [found[name] for name in sorted(found)]
 
 
+def full_name(name: str, namespace: str) -> str:
+    """The full name of a node: "/turtlesim" in the namespace "/"."""
+    return f"{namespace.rstrip('/')}/{name}"
+
+
 def node_names(node: Any) -> list[str]:
     """The full names of all nodes that `node` sees in the graph, sorted; those of twins several times."""
-    names = node.get_node_names_and_namespaces()
-    return sorted(f"{namespace.rstrip('/')}/{name}" for name, namespace in names)
+    return sorted(full_name(*each) for each in node.get_node_names_and_namespaces())
+
+
+def owner(end: Any) -> str:
+    """The full name of the node that has a publisher or subscription."""
+    return full_name(end.node_name, end.node_namespace)
+
+
+def others(node: Any, ends: list[Any]) -> list[Any]:
+    """Of the publishers or subscriptions of a topic, those that are not of `node` itself."""
+    me = full_name(node.get_name(), node.get_namespace())
+    return [end for end in ends if owner(end) != me]
+
+
+def of_node(node: Any, query: str, name: str) -> list[tuple[str, list[str]]]:
+    """What a query of the graph, such as "get_service_names_and_types_by_node", says of a node; nothing if it has just gone."""
+    from rclpy.node import NodeNameNonExistentError
+
+    namespace, _, base = name.rpartition("/")
+    try:
+        return list(getattr(node, query)(base, namespace or "/"))
+    except NodeNameNonExistentError:
+        return []
+
+
+def servers(node: Any, service: str) -> list[tuple[str, list[str]]]:
+    """The nodes that offer a service, with its types: of twins each one, since from outside they look the same.
+
+    A list of all services would also name those that are only asked for.
+    """
+    offered = ((name, dict(of_node(node, "get_service_names_and_types_by_node", name))) for name in node_names(node))
+    return [(name, types[service]) for name, types in offered if service in types]
 
 
 def _visible(names_and_types: list[tuple[str, list[str]]]) -> Ends:

@@ -16,6 +16,7 @@ from functools import partial
 from typing import Any
 
 from ..turtlesim.obstacles import WORLDS, Box, Circle, to_marker_array
+from .graph import others, owner
 from .path import WORLD
 from .recording import (
     LIMIT,
@@ -224,18 +225,16 @@ class Channel:
             package = self.type_name.split("/")[0]
             unknown = f"{self.topic} is published as {self.type_name}, but that type cannot be imported here"
             return f"{unknown}: try colcon build --packages-select {package}, then source install/setup.bash"
-        names = listed(sorted({f"{end.node_namespace.rstrip('/')}/{end.node_name}" for end in publishers}))
+        names = listed(sorted(set(map(owner, publishers))))
         return f"{names} can publish {self.topic}, but no message has come yet. {self.patience}"
 
     def _wanted(self) -> bool:
         """Whether another node is there at the other end (or, of a driven topic, at this end)."""
-        if not self.driven:
+        if self.driven:
+            ends = others(self.node, self.node.get_subscriptions_info_by_topic(self.topic))
+        else:
             ends = self.node.get_publishers_info_by_topic(self.topic)
-            return any(end.topic_type == self.type_name for end in ends)
-        me = (self.node.get_name(), self.node.get_namespace())
-        listening = self.node.get_subscriptions_info_by_topic(self.topic)
-        others = [end for end in listening if (end.node_name, end.node_namespace) != me]
-        return any(end.topic_type == self.type_name for end in others)
+        return any(end.topic_type == self.type_name for end in ends)
 
     def _find_message_type(self) -> Any:
         """The message class, or None if it cannot be imported (a package that is not built and sourced)."""

@@ -17,6 +17,7 @@ from typing import Any, Protocol, TypeVar
 
 from ...ros.idl.names import is_hidden, nearest
 from ...ros.sim.interrupts import work_done
+from ..graph import node_names, of_node, others, owner, servers
 from ..recorder import ObstacleBoard, with_time
 from ..recording import NANOSECONDS, Recording
 from ..words import listed, number
@@ -262,8 +263,7 @@ class Probe:
 
     def nodes(self) -> Counter[str]:
         """How many visible nodes there are of each full name."""
-        names = (f"{space.rstrip('/')}/{name}" for name, space in self.node.get_node_names_and_namespaces())
-        return Counter(name for name in sorted(names) if not is_hidden(name))
+        return Counter(name for name in node_names(self.node) if not is_hidden(name))
 
     def publishers(self, topic: str) -> list[tuple[str, str]]:
         """Full name of the node and type of each publisher that others have on a topic."""
@@ -275,17 +275,13 @@ class Probe:
 
     def servers(self, service: str) -> list[tuple[str, str]]:
         """Full name of the node and type of each service of a name."""
-        found: list[tuple[str, str]] = []
-        for name, amount in self.nodes().items():
-            offers = self._of_node("get_service_names_and_types_by_node", name)
-            # nodes of one name look the same from outside, so each may be one that offers it
-            found += [(name, kind) for offered, kinds in offers if offered == service for kind in kinds] * amount
-        return found
+        found = servers(self.node, service)
+        return [(name, kind) for name, kinds in found if not is_hidden(name) for kind in kinds]
 
-    def subscribed(self, owner: str) -> list[str]:
+    def subscribed(self, name: str) -> list[str]:
         """The names of the topics that a node listens to."""
-        found = self._of_node("get_subscriber_names_and_types_by_node", owner)
-        return [name for name, _ in found if not is_hidden(name)]
+        found = of_node(self.node, "get_subscriber_names_and_types_by_node", name)
+        return [topic for topic, _ in found if not is_hidden(topic)]
 
     def topics(self) -> list[str]:
         """The names of all topics that are published, hidden ones left out."""
@@ -296,23 +292,8 @@ class Probe:
         """The names of all services."""
         return [name for name, _ in self.node.get_service_names_and_types() if not is_hidden(name)]
 
-    def _of_node(self, query: str, owner: str) -> list[tuple[str, list[str]]]:
-        """What a query of the graph says of a node; nothing where the node has just gone."""
-        from rclpy.node import NodeNameNonExistentError
-
-        namespace, _, base = owner.rpartition("/")
-        try:
-            return list(getattr(self.node, query)(base, namespace or "/"))
-        except NodeNameNonExistentError:
-            return []
-
-    def _others(self, ends: Any) -> list[tuple[str, str]]:
-        me = (self.node.get_name(), self.node.get_namespace())
-        return sorted(
-            (f"{end.node_namespace.rstrip('/')}/{end.node_name}", end.topic_type)
-            for end in ends
-            if (end.node_name, end.node_namespace) != me
-        )
+    def _others(self, ends: list[Any]) -> list[tuple[str, str]]:
+        return sorted((owner(end), end.topic_type) for end in others(self.node, ends))
 
     def like(self, name: str, known: list[str]) -> str:
         """ ", but there is /robot/staus": a known name that is nearly the one that was looked for; "" if there is none."""

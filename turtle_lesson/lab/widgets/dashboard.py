@@ -12,7 +12,7 @@ import traitlets
 
 from ...ros.idl.names import is_hidden
 from .. import style
-from ..graph import EVERYWHERE, node_names
+from ..graph import EVERYWHERE, node_names, servers
 from ..path import plot_path
 from ..picture import SHARPNESS, Picture
 from ..recorder import Channel
@@ -21,7 +21,6 @@ from ..scan import Beams, read_beams
 from ..status import plot_status
 from ..words import count, listed, number
 from .goal_pad import GoalPad
-from .lazy_endpoints import servers
 from .live_widget import pack
 
 if TYPE_CHECKING:
@@ -291,7 +290,7 @@ def look(node: Any) -> list[dict[str, Any]]:
     found = Counter(name for name in node_names(node) if not is_hidden(name))
     nodes = [_light(name, "node", found[name]) for name in NODES]
     extra = [{**_light(name, "node", found[name]), "state": "extra"} for name in sorted(found) if name not in NODES]
-    offering = {service: servers(node, service) for service in SERVICES}
+    offering = {service: [name for name, _ in servers(node, service)] for service in SERVICES}
     services = [_light(name, "service", len(nodes), listed(nodes)) for name, nodes in offering.items()]
     return [*nodes, *services, *extra]
 

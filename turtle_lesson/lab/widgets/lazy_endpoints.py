@@ -7,6 +7,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
+from ..graph import others, owner, servers
 from ..words import enumerated, listed, number
 from .backend import Backend
 from .message_types import plain
@@ -68,9 +69,7 @@ class LazyPublisher:
         return f"No node listens on {self.topic}.{hint}"
 
     def _others(self, topic: str) -> list[Any]:
-        me = (self._backend.node.get_name(), self._backend.node.get_namespace())
-        ends = self._backend.node.get_subscriptions_info_by_topic(topic)
-        return [end for end in ends if (end.node_name, end.node_namespace) != me]
+        return others(self._backend.node, self._backend.node.get_subscriptions_info_by_topic(topic))
 
     def _is_heard_on(self, topic: str) -> bool:
         return any(end.topic_type == self.type_name for end in self._others(topic))
@@ -225,7 +224,7 @@ class ServerWatcher:
 
     def listen(self) -> None:
         """Notice which node offers the service now, and listen to its warnings."""
-        self._names = servers(self._backend.node, self._service)
+        self._names = [name for name, _ in servers(self._backend.node, self._service)]
         self._ends = self._rosout_ends()
         if self._subscription is None:
             from rcl_interfaces.msg import Log
@@ -270,17 +269,5 @@ class ServerWatcher:
         return {
             tuple(end.endpoint_gid)
             for end in self._backend.node.get_publishers_info_by_topic("/rosout")
-            if f"{end.node_namespace.rstrip('/')}/{end.node_name}" in self._names
+            if owner(end) in self._names
         }
-
-
-def servers(node: Any, service: str) -> list[str]:
-    """The nodes that offer a service. A list of all services would also name those that are only asked for."""
-    from rclpy.node import NodeNameNonExistentError
-
-    offering = []
-    for name, namespace in sorted(node.get_node_names_and_namespaces()):
-        with suppress(NodeNameNonExistentError):  # gone since the list was made
-            if service in dict(node.get_service_names_and_types_by_node(name, namespace)):
-                offering.append(f"{namespace.rstrip('/')}/{name}")
-    return offering
