@@ -18,7 +18,7 @@ from typing import Any
 from . import message
 from .checks import FLOAT_BOUNDS
 from .code_cache import compiled
-from .field_codegen import Kind, kind_of, weight_of
+from .codegen import Kind, kind_of, message_source, weight_of, wrapper_source
 from .message import slot_type
 from .model import (
     ActionDefinition,
@@ -38,7 +38,6 @@ from .model import (
     derived_parts,
 )
 from .names import STRINGS, module_name
-from .source import message_source, wrapper_source
 
 # -- generator ----------------------------------------------------------------------------------------------------
 # Python classes for interface definitions, as Humble's `rosidl_generator_py` would make them.
