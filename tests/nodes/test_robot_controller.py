@@ -3,6 +3,7 @@
 import io
 import itertools
 import math
+import random
 import re
 from dataclasses import dataclass
 
@@ -485,6 +486,13 @@ def test_made_up_readings_show_half_a_metre_in_one_beam_of_twenty():
 
 def test_made_up_readings_follow_from_their_seed():
     assert made_up(seed=3, seconds=2.0) == made_up(seed=3, seconds=2.0) != made_up(seed=4, seconds=2.0)
+
+
+@pytest.mark.parametrize("seed", [0, 3, 2**31, 2**40 + 7, -5])
+def test_made_up_readings_are_those_of_pythons_random_numbers(seed):
+    chance = random.Random(seed).random
+    readings = made_up(seed=seed, seconds=2.0)
+    assert readings == [0.5 if chance() < 0.05 else 10.0 for _ in readings]
 
 
 def test_without_a_seed_of_their_own_made_up_readings_follow_from_the_worlds():
