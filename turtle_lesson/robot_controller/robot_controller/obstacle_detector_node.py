@@ -156,7 +156,7 @@ def _numbers(source: random.Random) -> np.random.RandomState:
     """Return a source of the very same random numbers, from which numpy takes many at once."""
     _, words, _ = source.getstate()
     numbers = np.random.RandomState(0)
-    numbers.set_state(("MT19937", words[:-1], words[-1]))
+    numbers.set_state(("MT19937", np.array(words[:-1], np.uint32), words[-1], 0, 0.0))
     return numbers
 
 
