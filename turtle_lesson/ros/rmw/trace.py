@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from array import array
+import struct
 from collections import Counter, deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -108,8 +109,8 @@ RUN = np.dtype([("ready", "=i8"), ("began", "=i8"), ("ended", "=i8")])
 LIMIT = 30_000
 """How many runs of one callback are kept, the newest: eight minutes of a turtle's pose, some 700 kB."""
 
-FULL = (LIMIT + LIMIT // 8) * 3
-"""Numbers at which old runs go: some way over the limit, so that it is not done for each run."""
+CHUNK = 250
+"""Runs that are packed at once: to keep each as a tuple of its own takes seven times the memory."""
 
 Run = tuple[int, int, int]
 
@@ -139,21 +140,25 @@ class Callback:
     awaits: bool
     arrivals: deque[int] | None = None
     open: list[tuple[int, int]] = field(default_factory=list)
-    _ended: array[int] = field(default_factory=lambda: array("q"))
+    _newest: list[Run] = field(default_factory=list)
+    _packed: deque[bytes] = field(default_factory=lambda: deque(maxlen=LIMIT // CHUNK))
 
     def end_run(self, begun: tuple[int, int], now: int) -> None:
         """One of the open runs is over."""
-        self.open.remove(begun)
-        ended = self._ended
-        ended.extend((*begun, now))
-        if len(ended) > FULL:
-            del ended[: -LIMIT * 3]
+        if self.open[-1] is begun:  # as nearly always: few callbacks run beside themselves
+            self.open.pop()
+        else:
+            self.open.remove(begun)
+        newest = self._newest
+        newest.append((begun[0], begun[1], now))
+        if len(newest) == CHUNK:
+            self._packed.append(struct.pack(f"={3 * CHUNK}q", *chain.from_iterable(newest)))
+            newest.clear()
 
     @property
     def ended(self) -> list[Run]:
         """The runs that are over, in the order in which they ended."""
-        numbers = self._ended[-LIMIT * 3 :].tolist()
-        return list(zip(numbers[::3], numbers[1::3], numbers[2::3], strict=True))
+        return [*struct.iter_unpack("=3q", b"".join(self._packed)), *self._newest][-LIMIT:]
 
     def runs(self, now: int) -> np.ndarray:
         """All runs, of type `RUN`, in the order in which they began; what goes on ends `now` (ns)."""

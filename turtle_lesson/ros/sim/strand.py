@@ -51,13 +51,15 @@ class Strand(greenlet):
         calls: functions to be called in it where it waits, such as handlers of signals.
     """
 
+    __slots__ = ("cell", "parked", "process", "simulation")  # what each switch reads: a greenlet's dictionary is slow
+
     process: Process
     simulation: Simulation
     parked: bool
+    cell: Cell | None
     activity: str
     warned: bool
     frozen_at: int = -1
-    cell: Cell | None = None
     waits_for: Any = None
     may_act: Callable[[], bool] | None = None
     name: str = ""
@@ -69,6 +71,7 @@ class Strand(greenlet):
         self.process = process
         self.simulation = process.simulation
         self.parked = False
+        self.cell = None
         self.activity = ""
         self.warned = False
         self.parent = process.simulation.hub

@@ -85,7 +85,9 @@ class Executor(ExecutorBase):
         self._spinning.append(strand)
         self._begin_waiting(strand)
         try:
-            while not context.ended and not self._is_shutdown:
+            while True:  # a condition here would keep Python 3.11 from specializing this function's instructions
+                if context.ended or self._is_shutdown:
+                    return
                 if len(signalled) == 1 and not self._batch and not self._resumed and not self._polled:
                     entity = signalled.pop()
                     entity._listed_in = None
