@@ -139,7 +139,7 @@ class Callback:
     process: int
     awaits: bool
     arrivals: deque[int] | None = None
-    open: list[tuple[int, int]] = field(default_factory=list)
+    open: deque[tuple[int, int]] = field(default_factory=deque)
     _newest: list[Run] = field(default_factory=list)
     _packed: deque[bytes] = field(default_factory=lambda: deque(maxlen=LIMIT // CHUNK))
 

@@ -52,29 +52,13 @@ class Writer(End):
         if self._idle:
             return
         now = self._simulation.now
-        if self.note is not None:
-            self.note(now)
-        if self._also is not None:
-            self._also(message)
+        note, also = self.note, self._also
+        if note is not None:
+            note(now)
+        if also is not None:
+            also(message)
         if self._usual:
-            wire = message._wire_copy()
-            self._simulation.at(now + self._latency, self._deliver, (self._usual, wire))
-
-    def _deliver(self, parcel: tuple[tuple[Reader, ...], Any]) -> None:
-        readers, wire = parcel
-        first = True
-        for reader in readers:
-            if first:
-                reader.queue.append(wire)
-                first = False
-            else:
-                reader.queue.append(wire._wire_copy())
-            if reader.times is not None:
-                now = self._simulation.now
-                reader.times.append((now - self._latency, now))
-            if reader.arrivals is not None:
-                reader.arrivals.append(self._simulation.now)
-            reader.wake()
+            self._simulation.at(now + self._latency, _deliver, (self, self._usual, message._wire_copy()))
 
     def _deliver_kept(self, parcel: tuple[Reader, Any, int]) -> None:
         reader, wire, sent = parcel
@@ -134,10 +118,8 @@ class Writer(End):
             return self._lines[reader].under_way()
         found = []
         for arrival, _, action, parcel in self._simulation.scheduled():
-            if getattr(action, "__self__", None) is not self:
-                continue
-            if action == self._deliver and reader in parcel[0]:
-                found.append((arrival - self._latency, parcel[1]))
+            if action is _deliver and parcel[0] is self and reader in parcel[1]:
+                found.append((arrival - self._latency, parcel[2]))
             elif action == self._deliver_kept and reader is parcel[0]:
                 found.append((parcel[2], parcel[1]))
         return found
@@ -148,7 +130,7 @@ class Writer(End):
             return None
         waits: list[int] = []
         for arrival, _, action, parcel in self._simulation.scheduled():
-            if action == self._deliver and any(reader.quality.reliable for reader in parcel[0]):
+            if action is _deliver and parcel[0] is self and any(each.quality.reliable for each in parcel[1]):
                 waits.append(arrival)
         waits += [look for line in self._lines.values() if (look := line.next_look()) is not None]
         return max(waits, default=None)
@@ -226,6 +208,20 @@ class Writer(End):
         for watchdog in (self._deadline, self._lease):
             if watchdog is not None:
                 watchdog.stop()
+
+
+def _deliver(parcel: tuple[Writer, tuple[Reader, ...], Any]) -> None:
+    """A message arrives at the readers that are served in the usual way."""
+    writer, readers, wire = parcel
+    now, last = writer._simulation.now, readers[-1]
+    for reader in readers:
+        reader.queue.append(wire if reader is last else wire._wire_copy())
+        times, arrivals, wake = reader.times, reader.arrivals, reader.wake
+        if times is not None:
+            times.append((now - writer._latency, now))
+        if arrivals is not None:
+            arrivals.append(now)
+        wake()
 
 
 def _do_all(steps: list[Callable[[Any], object]], message: Any) -> None:

@@ -51,30 +51,36 @@ class Strand(greenlet):
         calls: functions to be called in it where it waits, such as handlers of signals.
     """
 
-    __slots__ = ("cell", "parked", "process", "simulation")  # what each switch reads: a greenlet's dictionary is slow
-
-    process: Process
-    simulation: Simulation
-    parked: bool
-    cell: Cell | None
-    activity: str
-    warned: bool
-    frozen_at: int = -1
-    waits_for: Any = None
-    may_act: Callable[[], bool] | None = None
-    name: str = ""
-    thread: Any = None
-    calls: Sequence[Callable[[], object]] = ()
+    __slots__ = (  # each switch reads some of them, and the dictionary of a greenlet is slow
+        "activity",
+        "calls",
+        "cell",
+        "frozen_at",
+        "may_act",
+        "name",
+        "parked",
+        "process",
+        "simulation",
+        "thread",
+        "waits_for",
+        "warned",
+    )
 
     def __init__(self, process: Process, target: Callable[[], Any]) -> None:
         super().__init__(target)
         self.process = process
-        self.simulation = process.simulation
+        self.simulation: Simulation = process.simulation
         self.parked = False
-        self.cell = None
         self.activity = ""
         self.warned = False
-        self.parent = process.simulation.hub
+        self.frozen_at = -1
+        self.cell: Cell | None = None
+        self.waits_for: Any = None
+        self.may_act: Callable[[], bool] | None = None
+        self.name = ""
+        self.thread: Any = None
+        self.calls: Sequence[Callable[[], object]] = ()
+        self.parent = process.simulation.hub  # type: ignore[misc]
         process.simulation.know(self)
 
     def park(self) -> None:

@@ -8,14 +8,17 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable
+from types import FunctionType
 from typing import TYPE_CHECKING, Any
 
+from ._hints import explain_call
 from .callback_groups import CallbackGroup, begin_of, end_of
 from .exceptions import refuse_destroyed, refuse_ended
 
 if TYPE_CHECKING:
     from turtle_lesson.ros.rmw.trace import Callback
 
+    from ._executor_base import ExecutorBase
     from .executors import Executor
     from .node import Node
 
@@ -29,13 +32,23 @@ class Entity:
     """Base class. `_kind` decides the order in a cycle; `_number` is the order of creation."""
 
     callback: Any
+    _next: int
+    """When a timer is due (ns); nothing else has it."""
     _kind = GUARD
     _missed = False
     """Whether there may be work that came while no executor had its node."""
-    _traced: Callback | None = None
-    """Where its runs are noted, if the world keeps a trace of them."""
     _outlived = False
     """Whether rclpy.shutdown() has taken it out of the graph, and nobody has destroyed it since."""
+
+    def __init_subclass__(cls, **keywords: Any) -> None:
+        """Give each kind of entity a copy of the code that runs for each signal.
+
+        Python (3.11 and newer) specializes code for the classes that it meets. Code that all kinds share would meet
+        now a timer, now a subscription, and take twice as long.
+        """
+        super().__init_subclass__(**keywords)
+        for function in (Entity._signal, Entity._answer_signal, Entity._run):
+            setattr(cls, function.__name__, FunctionType(function.__code__.replace(), function.__globals__))
 
     def __init__(self, callback: Callable[..., Any] | None, callback_group: CallbackGroup | None) -> None:
         self.callback = callback
@@ -45,6 +58,9 @@ class Entity:
         self._end_run = end_of(callback_group)
         """Frees the group again."""
         self._is_async = inspect.iscoroutinefunction(callback)
+        self._answers = False  # whether the callback's result is wanted
+        self._traced: Callback | None = None
+        """Where its runs are noted, if the world keeps a trace of them."""
         self._executor: Executor | None = None
         self._node: Node | None = None
         self._listed_in: Executor | None = None
@@ -65,7 +81,48 @@ class Entity:
             strand = executor._waiter
             if strand is not None and strand.parked:
                 strand.parked = False
-                executor._make_ready(strand)
+                make_ready = executor._make_ready
+                make_ready(strand)
+
+    def _answer_signal(self, executor: Executor) -> None:
+        """Run the callback if there is work, and if its group lets it: a spinning executor has found only this signal."""
+        self._listed_in = None
+        if self._executor is not executor:
+            self._missed = True
+        elif self._has_work():
+            begin = self._begin
+            if not begin(self):
+                executor._blocked.append(self)
+            elif self._is_async:
+                executor._execute(self)
+            else:
+                self._run(executor)
+
+    def _run(self, executor: ExecutorBase) -> None:
+        """Take one piece of work and call the callback with it. Its group has been taken, and is freed."""
+        simulation, traced = executor._simulation, self._traced
+        if traced is not None:
+            began, arrivals = simulation.now, traced.arrivals
+            ready = self._next if arrivals is None else arrivals.popleft() if arrivals else began
+            begun = (ready, began)
+            traced.open.append(begun)
+        try:
+            arguments = self._take()
+            if arguments is not None:
+                callback = self.callback
+                result = callback(*arguments)
+                if self._answers:
+                    self._done_with(arguments, result)
+        except TypeError as error:
+            explain_call(self, arguments, error)
+            raise
+        finally:
+            if traced is not None:
+                traced.end_run(begun, simulation.now)
+            end_run = self._end_run
+            end_run(self)
+            if executor._blocked:
+                executor._retry_blocked()
 
     def _has_work(self) -> bool:
         """Whether there is work right now."""

@@ -8,6 +8,7 @@ the real one builds a wait set for every cycle, entities here signal their execu
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any
@@ -16,7 +17,7 @@ from turtle_lesson.ros.distro import TASKS_IN_ORDER
 from turtle_lesson.ros.runtime.world import current_process, current_world
 from turtle_lesson.ros.sim.strand import Strand
 
-from ._entity import NO_TURN, SERVICE, WAITABLE, Entity
+from ._entity import NO_TURN, WAITABLE, Entity
 from ._hints import explain_call, no_node
 from ._tracing import begin_task, note_end, trace_entity
 from .context import Context
@@ -75,7 +76,7 @@ class ExecutorBase:
         self._process = current_process()
         self._nodes: list[Node] = []
         self._nodes_seen = 0
-        self._signalled: list[Entity] = []
+        self._signalled: deque[Entity] = deque()
         self._batch: list[Job] = []
         self._resumed: list[Task] = []
         self._polled: list[Task] = []  # whose coroutine only let others go first, as with asyncio.sleep(0)
@@ -250,27 +251,7 @@ class ExecutorBase:
         elif job._is_async:
             self._run_task(self._as_task(job))
         else:
-            traced = job._traced
-            if traced is not None:
-                began, arrivals = self._simulation.now, traced.arrivals
-                ready = job._next if arrivals is None else arrivals.popleft() if arrivals else began
-                begun = (ready, began)
-                traced.open.append(begun)
-            try:
-                arguments = job._take()
-                if arguments is not None:
-                    result = job.callback(*arguments)
-                    if job._kind == SERVICE:
-                        job._done_with(arguments, result)
-            except TypeError as error:
-                explain_call(job, arguments, error)
-                raise
-            finally:
-                if traced is not None:
-                    traced.end_run(begun, self._simulation.now)
-                job._end_run(job)
-                if self._blocked:
-                    self._retry_blocked()
+            job._run(self)
 
     def _retry_blocked(self) -> None:
         """Look again at the entities that waited for a callback group."""
@@ -308,5 +289,5 @@ async def _call_and_await(entity: Any, arguments: tuple[Any, ...] | None) -> Non
             raise
         if entity._is_async:
             result = await result
-        if entity._kind == SERVICE:
+        if entity._answers:
             entity._done_with(arguments, result)

@@ -1,7 +1,7 @@
 """How callbacks get into the world's trace: when they were ready, began and ended.
 
-Those that run at once, as nearly all do, the executor notes itself (`ExecutorBase._execute`): a call for each would cost
-more than all that is noted.
+Those that run at once, as nearly all do, note themselves (`Entity._run`): a call for each would cost more than all that
+is noted.
 """
 
 from __future__ import annotations

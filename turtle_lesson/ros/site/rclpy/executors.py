@@ -81,7 +81,7 @@ class Executor(ExecutorBase):
 
         The common case is that one callback became ready while the strand was waiting; it is run without a batch.
         """
-        simulation, context, signalled, execute = self._simulation, self._context, self._signalled, self._execute
+        simulation, context, signalled = self._simulation, self._context, self._signalled
         self._spinning.append(strand)
         self._begin_waiting(strand)
         try:
@@ -89,21 +89,13 @@ class Executor(ExecutorBase):
                 if context.ended or self._is_shutdown:
                     return
                 if len(signalled) == 1 and not self._batch and not self._resumed and not self._polled:
-                    entity = signalled.pop()
-                    entity._listed_in = None
-                    if entity._executor is not self:
-                        entity._missed = True
-                    elif entity._has_work():
-                        if entity._begin(entity):
-                            execute(entity)
-                        else:
-                            self._blocked.append(entity)
+                    signalled.pop()._answer_signal(self)
                 elif signalled or self._batch or self._resumed or (self._polled and not self._has_polled):
                     try:
                         job = self._next(strand, None, None)
                     except ShutdownException:
                         return
-                    execute(job)
+                    self._execute(job)
                 else:
                     simulation.park(strand)
                     if context.ended and not self._is_shutdown:

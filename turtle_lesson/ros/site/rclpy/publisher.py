@@ -96,7 +96,8 @@ class Publisher:
             from turtle_lesson.ros.idl import cdr
 
             msg = cdr.deserialize(msg, self.msg_type)
-        self._write(msg)
+        write = self._write  # called by way of a name, which Python specializes
+        write(msg)
 
     def get_subscription_count(self) -> int:
         """How many subscriptions get what this publishes."""

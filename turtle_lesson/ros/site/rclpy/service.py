@@ -32,6 +32,7 @@ class Service(Entity):
     ) -> None:
         super().__init__(callback, callback_group)
         self._server = server
+        self._answers = True
         server.wake = self._signal
         self.srv_type = srv_type
         self._response_type = srv_type.Response

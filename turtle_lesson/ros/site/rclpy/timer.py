@@ -137,18 +137,7 @@ class Timer(Entity):
         """
         if self._armed is None or self._armed > self._next:
             self._armed = self._next
-            self._simulation.at(self._next, self._on_due, self._next)
-
-    def _on_due(self, due: int) -> None:
-        if due != self._armed:
-            return
-        self._armed = None
-        if self._canceled:
-            return
-        if due >= self._next:
-            self._signal()
-        else:
-            self._arm()
+            self._simulation.at(self._next, _on_due, self)
 
     def _has_work(self) -> bool:
         return not self._canceled and self._time.now >= self._next
@@ -165,7 +154,7 @@ class Timer(Entity):
         self._next = due
         if self._armed is None:
             self._armed = due
-            self._simulation.at(due, self._on_due, due)
+            self._simulation.at(due, _on_due, self)
         return ()
 
     # -- in the time that is heard on /clock -------------------------------------------------------------------------
@@ -207,6 +196,20 @@ class Timer(Entity):
         if isinstance(self._clock, ROSClock) and self in self._clock._timers:
             self._clock._timers.remove(self)
         super().destroy()
+
+
+def _on_due(timer: Timer) -> None:
+    """The simulation calls, as a timer has asked for."""
+    now = timer._simulation.now
+    if now != timer._armed:
+        return  # it has asked for an earlier call since
+    timer._armed = None
+    if timer._canceled:
+        return
+    if now >= timer._next:
+        timer._signal()
+    else:
+        timer._arm()
 
 
 class Rate:
