@@ -126,7 +126,8 @@ _FIRST = re.compile(
 _PYTHON_NEXT = re.compile(r"\s*(?:[-+*/%&|^@]|//|\*\*|<<|>>|[=!<>]|:)?=|\s+(?:in|is|if|and|or|not|for)\b\s")
 _VARIABLE = re.compile(r"[A-Za-z_]\w*=\S*[ \t]+(?:\S+[ \t]+)*?(?:ros2|colcon|python3)[ \t]")
 _DEEPER = {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}
-_STRING = re.compile(r"(?i)(?:[rbfut]{0,3})('''|\"\"\"|'|\")")
+_PIECE = re.compile(r"""#|(?P<bracket>[()\[\]{}])|(?P<end>[;:])|(?P<backslash>\\)\s*\Z|(?P<string>\'{3}|"{3}|'|")""")
+_STRING_ENDS = {quote: re.compile(rf"(?:\\.|[^\\])*?{quote}", re.DOTALL) for quote in ("'''", '"""', "'", '"')}
 
 
 def translate(lines: list[str], variables: Container[str] = ()) -> list[str]:
@@ -314,41 +315,19 @@ class _Cell:
 
 
 def _pieces(line: str, string: str) -> Iterator[tuple[str, str, int]]:
-    """What holds a line's statement together or ends it: kind, text, and the place behind it."""
+    """What holds a line's statement together or ends it: kind, text, and the place behind it; `string` is open already."""
     at = 0
-    while at < len(line):
+    while True:
         if string:
-            end = _string_end(line, at, string)
-            if end is None:
+            closed = _STRING_ENDS[string].match(line, at)
+            if closed is None:
                 if len(string) == 3 or line.rstrip("\n").endswith("\\"):
                     yield "open string", string, len(line)
                 return
-            at, string = end, ""
-            continue
-        char = line[at]
-        if char == "#":
+            at = closed.end()
+        found = _PIECE.search(line, at)
+        if found is None or found[0] == "#":
             return
-        opened = _STRING.match(line, at) if char in "'\"" else None
-        if opened:
-            string, at = opened[1], opened.end()
-            continue
-        at += 1
-        if char == "\\" and line[at:].strip() == "":
-            yield "backslash", char, at
-            return
-        if char in _DEEPER:
-            yield "bracket", char, at
-        elif char in ";:":
-            yield "end", char, at
-
-
-def _string_end(line: str, at: int, quote: str) -> int | None:
-    """The place behind the string that is open, or None if it does not end in this line."""
-    while at < len(line):
-        if line[at] == "\\":
-            at += 2
-        elif line.startswith(quote, at):
-            return at + len(quote)
-        else:
-            at += 1
-    return None
+        at, string = found.end(), found["string"] or ""
+        if not string and found.lastgroup:
+            yield found.lastgroup, found[found.lastgroup], at
