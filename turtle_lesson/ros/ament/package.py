@@ -162,23 +162,8 @@ def refused(text: str, where: str, hint: str = "", stack: Sequence[str] = (), *,
     return BuildFailure(cmake_message(text, where, stack), hint, seconds=seconds)
 
 
-class PackageNotFoundError(KeyError):
-    """No package of this name is in the index (`ament_index_python` raises it under the same name).
-
-    The text is the real one, quotation marks included, followed by what was perhaps meant.
-    """
-
-    def __init__(self, text: str, hint: str = "") -> None:
-        super().__init__(text)
-        self.text = text
-        self.hint = hint
-
-    def __str__(self) -> str:
-        return f"{self.text!r}. {self.hint}" if self.hint else repr(self.text)
-
-
-class _NotInPackageError(LookupError):
-    """A package has not what was asked for. `text` is the real tool's, `hint` ours."""
+class _NotFoundError(LookupError):
+    """Something that was asked for is not there. `text` is the real tool's, `hint` ours."""
 
     def __init__(self, text: str, hint: str = "") -> None:
         super().__init__(text)
@@ -189,11 +174,21 @@ class _NotInPackageError(LookupError):
         return f"{self.text}. {self.hint}" if self.hint else self.text
 
 
-class ExecutableNotFoundError(_NotInPackageError):
+class PackageNotFoundError(_NotFoundError, KeyError):
+    """No package of this name is in the index (`ament_index_python` raises it under the same name).
+
+    The text is the real one, quotation marks included, followed by what was perhaps meant.
+    """
+
+    def __str__(self) -> str:
+        return f"{self.text!r}. {self.hint}" if self.hint else repr(self.text)
+
+
+class ExecutableNotFoundError(_NotFoundError):
     """A package has no executable of this name."""
 
 
-class LaunchFileNotFoundError(_NotInPackageError):
+class LaunchFileNotFoundError(_NotFoundError):
     """A package has installed no launch file of this name, or several."""
 
 

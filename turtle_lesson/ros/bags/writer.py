@@ -148,18 +148,11 @@ def _open(folder: Path, storage: str) -> Any:
             self.conn.executescript(self.SQLITE_SCHEMA)
             self.cursor = self.conn.cursor()
 
-    class NumberedWriter(Writer):
-        """Calls the data file `run_0.mcap`."""
-
-        STORAGE_PLUGINS: Any = {  # noqa: RUF012
-            StoragePlugin.MCAP: lambda path, mode: CheckedMcapWriter(numbered(path), mode),
-            StoragePlugin.SQLITE3: lambda path, mode: ExactSqlite3Writer(numbered(path), mode),
-        }
-
-    numbered: Any = _Numbered
+    make: Any = {"mcap": CheckedMcapWriter, "sqlite3": ExactSqlite3Writer}[storage]
     plugin = {"mcap": StoragePlugin.MCAP, "sqlite3": StoragePlugin.SQLITE3}[storage]
     try:
-        writer = NumberedWriter(folder, version=FORMAT_VERSION, storage_plugin=plugin)
+        writer = Writer(folder, version=FORMAT_VERSION, storage_plugin=plugin)
+        writer.STORAGE_PLUGINS = {plugin: lambda path, mode: make(_Numbered(path), mode)}  # type: ignore[dict-item]
         writer.open()
     except (WriterError, OSError, ValueError) as error:
         raise BagError(f"the bag {folder} cannot be written: {error}") from None

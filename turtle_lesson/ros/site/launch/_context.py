@@ -49,13 +49,15 @@ class BaseEventHandler:
         return None
 
 
-class ReactingHandler(BaseEventHandler):
-    """Calls a function when its event happens, or gives fixed entities."""
+class EventHandler(BaseEventHandler):
+    """Gives entities when its event happens; launch's own handlers may instead call a function that gives them."""
 
-    def __init__(self, reaction: Reaction, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.__function = reaction if callable(reaction) else None
-        self.__entities = [] if callable(reaction) else as_entities(reaction)
+    def __init__(
+        self, *, matcher: Callable[[Event], bool], entities: Reaction = None, handle_once: bool = False
+    ) -> None:
+        super().__init__(matcher=matcher, handle_once=handle_once)
+        self.__function = entities if callable(entities) else None
+        self.__entities = [] if callable(entities) else as_entities(entities)
 
     @property
     def entities(self) -> list[LaunchDescriptionEntity]:
@@ -70,19 +72,6 @@ class ReactingHandler(BaseEventHandler):
         """Call the function, or give the entities."""
         super().handle(event, context)
         return self.entities if self.__function is None else self.__function(event, context)
-
-
-class EventHandler(ReactingHandler):
-    """Gives fixed entities when its event happens."""
-
-    def __init__(
-        self,
-        *,
-        matcher: Callable[[Event], bool],
-        entities: SomeEntitiesType | None = None,
-        handle_once: bool = False,
-    ) -> None:
-        super().__init__(as_entities(entities), matcher=matcher, handle_once=handle_once)
 
 
 def as_entities(entities: SomeEntitiesType | None) -> list[LaunchDescriptionEntity]:

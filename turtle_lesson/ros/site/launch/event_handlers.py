@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from ._context import Event, EventHandler, LaunchContext, ReactingHandler, Reaction
+from ._context import Event, EventHandler, LaunchContext, Reaction
 from ._entities import Action, SomeEntitiesType
 from .events import ExecutionComplete, Shutdown
 from .events.process import ProcessExited, ProcessIO, ProcessStarted
@@ -24,7 +24,7 @@ __all__ = [
 Target = Action | Callable[[Any], bool] | None
 
 
-class OnActionEventBase(ReactingHandler):
+class OnActionEventBase(EventHandler):
     """Reacts to one kind of event of one action, of those that a function picks, or of all."""
 
     def __init__(
@@ -33,7 +33,7 @@ class OnActionEventBase(ReactingHandler):
         if not (action_matcher is None or callable(action_matcher) or isinstance(action_matcher, Action)):
             what = f"{type(self).__name__} requires an 'Action' or a callable as its target"
             raise TypeError(f"{what}, got {action_matcher!r}; write target_action=the_node")
-        super().__init__(on_event, matcher=self._is_for, **kwargs)
+        super().__init__(matcher=self._is_for, entities=on_event, **kwargs)
         self._target = action_matcher
         self._event_class = target_event_cls
 
@@ -91,8 +91,8 @@ class OnProcessStart(OnActionEventBase):
         super().__init__(action_matcher=target_action, on_event=on_start, target_event_cls=ProcessStarted, **kwargs)
 
 
-class OnShutdown(ReactingHandler):
+class OnShutdown(EventHandler):
     """Reacts to the end of the launch."""
 
     def __init__(self, *, on_shutdown: Reaction, **kwargs: Any) -> None:
-        super().__init__(on_shutdown, matcher=lambda event: isinstance(event, Shutdown), **kwargs)
+        super().__init__(matcher=lambda event: isinstance(event, Shutdown), entities=on_shutdown, **kwargs)

@@ -161,38 +161,41 @@ class UnsetEnvironmentVariable(_Unsetting):
     _values = "environment"
 
 
-class PushLaunchConfigurations(Action):
+class _Scoping(Action):
+    """Begins or ends a scope of the values that a context keeps by name."""
+
+    _values: ClassVar[str]
+    _does: ClassVar[str]
+
+    def execute(self, context: LaunchContext) -> None:
+        """Begin or end it."""
+        getattr(context, self._does)(self._values)
+
+
+class PushLaunchConfigurations(_Scoping):
     """Begins a scope: what is set from here on is forgotten at the matching pop."""
 
-    def execute(self, context: LaunchContext) -> None:
-        """Begin it."""
-        context._push("launch_configurations")
+    _values, _does = "launch_configurations", "_push"
 
 
-class PopLaunchConfigurations(Action):
+class PopLaunchConfigurations(_Scoping):
     """Ends a scope."""
 
-    def execute(self, context: LaunchContext) -> None:
-        """End it."""
-        context._pop("launch_configurations")
+    _values, _does = "launch_configurations", "_pop"
 
 
 @expose_action("push_env")
-class PushEnvironment(Action):
+class PushEnvironment(_Scoping):
     """Begins a scope: what is set from here on is forgotten at the matching pop."""
 
-    def execute(self, context: LaunchContext) -> None:
-        """Begin it."""
-        context._push("environment")
+    _values, _does = "environment", "_push"
 
 
 @expose_action("pop_env")
-class PopEnvironment(Action):
+class PopEnvironment(_Scoping):
     """Ends a scope."""
 
-    def execute(self, context: LaunchContext) -> None:
-        """End it."""
-        context._pop("environment")
+    _values, _does = "environment", "_pop"
 
 
 @expose_action("reset")
