@@ -15,6 +15,10 @@ if TYPE_CHECKING:
     from ..recorder import ObstacleBoard, Recorder
 
 
+FRAME = 1 / 30
+"""Seconds from one frame of the widgets to the next."""
+
+
 class Clock(Protocol):
     """A clock that a widget can turn."""
 
@@ -111,6 +115,9 @@ class Loop:
             self._loop: asyncio.AbstractEventLoop | None = asyncio.get_running_loop()
         except RuntimeError:
             self._loop = None
+        self._actions: dict[object, tuple[int, Callable[[], object]]] = {}
+        self._next: asyncio.TimerHandle | None = None
+        self._frames = 0
 
     def soon(self, action: Callable[..., object], *arguments: Any) -> None:
         """Have the loop call `action`, whichever thread this is. Actions keep their order."""
@@ -119,17 +126,24 @@ class Loop:
         else:
             self._loop.call_soon_threadsafe(action, *arguments)
 
-    def every(self, seconds: float, action: Callable[[], object]) -> asyncio.Task[None] | None:
-        """Call `action` again and again; cancel the task to end that. None where there is no loop."""
-        loop = self._loop
-        if loop is None:
-            return None
+    def each_frame(self, action: Callable[[], object], frames: int = 1) -> Callable[[], object]:
+        """Call `action` at every frame, or every so many, until what this returns is called.
 
-        async def again_and_again() -> None:
-            due = loop.time()
-            while True:
-                due = max(due + seconds, loop.time())
-                await asyncio.sleep(due - loop.time())
+        The actions of one frame follow each other at once, so that the kernel is woken, and its messages are sent, once for
+        all. Without a loop nothing is called.
+        """
+        key = object()
+        self._actions[key] = frames, action
+        if self._loop is not None and self._next is None:
+            self._next = self._loop.call_later(FRAME, self._frame, self._loop)
+        return lambda: self._actions.pop(key, None)
+
+    def _frame(self, loop: asyncio.AbstractEventLoop) -> None:
+        """Have the next frame called first: an action that raises, or is interrupted, ends this frame only."""
+        self._frames += 1
+        assert self._next is not None
+        due = max(self._next.when() + FRAME, loop.time())
+        self._next = loop.call_at(due, self._frame, loop) if self._actions else None
+        for frames, action in list(self._actions.values()):
+            if self._frames % frames == 0:
                 action()
-
-        return loop.create_task(again_and_again())

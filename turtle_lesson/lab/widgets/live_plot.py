@@ -195,7 +195,7 @@ class LivePlot(LiveWidget):
     label = traitlets.Unicode().tag(sync=True)
     """The text, brought up to date now and then, as the picture's description."""
 
-    RATE = 20.0
+    FRAMES = 2
 
     def __init__(self, backend: Backend, fields: Iterable[str], seconds: float) -> None:
         self._curves = [Curve(asked) for asked in dict.fromkeys(_checked(backend.node, fields))]

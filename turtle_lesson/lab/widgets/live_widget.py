@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import asyncio
+from collections.abc import Callable
 from contextlib import suppress
 from functools import cache, partial
 from pathlib import Path
@@ -65,7 +65,8 @@ class LiveWidget(anywidget.AnyWidget):
     """A widget that shows a running system and acts on it.
 
     The browser sends orders (`{"do": "goal", "x": …}`), each of which is a method `do_goal(x=…)` here; state goes the other
-    way, as traits. While at least one view is open, `tick()` is called 30 times a second to bring the traits up to date.
+    way, as traits. While at least one view is open, `tick()` is called at each frame to bring the traits up to date: 30 times a
+    second, for all widgets of a system in one go.
 
     When its system ends, it stays on the page as it is and says what it said last, but lets go of the system.
     """
@@ -82,7 +83,8 @@ class LiveWidget(anywidget.AnyWidget):
     SCRIPTS: ClassVar[tuple[str, ...]]
     STYLES: ClassVar[tuple[str, ...]]
     """Its files in `js`."""
-    RATE: ClassVar[float] = 30.0
+    FRAMES: ClassVar[int] = 1
+    """At every so many frames it ticks."""
     is_made = False
 
     def __init__(self, backend: Backend, **traits: Any) -> None:
@@ -92,7 +94,7 @@ class LiveWidget(anywidget.AnyWidget):
         self._paces: dict[str, float] = {}
         self._views: dict[str, float] = {}  # when each gave its last sign of life
         self._is_open = False
-        self._task: asyncio.Task[None] | None = None
+        self._stop: Callable[[], object] = lambda: None
         super().__init__(**traits)
         self.on_msg(partial(backend.loop.soon, self._order))
         self.is_made = True
@@ -162,8 +164,7 @@ class LiveWidget(anywidget.AnyWidget):
         """No view is there any more."""
         if self._is_open:
             self._is_open = False
-            if self._task is not None:
-                self._task.cancel()
+            self._stop()
             self.closed()
 
     def set_state(self, sync_data: dict[str, Any]) -> None:
@@ -191,7 +192,7 @@ class LiveWidget(anywidget.AnyWidget):
         if not self._is_open:
             self._is_open = True
             self.opened()
-            self._task = self.backend.loop.every(1 / self.RATE, self._beat)
+            self._stop = self.backend.loop.each_frame(self._beat, self.FRAMES)
         self._tick()
 
     def _carry_out(self, name: object, order: dict[str, Any]) -> None:
