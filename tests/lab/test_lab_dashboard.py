@@ -64,7 +64,10 @@ def look(dashboard: Dashboard) -> None:
 
 
 def status_rows(dashboard: Dashboard) -> np.ndarray:
-    return np.frombuffer(dashboard.status, "<f4").reshape(-1, STATUS_COLUMNS)
+    """Of each status that is shown its age (s) and its numbers, as the browser computes them."""
+    rows = np.frombuffer(dashboard.status + dashboard.status_tip, "<f4").reshape(-1, STATUS_COLUMNS).copy()
+    rows[:, 0] = dashboard.now - dashboard.status_from - rows[:, 0]
+    return rows[rows[:, 0] <= 30]
 
 
 def states(rows: list[dict[str, Any]], name: str) -> dict[str, str]:

@@ -69,6 +69,11 @@ class Table:
         wanted = min(count, len(self)) * self._row.size
         return np.frombuffer(bytes(self._rows[len(self._rows) - wanted :]), self._type)
 
+    def last(self) -> tuple[float, ...]:
+        """The newest row: its time (ns) and its numbers; () where there is none."""
+        at = len(self._rows) - self._row.size
+        return self._row.unpack_from(self._rows, at) if at >= 0 else ()
+
     def after(self, stamp: int) -> np.ndarray:
         """The rows that are newer than `stamp` (ns): cheap where they are few, however long the table is."""
         count = 16
@@ -149,18 +154,20 @@ class Recording:
 
     def pose(self, until: int | None = None) -> tuple[float, float, float] | None:
         """The newest pose, x, y (m) and theta (rad), of those not later than `until` (ns); None where none was heard."""
-        poses = self.poses.newest(1 if until is None else 256)
+        row = self.poses.last()
         if until is not None:
-            poses = poses[poses["stamp"] <= until]
-        if not len(poses) or not all(math.isfinite(poses[-1][name]) for name in ("x", "y", "theta")):
+            rows = self.poses.newest(256)
+            rows = rows[rows["stamp"] <= until]
+            row = rows[-1].item() if len(rows) else ()
+        if not row or not all(map(math.isfinite, row[1:4])):
             return None
-        return float(poses[-1]["x"]), float(poses[-1]["y"]), float(poses[-1]["theta"])
+        return row[1], row[2], row[3]
 
     def pose_at_scan(self) -> tuple[float, float, float] | None:
         """Where the turtle was at the newest scan, as its scanner knew it; None where no scan or no such pose was heard."""
         if self.last_scan is None:
             return None
-        return self.pose(until=int(self.scans.newest(1)["stamp"][0]) - UNDER_WAY)
+        return self.pose(until=int(self.scans.last()[0]) - UNDER_WAY)
 
     def seconds(self, stamps: Any) -> Any:
         """Times in ns (a number or an array) as seconds since `origin`."""

@@ -37,6 +37,8 @@ MOST_STATUSES = 3000
 """Statuses that are looked at: those of the window at a hundred a second."""
 POINTS = 300
 """About so many of them are drawn at most: one every 0.1 s."""
+STATUS_TIP = 30
+"""So many may be new until all are sent again."""
 
 NODES = ("/turtlesim", "/navigator", "/status_monitor", "/obstacle_detector")
 SERVICES = ("/navigate_to",)
@@ -66,7 +68,11 @@ class Dashboard(GoalPad):
     PANELS = (*GoalPad.PANELS, "status", "log", "scan", "rates", "lights")
 
     status = traitlets.Bytes().tag(sync=True)
-    """A row for each status: its age (s), x, y (m), heading (rad), speed (m/s), battery (%)."""
+    """A row for each status: its time (s since `status_from`), x, y (m), heading (rad), speed (m/s), battery (%)."""
+    status_tip = traitlets.Bytes().tag(sync=True)
+    """The newest rows, which follow on those: they are sent in two pieces, as the trail is."""
+    status_from = traitlets.Float(0.0).tag(sync=True)
+    """Robot time, s."""
     status_note = traitlets.Unicode().tag(sync=True)
     """Why there is no status, if there is none."""
     scan_words = traitlets.Dict().tag(sync=True)
@@ -85,7 +91,7 @@ class Dashboard(GoalPad):
     """Lines below this level are not shown."""
 
     def __init__(self, backend: Backend) -> None:
-        self._status_seen: tuple[float, int] | None = None
+        self._status_newest = self._status_sent = -1  # stamps, ns
         self._scan_read: Any = None
         self._heard: dict[str, tuple[Channel, Table, str]] = {}  # with the reason why a topic cannot be heard
         self._rosout: Any = None
@@ -164,16 +170,22 @@ class Dashboard(GoalPad):
 
     def _show_status(self) -> None:
         recorder, now = self.backend.recorder, self.backend.now
-        newest = recorder.statuses.newest(1)
-        stamp = int(newest["stamp"][0]) if len(newest) else 0
-        if self._status_seen != (now, stamp):
-            self._status_seen = (now, stamp)
-            self.status = pack(_thinned(recorder.statuses.newest(MOST_STATUSES), self._now()))
-        if len(newest):
-            age = now - float(recorder.seconds(stamp))
+        newest = recorder.statuses.last()
+        if newest:
+            if newest[0] != self._status_newest:
+                self._status_newest = newest[0]
+                self._send_statuses(_thinned(recorder.statuses.newest(MOST_STATUSES), self._now()))
+            age = now - recorder.seconds(newest[0])
             self.status_note = f"No status for {age:.0f} s." if age > LATE else ""
         elif self.due("status note", 1):
             self.status_note = self._why_silent(STATUS_TOPIC)
+
+    def _send_statuses(self, rows: np.ndarray) -> None:
+        if self._status_sent < 0 or (rows["stamp"] > self._status_sent).sum() > STATUS_TIP:
+            self._status_sent = int(rows["stamp"][-1])
+            self.status_from = float(self.backend.recorder.seconds(self._status_sent))
+            self.status = pack(_columns(rows, self._status_sent))
+        self.status_tip = pack(_columns(rows[rows["stamp"] > self._status_sent], self._status_sent))
 
     def _show_scan_in_words(self) -> None:
         recorder = self.backend.recorder
@@ -308,14 +320,17 @@ def _light(name: str, kind: str, amount: int, by: str = "") -> dict[str, Any]:
 
 def _thinned(rows: np.ndarray, now: int) -> np.ndarray:
     """The statuses of the window, thinned so that a point that stays does not move while time goes on."""
-    ages = (now - rows["stamp"]) / NANOSECONDS
-    rows, ages = rows[ages <= WINDOW], ages[ages <= WINDOW]
+    rows = rows[rows["stamp"] >= now - round(WINDOW * NANOSECONDS)]
     if len(rows) > POINTS:
         slots = rows["stamp"] // round(WINDOW / POINTS * NANOSECONDS)
-        kept = np.append(slots[1:] != slots[:-1], True)
-        rows, ages = rows[kept], ages[kept]
-    speed = np.hypot(rows["vel_x"], rows["vel_y"])
-    return np.column_stack([ages, rows["x"], rows["y"], rows["theta"], speed, rows["battery"]])
+        rows = rows[np.append(slots[1:] != slots[:-1], True)]
+    return rows
+
+
+def _columns(rows: np.ndarray, begin: int) -> np.ndarray:
+    """What the browser gets of statuses, their times since `begin` (ns)."""
+    seconds, speed = (rows["stamp"] - begin) / NANOSECONDS, np.hypot(rows["vel_x"], rows["vel_y"])
+    return np.column_stack([seconds, rows["x"], rows["y"], rows["theta"], speed, rows["battery"]])
 
 
 def frequency(stamps: np.ndarray, now: int, pause: float = RATE_WINDOW) -> float:

@@ -23,6 +23,12 @@ SPACING, KEPT, TAIL = 0.05, 600, 60
 """Metres from one point of the trail to the next, how many points are kept (30 m of way), and how many may be new until the
 whole trail is sent again."""
 
+TRAIL_RATE = 10.0
+"""So many times a second at most the trail is sent again; from its end to the turtle, the browser draws a line."""
+
+JUMP = 0.3
+"""At once it is sent again where that line would be longer than this, m."""
+
 STALE = 1.5
 """A scan of more robot time ago than this, s, is no longer drawn on the map."""
 
@@ -90,7 +96,10 @@ class GoalPad(LiveWidget):
     def __init__(self, backend: Backend, **traits: Any) -> None:
         self._trail = Trail(SPACING, SPACING, TAIL, KEPT)
         self._changes = 0
+        self._trail_end: tuple[float, ...] = ()
+        self._pose_shown: tuple[float, ...] | None = None
         self._scan_drawn: Any = None
+        self._obstacles_shown: Any = None
         self.desk = GoalClient(backend, self._goal_changed)
         self._goal_news = False
         super().__init__(backend, panels=list(self.PANELS), **traits)
@@ -132,22 +141,33 @@ class GoalPad(LiveWidget):
     # -- map ---------------------------------------------------------------------------------------------------------
 
     def _show_map(self) -> None:
-        poses = self.backend.recorder.poses.newest(1)
-        self.pose = pack([poses[0][name] for name in ("x", "y", "theta", "speed")] if len(poses) else [np.nan] * 4)
-        if self._trail.follow(self.backend.recorder.poses):
+        recorder = self.backend.recorder
+        pose = recorder.poses.last()
+        if pose != self._pose_shown:
+            self._pose_shown = pose
+            self.pose = pack(pose[1:] or [math.nan] * 4)
+        if (self.due("trail", TRAIL_RATE) or self._has_jumped(pose)) and self._trail.follow(recorder.poses):
             if self._trail.changes != self._changes:
                 self._changes = self._trail.changes
                 self.trail = pack([row for piece in self._trail.old for row in ([np.nan, np.nan], *piece)])
             self.tail = pack([[np.nan, np.nan], *self._trail.tip[:-1]])  # the browser joins it to the turtle
+            self._trail_end = pose
         self._show_scan()
-        self.obstacles = [as_state(each) for each in self.backend.board.obstacles]
+        obstacles = self.backend.board.obstacles
+        if obstacles != self._obstacles_shown:
+            self._obstacles_shown = obstacles
+            self.obstacles = [as_state(each) for each in obstacles]
+
+    def _has_jumped(self, pose: tuple[float, ...]) -> bool:
+        """Whether the turtle is so far from the trail that a line to it would be seen to be wrong."""
+        return bool(pose and self._trail_end) and math.dist(pose[1:3], self._trail_end[1:3]) > JUMP
 
     def _show_scan(self) -> None:
         recorder = self.backend.recorder
         scan = recorder.last_scan
         if scan is None:
             return
-        if self.backend.now - recorder.seconds(recorder.scans.newest(1)["stamp"][0]) > STALE:
+        if self.backend.now - recorder.seconds(recorder.scans.last()[0]) > STALE:
             self.scanned_from = b""
         elif scan is not self._scan_drawn:
             self._scan_drawn = scan
@@ -164,9 +184,11 @@ class GoalPad(LiveWidget):
             return
         rate = clock.rate if math.isfinite(clock.rate) else FASTEST
         state = {"turns": True, "playing": clock.playing, "rate": rate}
-        if self.due("wall", 5) or state != self.clock:
+        changed = state != self.clock
+        if changed:
+            self.clock = state
+        if self.due("wall", 5) or changed:
             self.wall = {"seconds": round(clock.wall_seconds, 1), "speed": float(f"{clock.speed:.2g}")}
-        self.clock = state
 
     def do_play(self) -> None:
         """Let robot time go on."""

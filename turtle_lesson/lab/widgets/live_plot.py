@@ -195,7 +195,7 @@ class LivePlot(LiveWidget):
     label = traitlets.Unicode().tag(sync=True)
     """The text, brought up to date now and then, as the picture's description."""
 
-    FRAMES = 2
+    FRAMES = 3
 
     def __init__(self, backend: Backend, fields: Iterable[str], seconds: float) -> None:
         self._curves = [Curve(asked) for asked in dict.fromkeys(_checked(backend.node, fields))]
@@ -262,9 +262,9 @@ class LivePlot(LiveWidget):
 
     def window(self, curve: Curve) -> tuple[np.ndarray, np.ndarray]:
         """Times (s) and numbers of a curve's last `seconds`."""
-        rows = curve.table.array()
-        since = self.backend.recorder.origin + round((self.backend.now - self.seconds) * NANOSECONDS)
-        rows = rows[np.searchsorted(rows["stamp"], since) :]
+        rows = curve.table.after(
+            self.backend.recorder.origin + round((self.backend.now - self.seconds) * NANOSECONDS) - 1
+        )
         return self.backend.recorder.seconds(rows["stamp"]), rows["value"]
 
     def tick(self) -> None:

@@ -94,7 +94,7 @@ class LiveWidget(anywidget.AnyWidget):
         self._paces: dict[str, float] = {}
         self._views: dict[str, float] = {}  # when each gave its last sign of life
         self._is_open = False
-        self._stop: Callable[[], object] = lambda: None
+        self._stop_ticking: Callable[[], object] = lambda: None
         super().__init__(**traits)
         self.on_msg(partial(backend.loop.soon, self._order))
         self.is_made = True
@@ -164,7 +164,7 @@ class LiveWidget(anywidget.AnyWidget):
         """No view is there any more."""
         if self._is_open:
             self._is_open = False
-            self._stop()
+            self._stop_ticking()
             self.closed()
 
     def set_state(self, sync_data: dict[str, Any]) -> None:
@@ -192,7 +192,7 @@ class LiveWidget(anywidget.AnyWidget):
         if not self._is_open:
             self._is_open = True
             self.opened()
-            self._stop = self.backend.loop.each_frame(self._beat, self.FRAMES)
+            self._stop_ticking = self.backend.loop.each_frame(self._beat, self.FRAMES)
         self._tick()
 
     def _carry_out(self, name: object, order: dict[str, Any]) -> None:

@@ -116,10 +116,10 @@ class Scene(LiveWidget):
             if self._is_new("trail", self._trail.changes):
                 self.trail = scene_commands.trail("lab/trail", self._trail.old)
             self.tip = scene_commands.trail("lab/tip", [self._trail.tip])
-        scanned_from = recorder.pose_at_scan()
-        if scanned_from is not None and self._drawn.get("scan") is not recorder.last_scan:
-            self._drawn["scan"] = recorder.last_scan
-            self.scan = scene_commands.scan(recorder.last_scan, *scanned_from)
+        scan = recorder.last_scan
+        if self._drawn.get("scan") is not scan and (scanned_from := recorder.pose_at_scan()) is not None:
+            self._drawn["scan"] = scan
+            self.scan = scene_commands.scan(scan, *scanned_from)
         standing = list(recorder.obstacles.values())
         if self._is_new("obstacles", standing):
             self.obstacles = scene_commands.obstacles(standing)

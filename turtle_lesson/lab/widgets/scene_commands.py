@@ -63,15 +63,26 @@ def show(path: str, mesh: Mesh, lit: bool = True, **look: Any) -> bytes:
 
 
 def _show(path: str, shape: Any, material: Any, kind: Any = geometry.Mesh) -> bytes:
+    return umsgpack.packb(_shown(path, shape, material, kind))
+
+
+def _shown(path: str, shape: Any, material: Any, kind: Any) -> Any:
     thing = kind(shape, material)
     # meshcat's own names are made of the time: with these, the same scene is the same bytes
     shape.uuid, material.uuid, thing.uuid = f"{path}#shape", f"{path}#material", path
-    return packed(SetObject(thing, path=_path(path)))
+    return SetObject(thing, path=_path(path)).lower()
 
 
 def put(path: str, matrix: np.ndarray) -> bytes:
     """Say where something is, by a 4 by 4 matrix."""
-    return packed(SetTransform(np.round(np.asarray(matrix, float), 5), _path(path)))
+    numbers = np.round(np.asarray(matrix, float), 5).T.ravel().tolist()
+    return _put_head(path) + b"".join(map(umsgpack.packb, numbers))
+
+
+@cache
+def _put_head(path: str) -> bytes:
+    """The command without its 16 numbers, of 9 bytes each: for the turtle this is asked for at each frame."""
+    return packed(SetTransform(np.eye(4), _path(path)))[: -16 * 9]
 
 
 def remove(path: str) -> bytes:
@@ -84,6 +95,7 @@ def tell(path: str, name: str, value: Any) -> bytes:
     return packed(_SetNamed(name, value, _path(path)))
 
 
+@cache
 def cast_no_shadow(path: str) -> bytes:
     """The viewer lets everything throw a shadow: not so light, or what lies on the floor."""
     return tell(f"{path}/<object>", "castShadow", False)
@@ -168,7 +180,27 @@ def _flat(path: str, mesh: Mesh, colour: str, **look: Any) -> list[bytes]:
     """A mesh that light does not change; nothing of it if it is empty."""
     if not len(mesh):
         return [remove(path)]
-    return [show(path, mesh, lit=False, color=_number(colour), **look), cast_no_shadow(path)]
+    corners = np.round(mesh.corners.reshape(-1, 3), 4).astype(np.float32)
+    order = np.arange(len(corners), dtype=np.uint32).reshape(-1, 3)
+    arrays = [umsgpack.packb(geometry.pack_numpy_array(each.T)) for each in (corners, order)]
+    head, middle, end = _flat_without_arrays(path, color=_number(colour), **look)
+    return [b"".join((head, arrays[0], middle, arrays[1], end)), cast_no_shadow(path)]
+
+
+@cache
+def _flat_without_arrays(path: str, **look: Any) -> list[bytes]:
+    """The command that shows such a mesh, in three parts, between which its corners and their order belong.
+
+    They are packed once, since trail and scan come several times a second, and packing takes longer than all else.
+    """
+    shape = geometry.TriangularMeshGeometry(np.zeros((3, 3)), np.zeros((1, 3)))
+    command = _shown(path, shape, geometry.MeshBasicMaterial(vertexColors=False, **look), geometry.Mesh)
+    data = command["object"]["geometries"][0]["data"]
+    data["attributes"]["position"] = data["index"] = GAP
+    return umsgpack.packb(command).split(umsgpack.packb(GAP))
+
+
+GAP = "\0arrays\0"
 
 
 def obstacles(these: Iterable[Obstacle]) -> list[bytes]:

@@ -305,17 +305,15 @@ def _marks(beams: Beams, ends: np.ndarray, low: float = 0.03, high: float = 0.2)
     """An upright band along what the beams hit: joined where neighbours hit the same thing, a short piece elsewhere."""
     half = abs(beams.angles[1] - beams.angles[0]) / 2 if len(beams) > 1 else 0.01
     seen = np.flatnonzero(beams.sees)
-    bands = []
-    for number, beam in enumerate(seen):
-        after = seen[number + 1] if number + 1 < len(seen) else -1
-        far, turn = ends[beam] - 0.02, beams.angles[beam]
-        if after == beam + 1 and abs(ends[after] - ends[beam]) < SAME * max(1.0, ends[beam]):
-            bands.append((far, turn, ends[after] - 0.02, beams.angles[after]))
-        else:
-            bands.append((far, turn - half, far, turn + half))
-    if not bands:
+    if not len(seen):
         return joined([])
-    first_far, first_turn, last_far, last_turn = np.array(bands).T
+    after = np.append(seen[1:], seen[-1])
+    alike = np.abs(ends[after] - ends[seen]) < SAME * np.maximum(1.0, ends[seen])
+    goes_on = (after == seen + 1) & alike
+    first_far, turn = ends[seen] - 0.02, beams.angles[seen]
+    first_turn = np.where(goes_on, turn, turn - half)
+    last_far = np.where(goes_on, ends[after] - 0.02, first_far)
+    last_turn = np.where(goes_on, beams.angles[after], turn + half)
     right = np.column_stack([first_far * np.cos(first_turn), first_far * np.sin(first_turn)])
     left = np.column_stack([last_far * np.cos(last_turn), last_far * np.sin(last_turn)])
     ends_up = [(right, low), (left, low), (left, high), (right, low), (left, high), (right, high)]

@@ -1,7 +1,8 @@
 // The status: a strip of the last 30 seconds for each number, all on the same axis of time.
 
 const STATUS_WINDOW = 30;
-const STATUS_COLUMNS = 6; // age, x, y, heading, speed, battery
+const STATUS_COLUMNS = 6; // time, x, y, heading, speed, battery
+const STATUS_STEP = 0.1; // seconds after which the curves move on where no status comes
 const STATUS_EDGE = 4; // pixels left free above and below a curve
 const STATUS_RIGHT = 34; // and beside it, for the highest and the lowest value
 
@@ -14,30 +15,45 @@ const STRIPS = [
 ];
 
 function statusPanel(model) {
-  const strips = STRIPS.map((strip) => makeStrip(model, strip));
+  const strips = STRIPS.map(makeStrip);
   const note = element("p", { class: "tl-note", role: "note" });
   const axis = element("div", { class: "tl-strip-axis", "aria-hidden": "true" });
   for (const text of ["30 s ago", "20 s", "10 s", "now"]) axis.append(element("span", {}, text));
   axis.style.marginRight = `${STATUS_RIGHT}px`;
   const panel = element("div", { class: "tl-status" }, ...strips.flatMap(({ parts }) => parts), axis, note);
 
+  let shown = NaN;
   const show = () => {
-    const rows = floats(model.get("status"));
+    shown = model.get("now");
+    const rows = statusRows(model);
     for (const strip of strips) strip.show(rows);
   };
+  const goOn = () => Math.abs(model.get("now") - shown) < STATUS_STEP || show();
   const showNote = () => (note.textContent = model.get("status_note"));
   const close = () => strips.forEach((strip) => strip.close());
-  return { title: "Status", aside: "/robot/status", panel, close, watch: { status: show, status_note: showNote } };
+  return { title: "Status", aside: "/robot/status", panel, close, watch: { status: show, status_tip: show, now: goOn, status_note: showNote } };
 }
 
-function makeStrip(model, strip) {
+/** The statuses of the window, in the order in which they came: age, x, y, heading, speed, battery of each. */
+function statusRows(model) {
+  const all = [...floats(model.get("status")), ...floats(model.get("status_tip"))];
+  const now = model.get("now") - model.get("status_from");
+  const rows = [];
+  for (let at = 0; at < all.length; at += STATUS_COLUMNS)
+    if (now - all[at] <= STATUS_WINDOW) rows.push(now - all[at], ...all.slice(at + 1, at + STATUS_COLUMNS));
+  return rows;
+}
+
+function makeStrip(strip) {
+  let points = [];
   const value = element("span", { class: "tl-strip-value" });
   const name = element("span", { class: "tl-strip-name" }, strip.name);
   const look = { class: `tl-strip tl-strip-${strip.name}`, "aria-hidden": "true" };
   const { canvas, repaint, close } = sharpCanvas(look, (context, width, height, colour) =>
-    drawStrip(context, width, height, colour, strip, stripPoints(floats(model.get("status")), strip)),
+    drawStrip(context, width, height, colour, strip, points),
   );
   const show = (rows) => {
+    points = stripPoints(rows, strip);
     const last = rows.length ? rows[rows.length - STATUS_COLUMNS + strip.column] * (strip.scale ?? 1) : NaN;
     value.replaceChildren(figure(last, strip.digits ?? 2), element("small", {}, strip.unit));
     repaint();
