@@ -91,7 +91,8 @@ class Dashboard(GoalPad):
     """Lines below this level are not shown."""
 
     def __init__(self, backend: Backend) -> None:
-        self._status_newest = self._status_sent = -1  # stamps, ns
+        self._status_newest: float = -1  # stamps, ns
+        self._status_sent = -1
         self._scan_read: Any = None
         self._heard: dict[str, tuple[Channel, Table, str]] = {}  # with the reason why a topic cannot be heard
         self._rosout: Any = None
@@ -339,18 +340,17 @@ def frequency(stamps: np.ndarray, now: int, pause: float = RATE_WINDOW) -> float
     `stamps` and `now` are in ns, `stamps` ascending.
     """
     recent = stamps[stamps > now - round(RATE_WINDOW * NANOSECONDS)]
-    if not len(recent):
+    silence = (now - int(recent[-1])) / NANOSECONDS if len(recent) else math.inf
+    if silence > pause:
         return 0.0
-    gaps = np.diff(recent, append=max(now, int(recent[-1]))) / NANOSECONDS
-    if gaps[-1] > pause:
-        return 0.0
-    breaks = np.flatnonzero(gaps[:-1] > pause)
-    steps = gaps[breaks[-1] + 1 if len(breaks) else 0 : -1]
-    if not len(steps):
+    breaks = np.flatnonzero(recent[1:] - recent[:-1] > pause * NANOSECONDS)
+    recent = recent[breaks[-1] + 1 if len(breaks) else 0 :]
+    steps = len(recent) - 1
+    if not steps:
         return math.nan
-    span = float(steps.sum())
-    overdue = max(0.0, float(gaps[-1]) - 2 * span / len(steps))
-    return len(steps) / (span + overdue) if span + overdue > 0 else math.nan
+    span = int(recent[-1] - recent[0]) / NANOSECONDS
+    overdue = max(0.0, silence - 2 * span / steps)
+    return steps / (span + overdue) if span + overdue > 0 else math.nan
 
 
 def verdict(hertz: float, expected: float) -> str:
@@ -365,7 +365,7 @@ def verdict(hertz: float, expected: float) -> str:
 
 
 def _rate(topic: str, hertz: float, expected: float, state: str, note: str = "") -> dict[str, Any]:
-    shown = None if math.isnan(hertz) else float(np.round(hertz, 1))
+    shown = None if math.isnan(hertz) else round(10 * hertz) / 10
     return {"topic": topic, "hertz": shown, "expected": expected, "state": state, "note": note}
 
 

@@ -30,6 +30,7 @@ class Form(LiveWidget):
 
     SCRIPTS = ("dom", "small", "form_fields", "form")
     STYLES = ("base", "small", "form")
+    FRAMES = 3
 
     name = traitlets.Unicode().tag(sync=True)
     kind = traitlets.Unicode().tag(sync=True)

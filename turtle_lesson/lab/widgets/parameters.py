@@ -55,6 +55,7 @@ class ParametersPanel(LiveWidget):
 
     SCRIPTS = ("dom", "small", "parameter_controls", "parameters")
     STYLES = ("base", "small", "parameters")
+    FRAMES = 3
 
     node_name = traitlets.Unicode().tag(sync=True)
     items = traitlets.List(traitlets.Dict()).tag(sync=True)

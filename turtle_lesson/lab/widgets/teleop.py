@@ -36,6 +36,7 @@ class Teleop(LiveWidget):
 
     SCRIPTS = ("dom", "small", "teleop")
     STYLES = ("base", "small", "teleop")
+    FRAMES = 3
 
     topic = traitlets.Unicode().tag(sync=True)
     limits = traitlets.Dict({"forward": 2.0, "turn": 2.0}).tag(sync=True)
