@@ -1,6 +1,6 @@
 """`ros2 pkg create`: a new package's folder, with the files and the console output of ROS 2 Humble's.
 
-The files' texts are Humble's where they are code, and in our own words else.
+The files' texts are in `templates.txt`: Humble's where they are code, and in our own words else.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ import os
 import re
 import sys
 from collections.abc import Sequence
+from functools import cache
 from pathlib import Path
 from typing import TextIO
 from xml.sax.saxutils import escape, quoteattr
@@ -30,6 +31,19 @@ _TEST_DEPENDS = {
     "ament_python": ("ament_copyright", "ament_flake8", "ament_pep257", "python3-pytest"),
     "cmake": (),
 }
+
+
+@cache
+def _templates() -> dict[str, str]:
+    """The sections of `templates.txt`, each of which begins with a line `==== name`."""
+    text = Path(__file__).with_name("templates.txt").read_text(encoding="utf-8")
+    parts = re.split(r"^==== (.+)\n", text, flags=re.MULTILINE)
+    return dict(zip(parts[1::2], parts[2::2], strict=True))
+
+
+def filled(section: str, /, **values: str) -> str:
+    """A section of `templates.txt`, in which `{word}` is replaced by the value of this name."""
+    return re.sub(r"\{(\w+)\}", lambda found: values.get(found[1], found[0]), _templates()[section])
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -140,7 +154,7 @@ class _Creation:
         else:
             self._cmake_files()
         if args.license in LICENCES:
-            text = _LICENCE.format(identifier=args.license, holder=args.maintainer_name)
+            text = filled("LICENSE", identifier=args.license, holder=args.maintainer_name)
             (self.destination / self.name / "LICENSE").write_text(text, encoding="utf-8")
             return
         self._say(
@@ -175,32 +189,33 @@ class _Creation:
             ["<export>", f"  <build_type>{args.build_type}</build_type>", "</export>"],
         ]
         body = "\n\n".join("\n".join(f"  {line}" for line in block) for block in blocks if block)
-        return _PACKAGE_XML.format(format=args.package_format, body=body)
+        return filled("package.xml", format=args.package_format, body=body)
 
     def _python_files(self) -> None:
         args, name, node = self.args, self.name, self.args.node_name
         self._say("creating source folder")
         self._folder(name)
-        setup = _SETUP_PY.format(
+        setup = filled(
+            "setup.py",
             name=name,
-            maintainer=self.maintainer[0],
-            email=self.maintainer[1],
-            description=args.description,
-            licence=args.license,
+            maintainer=repr(self.maintainer[0]),
+            email=repr(self.maintainer[1]),
+            description=repr(args.description),
+            licence=repr(args.license),
             scripts=f"            '{node} = {name}.{node}:main'\n" if node else "",
         )
         self._file(setup, "setup.py")
-        self._file(_SETUP_CFG.format(name=name), "setup.cfg")
+        self._file(filled("setup.cfg", name=name), "setup.cfg")
         self._folder("resource")
         self._file("", "resource", name)
         self._file("", name, "__init__.py")
         self._folder("test")
         for tool, call in _STYLE_CALLS.items():
             skip = "@pytest.mark.skip(reason='The files have no copyright lines yet')\n" if tool == "copyright" else ""
-            test = _STYLE_TEST.format(tool=tool, call=call, function=call.partition("(")[0], skip=skip)
+            test = filled("style test", tool=tool, call=call, function=call.partition("(")[0], skip=skip)
             self._file(test, "test", f"test_{tool}.py")
         if node:
-            self._file(_PYTHON_NODE.format(name=name), name, f"{node}.py")
+            self._file(filled("program.py", name=name), name, f"{node}.py")
 
     def _cmake_files(self) -> None:
         name, node, library = self.name, self.args.node_name, self.args.library_name
@@ -210,12 +225,12 @@ class _Creation:
         ament = self.args.build_type == "ament_cmake"
         self._file(cmake_lists(name, self.dependencies, ament=ament, node=node, library=library), "CMakeLists.txt")
         if node:
-            self._file(_CPP_NODE.format(name=name), "src", f"{node}.cpp")
+            self._file(filled("program.cpp", name=name), "src", f"{node}.cpp")
         if library:
             guard = f"{name}__{library}_HPP_".upper()
             parts = {"name": name, "library": library, "kind": "".join(map(str.capitalize, library.split("_")))}
-            self._file(_CPP_HEADER.format(guard=guard, **parts), "include", name, f"{library}.hpp")
-            self._file(_CPP_SOURCE.format(**parts), "src", f"{library}.cpp")
+            self._file(filled("library.hpp", guard=guard, **parts), "include", name, f"{library}.hpp")
+            self._file(filled("library.cpp", **parts), "src", f"{library}.cpp")
 
 
 def cmake_lists(
@@ -229,172 +244,24 @@ def cmake_lists(
     """A `CMakeLists.txt`, for a C++ program `node` and a library where they are asked for."""
     names = "".join(f"\n  {each}" for each in dependencies)
     linked = f"ament_target_dependencies(\n  {{}}{names}\n)\n" if names and ament else ""
-    parts = [_CMAKE_HEAD.format(name=name)]
+    parts = [filled("CMakeLists.txt", name=name)]
     if ament:
         parts.append("find_package(ament_cmake REQUIRED)\n")
     parts += [f"find_package({each} REQUIRED)\n" for each in dependencies]
     if not dependencies:
         parts.append("# write one line for each further package: find_package(<dependency> REQUIRED)\n")
     if library:
-        parts.append(_LIBRARY.format(library=library) + linked.format(library))
+        parts.append(filled("CMakeLists.txt: library", library=library) + linked.format(library))
     if node:
-        parts.append(_NODE.format(node=node) + linked.format(node) + _INSTALL_NODE.format(node=node))
+        parts.append(filled("CMakeLists.txt: program", node=node) + linked.format(node))
+        parts.append(filled("CMakeLists.txt: installed program", node=node))
     if ament:
-        parts.append(_LINT + "\nament_package()\n")
+        parts.append(filled("CMakeLists.txt: tests") + "\nament_package()\n")
     return "".join(parts)
 
 
-_PACKAGE_XML = """\
-<?xml version="1.0"?>
-<?xml-model href="http://download.ros.org/schema/package_format{format}.xsd" \
-schematypens="http://www.w3.org/2001/XMLSchema"?>
-<package format="{format}">
-{body}
-</package>
-"""
-_CMAKE_HEAD = """\
-cmake_minimum_required(VERSION 3.8)
-project({name})
-
-if(CMAKE_COMPILER_IS_GNUCXX OR CMAKE_CXX_COMPILER_ID MATCHES "Clang")
-  add_compile_options(-Wall -Wextra -Wpedantic)
-endif()
-
-# what this package needs
-"""
-_LIBRARY = """
-add_library({library} src/{library}.cpp)
-target_include_directories({library} PUBLIC
-  $<BUILD_INTERFACE:${{CMAKE_CURRENT_SOURCE_DIR}}/include>
-  $<INSTALL_INTERFACE:include>)
-"""
-_NODE = """
-add_executable({node} src/{node}.cpp)
-target_include_directories({node} PUBLIC
-  $<BUILD_INTERFACE:${{CMAKE_CURRENT_SOURCE_DIR}}/include>
-  $<INSTALL_INTERFACE:include>)
-target_compile_features({node} PUBLIC c_std_99 cxx_std_17)
-"""
-_INSTALL_NODE = """
-install(TARGETS {node}
-  DESTINATION lib/${{PROJECT_NAME}})
-"""
-_LINT = """
-if(BUILD_TESTING)
-  find_package(ament_lint_auto REQUIRED)
-  # These two checks are left out until the files have copyright lines and lie in a git repository.
-  set(ament_cmake_copyright_FOUND TRUE)
-  set(ament_cmake_cpplint_FOUND TRUE)
-  ament_lint_auto_find_test_dependencies()
-endif()
-"""
-_SETUP_PY = """\
-from setuptools import find_packages, setup
-
-package_name = '{name}'
-
-setup(
-    name=package_name,
-    version='0.0.0',
-    packages=find_packages(exclude=['test']),
-    data_files=[
-        ('share/ament_index/resource_index/packages',
-            ['resource/' + package_name]),
-        ('share/' + package_name, ['package.xml']),
-    ],
-    install_requires=['setuptools'],
-    zip_safe=True,
-    maintainer={maintainer!r},
-    maintainer_email={email!r},
-    description={description!r},
-    license={licence!r},
-    tests_require=['pytest'],
-    entry_points={{
-        'console_scripts': [
-{scripts}        ],
-    }},
-)
-"""
-_SETUP_CFG = """\
-[develop]
-script_dir=$base/lib/{name}
-[install]
-install_scripts=$base/lib/{name}
-"""
-_PYTHON_NODE = """\
-def main():
-    print('Hi from {name}.')
-
-
-if __name__ == '__main__':
-    main()
-"""
 _STYLE_CALLS = {
     "copyright": "main(argv=['.', 'test'])",
     "flake8": "main_with_errors(argv=[])[0]",
     "pep257": "main(argv=['.', 'test'])",
 }
-_STYLE_TEST = """\
-from ament_{tool}.main import {function}
-import pytest
-
-
-{skip}@pytest.mark.linter
-@pytest.mark.{tool}
-def test_{tool}():
-    assert {call} == 0, 'ament_{tool} found fault with the code'
-"""
-_CPP_NODE = """\
-#include <cstdio>
-
-int main(int argc, char ** argv)
-{{
-  (void) argc;
-  (void) argv;
-
-  printf("hello world {name} package\\n");
-  return 0;
-}}
-"""
-_CPP_HEADER = """\
-#ifndef {guard}
-#define {guard}
-
-namespace {name}
-{{
-
-class {kind}
-{{
-public:
-  {kind}();
-  virtual ~{kind}();
-}};
-
-}}  // namespace {name}
-
-#endif  // {guard}
-"""
-_CPP_SOURCE = """\
-#include "{name}/{library}.hpp"
-
-namespace {name}
-{{
-
-{kind}::{kind}()
-{{
-}}
-
-{kind}::~{kind}()
-{{
-}}
-
-}}  // namespace {name}
-"""
-_LICENCE = """\
-{identifier}
-
-Copyright {holder}
-
-This package is licensed under {identifier}. Its full text is at
-https://spdx.org/licenses/{identifier}.html; put it here in place of these lines before you publish.
-"""

@@ -15,6 +15,7 @@ from ..idl.registry import registry
 from ..sim.errors import shown_path
 from .build import types_for
 from .catalog import CMAKE_PACKAGES, PYTHON_PACKAGES
+from .create import filled
 from .index import is_launch_file
 from .install_tree import Environment, Outcome
 from .manifest import Found, discover, read_found
@@ -188,35 +189,6 @@ def _readme(result: Exported, found: Found) -> str:
         run.insert(
             0, "ros2 run turtlesim turtlesim_node        # in a terminal of its own, which sources the same files"
         )
-    notes = "".join(f"- {note}\n" for note in result.notes)
-    look = f"\n## Look at these first\n\n{notes}" if notes else ""
-    return _README.format(name=result.name, run="\n".join(run) or "# it has no program yet", look=look)
-
-
-_README = """\
-# {name}
-
-A ROS 2 package from Turtle Lesson. It builds on ROS 2 Humble and every newer release, on the Ubuntu that belongs to it.
-
-## Build
-
-```sh
-source /opt/ros/humble/setup.bash            # or jazzy, kilted, rolling: the one that is installed
-sudo apt install python3-colcon-common-extensions python3-rosdep
-sudo rosdep init; rosdep update              # once on each computer; it does no harm if init was done before
-rosdep install --from-paths src --ignore-src --rosdistro $ROS_DISTRO -y
-colcon build
-source install/setup.bash
-```
-
-Type these commands in the folder of this file. If colcon complains, its message names the file and the line.
-
-The sources in `src/` are all that a robot needs. If `build/`, `install/` or `log/` were copied from another computer, delete
-them first: `rm -rf build install log`.
-
-## Run
-
-```sh
-{run}
-```
-{look}"""
+    notes = "\n".join(f"- {note}" for note in result.notes)
+    look = f"\n\n## Look at these first\n\n{notes}" if notes else ""
+    return filled("README.md", name=result.name, run="\n".join(run) or "# it has no program yet", look=look)
