@@ -10,13 +10,13 @@ import os
 import re
 import sys
 from collections.abc import Sequence
-from functools import cache
 from pathlib import Path
 from typing import TextIO
 from xml.sax.saxutils import escape, quoteattr
 
 from ..runtime import files
 from ..sim.errors import shown_path
+from .catalog import sections
 
 LICENCES = (
     "Apache-2.0", "BSL-1.0", "BSD-2.0", "BSD-2-Clause", "BSD-3-Clause", "GPL-3.0-only", "LGPL-3.0-only", "MIT", "MIT-0",
@@ -33,17 +33,9 @@ _TEST_DEPENDS = {
 }
 
 
-@cache
-def _templates() -> dict[str, str]:
-    """The sections of `templates.txt`, each of which begins with a line `==== name`."""
-    text = Path(__file__).with_name("templates.txt").read_text(encoding="utf-8")
-    parts = re.split(r"^==== (.+)\n", text, flags=re.MULTILINE)
-    return dict(zip(parts[1::2], parts[2::2], strict=True))
-
-
 def filled(section: str, /, **values: str) -> str:
     """A section of `templates.txt`, in which `{word}` is replaced by the value of this name."""
-    return re.sub(r"\{(\w+)\}", lambda found: values.get(found[1], found[0]), _templates()[section])
+    return re.sub(r"\{(\w+)\}", lambda found: values.get(found[1], found[0]), sections("templates.txt")[section])
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

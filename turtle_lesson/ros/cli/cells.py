@@ -38,43 +38,29 @@ _ROS_1 = {
     "rostopic": "ros2 topic",
 }
 
-_PICTURES = (
-    "there are no windows here; lesson.plot_graph(), plot_path(), plot_status() and plot_scan() draw into the page"
-)
-_NO_INSTALLING = "nothing needs to be installed here: ROS 2 is simulated, and everything that the lesson needs is there"
-_EDITOR = "no editor here: open the file in JupyterLab's list at the left, or begin a cell with %%writefile FILE"
-_SCRIPT = "python3 FILE runs a file, and ros2 run the program of a package; !python3 is the Python of your computer"
-_SHELL = "type commands into the cell, as in a terminal; bash FILE runs the commands in a file that is here"
-
-_HERE = {
-    "apt": _NO_INSTALLING,
-    "apt-get": _NO_INSTALLING,
-    "bash": _SHELL,
-    "clear": "JupyterLab's menu Edit clears the outputs of cells",
-    "cmake": "colcon build does that, from a package's CMakeLists.txt",
-    "code": _EDITOR,
-    "emacs": _EDITOR,
-    "gazebo": "the simulated world is there already: turtlesim, which start() starts",
-    "gedit": _EDITOR,
-    "launch_test": "launch_testing is not available here; write tests with pytest instead",
-    "make": "colcon build does that, from a package's CMakeLists.txt",
-    "nano": _EDITOR,
-    "pip3": "%pip install NAME installs into this notebook's Python",
-    "python": _SCRIPT,
-    "python3": _SCRIPT,
-    "roscore": "ROS 2 needs none: its nodes find one another",
-    "rosdep": _NO_INSTALLING,
-    "rqt": _PICTURES,
-    "rqt_console": _PICTURES,
-    "rqt_graph": _PICTURES,
-    "rqt_plot": _PICTURES,
-    "rviz": _PICTURES,
-    "rviz2": _PICTURES,
-    "sh": _SHELL,
-    "sudo": _NO_INSTALLING,
-    "vi": _EDITOR,
-    "vim": _EDITOR,
+_BY_ADVICE = {
+    "nothing needs to be installed here: ROS 2 is simulated, and everything that the lesson needs is there": (
+        "apt apt-get rosdep sudo"
+    ),
+    "type commands into the cell, as in a terminal; bash FILE runs the commands in a file that is here": "bash sh",
+    "JupyterLab's menu Edit clears the outputs of cells": "clear",
+    "colcon build does that, from a package's CMakeLists.txt": "cmake make",
+    "no editor here: open the file in JupyterLab's list at the left, or begin a cell with %%writefile FILE": (
+        "code emacs gedit nano vi vim"
+    ),
+    "the simulated world is there already: turtlesim, which start() starts": "gazebo",
+    "launch_testing is not available here; write tests with pytest instead": "launch_test",
+    "%pip install NAME installs into this notebook's Python": "pip3",
+    "python3 FILE runs a file, and ros2 run the program of a package; !python3 is the Python of your computer": (
+        "python python3"
+    ),
+    "ROS 2 needs none: its nodes find one another": "roscore",
+    "there are no windows here; lesson.plot_graph(), plot_path(), plot_status() and plot_scan() draw into the page": (
+        "rqt rqt_console rqt_graph rqt_plot rviz rviz2"
+    ),
 }
+_HERE = {word: advice for advice, words in _BY_ADVICE.items() for word in words.split()}
+"""What to do here instead, by the first word of a command."""
 
 _ON_THE_COMPUTER = frozenset((
     "awk", "curl", "date", "df", "diff", "docker", "du", "find", "git", "htop", "less", "man", "more", "ping", "ps", "sed",
