@@ -135,7 +135,7 @@ class Dashboard(GoalPad):
             waiting, self._log_waiting = self._log_waiting, []
             self._add_lines(sorted(waiting, key=itemgetter(0)))
 
-    def text(self) -> str:
+    def _text(self) -> str:
         """Time, place, battery, the nearest thing, what is missing, and how many goals were sent."""
         scan = self.backend.recorder.last_scan
         lost = [light["name"] for light in look(self.backend.node) if light["state"] == "missing"]
@@ -147,7 +147,7 @@ class Dashboard(GoalPad):
         ]
         return f"Dashboard at {number(self.backend.now)} s of robot time: {'; '.join(facts)}."
 
-    def picture(self) -> Picture | None:
+    def _picture(self) -> Picture | None:
         """Path, with the newest goal, and status side by side, as far as there is anything to draw."""
         kept = [(goal.x, goal.y, goal.theta) for goal in self.desk.goals if goal.was_taken]
         recorder = self.backend.recorder

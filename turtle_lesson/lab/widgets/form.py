@@ -207,7 +207,7 @@ class Form(LiveWidget):
         if self.kind == "topic":
             self.line = publish_line(self.name, self.type_name, values, None if self._timer is None else self.rate)
 
-    def text(self) -> str:
+    def _text(self) -> str:
         """What the form is for, and what it would send."""
         what = "messages on" if self.kind == "topic" else "requests to"
         wrong = listed([f"{path} ({words})" for path, words in self.errors.items()])

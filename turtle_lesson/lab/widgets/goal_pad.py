@@ -124,12 +124,12 @@ class GoalPad(LiveWidget):
             self.goals = [each.as_state() for each in self.desk.goals[-SHOWN:]]
             self.earlier = max(0, len(self.desk.goals) - SHOWN)
 
-    def text(self) -> str:
+    def _text(self) -> str:
         """Where the turtle is, what became of the goals, and how many obstacles there are."""
         here = f"{self.title} at {number(self.backend.now)} s of robot time: {self._place()}."
         return f"{here} {self._goals_in_words()} {self._obstacles_in_words()}"
 
-    def picture(self) -> Picture | None:
+    def _picture(self) -> Picture | None:
         """The map with the path so far."""
         goals = [(goal.x, goal.y, goal.theta) for goal in self.desk.goals if goal.state in ("on its way", "reached")]
         return plot_path(self.backend.recorder, goal=goals[-1:] or None)

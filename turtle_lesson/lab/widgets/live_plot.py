@@ -298,7 +298,7 @@ class LivePlot(LiveWidget):
         channel = self._channels.get(curve.topic)
         return channel.why_silent() if channel is not None else "It no longer listens."
 
-    def text(self) -> str:
+    def _text(self) -> str:
         """Each curve in figures: how many messages, the last number, lowest and highest."""
         self._look()
         begin = f"Live plot of the last {self.seconds:g} s at {number(self.backend.now)} s of robot time."
@@ -312,7 +312,7 @@ class LivePlot(LiveWidget):
         span = f", from {figure(finite.min())} to {figure(finite.max())}" if len(finite) else ""
         return f"{curve.asked}: {count(len(times), 'message')}, last {figure(values[-1])}{span}."
 
-    def picture(self) -> Picture | None:
+    def _picture(self) -> Picture | None:
         """The curves as they are now."""
         windows = [(curve.name, *self.window(curve)) for curve in self._curves]
         return draw(self.text(), windows, self.backend.now, self.seconds)

@@ -36,8 +36,7 @@ _LAST = {
     "_trait_validators",
     "_cross_validation_lock",
     "is_made",
-    "text",
-    "picture",
+    "_last_words",
 }
 """The attributes that a closed widget still needs; the first four are those of traitlets."""
 
@@ -86,6 +85,8 @@ class LiveWidget(anywidget.AnyWidget):
     FRAMES: ClassVar[int] = 1
     """At every so many frames it ticks."""
     is_made = False
+    _last_words: str | None = None
+    """What it said last, once its system has ended."""
 
     def __init__(self, backend: Backend, **traits: Any) -> None:
         """`backend` is a `Link` to it."""
@@ -118,13 +119,23 @@ class LiveWidget(anywidget.AnyWidget):
     def left(self) -> None:
         """Let go of publishers, clients and the like: the widget, or its system, is taken away. May be called again."""
 
-    def text(self) -> str:
-        """The state in one exact sentence or two: what print shows and nbval compares."""
+    def _text(self) -> str:
+        """The state of the running system in one exact sentence or two."""
         raise NotImplementedError
 
-    def picture(self) -> Picture | None:
-        """What to show where there is no kernel."""
+    def _picture(self) -> Picture | None:
+        """The running system as a picture."""
         return None
+
+    # -- in words and as a picture -------------------------------------------------------------------------------------
+
+    def text(self) -> str:
+        """The state in one exact sentence or two, after the system's end the last one: what print shows and nbval compares."""
+        return self._text() if self._last_words is None else self._last_words
+
+    def picture(self) -> Picture | None:
+        """What to show where there is no kernel; nothing after the system's end."""
+        return self._picture() if self._last_words is None else None
 
     # -- ticks and views -----------------------------------------------------------------------------------------------
 
@@ -248,8 +259,7 @@ class LiveWidget(anywidget.AnyWidget):
         with suppress(Exception):
             last = self.text()
         cast(Link, self.backend).cut()
-        self.text = lambda: last  # type: ignore[method-assign]
-        self.picture = lambda: None  # type: ignore[method-assign]
+        self._last_words = last
 
     def __repr__(self) -> str:
         return self.text()

@@ -250,7 +250,7 @@ class ParametersPanel(LiveWidget):
             return f"Asked {self.node_name}; it answers once robot time passes."
         return "" if self._found else f"{self.node_name} has no parameters."
 
-    def text(self) -> str:
+    def _text(self) -> str:
         """All parameters with their values."""
         problem = self._why_nothing()
         if problem:

@@ -65,6 +65,6 @@ class PredictionWidget(LiveWidget):
             f"Recorded: {self._asked.kind.shown(self._asked.guess)}. You can change it until the outcome is shown."
         )
 
-    def text(self) -> str:
+    def _text(self) -> str:
         """The question and the guess."""
         return repr(self._asked)

@@ -93,11 +93,11 @@ class Scene(LiveWidget):
 
         return replay_page(self, since, until)
 
-    def text(self) -> str:
+    def _text(self) -> str:
         """Where the turtle is, and what is around it."""
         return f"3-D scene: {describe(self.backend.recorder, self._current_goal())}"
 
-    def picture(self) -> Picture | None:
+    def _picture(self) -> Picture | None:
         """The same scene drawn by matplotlib, from one side."""
         return draw_scene(self.backend.recorder, self._current_goal())
 

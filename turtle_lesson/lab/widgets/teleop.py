@@ -143,7 +143,7 @@ class Teleop(LiveWidget):
         self._publisher.publish(message)
         self.sent = {"linear": message.linear.x, "angular": message.angular.z, "count": self.sent["count"] + 1}
 
-    def text(self) -> str:
+    def _text(self) -> str:
         """Where it drives, how fast at most, and what it sent last."""
         most = f"at most {number(self.limits['forward'])} m/s and {number(self.limits['turn'])} rad/s"
         last = "nothing sent yet"
