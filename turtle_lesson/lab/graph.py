@@ -8,11 +8,15 @@ import statistics
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING
 
 from ..ros.idl.names import is_hidden
 from . import drawing, style
 from .words import count, listed, number
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+    from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 EVERYWHERE = frozenset({"/rosout", "/parameter_events"})
 """Topics that every node has: they say nothing about how a system is built."""
@@ -40,7 +44,7 @@ class NodeView:
     calls: Ends = field(default_factory=dict)
 
 
-def read_system(node: Any) -> list[NodeView]:
+def read_system(node: Node) -> list[NodeView]:
     """Return the visible nodes that `node` (an rclpy Node) sees in the graph, sorted by name."""
     from rclpy.node import NodeNameNonExistentError
 
@@ -66,23 +70,23 @@ def full_name(name: str, namespace: str) -> str:
     return f"{namespace.rstrip('/')}/{name}"
 
 
-def node_names(node: Any) -> list[str]:
+def node_names(node: Node) -> list[str]:
     """The full names of all nodes that `node` sees in the graph, sorted; those of twins several times."""
     return sorted(full_name(*each) for each in node.get_node_names_and_namespaces())
 
 
-def owner(end: Any) -> str:
+def owner(end: TopicEndpointInfo) -> str:
     """The full name of the node that has a publisher or subscription."""
     return full_name(end.node_name, end.node_namespace)
 
 
-def others(node: Any, ends: list[Any]) -> list[Any]:
+def others(node: Node, ends: list[TopicEndpointInfo]) -> list[TopicEndpointInfo]:
     """Of the publishers or subscriptions of a topic, those that are not of `node` itself."""
     me = full_name(node.get_name(), node.get_namespace())
     return [end for end in ends if owner(end) != me]
 
 
-def of_node(node: Any, query: str, name: str) -> list[tuple[str, list[str]]]:
+def of_node(node: Node, query: str, name: str) -> list[tuple[str, list[str]]]:
     """What a query of the graph, such as "get_service_names_and_types_by_node", says of a node; nothing if it has just gone."""
     from rclpy.node import NodeNameNonExistentError
 
@@ -93,7 +97,7 @@ def of_node(node: Any, query: str, name: str) -> list[tuple[str, list[str]]]:
         return []
 
 
-def servers(node: Any, service: str) -> list[tuple[str, list[str]]]:
+def servers(node: Node, service: str) -> list[tuple[str, list[str]]]:
     """The nodes that offer a service, with its types: of twins each one, since from outside they look the same.
 
     A list of all services would also name those that are only asked for.
@@ -140,7 +144,7 @@ class GraphPicture:
     def __repr__(self) -> str:
         return self.text
 
-    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
+    def _repr_mimebundle_(self, **options: object) -> dict[str, str]:
         """What Jupyter shows: the drawing with its alternative text, with or without a kernel."""
         if not self.svg:
             return {"text/plain": self.text}
@@ -148,7 +152,7 @@ class GraphPicture:
         return {"text/html": shown, "text/vnd.mermaid": self.mermaid, "text/plain": self.text}
 
 
-def plot_graph(node: Any) -> GraphPicture:
+def plot_graph(node: Node) -> GraphPicture:
     """Return the ROS graph that `node` (an rclpy Node) sees, as a diagram and in words.
 
     Left out, as by ROS's own tools: hidden names, and the topics and services that every node has.

@@ -43,7 +43,7 @@ class Picture:
             words = f"<details><summary>In words</summary><p>{html.escape(self.text)}</p></details>"
             display({"text/html": words}, raw=True)
 
-    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> Any:
+    def _repr_mimebundle_(self, **options: object) -> Any:
         """What Jupyter shows: PNG and text, and as metadata the size to show and the alternative text."""
         data: dict[str, Any] = {"text/plain": self.text}
         if self.figure is None:

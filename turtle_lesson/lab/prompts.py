@@ -48,7 +48,7 @@ class Prompt:
     def __repr__(self) -> str:
         return self.text
 
-    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
+    def _repr_mimebundle_(self, **options: object) -> dict[str, str]:
         """What Jupyter shows: a field in which one click and Ctrl+A choose all of it."""
         lines = min(24, self.text.count("\n") + 2)
         label = f"A prompt for {self.kind}: click into it, then Ctrl+A and Ctrl+C (⌘A and ⌘C on a Mac) copy it."

@@ -13,7 +13,7 @@ import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..turtlesim.obstacles import WORLDS, Box, Circle, to_marker_array
 from .graph import others, owner
@@ -30,6 +30,11 @@ from .recording import (
     Recording,
 )
 from .words import listed
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+    from rclpy.publisher import Publisher
+    from rclpy.subscription import Subscription
 
 GLANCE_PERIOD = 1.0
 """Seconds between two glances at the graph, for publishers that come late in a node's life."""
@@ -69,7 +74,7 @@ class Recorder(Recording):
 
     def __init__(
         self,
-        node: Any,
+        node: Node,
         *,
         turtle: str = "turtle1",
         origin: int | None = None,
@@ -118,7 +123,7 @@ class Recorder(Recording):
         self.look()
         return self._channels[topic].why_silent()
 
-    def _make_channels(self, node: Any, advice: Advice) -> dict[str, Channel]:
+    def _make_channels(self, node: Node, advice: Advice) -> dict[str, Channel]:
         twist, pose = "geometry_msgs/msg/Twist", "turtlesim/msg/Pose"
         scan, markers = "sensor_msgs/msg/LaserScan", "visualization_msgs/msg/MarkerArray"
         commands = self.commands.listener("linear.x", "linear.y", "angular.z")
@@ -162,7 +167,7 @@ class Channel:
     publishes it.
     """
 
-    node: Any
+    node: Node
     topic: str
     type_name: str
     make_listener: Callable[[Any], Listener]
@@ -177,7 +182,7 @@ class Channel:
     raw: bool = False
     """Whether messages stay bytes, which the listener does not read."""
     _message_type: Any = None
-    _subscription: Any = None
+    _subscription: Subscription | None = None
     _count: int = -1
 
     @property
@@ -253,7 +258,7 @@ class Channel:
         return QoSProfile(depth=DEPTH, reliability=ReliabilityPolicy.BEST_EFFORT)
 
 
-def with_time(node: Any, listener: Listener) -> Callable[..., None]:
+def with_time(node: Node, listener: Listener) -> Callable[..., None]:
     """Return a callback for any rclpy. Since Iron it tells a message's time; Humble's own does not yet.
 
     There the node's clock is read, which costs more, and tells when a message was handled, not when it was sent. The
@@ -309,7 +314,7 @@ class ObstacleBoard:
         """`now` tells the time, in ns since 1970, for a caller that can tell it without the node's clock."""
         self._recorder = recorder
         self._now = now or (lambda: recorder.node.get_clock().now().nanoseconds)
-        self._publisher: Any = None
+        self._publisher: Publisher | None = None
         self._put: tuple[Circle | Box, ...] = ()
         self._expected: Obstacles = {}
         self._deadline: float | None = None

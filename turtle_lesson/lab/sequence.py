@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import chain
 from operator import attrgetter, itemgetter
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import drawing, style
 from .graph import LOOKS, PARAMETER_SERVICES, THEME, GraphPicture, plain_line
@@ -17,11 +17,14 @@ from .recording import NANOSECONDS
 from .timeline import SHORT, Window, window_of
 from .words import count, listed, number
 
+if TYPE_CHECKING:
+    from ..ros.rmw.trace import Call, Callback, Trace
+
 MOST = 8
 """How many calls one diagram shows, the newest."""
 
 
-def plot_sequence(trace: Any, *services: str, since: float | None = None, until: float | None = None) -> GraphPicture:
+def plot_sequence(trace: Trace, *services: str, since: float | None = None, until: float | None = None) -> GraphPicture:
     """Return the newest calls of some services (of all but the parameters' if none is named) as a diagram and in words.
 
     `since` and `until` are in seconds since the lesson's start: when a call was asked.
@@ -52,7 +55,7 @@ def plot_sequence(trace: Any, *services: str, since: float | None = None, until:
     )
 
 
-def _nothing(trace: Any, names: list[str], called: Sequence[Any], window: Window) -> str:
+def _nothing(trace: Trace, names: list[str], called: Sequence[Call], window: Window) -> str:
     what = listed(names) if names else "a service"
     if called:
         when = f"{number(called[0].asked / NANOSECONDS)} s and {number(called[-1].asked / NANOSECONDS)} s"
@@ -88,7 +91,7 @@ def _sentence(step: Step) -> str:
 class Step:
     """One call, with what the trace of callbacks knows of it. Times are in ns since the lesson's start."""
 
-    call: Any
+    call: Call
     callback: str = ""
     """The function that served it, if it has begun."""
     began: int | None = None
@@ -97,7 +100,7 @@ class Step:
     longest wait."""
 
 
-def step_of(trace: Any, call: Any) -> Step:
+def step_of(trace: Trace, call: Call) -> Step:
     """What the trace tells of a call: of those that a server received at one instant, the first was served first."""
     received = attrgetter("process", "server", "service", "received")
     place = [each for each in trace.calls if received(each) == received(call)].index(call)
@@ -113,7 +116,7 @@ def step_of(trace: Any, call: Any) -> Step:
     return Step(call)
 
 
-def _waited(trace: Any, server: Any, began: int, ended: int) -> dict[str, tuple[str, int]]:
+def _waited(trace: Trace, server: Callback, began: int, ended: int) -> dict[str, tuple[str, int]]:
     """The callbacks of the same program that became ready while this one ran, and had to wait for a while."""
     found: dict[str, tuple[str, int]] = {}
     for callback in trace.callbacks:
@@ -178,7 +181,7 @@ def _events(step: Step) -> list[tuple[int, Event]]:
         events = [Event("lost", call.caller, text=asked), Event("note", call.caller, text="no node received it")]
         return [(call.asked, event) for event in events]
     question = call.asked, Event("call", call.caller, server, asked)
-    if step.began is None:
+    if step.began is None or call.received is None:
         return [question, (call.asked, Event("note", server, text="waits: no callback has begun yet"))]
     waited = step.began - call.received
     begins = f"{step.callback} begins" + (f", after a wait of {after(0, waited)}" if waited >= SHORT else "")

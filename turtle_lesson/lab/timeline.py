@@ -20,6 +20,9 @@ from .words import count, listed, number, rate
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from rclpy.node import Node
+
+    from ..ros.rmw.trace import Callback, Trace
 
 
 WIDTH, LEFT, RIGHT = 6.4, 1.95, 0.25
@@ -35,7 +38,9 @@ AWAITS: dict[str, Any] = {"facecolor": style.ORANGE + "40", "edgecolor": style.D
 """The bars of a callback that holds its thread, and of one that leaves it to others."""
 
 
-def plot_timeline(trace: Any, node: Any, *rows: str, since: float | None = None, until: float | None = None) -> Picture:
+def plot_timeline(
+    trace: Trace, node: Node, *rows: str, since: float | None = None, until: float | None = None
+) -> Picture:
     """Return what happened from `since` to `until` (s since the lesson's start), in a lane for each topic and callback.
 
     Args:
@@ -196,7 +201,7 @@ def window_of(now: int, since: float | None, until: float | None) -> Window:
 
 
 def lanes_of(
-    trace: Any, names: Sequence[str], known_topics: Iterable[str], alive: Iterable[str], window: Window
+    trace: Trace, names: Sequence[str], known_topics: Iterable[str], alive: Iterable[str], window: Window
 ) -> list[Lane]:
     """The lanes for some names of topics, nodes and callbacks ("/navigator.on_pose"); for none, of all nodes.
 
@@ -229,7 +234,7 @@ def lanes_of(
     return lanes
 
 
-def _topic_lane(trace: Any, topic: str, window: Window) -> Lane:
+def _topic_lane(trace: Trace, topic: str, window: Window) -> Lane:
     if topic in trace.not_noted:
         raise ValueError(
             f"{topic} is not recorded: only the first {TOPICS} topics of each node are. `ros2 topic hz {topic}` "
@@ -256,9 +261,9 @@ def _topic_lane(trace: Any, topic: str, window: Window) -> Lane:
     return Lane(topic, about, f"{text}.", times)
 
 
-def _callback_lanes(trace: Any, node: str, function: str, window: Window, alive: bool) -> list[Lane]:
+def _callback_lanes(trace: Trace, node: str, function: str, window: Window, alive: bool) -> list[Lane]:
     """One lane for each callback of a node that ran or waited; those of a twin or an earlier start of it join in."""
-    groups: dict[tuple[str, str], list[Any]] = {}
+    groups: dict[tuple[str, str], list[Callback]] = {}
     for callback in trace.callbacks:
         if callback.node == node and function in ("", callback.name):
             called_by = callback.source or f"every {callback.period / NANOSECONDS:g} s"
@@ -282,7 +287,7 @@ def _callback_lanes(trace: Any, node: str, function: str, window: Window, alive:
 
 
 def _callback_lane(
-    name: str, called_by: str, callbacks: list[Any], runs: np.ndarray, waiting: np.ndarray, window: Window
+    name: str, called_by: str, callbacks: list[Callback], runs: np.ndarray, waiting: np.ndarray, window: Window
 ) -> Lane:
     node, began = callbacks[0].node, runs["began"]
     lasted, waited = runs["ended"] - began, began - runs["ready"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections import deque
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..ros.sim.errors import print_error
 from ..ros.sim.run_blocking import drive_within
@@ -12,6 +12,8 @@ from ..ros.sim.simulation import NANOSECONDS
 from ..ros.stdlib.clocks import real_monotonic
 
 if TYPE_CHECKING:
+    from rclpy.executors import SingleThreadedExecutor
+
     from ..lab.recorder import ObstacleBoard, Recorder
     from ..lab.widgets.backend import Clock
     from ..ros.runtime.world import World
@@ -44,7 +46,8 @@ class CellNodes:
 
     def __init__(self, world: World) -> None:
         self._world = world
-        self._executor: Any = None  # one for all steps: it keeps the coroutines that wait from one step to the next
+        # one for all steps: it keeps the coroutines that wait from one step to the next
+        self._executor: SingleThreadedExecutor | None = None
 
     def run_until(self, end: int) -> None:
         """Go on until `end` (ns of robot time). Raises what a callback raises; then not all of that time has passed."""
@@ -230,7 +233,7 @@ class SimBackend:
         self._world = world
         self.recorder = recorder
         self.board = board
-        self.node: Any = recorder.node
+        self.node = recorder.node
         self.clock: Clock | None = player
         self.keyboard: Keyboard | None = world.sim.keyboard
         self.loop = Loop()

@@ -49,7 +49,7 @@ class RobotBackend:
         self._context = Context()
         # Signals and logs stay as the notebook's own nodes have them.
         self._context.init(args=[], initialize_logging=False)
-        self.node: Any = LabNode(self._context, self._hop)
+        self.node: Node = LabNode(self._context, self._hop)
         self.recorder = Recorder(self.node, advice=ON_A_ROBOT)
         self.board = ObstacleBoard(self.recorder)
         self._executor = SingleThreadedExecutor(context=self._context)

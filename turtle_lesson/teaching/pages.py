@@ -52,7 +52,7 @@ def find(paths: Iterable[Path]) -> list[Path]:
     return list(dict.fromkeys(found))
 
 
-def read(path: Path) -> Any:
+def read(path: Path) -> nbformat.NotebookNode:
     """The notebook in a file. Raises PageError, which says why it cannot be read."""
     try:
         text = path.read_text(encoding="utf-8-sig")
@@ -67,7 +67,7 @@ def read(path: Path) -> Any:
     return parse(text, path)
 
 
-def parse(text: str | bytes, path: Path) -> Any:
+def parse(text: str | bytes, path: Path) -> nbformat.NotebookNode:
     """The notebook in a text. Raises PageError, which says why the text is not a notebook."""
     try:
         notebook = nbformat.reads(text, as_version=4)
@@ -78,7 +78,7 @@ def parse(text: str | bytes, path: Path) -> Any:
     return notebook
 
 
-def clear(notebook: Any) -> Any:
+def clear(notebook: nbformat.NotebookNode) -> nbformat.NotebookNode:
     """Take the outputs and execution counts out of a notebook, and return it. Ids, tags and all else stay."""
     for cell in notebook.cells:
         if cell.cell_type == "code":
@@ -255,7 +255,7 @@ class LearnersFolder:
             )
         return said
 
-    def _put(self, name: str, page: Any, made_from: str) -> bool:
+    def _put(self, name: str, page: nbformat.NotebookNode, made_from: str) -> bool:
         """Write a page, unless the learner's copy was worked on and differs; whether the page is there now."""
         path = self.path / name
         mine = version_of(path)
@@ -319,7 +319,7 @@ def begun() -> list[str]:
     return found
 
 
-def version(notebook: Any) -> str:
+def version(notebook: nbformat.NotebookNode) -> str:
     """A short hash of a notebook's cells: a copy with outputs or changes has another one."""
     cells = [[cell.cell_type, cell.source, cell.get("outputs", [])] for cell in notebook.cells]
     return hashlib.sha256(json.dumps(cells).encode()).hexdigest()[:16]

@@ -6,13 +6,17 @@ import itertools
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING
 
 from ..words import angle, number, point, turned
 from .probe import Answer, Heard, Probe
 from .registry import expectation
 from .results import CannotLook, Seen, hinted
 from .streams import gaps_of, no_answer, told
+
+if TYPE_CHECKING:
+    from robot_controller.srv import NavigateTo
+    from turtlesim.msg import Pose
 
 NAVIGATE, NAVIGATE_TYPE = "/navigate_to", "robot_controller/srv/NavigateTo"
 POSE, POSE_TYPE = "/turtle1/pose", "turtlesim/msg/Pose"
@@ -55,19 +59,19 @@ class Drive:
     """A goal (x, y in m, theta in rad), the answer, and the commands and poses from the question to a second after it."""
 
     goal: Goal
-    begin: Any
+    begin: Pose
     answer: Answer
     commands: list[Heard] = field(default_factory=list)
     poses: list[Heard] = field(default_factory=list)
 
     @property
-    def response(self) -> Any:
+    def response(self) -> NavigateTo.Response:
         """What was answered. Raises CannotLook where nothing was."""
         if self.answer.response is None:
             raise CannotLook(f"the goal {point(*self.goal[:2])} was not answered")
         return self.answer.response
 
-    def end(self, at_rest: bool = False) -> Any:
+    def end(self, at_rest: bool = False) -> Pose:
         """The last pose by the time of the answer; or the one in which the turtle came to rest."""
         if at_rest and self.poses:
             return self.poses[-1].message
@@ -86,17 +90,17 @@ class Drive:
         return away(self.end(at_rest), self.goal)
 
 
-def is_moving(pose: Any) -> bool:
+def is_moving(pose: Pose) -> bool:
     """Whether a turtle says that it moves."""
     return abs(pose.linear_velocity) > 1e-3 or abs(pose.angular_velocity) > 1e-3
 
 
-def away(pose: Any, place: Sequence[float]) -> float:
+def away(pose: Pose, place: Sequence[float]) -> float:
     """How far a pose is from a place, m."""
     return math.hypot(pose.x - place[0], pose.y - place[1])
 
 
-def where(probe: Probe) -> Any:
+def where(probe: Probe) -> Pose:
     """The turtle's newest pose. Raises CannotLook where none comes."""
     heard = probe.listen(POSE, POSE_TYPE)
     if not probe.wait_for(lambda: heard, 0.5):
@@ -223,7 +227,7 @@ def turns_little(probe: Probe, way: Way, most: float) -> Seen:
     return Seen(it.distance(at_rest=True) <= NEAR and degrees <= most, seen, step)
 
 
-def turning(poses: list[Any]) -> float:
+def turning(poses: list[Pose]) -> float:
     """The sum of all turns from pose to pose, to and fro, in rad."""
     headings = [each.theta for each in poses]
     if not all(map(math.isfinite, headings)):

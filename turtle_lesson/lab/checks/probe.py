@@ -13,7 +13,7 @@ from contextlib import AbstractContextManager, contextmanager, suppress
 from dataclasses import dataclass
 from functools import wraps
 from types import TracebackType
-from typing import Any, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from ...ros.idl.names import is_hidden, nearest
 from ...ros.sim.interrupts import work_done
@@ -22,6 +22,15 @@ from ..recorder import ObstacleBoard, with_time
 from ..recording import NANOSECONDS, Recording
 from ..words import listed, number
 from .results import ENDLESS, CannotLook, OutOfTime, Stopped, in_words, never_returned, unreturned
+
+if TYPE_CHECKING:
+    from rclpy.client import Client
+    from rclpy.node import Node
+    from rclpy.publisher import Publisher
+    from rclpy.topic_endpoint_info import TopicEndpointInfo
+
+    from ...ros.sim.strand import Strand
+    from ...turtlesim.obstacles import Box, Circle
 
 T = TypeVar("T")
 
@@ -44,7 +53,7 @@ MOST_HEARD = 500_000
 class Target(Protocol):
     """The system that is observed; `session/check_target.py` says what each method does."""
 
-    node: Any
+    node: Node
     """A node with a hidden name, spun while time passes."""
     board: ObstacleBoard
     """The obstacles in the world, and their publisher."""
@@ -63,7 +72,7 @@ class Target(Protocol):
     def errors(self) -> list[tuple[str, Exception]]: ...
 
     @property
-    def strands(self) -> list[Any]: ...
+    def strands(self) -> list[Strand]: ...
 
     @property
     def commands(self) -> list[list[str]]: ...
@@ -292,7 +301,7 @@ class Probe:
         """The names of all services."""
         return [name for name, _ in self.node.get_service_names_and_types() if not is_hidden(name)]
 
-    def _others(self, ends: list[Any]) -> list[tuple[str, str]]:
+    def _others(self, ends: list[TopicEndpointInfo]) -> list[tuple[str, str]]:
         return sorted((owner(end), end.topic_type) for end in others(self.node, ends))
 
     def like(self, name: str, known: list[str]) -> str:
@@ -372,14 +381,14 @@ class Probe:
         publisher = self.once(("publisher", topic, type_name), lambda: self._publisher(topic, type_name))
         publisher.publish(filled(interface(type_name)(), fields, type_name))
 
-    def _publisher(self, topic: str, type_name: str) -> Any:
+    def _publisher(self, topic: str, type_name: str) -> Publisher:
         publisher = self.node.create_publisher(interface(type_name), topic, 10)
         self._clean_up.append(lambda: self.node.destroy_publisher(publisher))
         self.wait(0.05)  # so that the subscriptions have found it
         return publisher
 
     @contextmanager
-    def obstacles(self, *added: Any) -> Iterator[None]:
+    def obstacles(self, *added: Circle | Box) -> Iterator[None]:
         """Within this block these obstacles stand in the world, too; after it, what stood there before."""
         board = self.target.board
         before = board.obstacles
@@ -411,7 +420,7 @@ class Probe:
 
         return look
 
-    def _client(self, service: str, type_name: str) -> Any:
+    def _client(self, service: str, type_name: str) -> Client:
         ends = self.servers(service)
         if not ends:
             raise CannotLook(f"no node offers the service {service}{self.like(service, self.services())}")

@@ -11,11 +11,14 @@ import traceback
 from collections.abc import Iterator
 from dataclasses import dataclass
 from types import FrameType
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...ros.sim import errors
 from ...ros.sim.errors import DriveTimeout, NeverReturns
 from ..words import count, number
+
+if TYPE_CHECKING:
+    from ...ros.sim.strand import Strand
 
 GOOD, BAD, OPEN, STOPPED = "✓", "✗", "–", "■"
 IN_WORDS = {GOOD: "yes", BAD: "no", OPEN: "not looked at", STOPPED: "stopped"}
@@ -218,7 +221,7 @@ class CheckResult:
         cells = (_html_mark(row.mark), html.escape(row.expected), seen)
         return f"<tr>{''.join(f'<td {_CELL}>{cell}</td>' for cell in cells)}</tr>"
 
-    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> Any:
+    def _repr_mimebundle_(self, **options: object) -> Any:
         """What Jupyter shows, and as metadata of the output the figures."""
         return {"text/plain": repr(self), "text/html": self._repr_html_()}, {METADATA: self.figures()}
 
@@ -311,7 +314,7 @@ def never_returned(error: BaseException) -> str:
     return _where(inside, "stopped") if inside else "something that was called has not returned, and was stopped"
 
 
-def unreturned(strands: list[Any]) -> list[str]:
+def unreturned(strands: list[Strand]) -> list[str]:
     """The callbacks that parked strands stand in, each as "on_request has not returned: it is in line 7 (`…`)"."""
     found = []
     for strand in strands:

@@ -11,6 +11,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
+    from rclpy.node import Node
+
     from ...ros.sim.keyboard import Keyboard
     from ..recorder import ObstacleBoard, Recorder
 
@@ -54,7 +56,7 @@ class Clock(Protocol):
 class Backend(Protocol):
     """What every widget needs of the system that it shows."""
 
-    node: Any
+    node: Node
     """An rclpy Node with a hidden name, spun by its owner; its callbacks happen in the notebook's loop."""
     recorder: Recorder
     """What was heard so far."""

@@ -25,6 +25,8 @@ from .live_widget import pack
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+    from rclpy.node import Node
+    from rclpy.subscription import Subscription
 
     from .backend import Backend
 
@@ -95,7 +97,7 @@ class Dashboard(GoalPad):
         self._status_sent = -1
         self._scan_read: Any = None
         self._heard: dict[str, tuple[Channel, Table, str]] = {}  # with the reason why a topic cannot be heard
-        self._rosout: Any = None
+        self._rosout: Subscription | None = None
         self._log_waiting: list[tuple[int, str, str, str]] = []
         self._log_count = self._log_newest = self._log_read_until = 0
         super().__init__(backend, title="Dashboard")
@@ -298,7 +300,7 @@ def level_name(level: Any) -> str:
     return LEVELS[min(max(number // 10 - 1, 0), len(LEVELS) - 1)]
 
 
-def look(node: Any) -> list[dict[str, Any]]:
+def look(node: Node) -> list[dict[str, Any]]:
     """What the system needs, and the other nodes, from the graph that `node` (an rclpy Node) sees."""
     found = Counter(name for name in node_names(node) if not is_hidden(name))
     nodes = [_light(name, "node", found[name]) for name in NODES]

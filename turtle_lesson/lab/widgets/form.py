@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shlex
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import traitlets
 
@@ -14,6 +14,10 @@ from .form_fields import Group, Rows, Single, find_part
 from .lazy_endpoints import LazyClient, LazyPublisher, let_time_go_on
 from .live_widget import LiveWidget
 from .message_types import find_class
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+    from rclpy.timer import Timer
 
 FASTEST = 100.0
 """How many messages a second a form publishes at most."""
@@ -63,7 +67,7 @@ class Form(LiveWidget):
         self._whole = Group(message_class if kind == "topic" else message_class.Request)
         self._publisher = LazyPublisher(backend, full, message_class, type_name)
         self._client = LazyClient(backend, message_class, full)
-        self._timer: Any = None
+        self._timer: Timer | None = None
         self._last: Any = None
         super().__init__(backend, name=full, kind=kind, type_name=type_name)
         self._bring_up_to_date(fields_too=True)
@@ -215,7 +219,7 @@ class Form(LiveWidget):
         return f"Form for {what} {self.name} ({self.type_name}): {now}"
 
 
-def _look_up(node: Any, name: str) -> tuple[str, str, str]:
+def _look_up(node: Node, name: str) -> tuple[str, str, str]:
     """Full name, "topic" or "service", and type. Raises ValueError with what was meant perhaps."""
     if not isinstance(name, str) or not name:
         raise ValueError(f'a form is for a topic or a service such as "/turtle1/cmd_vel", got {name!r}')

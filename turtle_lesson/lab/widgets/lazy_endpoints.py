@@ -5,12 +5,18 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..graph import others, owner, servers
 from ..words import enumerated, listed, number
 from .backend import Backend
 from .message_types import plain
+
+if TYPE_CHECKING:
+    from rclpy.qos import QoSProfile
+    from rclpy.subscription import Subscription
+    from rclpy.task import Future
+    from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 PATIENCE = 1.0
 """Robot time, s, for which a message waits until a publisher that was just made has found its listeners."""
@@ -68,7 +74,7 @@ class LazyPublisher:
         hint = f" There are listeners on {enumerated(elsewhere)}." if elsewhere else ""
         return f"No node listens on {self.topic}.{hint}"
 
-    def _others(self, topic: str) -> list[Any]:
+    def _others(self, topic: str) -> list[TopicEndpointInfo]:
         return others(self._backend.node, self._backend.node.get_subscriptions_info_by_topic(topic))
 
     def _is_heard_on(self, topic: str) -> bool:
@@ -80,7 +86,7 @@ class LazyPublisher:
         own = len(self._backend.node.get_subscriptions_info_by_topic(self.topic)) - len(self._others(self.topic))
         return self._publisher.get_subscription_count() > own  # the recorder's, which is found at once
 
-    def _quality(self) -> Any:
+    def _quality(self) -> QoSProfile:
         """Reliable; and latched where a listener wants to be told of what was said before it came."""
         from rclpy.qos import DurabilityPolicy, QoSProfile
 
@@ -114,7 +120,7 @@ class LazyClient:
     def __init__(self, backend: Backend, service_class: Any, name: str) -> None:
         self._backend, self._class, self._name = backend, service_class, name
         self._client: Any = None
-        self._future: Any = None
+        self._future: Future | None = None
         self._held: Any = None
         self._deadline = self._asked = 0.0
         self._answered: Answered = lambda words, answer: None
@@ -177,7 +183,7 @@ class LazyClient:
             return self._client.service_is_ready()
         return any(self._name == name for name, _ in self._backend.node.get_service_names_and_types())
 
-    def _done(self, future: Any) -> None:
+    def _done(self, future: Future) -> None:
         if future is not self._future:
             return
         try:
@@ -217,7 +223,7 @@ class ServerWatcher:
 
     def __init__(self, backend: Backend, service: str, said: Callable[[], None]) -> None:
         self._backend, self._service, self._said = backend, service, said
-        self._subscription: Any = None
+        self._subscription: Subscription | None = None
         self._names: list[str] = []
         self._ends: set[tuple[int, ...]] = set()
         self._warnings: deque[tuple[float, str]] = deque(maxlen=1000)

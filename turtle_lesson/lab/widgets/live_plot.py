@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import traitlets
@@ -20,6 +20,10 @@ from ..words import count, did_you_mean, enumerated, number
 from .backend import Backend
 from .live_widget import LiveWidget, pack
 from .message_types import find_class, kinds_of
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+    from rclpy.timer import Timer
 
 KEPT = 20_000
 """Numbers that are kept of a curve: more than five minutes of a turtle's pose."""
@@ -200,7 +204,7 @@ class LivePlot(LiveWidget):
     def __init__(self, backend: Backend, fields: Iterable[str], seconds: float) -> None:
         self._curves = [Curve(asked) for asked in dict.fromkeys(_checked(backend.node, fields))]
         self._channels: dict[str, Channel] = {}
-        self._timer: Any = None
+        self._timer: Timer | None = None
         if isinstance(seconds, bool) or not isinstance(seconds, (int, float)) or not 0.1 <= seconds <= 3600:
             raise ValueError(f"seconds must be a number of seconds from 0.1 to 3600, got {seconds!r}: try seconds=30.0")
         topics, recorder = dict(backend.node.get_topic_names_and_types()), backend.recorder
@@ -340,7 +344,7 @@ def figure(value: float) -> str:
     return number(value) if 0.1 <= abs(value) < 1e5 else f"{value:.3g}"
 
 
-def _checked(node: Any, fields: Iterable[str]) -> list[str]:
+def _checked(node: Node, fields: Iterable[str]) -> list[str]:
     wanted = list(fields)
     if not wanted:
         raise ValueError('name a topic and a field to draw: try live_plot("/turtle1/pose/x")')

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import traitlets
 
@@ -24,6 +24,11 @@ from .message_types import (
     read_parameter,
     shown_parameter,
 )
+
+if TYPE_CHECKING:
+    from rclpy.client import Client
+    from rclpy.node import Node
+    from rclpy.task import Future
 
 SERVICES = {
     "list": "ListParameters",
@@ -69,7 +74,7 @@ class ParametersPanel(LiveWidget):
         name = _look_up(backend.node, node)
         self._found: dict[str, Found] = {}
         self._events: Any = None
-        self._clients: dict[str, Any] = {}
+        self._clients: dict[str, Client] = {}
         self._found_by = 0.0
         self._round = 0  # of questions
         self._known = False
@@ -141,10 +146,10 @@ class ParametersPanel(LiveWidget):
         self._show()
         return not self._trouble
 
-    def _call(self, what: str, take: Callable[[Any], object], turn: int | None = None, **content: Any) -> Any:
+    def _call(self, what: str, take: Callable[[Any], object], turn: int | None = None, **content: Any) -> Future:
         """Call one of the services; `take` is given the answer, unless it is one to an older round of questions (`turn`)."""
 
-        def answered(future: Any) -> None:
+        def answered(future: Future) -> None:
             if turn not in (None, self._round):
                 return
             try:
@@ -282,7 +287,7 @@ def _item(found: Found) -> dict[str, Any]:
     return item | (limits[0] if limits else {})
 
 
-def _look_up(node: Any, name: str) -> str:
+def _look_up(node: Node, name: str) -> str:
     """The full name of a node that is there. Raises ValueError with what was meant perhaps."""
     if not isinstance(name, str) or not name:
         raise ValueError(f'a node is named by its name, such as "/navigator", got {name!r}')

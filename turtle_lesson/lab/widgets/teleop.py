@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
-from typing import Any
+from typing import TYPE_CHECKING
 
 import traitlets
 
@@ -13,6 +13,9 @@ from ..words import number
 from .backend import Backend
 from .lazy_endpoints import LazyPublisher, let_time_go_on
 from .live_widget import LiveWidget
+
+if TYPE_CHECKING:
+    from rclpy.timer import Timer
 
 TYPE = "geometry_msgs/msg/Twist"
 PERIOD = 0.1
@@ -57,7 +60,7 @@ class Teleop(LiveWidget):
             raise ValueError(f'the topic to drive on must be a name such as "/turtle1/cmd_vel", got {topic!r}')
         name = backend.node.resolve_topic_name(topic)
         self._publisher = LazyPublisher(backend, name, Twist, TYPE)
-        self._timer: Any = None
+        self._timer: Timer | None = None
         self._last_sign = -math.inf
         super().__init__(backend, topic=name)
         if backend.keyboard is not None:
