@@ -28,6 +28,21 @@ NO_TURN = (0, 0, 0)
 """The place in a cycle of what no executor has had yet."""
 
 
+class Assignment:
+    """Which executor runs the callbacks of a node: all its entities share one, so that it changes for all at once.
+
+    Attributes:
+        executor: the one that has the node now, if any has.
+        missed: entities for which there may be work that came while none had; a dict keeps their order.
+    """
+
+    __slots__ = ("executor", "missed")
+
+    def __init__(self) -> None:
+        self.executor: Executor | None = None
+        self.missed: dict[Entity, None] = {}
+
+
 class Entity:
     """Base class. `_kind` decides the order in a cycle; `_number` is the order of creation."""
 
@@ -35,8 +50,6 @@ class Entity:
     _next: int
     """When a timer is due (ns); nothing else has it."""
     _kind = GUARD
-    _missed = False
-    """Whether there may be work that came while no executor had its node."""
     _outlived = False
     """Whether rclpy.shutdown() has taken it out of the graph, and nobody has destroyed it since."""
 
@@ -61,7 +74,8 @@ class Entity:
         self._answers = False  # whether the callback's result is wanted
         self._traced: Callback | None = None
         """Where its runs are noted, if the world keeps a trace of them."""
-        self._executor: Executor | None = None
+        self._assigned = Assignment()
+        """The node's, as soon as it has one."""
         self._node: Node | None = None
         self._listed_in: Executor | None = None
         self._turn = NO_TURN
@@ -70,11 +84,21 @@ class Entity:
         if callback_group is not None:
             callback_group.add_entity(self)
 
+    @property
+    def _executor(self) -> Executor | None:
+        """The executor that runs its callback now, if any."""
+        return self._assigned.executor
+
+    def _assign(self, assignment: Assignment) -> None:
+        """Be run by another executor than before."""
+        self._assigned.missed.pop(self, None)
+        self._assigned = assignment
+
     def _signal(self) -> None:
         """Tell the executor that there may be work."""
-        executor = self._executor
+        executor = self._assigned.executor
         if executor is None:
-            self._missed = True
+            self._assigned.missed[self] = None
         elif self._listed_in is not executor:
             self._listed_in = executor
             executor._signalled.append(self)
@@ -87,8 +111,8 @@ class Entity:
     def _answer_signal(self, executor: Executor) -> None:
         """Run the callback if there is work, and if its group lets it: a spinning executor has found only this signal."""
         self._listed_in = None
-        if self._executor is not executor:
-            self._missed = True
+        if self._assigned.executor is not executor:
+            self._assigned.missed[self] = None
         elif self._has_work():
             begin = self._begin
             if not begin(self):
@@ -147,7 +171,7 @@ class Entity:
     def destroy(self) -> None:
         """Never be called again."""
         self._destroyed = True
-        self._executor = None
+        self._assign(Assignment())
         if self._node is not None and self in self._node._ros_waiting_entities:
             self._node._ros_waiting_entities.remove(self)
         if self.callback_group is not None:

@@ -118,18 +118,19 @@ class ExecutorBase:
         if not comes_again:
             self._nodes_seen += 1
             node._ros_place = (self, self._nodes_seen)
-        for entity in node._ros_waiting_entities:
-            if comes_again and entity._turn is not NO_TURN:
-                entity._executor = self  # type: ignore[assignment]
-                if entity._missed:
-                    entity._missed = False
+        assignment = node._ros_assignment
+        assignment.executor = self  # type: ignore[assignment]
+        if assignment.missed or not comes_again:
+            looked_at = list(assignment.missed) if comes_again else list(node._ros_waiting_entities)
+            assignment.missed.clear()
+            for entity in looked_at:
+                if comes_again and entity._turn is not NO_TURN:
                     entity._signal()
-            else:
-                self._adopt(entity, node)
+                else:
+                    self._adopt(entity, node)
         return True
 
     def _adopt(self, entity: Entity, node: Node) -> None:
-        entity._executor = self  # type: ignore[assignment]
         entity._turn = (0 if entity._kind == WAITABLE else node._ros_place[1], entity._kind, entity._number)
         if self._trace is not None:
             trace_entity(entity, node, self._trace)
@@ -141,8 +142,7 @@ class ExecutorBase:
         if node in self._nodes:
             self._nodes.remove(node)
             node._ros_executor = None
-            for entity in node._ros_waiting_entities:
-                entity._executor = None
+            node._ros_assignment.executor = None
 
     def get_nodes(self) -> list[Node]:
         """The nodes of this executor, in the order in which they were added."""
@@ -185,8 +185,8 @@ class ExecutorBase:
                 if job.__class__ is Task:
                     if not job._done:
                         return job
-                elif job._executor is not self:
-                    job._missed = True
+                elif job._assigned.executor is not self:
+                    job._assigned.missed[job] = None
                 elif job._has_work():
                     if job._begin(job):
                         return job

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from . import type_support
+from ._entity import Assignment
 from ._hints import refuse_unbuilt
 from ._node_graph import NodeGraph
 from .callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
@@ -32,6 +33,7 @@ class NodeEntities(NodeGraph):
     def _ros_setup_entities(self, context: Context) -> None:
         self._ros_context = context
         self._ros_executor: Executor | None = None
+        self._ros_assignment = Assignment()
         self._ros_made = 0
         self._ros_publishers: list[Publisher] = []
         self._ros_waiting_entities: list[Entity] = []
@@ -48,9 +50,12 @@ class NodeEntities(NodeGraph):
     def _ros_keep(self, entity: Any) -> Any:
         self._ros_made += 1
         entity._number, entity._node = self._ros_made, self
+        entity._assign(self._ros_assignment)
         self._ros_waiting_entities.append(entity)
         if self._ros_executor is not None:
             self._ros_executor._adopt(entity, self)  # type: ignore[arg-type]
+        else:
+            self._ros_assignment.missed[entity] = None
         return entity
 
     def create_publisher(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ._executor_base import ExternalShutdownException, Job, ShutdownException
+from ._executor_base import ExternalShutdownException, ShutdownException
 
 if TYPE_CHECKING:
     from turtle_lesson.ros.sim.strand import Strand
@@ -18,50 +18,35 @@ def spin_until(executor: SingleThreadedExecutor, strand: Strand, future: Future)
 
     The common case is that one callback became ready while the strand was waiting; it is run without a batch.
     """
-    context, signalled, waiters, spinning = (
-        executor._context,
-        executor._signalled,
-        executor._waiters,
-        executor._spinning,
-    )
-    park, execute = executor._simulation.park, executor._execute
+    context, signalled, waiters = executor._context, executor._signalled, executor._waiters
+    park, spinning = executor._simulation.park, executor._spinning
     spinning.append(strand)
     try:
         while not (
             future._done or future._cancelled or context.ended or not context.initialized or executor._is_shutdown
         ):
-            job: Job = None
-            while job is None:
-                if executor._batch or executor._resumed or executor._polled or len(signalled) > 1:
-                    job = executor._next(strand, None, future._is_done)
-                    if job is None:
-                        return
-                elif signalled:
-                    executor._has_polled = False
-                    entity = signalled.pop()
-                    entity._listed_in = None
-                    if entity._executor is not executor:
-                        entity._missed = True
-                    elif entity._has_work():
-                        if entity._begin(entity):
-                            job = entity
-                        else:
-                            executor._blocked.append(entity)
-                elif executor._is_shutdown:
+            while not (signalled or executor._batch or executor._resumed or executor._polled):
+                if executor._is_shutdown:
                     return
-                elif context.ended:
+                if context.ended:
                     raise ExternalShutdownException
-                else:
-                    waiters.append(strand)
-                    executor._waiter = strand
-                    try:
-                        park(strand)
-                    finally:
-                        waiters.remove(strand)
-                        executor._waiter = waiters[-1] if waiters else None
-                    if future._done and not executor._batch:
-                        return
-            execute(job)
+                waiters.append(strand)
+                executor._waiter = strand
+                try:
+                    park(strand)
+                finally:
+                    waiters.remove(strand)
+                    executor._waiter = waiters[-1] if waiters else None
+                if future._done and not executor._batch:
+                    return
+            if len(signalled) == 1 and not (executor._batch or executor._resumed or executor._polled):
+                executor._has_polled = False
+                signalled.pop()._answer_signal(executor)
+            else:
+                job = executor._next(strand, None, future._is_done)
+                if job is None:
+                    return
+                executor._execute(job)
             if executor._waiter is not None:
                 executor._wake_another_spinner()
     except ShutdownException:

@@ -101,7 +101,7 @@ class Client(Entity):
         """Send a request; the future will have the response. Raises TypeError for anything but a request."""
         if not isinstance(request, self._request_type):
             self._refuse(request)
-        future = Future(executor=self._executor)
+        future = Future(executor=self._assigned.executor)
         if self._destroyed:
             self._check_alive()
             return future  # after rclpy.shutdown() a request goes nowhere, as on a robot
@@ -190,7 +190,7 @@ class Client(Entity):
 
     def _set_result(self, future: Future, response: Any) -> None:
         if not future._cancelled:
-            future._executor = self._executor
+            future._executor = self._assigned.executor
             future.set_result(response)
 
     def get_pending_request(self, sequence_number: int) -> Future:

@@ -8,6 +8,7 @@ from turtle_lesson.ros.sim.simulation import NANOSECONDS
 from turtle_lesson.ros.sim.strand import running_strand
 
 from ._blocking import WakeUp, drives_the_simulation
+from ._entity import Assignment
 from ._reexports import reexported
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ def wait_for_message(
     strand.activity = f"wait_for_message on {topic}"
     simulation = strand.simulation
     subscription = node.create_subscription(msg_type, topic, None, qos_profile)  # type: ignore[arg-type]
-    subscription._executor = None  # nobody else is to take what comes
+    subscription._assign(Assignment())  # nobody else is to take what comes
     wake_up = WakeUp(node.context)
     subscription._reader.wake = wake_up.wake
     try:

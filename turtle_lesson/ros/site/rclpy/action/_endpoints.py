@@ -24,7 +24,6 @@ from ..type_support import check_for_type_support
 
 if TYPE_CHECKING:
     from ..callback_groups import CallbackGroup
-    from ..executors import Executor
     from ..node import Node
     from ..qos import QoSProfile
 
@@ -140,17 +139,6 @@ class ActionEndpoint(Entity):
         """Do what the things that were taken ask for."""
         raise NotImplementedError
 
-    @property
-    def _executor(self) -> Executor | None:
-        return self._runs_it
-
-    @_executor.setter
-    def _executor(self, executor: Executor | None) -> None:
-        self._runs_it = executor
-        for part in self._parts.values():
-            if isinstance(part, Entity):
-                part._executor = executor
-
     def _has_work(self) -> bool:
         return any(end.queue for end in self._arrived.values())
 
@@ -178,7 +166,7 @@ def _take_from_node(node: Node, part: Any) -> None:
     place = next(place for place in reversed(range(len(things))) if things[place] is part)  # it is among the last
     del things[place]
     if isinstance(part, Entity):
-        part._executor = None
+        node._ros_assignment.missed.pop(part, None)
 
 
 class _GoalIds(Random):
