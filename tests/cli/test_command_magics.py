@@ -41,7 +41,7 @@ def run(
     """Runs a cell in a fresh world and returns what it printed."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(files, "_home", tmp_path)
-    monkeypatch.setattr(terminal, "last_cd", None)
+    monkeypatch.setattr(files, "last_cd", None)
     ipython.reset(new_session=False)
     ipython.user_ns["lesson"] = start(seed=0)
     capsys.readouterr()

@@ -132,6 +132,16 @@ def test_pictures_leave_pyplot_alone():
     assert subprocess.run(run, capture_output=True, text=True, check=False).stderr == ""
 
 
+def test_a_start_imports_only_what_runs_then():
+    code = (
+        "import sys; from turtle_lesson import start\n"
+        "lesson = start()\n"
+        "needless = {'argparse', 'launch', 'matplotlib', 'numpy', 'statistics', 'yaml'} & set(sys.modules)\n"
+        "assert not needless, needless"
+    )
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False).stderr == ""
+
+
 def test_a_plain_script_starts_and_launches_without_what_only_a_page_needs():
     code = (
         "import sys; from turtle_lesson import start\n"

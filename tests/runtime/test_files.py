@@ -16,8 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as some
 
 from turtle_lesson import start
-from turtle_lesson.ros.cli import terminal
-from turtle_lesson.ros.cli.shell import begin_here, open_terminal, run_line
+from turtle_lesson.ros.cli.shell import run_line
 from turtle_lesson.ros.runtime import files
 from turtle_lesson.ros.runtime.world import World, open_world
 from turtle_lesson.session.packages import underlay_packages
@@ -146,7 +145,7 @@ def state(place: Path, but: Path) -> dict[str, object]:
 @pytest.fixture
 def mine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The learner's folder, and current."""
-    monkeypatch.setattr(terminal, "last_cd", None)
+    monkeypatch.setattr(files, "last_cd", None)
     for name in ("OUT", "TURTLE_LESSON_OPENED", "OLDPWD"):  # to have them again afterwards
         monkeypatch.setenv(name, "")
     mine = make(tmp_path)
@@ -358,9 +357,9 @@ def test_no_folder_is_copied_into_itself_through_a_link_at_its_target(mine: Path
 def test_a_notebook_keeps_its_folder_whatever_cd_and_start_do(
     mine: Path, type_line: Type, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    begin_here()
+    files.begin_notebook()
     type_line("cd ..")
-    open_terminal()
+    files.begin_terminal()
     assert (files.folder(), Path.cwd()) == (mine, mine)
     monkeypatch.chdir(mine.parent)
     start(simulator=False)
@@ -380,7 +379,7 @@ def test_jupyterlabs_folder_is_the_learners_where_the_notebook_is_in_it(
 ) -> None:
     monkeypatch.setattr(files, "_opened", str(mine))
     monkeypatch.chdir(mine / "inner")
-    begin_here()
+    files.begin_notebook()
     assert (files.folder(), files.home()) == (mine, mine / "inner")
     assert type_line("echo x > ../a; cd ..; cat a; cd; pwd") == (0, f"x\n{mine}/inner\n", "")
     assert "it is a page of the lesson" in type_line("rm ../lab.ipynb")[2]
@@ -515,5 +514,5 @@ def test_whatever_is_typed_nothing_changes_outside(
         monkeypatch.chdir(tmp_path)
         os.environ.clear()
         os.environ.update(environment)
-        terminal.last_cd = None
+        files.last_cd = None
         shutil.rmtree(deep)

@@ -211,3 +211,33 @@ def test_a_python_without_a_private_name_is_refused(monkeypatch: pytest.MonkeyPa
     patches._check_python((3, 14))
     with pytest.raises(NotImplementedError, match=r"Python 3\.15 has changed .* need: _gone \(names of threads\)"):
         patches._check_python((3, 15))
+
+
+LATE_NUMPY = """
+import sys, turtle_lesson
+from turtle_lesson.ros.runtime.world import open_world
+from turtle_lesson.ros.stdlib import patches
+
+def draw():
+    import numpy
+    print(numpy.random.rand(2), numpy.random.default_rng().random())
+
+for _ in range(2):
+    world = open_world(seed=3)
+    print("numpy.random" in sys.modules)
+    world.spawn(draw, name="draw")
+    world.sim.settle()
+import numpy
+print(numpy.random.rand is patches.original(numpy.random, "rand"))
+world.close()
+patches.uninstall()
+print(numpy.random.rand is patches.original(numpy.random, "rand"))
+"""
+
+
+def test_the_random_numbers_of_numpy_are_replaced_when_it_is_imported() -> None:
+    run = subprocess.run([sys.executable, "-c", LATE_NUMPY], capture_output=True, text=True, check=False)
+    assert run.stderr == ""
+    late, first, there, again, replaced, put_back = run.stdout.splitlines()
+    assert (late, there, replaced, put_back) == ("False", "True", "False", "True")
+    assert first == again

@@ -8,13 +8,12 @@ import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from . import style
 from .recording import Obstacle
 from .words import number
 
 if TYPE_CHECKING:
+    import numpy as np
     from matplotlib.axes import Axes
 
 
@@ -54,6 +53,8 @@ def draw_turtle(axes: Axes, x: float, y: float, theta: float, length: float = 0.
 
 def turtle_points(x: float, y: float, length: float = 0.95) -> np.ndarray:
     """Return points (n by 2) that a turtle covers, however it is turned."""
+    import numpy as np
+
     turns = np.linspace(0, math.tau, 24, endpoint=False)
     rings = [part * length / 2 * np.column_stack([np.cos(turns), np.sin(turns)]) for part in (0.4, 0.7, 1.0)]
     return np.array([x, y]) + np.concatenate(rings)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-import statistics
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -282,7 +281,7 @@ def _arrange(columns: dict[str, list[Box]]) -> None:
     for _ in range(8):
         for boxes in columns.values():
             wanted = {
-                box: statistics.fmean(arrow.other(box).middle for arrow in box.arrows) if box.arrows else box.middle
+                box: _mean([arrow.other(box).middle for arrow in box.arrows]) if box.arrows else box.middle
                 for box in boxes
             }
             boxes.sort(key=wanted.__getitem__)
@@ -295,13 +294,17 @@ def _arrange(columns: dict[str, list[Box]]) -> None:
         bottom = max(bottom, box.middle + box.height / 2)
 
 
+def _mean(values: list[float]) -> float:
+    return math.fsum(values) / len(values)
+
+
 def _stack(boxes: list[Box], wanted: list[float]) -> None:
     """Put boxes below one another, none upon another, on average where they are wanted."""
     bottom = -math.inf
     for box, middle in zip(boxes, wanted, strict=True):
         box.middle = max(middle, bottom + GAP + box.height / 2)
         bottom = box.middle + box.height / 2
-    off = statistics.fmean(box.middle - middle for box, middle in zip(boxes, wanted, strict=True))
+    off = _mean([box.middle - middle for box, middle in zip(boxes, wanted, strict=True)])
     for box in boxes:
         box.middle -= off
 

@@ -11,16 +11,13 @@ import numpy as np
 from . import style
 from .drawing import draw_obstacles, draw_turtle, turtle_points
 from .picture import Picture
-from .recording import Recording, Table
+from .recording import WORLD, Recording, Table
 from .words import angle, count, number, point, turned
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-
-WORLD = 11.088889
-"""Side of turtlesim's square world in metres: 499 pixels at its 45 pixels a metre."""
 
 TICK = 16_000_000
 """How often, in ns, turtlesim publishes a pose."""

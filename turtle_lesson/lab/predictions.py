@@ -14,7 +14,8 @@ from numbers import Real
 from typing import TYPE_CHECKING, Any
 
 from . import drawing, style
-from .path import TOLERANCE, WORLD, Goal
+from .path import TOLERANCE, Goal
+from .recording import WORLD
 from .words import did_you_mean, enumerated, listed, number, point
 
 if TYPE_CHECKING:

@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, Any
 
 from ..turtlesim.obstacles import WORLDS, Box, Circle, to_marker_array
 from .graph import others, owner
-from .path import WORLD
 from .recording import (
     LIMIT,
     NANOSECONDS,
@@ -25,6 +24,7 @@ from .recording import (
     SCAN_TOPIC,
     STATUS_TOPIC,
     STATUS_TYPE,
+    WORLD,
     Listener,
     Obstacle,
     Recording,

@@ -6,13 +6,18 @@ import math
 import struct
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from numbers import Real
 from operator import attrgetter
-from typing import Any
-
-import numpy as np
+from typing import TYPE_CHECKING, Any
 
 from .words import number
+
+if TYPE_CHECKING:
+    import numpy as np
+
+WORLD = 11.088889
+"""Side of turtlesim's square world in metres: 499 pixels at its 45 pixels a metre."""
 
 Listener = Callable[[Any, Mapping[str, Any]], None]
 """What hears a message and rclpy's information about it (`source_timestamp` in ns, …)."""
@@ -33,7 +38,6 @@ class Table:
         self.limit = limit
         self._row = struct.Struct(f"=q{len(names)}d")
         self._rows = bytearray()
-        self._type = np.dtype([("stamp", "=i8"), *((name, "=f8") for name in names)])
 
     def __len__(self) -> int:
         return min(len(self._rows) // self._row.size, self.limit)
@@ -62,12 +66,12 @@ class Table:
 
     def array(self) -> np.ndarray:
         """The rows as a numpy array of their own: fields `stamp` (ns, int64) and `names` (float64)."""
-        return np.frombuffer(bytes(self._rows[-self.limit * self._row.size :]), self._type)
+        return self._since(-self.limit * self._row.size)
 
     def newest(self, count: int) -> np.ndarray:
         """The last `count` rows, or all where there are fewer: cheap however long the table is."""
         wanted = min(count, len(self)) * self._row.size
-        return np.frombuffer(bytes(self._rows[len(self._rows) - wanted :]), self._type)
+        return self._since(len(self._rows) - wanted)
 
     def last(self) -> tuple[float, ...]:
         """The newest row: its time (ns) and its numbers; () where there is none."""
@@ -82,6 +86,17 @@ class Table:
             if len(rows) < count or rows["stamp"][0] <= stamp:
                 return rows[rows["stamp"] > stamp]
             count *= 4
+
+    def _since(self, first_byte: int) -> np.ndarray:
+        import numpy as np
+
+        return np.frombuffer(bytes(self._rows[first_byte:]), self._type)
+
+    @cached_property
+    def _type(self) -> np.dtype[Any]:
+        import numpy as np
+
+        return np.dtype([("stamp", "=i8"), *((name, "=f8") for name in self.names)])
 
     @property
     def _full(self) -> int:
@@ -175,6 +190,8 @@ class Recording:
 
     def window(self, table: Table, since: float | None = None, until: float | None = None) -> np.ndarray:
         """The rows of a table from `since` to `until` (seconds since `origin`, both ends included)."""
+        import numpy as np
+
         rows = table.array()
         chosen = np.ones(len(rows), bool)
         if since is not None:

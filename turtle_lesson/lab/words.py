@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from ..ros.idl.names import nearest
+
+if TYPE_CHECKING:
+    import numpy as np
 
 
 def number(value: float, decimals: int = 2) -> str:
@@ -50,6 +52,8 @@ def turned(radians: float) -> float:
 
 def rate(stamps: np.ndarray) -> str:
     """How often messages came, from the times (ns, ascending) at which they were sent."""
+    import numpy as np
+
     if len(stamps) < 2:
         return count(len(stamps), "message")
     gaps = np.diff(stamps) / 1e6

@@ -122,9 +122,9 @@ class TerminalMagics(Magics):
 def _understand_commands(shell: Any) -> None:
     """Make an IPython shell understand commands; doing it twice changes nothing."""
     from ..ros.cli import cells, completion
-    from ..ros.cli.shell import begin_here
+    from ..ros.runtime import files
 
-    begin_here()
+    files.begin_notebook()
     shell.register_magics(TerminalMagics)
     transformers = shell.input_transformer_manager.line_transforms  # before IPython takes the cell for Python
     transformers[:] = [each for each in transformers if not getattr(each, "is_turtle_lesson", False)]

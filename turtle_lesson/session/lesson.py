@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 from ..learner.story import page_named
 from ..learner.workspace import Workspace, workspace
-from ..ros.cli.shell import open_terminal
 from ..ros.distro import chosen_release
 from ..ros.idl.registry import registry
+from ..ros.runtime import files
 from ..ros.runtime.console import CellOutput
 from ..ros.runtime.run_world import set_player
 from ..ros.runtime.world import World, open_world, wall_time
@@ -75,7 +75,7 @@ def start(
     page = None if page is None else page_named(page)
     package = "mine" if page and package == "finished" else package
     source = None if package == "mine" else package_folder(package)
-    open_terminal()
+    files.begin_terminal()
     if page is not None:
         print(workspace().prepare(page).state())
     mine = _built(seed, distro, workspace()) if package == "mine" else None

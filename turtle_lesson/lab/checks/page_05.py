@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from ...turtlesim.obstacles import Circle
-from ..path import WORLD
+from ..recording import WORLD
 from ..words import angle, count, number
 from .assertions import agrees, learner_function, no_errors, node, publishes, returns
 from .navigation import where

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ..path import WORLD
+from ..recording import WORLD
 from ..words import count, listed, number, point
 from . import page_05
 from .assertions import learner_function, no_errors, publishes, subscribes

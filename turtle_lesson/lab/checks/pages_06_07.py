@@ -6,7 +6,7 @@ import itertools
 import math
 from typing import Any
 
-from ..path import WORLD
+from ..recording import WORLD
 from ..words import angle, listed, number, point, turned
 from .assertions import get_parameter, no_errors, node, parameter, publishes, set_parameter
 from .navigation import COMMAND_TYPE, COMMANDS, NAVIGATE, POSE, POSE_TYPE, ask_for, away, where

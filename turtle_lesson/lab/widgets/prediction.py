@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import traitlets
 
-from ..path import WORLD
+from ..recording import WORLD
 from .backend import Link, Loop
 from .live_widget import LiveWidget
 

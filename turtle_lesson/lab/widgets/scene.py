@@ -12,8 +12,9 @@ import numpy as np
 import traitlets
 
 from .. import style
-from ..path import WORLD, Trail
+from ..path import Trail
 from ..picture import Picture
+from ..recording import WORLD
 from ..scan import read_beams
 from ..words import angle, count, listed, number, point
 from . import scene_commands, scene_mesh

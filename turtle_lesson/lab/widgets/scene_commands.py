@@ -17,8 +17,7 @@ import numpy as np
 import umsgpack
 
 from ...ros.sim.defer_sigint import defer_sigint
-from ..path import WORLD
-from ..recording import Obstacle
+from ..recording import WORLD, Obstacle
 from ..scan import read_beams
 from . import scene_mesh
 from .goal_client import Goal

@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike
 
 from .. import style
 from ..drawing import BACK, BODY, HEAD, LEGS, OUTLINE, RIM, SHELL, SKIN, TAIL
-from ..path import TOLERANCE, WORLD
-from ..recording import Obstacle
+from ..path import TOLERANCE
+from ..recording import WORLD, Obstacle
 from ..scan import Beams, reach_of
 
 

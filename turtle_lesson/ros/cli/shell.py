@@ -207,20 +207,6 @@ def _file(name: str, mode: str, instead_of: Any) -> FileOutput:
     return FileOutput(path, instead_of)
 
 
-def open_terminal() -> None:
-    """A new terminal begins where the notebook began: undo what `cd` did."""
-    if terminal.last_cd is not None and files.here() == terminal.last_cd and files.home().is_dir():
-        os.chdir(files.home())
-    terminal.last_cd = None
-    files.begin()
-
-
-def begin_here() -> None:
-    """The notebook begins: its folder is what `~` is from now on."""
-    if terminal.last_cd is None:
-        files.begin(notebook=True)
-
-
 def run_line(world: World, script: str) -> int:
     """Run a script in a world and return the exit code of its last command."""
     sys.stdout.flush()

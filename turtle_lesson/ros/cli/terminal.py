@@ -18,16 +18,11 @@ from .jobs import SIGNALS, Builtin, Job, Terminal, export, jobs, options, printe
 if TYPE_CHECKING:
     from ..sim.process import Process
 
-last_cd: Path | None = None
-"""Where the last `cd` went, or None."""
-
-
 # -- folders -----------------------------------------------------------------------------------------------------------
 
 
 def cd(terminal: Terminal, words: list[str]) -> int:
     """`cd folder`, `cd ..`, `cd -`, `cd`: change the current folder."""
-    global last_cd
     if len(words) > 1:
         return terminal.fail("cd: too many arguments: a folder's name with a space in it needs quotes")
     target = Path(words[0]) if words else files.home()
@@ -40,7 +35,7 @@ def cd(terminal: Terminal, words: list[str]) -> int:
         return terminal.fail(f"cd: {words[0]}: {what}. {_beside(target)}".rstrip(" ."))
     os.chdir(target)
     os.environ["OLDPWD"] = str(before)
-    last_cd = Path.cwd()
+    files.last_cd = Path.cwd()
     return 0
 
 

@@ -238,13 +238,13 @@ def sequence_check(name: str, type_: FieldType) -> Check:
 
 def numpy_check(name: str, type_: FieldType) -> Check:
     """Check of a fixed number of numbers, stored as a numpy array; one of the right kind is taken as is."""
-    import numpy
-
-    dtype = numpy.dtype(numpy_name(type_.base))
     number = float if type_.base in FLOAT_BOUNDS else int
     is_element = _number_test(type_.base)
 
     def check(value: Any) -> Any:
+        import numpy
+
+        dtype = numpy.dtype(numpy_name(type_.base))
         if isinstance(value, numpy.ndarray):
             if value.dtype != dtype:
                 text = f"The '{name}' numpy.ndarray() must have the dtype of 'numpy.{dtype.name}'"
@@ -262,12 +262,12 @@ def numpy_check(name: str, type_: FieldType) -> Check:
 
 def numpy_constructor(name: str, type_: FieldType) -> Check:
     """What a constructor makes of a value for such a field: like rosidl's, it converts before it checks."""
-    import numpy
-
     dtype = numpy_name(type_.base)
     check = numpy_check(name, type_)
 
     def construct(value: Any) -> Any:
+        import numpy
+
         made = check(numpy.array(value, dtype=dtype))
         if made.ndim != 1:
             raise refusal("", f"The '{name}' field takes {type_.size} numbers in a row, not {made.shape}")

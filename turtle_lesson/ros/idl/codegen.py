@@ -176,23 +176,20 @@ def _sequence_kind(member: Field, key: str) -> Kind:
 
 
 def _numpy_kind(member: Field, key: str) -> Kind:
-    import numpy
-
     type_, check, construct = member.type, f"_check_{key}", f"_construct_{key}"
     dtype = f"'{checks.numpy_name(type_.base)}'"
-    store = partial(numpy.array, dtype=checks.numpy_name(type_.base))
+    store = partial(message.numpy_array, dtype=checks.numpy_name(type_.base))
     given = isinstance(member.default, tuple) and _finite(repr(list(member.default)))
     return Kind(
         name=member.name,
         check=check,
-        fresh=f"_numpy.array({given}, {dtype})" if given else f"_numpy.zeros({type_.size}, {dtype})",
+        fresh=f"_numpy_array({given}, {dtype})" if given else f"_numpy_zeros({type_.size}, {dtype})",
         copy="{value}.flatten()",
         construct=f"{construct}({{value}})",
         same="_same_array({value}, {other})",
         objects={
             check: checks.assigned(checks.numpy_check(member.name, type_), store),
             construct: checks.assigned(checks.numpy_constructor(member.name, type_), store),
-            "_numpy": numpy,
         },
         weight=type_.size or 0,
     )

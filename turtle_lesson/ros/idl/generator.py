@@ -62,6 +62,8 @@ COMMON: dict[str, Any] = {
     "_message_repr": message.message_repr,
     "_nan": nan,
     "_new": object.__new__,
+    "_numpy_array": message.numpy_array,
+    "_numpy_zeros": message.numpy_zeros,
     "_plain_text": message.plain_text,
     "_property": property,
     "_range": range,
@@ -210,7 +212,11 @@ def _with_inner(kinds: tuple[Kind, ...]) -> Iterator[Kind]:
 
 
 def _signature_default(kind: Kind) -> str:
-    return f"{kind.message_class.__name__}()" if kind.message_class else kind.fresh.replace("_array('", "array('")
+    return (
+        f"{kind.message_class.__name__}()"
+        if kind.message_class
+        else kind.fresh.replace("_numpy_", "numpy.").replace("_array('", "array('")
+    )
 
 
 def _built_constant(definition: MessageDefinition, constant: Constant) -> Constant:

@@ -57,6 +57,20 @@ def _field_repr(value: object) -> str:
     return repr(value)
 
 
+def numpy_array(values: Any, dtype: str) -> Any:
+    """`numpy.array`. To import numpy takes as long as the rest of a start, so it is done for the first message with one."""
+    import numpy
+
+    return numpy.array(values, dtype)
+
+
+def numpy_zeros(size: int, dtype: str) -> Any:
+    """`numpy.zeros`, as above."""
+    import numpy
+
+    return numpy.zeros(size, dtype)
+
+
 def same_array(one: Any, other: Any) -> bool:
     """Whether two numpy arrays hold the same numbers."""
     return bool(one.shape == other.shape and (one == other).all())

@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 from itertools import chain
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 if TYPE_CHECKING:
+    import numpy as np
+
     from ..sim.simulation import Simulation
     from .graph import NodeEntry
 
@@ -103,7 +103,7 @@ def caller_name(node: NodeEntry) -> str:
 # -- callbacks ----------------------------------------------------------------------------------------------------
 # When one callback of a node ran: ready, begun, ended.
 
-RUN = np.dtype([("ready", "=i8"), ("began", "=i8"), ("ended", "=i8")])
+RUN = [("ready", "=i8"), ("began", "=i8"), ("ended", "=i8")]
 """Times in ns since the world's start: the message, request or tick was there; its callback began; it returned."""
 
 LIMIT = 30_000
@@ -162,6 +162,8 @@ class Callback:
 
     def runs(self, now: int) -> np.ndarray:
         """All runs, of type `RUN`, in the order in which they began; what goes on ends `now` (ns)."""
+        import numpy as np
+
         rows = np.array([*self.ended, *((*run, now) for run in self.open)], RUN)
         return rows[np.argsort(rows["began"], kind="stable")]
 

@@ -1,4 +1,4 @@
-"""The learner's files: which of them a command may change, how they are written, and how large YAML may be.
+"""The learner's files: which of them a command may change, and how they are written.
 
 A command of the terminal (also a redirection, `ros2 bag record`, `ros2 pkg create`, `colcon build`) changes files in the
 learner's folder only, through no `cd`, path or symbolic link, and leaves the lesson's pages in it alone. `check` decides that,
@@ -13,9 +13,6 @@ import os
 import shutil
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Any
-
-import yaml
 
 from .. import hooks
 
@@ -28,6 +25,9 @@ in_use: set[Path] = set()
 _opened = os.environ.get(OPENED)  # read once: `export` in the terminal does not widen the learner's folder
 _home: Path | None = None
 _of_notebook = False
+
+last_cd: Path | None = None
+"""Where the terminal's last `cd` went, or None."""
 
 
 def here() -> Path:
@@ -50,6 +50,21 @@ def begin(*, notebook: bool = False) -> None:
     global _home, _of_notebook
     if notebook or not _of_notebook:
         _home, _of_notebook = Path(os.path.realpath(here())), notebook
+
+
+def begin_terminal() -> None:
+    """A new terminal begins where the notebook began: undo what `cd` did."""
+    global last_cd
+    if last_cd is not None and here() == last_cd and home().is_dir():
+        os.chdir(home())
+    last_cd = None
+    begin()
+
+
+def begin_notebook() -> None:
+    """The notebook begins: its folder is what `~` is from now on."""
+    if last_cd is None:
+        begin(notebook=True)
 
 
 def folder() -> Path:
@@ -135,65 +150,3 @@ def write(file: Path, text: str) -> None:
         beside.replace(file)
     finally:
         beside.unlink(missing_ok=True)
-
-
-# -- YAML that somebody else may have written --------------------------------------------------------------------------
-# With aliases (`*name`) a few lines can stand for billions of values, and brackets can be nested until Python's stack ends.
-
-LONGEST = 1_000_000
-"""How many characters are read."""
-
-DEEPEST = 100
-"""How deeply lists and mappings may be nested."""
-
-MOST = 100_000
-"""How many values all aliases together may stand for."""
-
-
-class BoundedLoader(yaml.SafeLoader):
-    """PyYAML's safe loader, with limits. Raises yaml.YAMLError beyond them."""
-
-    def __init__(self, text: str) -> None:
-        if len(text) > LONGEST:
-            raise yaml.YAMLError(f"it has {len(text):,} characters, and at most {LONGEST:,} are read")
-        super().__init__(text)
-        self._depth = 0
-        self._values = 0  # as many as there would be if each alias were written out
-        self._written_out = 0
-        self._sizes: dict[str, int] = {}  # how many of them an anchor stands for
-
-    def compose_node(self, parent: Any, index: Any) -> Any:
-        """The next value, or the one that an alias stands for."""
-        event = self.peek_event()
-        if isinstance(event, yaml.AliasEvent):
-            self._count_alias(event)
-            return super().compose_node(parent, index)
-        before = self._values
-        self._values += 1
-        self._depth += 1
-        if self._depth > DEEPEST:
-            raise _refused(f"lists and mappings are nested more than {DEEPEST} deep", event)
-        node = super().compose_node(parent, index)
-        self._depth -= 1
-        if event.anchor is not None:
-            self._sizes[event.anchor] = self._values - before
-        return node
-
-    def _count_alias(self, event: Any) -> None:
-        if event.anchor in self.anchors and event.anchor not in self._sizes:
-            raise _refused(f"*{event.anchor} stands for a value that contains it, which has no end", event)
-        size = self._sizes.get(event.anchor, 0)
-        self._values += size
-        self._written_out += size
-        if self._written_out > MOST:
-            reason = f"its aliases stand for more than {MOST:,} values: *{event.anchor} alone for {size:,}"
-            raise _refused(f"{reason}. Write out what is needed", event)
-
-
-def _refused(reason: str, event: Any) -> yaml.MarkedYAMLError:
-    return yaml.composer.ComposerError(None, None, reason, event.start_mark)
-
-
-def safe_load(text: str) -> Any:
-    """The value of a text, as `yaml.safe_load` gives it. Raises yaml.YAMLError, also for what is too much."""
-    return yaml.load(text, BoundedLoader)

@@ -15,9 +15,10 @@ import random
 import sys
 import threading
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from enum import IntEnum
 from functools import cache, partial
+from importlib.machinery import ModuleSpec, PathFinder
 from pkgutil import resolve_name
 from types import MethodType, ModuleType
 from typing import Any, NamedTuple
@@ -214,8 +215,32 @@ TABLE: tuple[Patch, ...] = (
     _method("tkinter:Tk", "__init__", subprocesses.first_window, "a program here has no screen", Stage.USE),
 )
 
+LATE = frozenset({"numpy.random"})
+"""Modules that a start does not import for their rows: these are put in when anybody imports the module."""
+
+
+class LateFinder:
+    """Has the rows of a `LATE` module put in as soon as it is imported."""
+
+    @staticmethod
+    def find_spec(name: str, path: Sequence[str] | None = None, target: ModuleType | None = None) -> ModuleSpec | None:
+        """Where the module is, with a loader that puts the rows in; None for all other modules."""
+        spec = PathFinder.find_spec(name, path, target) if name in LATE else None
+        if spec is None or spec.loader is None:
+            return None
+        execute = spec.loader.exec_module
+
+        def exec_module(module: ModuleType) -> None:
+            execute(module)
+            _put_in_rows_of(name)
+
+        spec.loader.exec_module = exec_module  # type: ignore[method-assign]
+        return spec
+
+
 FINDERS: tuple[tuple[Callable[[], object], Callable[[], object], Stage], ...] = (
     (install_finder, uninstall_finder, Stage.IMPORT),
+    (lambda: sys.meta_path.insert(0, LateFinder), lambda: sys.meta_path.remove(LateFinder), Stage.WORLD),
     (
         lambda: sys.meta_path.insert(0, ProgramFinder),
         lambda: sys.meta_path.remove(ProgramFinder),
@@ -223,7 +248,7 @@ FINDERS: tuple[tuple[Callable[[], object], Callable[[], object], Stage], ...] = 
     ),
 )
 """How entries of `sys.meta_path` are added and removed, and when: one makes the modules of message packages when they are
-imported, the other gives each program modules of its own."""
+imported, one has rows wait for their module, and one gives each program modules of its own."""
 
 PROVED_ON = ((3, 11), (3, 14))
 """The oldest and the newest Python with which the names below were seen to do what is expected of them."""
@@ -333,7 +358,7 @@ def _take_out() -> None:
 def _put_in(patch: Patch) -> None:
     """Put in one row, if this Python, on this system, has what it replaces, and Jupyter's part if Jupyter runs."""
     owner_module = patch.owner.partition(":")[0]
-    if owner_module.startswith("ipykernel.") and owner_module not in sys.modules:
+    if owner_module not in sys.modules and (owner_module in LATE or owner_module.startswith("ipykernel.")):
         return
     owner, name = resolve_name(patch.owner), patch.name
     if not hasattr(owner, name):
@@ -392,8 +417,13 @@ def _put_in_late(module: str) -> None:
         importlib.import_module(module)
     except ImportError:  # Python may be without tkinter
         return
+    _put_in_rows_of(module)
+
+
+def _put_in_rows_of(module: str) -> None:
+    """Put in the rows of a module that was imported now, unless they are in."""
     for patch in TABLE:
-        if patch.stage is Stage.USE and patch.owner.partition(":")[0] == module:
+        if patch.owner.partition(":")[0] == module:
             owner = resolve_name(patch.owner)
             if not any(each is owner and name == patch.name for each, name, _ in _replaced):
                 _put_in(patch)
