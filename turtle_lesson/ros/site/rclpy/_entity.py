@@ -12,7 +12,7 @@ from types import FunctionType
 from typing import TYPE_CHECKING, Any
 
 from ._hints import explain_call
-from .callback_groups import CallbackGroup, begin_of, end_of
+from .callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup, begin_of, end_of
 from .exceptions import refuse_destroyed, refuse_ended
 
 if TYPE_CHECKING:
@@ -70,6 +70,8 @@ class Entity:
         """Asks the group whether the callback may run, and takes it."""
         self._end_run = end_of(callback_group)
         """Frees the group again."""
+        self._exclusive_group = callback_group if type(callback_group) is MutuallyExclusiveCallbackGroup else None
+        """The group, if it is of the usual kind: that is taken and freed here, without a call."""
         self._is_async = inspect.iscoroutinefunction(callback)
         self._answers = False  # whether the callback's result is wanted
         self._traced: Callback | None = None
@@ -114,10 +116,16 @@ class Entity:
         if self._assigned.executor is not executor:
             self._assigned.missed[self] = None
         elif self._has_work():
-            begin = self._begin
-            if not begin(self):
+            group = self._exclusive_group
+            if group is not None:
+                if group._active_entity is not None:
+                    executor._blocked.append(self)
+                    return
+                group._active_entity = self
+            elif not self._begin(self):
                 executor._blocked.append(self)
-            elif self._is_async:
+                return
+            if self._is_async:
                 executor._execute(self)
             else:
                 self._run(executor)
@@ -143,8 +151,11 @@ class Entity:
         finally:
             if traced is not None:
                 traced.end_run(begun, simulation.now)
-            end_run = self._end_run
-            end_run(self)
+            group = self._exclusive_group
+            if group is not None:
+                group._active_entity = None
+            else:
+                self._end_run(self)
             if executor._blocked:
                 executor._retry_blocked()
 

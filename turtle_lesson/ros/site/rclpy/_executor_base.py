@@ -206,17 +206,18 @@ class ExecutorBase:
             self._wait(strand, deadline)
 
     def _begin_cycle(self) -> None:
-        """Take all that is ready now as the next batch."""
+        """Take all that is ready now as the next batch; the one before is done."""
         self._has_polled = not self._signalled and not self._resumed
-        batch: list[Job] = sorted(self._signalled, key=attrgetter("_turn"), reverse=True)
+        batch = self._batch
+        batch += sorted(self._signalled, key=attrgetter("_turn"), reverse=True)
         for entity in batch:
             entity._listed_in = None
         self._signalled.clear()
         if self._resumed or self._polled:
             tasks = [*self._polled, *self._resumed]
             batch += reversed(tasks) if self._tasks_in_order else sorted(tasks, key=attrgetter("_number"))
-            self._polled, self._resumed = [], []
-        self._batch = batch
+            self._polled.clear()
+            self._resumed.clear()
 
     def _raise_shutdown(self) -> None:
         raise ShutdownException if self._is_shutdown else ExternalShutdownException

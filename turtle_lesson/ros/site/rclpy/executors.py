@@ -81,25 +81,26 @@ class Executor(ExecutorBase):
 
         The common case is that one callback became ready while the strand was waiting; it is run without a batch.
         """
-        simulation, context, signalled = self._simulation, self._context, self._signalled
+        simulation, context = self._simulation, self._context
+        signalled, batch, resumed, polled = self._signalled, self._batch, self._resumed, self._polled
         self._spinning.append(strand)
         self._begin_waiting(strand)
         try:
             while True:  # a condition here would keep Python 3.11 from specializing this function's instructions
                 if context.ended or self._is_shutdown:
                     return
-                if len(signalled) == 1 and not self._batch and not self._resumed and not self._polled:
+                if not (signalled or batch or resumed) and (not polled or self._has_polled):
+                    simulation.park(strand)
+                    if context.ended and not self._is_shutdown:
+                        raise ExternalShutdownException
+                elif len(signalled) == 1 and not (batch or resumed or polled):
                     signalled.pop()._answer_signal(self)
-                elif signalled or self._batch or self._resumed or (self._polled and not self._has_polled):
+                else:
                     try:
                         job = self._next(strand, None, None)
                     except ShutdownException:
                         return
                     self._execute(job)
-                else:
-                    simulation.park(strand)
-                    if context.ended and not self._is_shutdown:
-                        raise ExternalShutdownException
         finally:
             self._end_waiting(strand)
             self._spinning.remove(strand)
