@@ -5,42 +5,50 @@ from __future__ import annotations
 import difflib
 import re
 import sys
+from collections import defaultdict
 from collections.abc import Mapping
 from functools import partial
+from pathlib import Path
 from types import MappingProxyType, ModuleType
 from typing import Any
 
 
-def complete_package(
-    package: str,
-    modules: Mapping[str, str],
-    missing: Mapping[str, Mapping[str, str]] = MappingProxyType({}),
-) -> None:
+def complete_package(package: str, modules: Mapping[str, str] = MappingProxyType({})) -> None:
     """Let the modules of a real package be imported by their names, though fewer files hold what is in them.
 
     Each public class lies in a module of its own, too: `launch.actions.TimerAction` in `launch.actions.timer_action`. It has
     that name as its `__module__`, as on a robot. A public name that is not here raises an ImportError that says so.
 
     Args:
-        package: the package; all its files have been imported.
+        package: the package; all its files have been imported. Where it has a `modules.txt`, that lists further modules, too,
+            and names that the real one has, each with what to do without it.
         modules: further modules of the real package, and the names in each, parted by spaces.
-        missing: for a module, names that the real one has, each with what to do without it.
     """
+    file = Path(str(sys.modules[package].__file__)).with_name("modules.txt")
+    here, _, not_here = (
+        file.read_text(encoding="utf-8").partition("==== not here\n") if file.is_file() else ("", "", "")
+    )
+    modules = {**modules, **dict(line.split(": ", 1) for line in here.splitlines()[1:])}
+    missing: defaultdict[str, dict[str, str]] = defaultdict(dict)
+    for line in not_here.splitlines():
+        path, what_to_do = line.split(": ", 1)
+        module_name, _, name = path.rpartition(".")
+        missing[module_name][name] = what_to_do
     files = sorted(name for name in sys.modules if f"{name}.".startswith(f"{package}."))
-    anywhere = {name: value for file in files for name, value in vars(sys.modules[file]).items()}
+    anywhere = {name: value for each in files for name, value in vars(sys.modules[each]).items()}
     for path, names in modules.items():
         nearer = vars(sys.modules[path.rpartition(".")[0]])
         for name in names.split():
             _put(path, name, nearer.get(name, anywhere[name]), files)
-    for file in (name for name in files if "._" not in name):
-        module = sys.modules[file]
+    for place in (name for name in files if "._" not in name):
+        module = sys.modules[place]
         for name in getattr(module, "__all__", ()):
             value = vars(module)[name]
-            path = f"{file}.{_snake_case(name)}"
-            has_none = isinstance(value, type) and (value.__module__ in (file, path) or "._" in value.__module__)
+            path = f"{place}.{_snake_case(name)}"
+            has_none = isinstance(value, type) and (value.__module__ in (place, path) or "._" in value.__module__)
             if has_none and path not in files:
                 _put(path, name, value, files)
-        vars(module)["__getattr__"] = partial(_missing, module, missing.get(file, {}))
+        vars(module)["__getattr__"] = partial(_missing, module, missing[place])
 
 
 def _snake_case(name: str) -> str:
