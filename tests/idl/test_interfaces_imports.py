@@ -103,6 +103,13 @@ def test_a_missing_name_is_an_import_error_with_a_suggestion(demo):
         _ = demo_msgs.msg.Statsu
 
 
+def test_no_suggestion_is_looked_for_where_all_modules_are_asked(demo, monkeypatch):
+    import demo_msgs.msg
+
+    monkeypatch.setattr("turtle_lesson.ros.idl.registry._hint", None)
+    assert getattr(demo_msgs.msg, "__file__", None) is None
+
+
 def test_parts_of_a_service_are_not_imported_as_in_humble(demo):
     with pytest.raises(ImportError, match=r"Import Charge and write Charge\.Request"):
         from demo_msgs.srv import Charge_Request  # noqa: F401

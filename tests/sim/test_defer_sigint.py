@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import signal
 import subprocess
 import sys
@@ -25,6 +26,18 @@ def test_what_was_there_before_is_there_again() -> None:
     with pytest.raises(ZeroDivisionError), defer_sigint():
         raise ZeroDivisionError
     assert signal.getsignal(signal.SIGINT) is before
+
+
+@pytest.mark.parametrize("on", [True, False])
+def test_the_garbage_collector_waits_and_is_then_as_it_was(on: bool) -> None:
+    before = gc.isenabled()
+    try:
+        (gc.enable if on else gc.disable)()
+        with defer_sigint():
+            assert not gc.isenabled()
+        assert gc.isenabled() is on
+    finally:
+        (gc.enable if before else gc.disable)()
 
 
 def test_a_thread_that_is_not_the_main_one_just_goes_on() -> None:

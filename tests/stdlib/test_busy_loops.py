@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import textwrap
 from pathlib import Path
 
@@ -10,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from turtle_lesson.ros.runtime.world import World
-from turtle_lesson.ros.stdlib.polling import without_busy_loops
+from turtle_lesson.ros.stdlib.polling import NAME, without_busy_loops
 
 SECOND = 1_000_000_000
 PROGRAM = """
@@ -70,6 +71,19 @@ def test_the_line_that_is_to_blame_stays_the_same(
     said = capsys.readouterr().err
     assert "line 4, in <module>\n    while values.pop():" in said and "IndexError: pop from empty list" in said
     assert "another_look" not in said
+
+
+@pytest.mark.parametrize(
+    "before",
+    [
+        *("", "\ufeff", "x = 1\r", "x = 1\r\n", "x = \\\n1\n\f", "for x in y:\n pass\nelse:\n ", "with x:\n "),
+        *("try:\n x\nfinally:\n ", "try:\n x\nexcept E:\n ", "match x:\n case 1:\n  ", "if x:\n y\nelif z:\n "),
+        *("class A:\n def f(self):\n  async def g():\n   ", "while x:\n y\n ", "'while'\nif x:\n\t"),
+    ],
+)
+def test_a_busy_loop_is_found_wherever_it_stands(before: str) -> None:
+    tree = without_busy_loops(f"{before}while not x: pass\n".encode(), "x.py")
+    assert ast.dump(tree).count(NAME) == 1
 
 
 @pytest.mark.parametrize("loop", ["while work():\n    count += 1", "while True:\n    step()", "for x in y:\n    pass"])

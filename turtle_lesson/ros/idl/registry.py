@@ -6,6 +6,7 @@ workspace adds its own with `registry.add`. Files are read, and classes made, wh
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
@@ -74,8 +75,12 @@ class Package:
 
     def names_in(self, folder: str) -> list[str]:
         """Names of the interfaces of one folder."""
-        found = map(Path, self.files) if self.files is not None else (self.directory / folder).glob(f"*.{folder}")
-        return sorted(path.stem for path in found if path.parent.name == folder and path.suffix == f".{folder}")
+        if self.files is not None:
+            found = [path.name for path in map(Path, self.files) if path.parent.name == folder]
+        else:
+            place = self.directory / folder
+            found = os.listdir(place) if place.is_dir() else []
+        return sorted(stem for stem, suffix in map(os.path.splitext, found) if suffix == f".{folder}")
 
     def has(self, interface: str) -> bool:
         """Whether there is an interface `msg/Twist`."""
@@ -406,6 +411,8 @@ def _fill_folder(module: ModuleType, owner: Package, folder: str) -> None:
 
     def get(name: str) -> Any:
         if name not in known:
+            if name.startswith("__"):  # asked of every module, by whoever looks through them all
+                raise AttributeError(f"module '{module.__name__}' has no attribute '{name}'", name=name)
             text = f"module '{module.__name__}' has no attribute '{name}'. {_hint(owner, folder, name)}"
             raise AttributeError(text.rstrip(". "), name=name)
         found = getattr(import_module(f"{module.__name__}.{names.module_name(name)}"), name)

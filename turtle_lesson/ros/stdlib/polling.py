@@ -12,6 +12,7 @@ has computed for too long.
 from __future__ import annotations
 
 import ast
+import re
 import threading
 from typing import TYPE_CHECKING, Any
 
@@ -63,15 +64,17 @@ NAME = "__another_look__"
 """What the loops call; the builtins of a program have it."""
 ROUND = 100_000
 """How long a round takes, in ns."""
+_WHILE = re.compile(rb"(?:^|[\r\n]|\xef\xbb\xbf)[ \t\f]*while\b")
+"""A line that may begin with a `while`, as such a statement must: to parse a program takes longer than to compile it."""
 _NOTHING = (ast.Pass, ast.Continue, ast.Break, ast.Return)
 
 
 def without_busy_loops(source: bytes | str, path: str) -> Any:
     """What to compile instead of a text: itself, or its tree with such loops changed."""
-    if not ("while" in source if isinstance(source, str) else b"while" in source):
+    if not _WHILE.search(source if isinstance(source, bytes) else source.encode(errors="replace")):
         return source
     tree = ast.parse(source, path)
-    busy = [node for node in ast.walk(tree) if isinstance(node, ast.While) and _only_looks(node.body)]
+    busy = [node for node in _statements(tree) if isinstance(node, ast.While) and _only_looks(node.body)]
     if not busy:
         return source
     for loop in busy:
@@ -80,6 +83,15 @@ def without_busy_loops(source: bytes | str, path: str) -> Any:
             ast.copy_location(node, loop.body[0])
         loop.body.insert(0, look)
     return tree
+
+
+def _statements(tree: ast.Module) -> list[ast.AST]:
+    """All statements, without the expressions in them: those are most of a tree."""
+    found: list[ast.AST] = [tree]
+    for node in found:
+        for part in ("body", "orelse", "finalbody", "handlers", "cases"):
+            found += getattr(node, part, ())
+    return found
 
 
 def _only_looks(body: list[ast.stmt]) -> bool:
