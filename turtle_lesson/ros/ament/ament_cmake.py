@@ -28,7 +28,7 @@ from .cmake_commands import (
 from .index import package_hint
 from .install_tree import PYTHON_FOLDERS, Environment, Item, Outcome, check_targets, files_in, prefix_of, with_hint
 from .manifest import Found, faults_in, hint_for
-from .package import SHARE, BuildFailure, cmake_message, refused
+from .package import SHARE, BuildFailure, cmake_message, filled, refused
 
 _PACKAGE_XML = f"{SHARE}/ament_cmake_core/cmake/core/ament_package_xml.cmake"
 _EXTENSIONS = f"{SHARE}/ament_cmake_core/cmake/core/ament_execute_extensions.cmake"
@@ -237,9 +237,8 @@ class _Build:
             self.lacking.append(name)
             self.commands |= COMMANDS_OF.get(name, frozenset())
         else:
-            text = cmake_message(
-                _NOT_FOUND.format(name=name, lower=name.lower()), where, (), "Error" if required else "Warning"
-            )
+            said = filled("CMake: package not found", name=name, lower=name.lower()).removesuffix("\n")
+            text = cmake_message(said, where, kind="Error" if required else "Warning")
             hint = package_hint(name, known) or (
                 f"Is {name} the right name? If it is a package of this workspace, write <depend>{name}</depend> in "
                 "package.xml, so that it is built first."
@@ -429,14 +428,3 @@ _NO_PROJECT = (
     ).removesuffix("\n")
     + "This warning is for project developers.  Use -Wno-dev to suppress it.\n\n"
 )
-_NOT_FOUND = """\
-By not providing "Find{name}.cmake" in CMAKE_MODULE_PATH this project has asked CMake to find a package configuration file \
-provided by "{name}", but CMake did not find one.
-
-Could not find a package configuration file provided by "{name}" with any of the following names:
-
-  {name}Config.cmake
-  {lower}-config.cmake
-
-Add the installation prefix of "{name}" to CMAKE_PREFIX_PATH or set "{name}_DIR" to a directory containing one of the above \
-files. If "{name}" provides a separate development package or SDK, be sure it has been installed."""

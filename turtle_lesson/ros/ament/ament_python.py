@@ -18,7 +18,7 @@ from ..idl.names import did_you_mean
 from ..sim.errors import shown_path
 from .install_tree import PYTHON, PYTHON_FOLDERS, Environment, Item, Outcome, check_targets, files_in, with_hint
 from .manifest import Found, hint_for
-from .package import BuildFailure
+from .package import BuildFailure, filled
 from .setup_py import SetupError, install_scripts, read_setup
 
 SITE = PYTHON_FOLDERS["python"]
@@ -236,7 +236,7 @@ class _Build:
                 raise _refused(text, f"It looks like 'my_node = {self.found.name}.my_node:main'.")
             name, module, function = match[1], match[2], match[3]
             self._check_entry(name, module, function)
-            text = _PROGRAM.format(line=line.strip(), imports=_imports(module, function), function=function)
+            text = filled("entry point", line=line.strip(), imports=_imports(module, function), function=function)
             items.append(Item(f"{place or 'bin'}/{name}", text=text, program=True))
         if items and place != f"lib/{self.found.name}":
             self.hints.append(
@@ -268,15 +268,6 @@ class _Build:
 
 def _refused(text: str, hint: str) -> BuildFailure:
     return BuildFailure(f"{text}\n", hint, seconds=0.5)
-
-
-_PROGRAM = """\
-#!/usr/bin/python3
-# EASY-INSTALL-ENTRY-SCRIPT: made by colcon build from the entry point '{line}'
-{imports}
-
-sys.exit({function}())
-"""
 
 
 def _imports(module: str, function: str) -> str:

@@ -7,23 +7,14 @@ files start.
 from __future__ import annotations
 
 import re
-from functools import cache
 from pathlib import Path
 
-from .package import NotHereError
+from .package import NotHereError, sections
 
 _WINDOWS = "there are no windows here; lesson.dashboard(), lesson.scene() and the lesson's plots draw into the page"
 _GAZEBO = "there is no Gazebo here; the simulated world is turtlesim"
 _XACRO = "the Python package xacro is not installed: pip install xacro (in a notebook: %pip install xacro)"
 _OTHER = "it is not part of this simulation"
-
-
-@cache
-def sections(file: str) -> dict[str, str]:
-    """The sections of a text file of this folder, each of which begins with a line `==== name`."""
-    text = Path(__file__).with_name(file).read_text(encoding="utf-8")
-    parts = re.split(r"^==== (.+)\n", text, flags=re.MULTILINE)
-    return dict(zip(parts[1::2], parts[2::2], strict=True))
 
 
 def _words(section: str) -> tuple[str, ...]:

@@ -20,7 +20,7 @@ from ..sim.errors import shown_path
 from .cmake import Command, split_at
 from .install_tree import PYTHON_FOLDERS, Item, files_in
 from .manifest import Found
-from .package import SHARE, BuildFailure, refused
+from .package import SHARE, BuildFailure, filled, refused
 
 _INSTALLS = ("PROGRAMS", "DIRECTORY", "FILES", "TARGETS", "SCRIPT", "CODE", "EXPORT")
 _INSTALL_WORDS = {
@@ -356,13 +356,6 @@ def interface_items(found: Found, files: tuple[str, ...]) -> Iterator[Item]:
         if lines:
             yield Item(f"{folder}/{kind}/__init__.py", text="".join(lines))
         for each, module in modules.items():
-            yield Item(f"{folder}/{kind}/{module}.py", text=_MODULE.format(package=name, kind=kind, name=each))
-
-
-_MODULE = '''\
-"""{package}/{kind}/{name}: made from {kind}/{name}.{kind} by colcon build."""
-
-from turtle_lesson.ros.idl.registry import registry
-
-{name} = registry.get("{package}/{kind}/{name}")
-'''
+            yield Item(
+                f"{folder}/{kind}/{module}.py", text=filled("interface module", package=name, kind=kind, name=each)
+            )

@@ -15,7 +15,7 @@ from .build import DEFAULTS, Plan, build
 from .catalog import CMAKE_PACKAGES, PYTHON_PACKAGES
 from .install_tree import needs_of, prefix_of
 from .manifest import Found, build_type_hint, discover, in_order, needed_by
-from .package import ColconError
+from .package import ColconError, filled
 
 if TYPE_CHECKING:
     from ..runtime.world import World
@@ -46,19 +46,6 @@ verbs:
   graph   show which package depends on which
 """
 _ROS = "/opt/ros/humble"
-_TEXT = """\
-Some selected packages are already built in one or more underlay workspaces:
-\t{where}
-If a package in a merged underlay workspace is overridden and it installs headers, then all packages in the overlay must \
-sort their include directories by workspace order. Failure to do so may result in build failures or undefined behavior at \
-run time.
-If the overridden package is used by another package in any underlay, then the overriding package in the overlay must be \
-API and ABI compatible or undefined behavior at run time may occur.
-
-If you understand the risks and want to override a package anyways, add the following to the command line:
-\t--allow-overriding {names}
-
-This may be promoted to an error in a future release of colcon-override-check."""
 
 
 _SILENT = {
@@ -408,7 +395,9 @@ def overridden(world: World, chosen: list[Found], install: Path, allowed: list[s
         elif found.name in needed:
             places[found.name] = needed[found.name]
     where = "\n\t".join(f"'{name}' is in: {place}" for name, place in places.items())
-    return _TEXT.format(where=where, names=" ".join(sorted(places))) if places else ""
+    if not places:
+        return ""
+    return filled("colcon: what is overridden", where=where, names=" ".join(sorted(places))).removesuffix("\n")
 
 
 def _needed_in_underlays(world: World, install: Path) -> dict[str, str]:

@@ -16,7 +16,7 @@ from xml.sax.saxutils import escape, quoteattr
 
 from ..runtime import files
 from ..sim.errors import shown_path
-from .catalog import sections
+from .package import filled
 
 LICENCES = (
     "Apache-2.0", "BSL-1.0", "BSD-2.0", "BSD-2-Clause", "BSD-3-Clause", "GPL-3.0-only", "LGPL-3.0-only", "MIT", "MIT-0",
@@ -31,11 +31,6 @@ _TEST_DEPENDS = {
     "ament_python": ("ament_copyright", "ament_flake8", "ament_pep257", "python3-pytest"),
     "cmake": (),
 }
-
-
-def filled(section: str, /, **values: str) -> str:
-    """A section of `templates.txt`, in which `{word}` is replaced by the value of this name."""
-    return re.sub(r"\{(\w+)\}", lambda found: values.get(found[1], found[0]), sections("templates.txt")[section])
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -15,11 +15,10 @@ from ..idl.registry import registry
 from ..sim.errors import shown_path
 from .build import types_for
 from .catalog import CMAKE_PACKAGES, PYTHON_PACKAGES
-from .create import filled
 from .index import is_launch_file
 from .install_tree import Environment, Outcome
 from .manifest import Found, discover, read_found
-from .package import PackageError
+from .package import PackageError, filled
 from .source import checked_build
 
 if TYPE_CHECKING:

@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
+from functools import cache
 from pathlib import Path
 
 from ..runtime import files
@@ -77,6 +78,19 @@ class PythonProgram:
         run_program(self.path, self.folders, self.text)
 
 
+@cache
+def sections(file: str) -> dict[str, str]:
+    """The sections of a text file of this folder, each of which begins with a line `==== name`."""
+    text = Path(__file__).with_name(file).read_text(encoding="utf-8")
+    parts = re.split(r"^==== (.+)\n", text, flags=re.MULTILINE)
+    return dict(zip(parts[1::2], parts[2::2], strict=True))
+
+
+def filled(section: str, /, **values: str) -> str:
+    """A section of `templates.txt`, in which `{word}` is replaced by the value of this name."""
+    return re.sub(r"\{(\w+)\}", lambda found: values.get(found[1], found[0]), sections("templates.txt")[section])
+
+
 def forget_below(folders: Iterable[Path]) -> None:
     """Have the modules in these folders be imported anew, from what the files say now.
 
@@ -90,9 +104,9 @@ def forget_below(folders: Iterable[Path]) -> None:
         if isinstance(file, str) and file.startswith(below):
             del sys.modules[name]
     for folder in folders:
-        for cache in list(folder.rglob("__pycache__")):
+        for compiled in list(folder.rglob("__pycache__")):
             with suppress(PermissionError):
-                shutil.rmtree(files.check(cache, removes=True), ignore_errors=True)
+                shutil.rmtree(files.check(compiled, removes=True), ignore_errors=True)
 
 
 # -- what can be wrong with a package, or with a name that was asked for, each said with what to try ---------------------
