@@ -57,7 +57,6 @@ results.Row.good = property(lambda self: True)
 """
 
 RESULTS_REDEFINED = """
-import turtle_lesson.lab.checks as checks
 from turtle_lesson.lab.checks import assertions, pages_00_02, registry, results, streams
 
 class Row(results.Row):
@@ -71,7 +70,7 @@ class Seen(results.Seen):
     def __new__(cls, good, *rest):
         return super().__new__(cls, True, *rest)
 
-for module in (results, registry, assertions, streams, pages_00_02, checks):
+for module in (results, registry, assertions, streams, pages_00_02):
     module.Row, module.Seen = Row, Seen
 """
 
@@ -85,14 +84,13 @@ for name, each in list(registry._checks.items()):
 """
 
 RUNNER_REPLACED = """
-from turtle_lesson.lab import checks
 from turtle_lesson.lab.checks import registry, results
 
 def run(check, place):
     good = tuple(results.Row("✓", each.expected, "yes") for each in check.expectations)
-    return checks.CheckResult(check.name, check.title, check.page, check.points, good, 0.0)
+    return results.CheckResult(check.name, check.title, check.page, check.points, good, 0.0)
 
-checks.run = registry.run = run
+registry.run = run
 """
 
 LESSON_REPLACED = """

@@ -6,7 +6,7 @@ import math
 from types import SimpleNamespace
 from typing import Any
 
-from turtle_lesson.lab import Obstacle, Recording
+from turtle_lesson.lab.recording import Obstacle, Recording
 
 START = 1_800_000_000_000_000_000
 """The virtual wall clock at a lesson's start, in ns."""

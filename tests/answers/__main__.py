@@ -23,7 +23,8 @@ from pathlib import Path
 
 os.environ["TURTLE_LESSON_PROGRESS"] = "off"
 
-from turtle_lesson.lab.checks import all_checks, navigation, page_10, probe
+from turtle_lesson.lab.checks import navigation, page_10, probe
+from turtle_lesson.lab.checks.registry import all_checks
 from turtle_lesson.ros.sim import interrupts
 
 from . import restart

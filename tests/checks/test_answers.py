@@ -16,7 +16,7 @@ import pytest
 from answers import NOTEBOOKS, Answer, Answers, answer, code_cells, solution, stub
 from answers.client import PageServer
 
-from turtle_lesson.lab.checks import all_checks
+from turtle_lesson.lab.checks.registry import all_checks
 from turtle_lesson.learner.story import PAGES
 
 LEAST_WRONG, LEAST_RIGHT = 6, 4

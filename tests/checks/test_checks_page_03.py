@@ -11,9 +11,10 @@ from typing import Any
 import pytest
 
 from turtle_lesson import Lesson, start
-from turtle_lesson.lab.checks import CheckResult, Expectation, Probe
 from turtle_lesson.lab.checks.assertions import learner_function, returns
-from turtle_lesson.lab.checks.results import CannotLook
+from turtle_lesson.lab.checks.probe import Probe
+from turtle_lesson.lab.checks.registry import Expectation
+from turtle_lesson.lab.checks.results import CannotLook, CheckResult
 from turtle_lesson.learner.workspace import workspace
 
 # isort: split

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from turtle_lesson import Lesson, start
-from turtle_lesson.lab.checks import CheckResult
+from turtle_lesson.lab.checks.results import CheckResult
 
 # isort: split
 # Importing turtle_lesson made these importable.

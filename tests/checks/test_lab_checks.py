@@ -11,9 +11,9 @@ from typing import Any
 import pytest
 
 from turtle_lesson import Lesson, start
-from turtle_lesson.lab.checks import Advice, Check, CheckResult, Expectation, Row, Seen, all_checks, probe, registry
-from turtle_lesson.lab.checks.registry import check
-from turtle_lesson.lab.checks.results import POINTER
+from turtle_lesson.lab.checks import probe, registry
+from turtle_lesson.lab.checks.registry import Check, Expectation, all_checks, check
+from turtle_lesson.lab.checks.results import POINTER, Advice, CheckResult, Row, Seen
 from turtle_lesson.learner.story import FINISHED, PAGES
 from turtle_lesson.ros.sim import interrupts
 

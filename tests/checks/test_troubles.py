@@ -11,7 +11,7 @@ from random import Random
 import pytest
 
 from turtle_lesson import Lesson, start
-from turtle_lesson.lab.troubles import TROUBLES, Case
+from turtle_lesson.lab.troubles.cases import TROUBLES, Case
 from turtle_lesson.ros.cli.shell import run_line
 from turtle_lesson.ros.runtime import files
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from lab_fakes import NAVIGATE, POSE, SCAN, STATUS, TWIST, GraphNode
 from nbconvert import HTMLExporter
 
-from turtle_lesson.lab import plot_graph
+from turtle_lesson.lab.graph import plot_graph
 
 SVG = "{http://www.w3.org/2000/svg}"
 PARAMETERS = "rcl_interfaces/srv/GetParameters"

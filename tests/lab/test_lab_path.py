@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from lab_fakes import SECOND, START, TICK, drive, recording, stand
 
-from turtle_lesson.lab import Obstacle, plot_path
 from turtle_lesson.lab.drawing import turtle_points
-from turtle_lesson.lab.path import LABEL, WORLD, Goal, distance_driven, find_jumps, goal_points
+from turtle_lesson.lab.path import LABEL, WORLD, Goal, distance_driven, find_jumps, goal_points, plot_path
+from turtle_lesson.lab.recording import Obstacle
 
 
 def test_a_straight_drive():

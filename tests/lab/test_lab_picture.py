@@ -15,7 +15,11 @@ from lab_fakes import drive, recording, report, scan, see
 from nbconvert import HTMLExporter
 from traitlets.config import Config
 
-from turtle_lesson.lab import Picture, plot_path, plot_scan, plot_status, style
+from turtle_lesson.lab import style
+from turtle_lesson.lab.path import plot_path
+from turtle_lesson.lab.picture import Picture
+from turtle_lesson.lab.scan import plot_scan
+from turtle_lesson.lab.status import plot_status
 
 PLOTS = {
     "path": lambda: plot_path(drive(recording()), goal=(8, 8, 1)),
@@ -122,7 +126,7 @@ def test_without_a_figure_there_is_only_text(tmp_path):
 
 def test_pictures_leave_pyplot_alone():
     code = (
-        "import sys, lab_fakes; from turtle_lesson.lab import plot_path\n"
+        "import sys, lab_fakes; from turtle_lesson.lab.path import plot_path\n"
         "assert 'matplotlib' not in sys.modules, 'imported before the first picture'\n"
         "plot_path(lab_fakes.drive(lab_fakes.recording())).png()\n"
         "assert 'matplotlib.pyplot' not in sys.modules"

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from turtle_lesson.lab.checks import CheckResult, Row, all_checks
+from turtle_lesson.lab.checks.registry import all_checks
+from turtle_lesson.lab.checks.results import CheckResult, Row
 from turtle_lesson.lab.progress import FILE, VARIABLE, Progress, ProgressFile, progress_file
 
 

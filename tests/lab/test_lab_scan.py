@@ -5,8 +5,7 @@ import math
 import pytest
 from lab_fakes import recording, scan, see
 
-from turtle_lesson.lab import plot_scan
-from turtle_lesson.lab.scan import nice_step, reach_of, read_beams
+from turtle_lesson.lab.scan import nice_step, plot_scan, reach_of, read_beams
 
 
 def ranges(**seen):

@@ -5,8 +5,7 @@ import math
 import pytest
 from lab_fakes import START, recording, report
 
-from turtle_lesson.lab import plot_status
-from turtle_lesson.lab.status import spread
+from turtle_lesson.lab.status import plot_status, spread
 
 
 def test_a_steady_stream():

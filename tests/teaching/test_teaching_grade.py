@@ -21,7 +21,7 @@ import pytest
 import teaching_copies as copies
 from forgeries import FORGERIES, FORKED, PACKAGE_BESIDE
 
-from turtle_lesson.lab.checks import checks_of
+from turtle_lesson.lab.checks.registry import checks_of
 from turtle_lesson.teaching import grade
 from turtle_lesson.teaching.grade import CheckScore, Graded, Grader
 from turtle_lesson.teaching.main import main
@@ -116,7 +116,7 @@ def test_a_forged_copy_gets_nothing(run: Run) -> None:
     ("name", "replaced"),
     [
         ("results_patched", "turtle_lesson.lab.checks.results.CheckResult.passed"),
-        ("results_redefined", "turtle_lesson.lab.checks.Row"),
+        ("results_redefined", "turtle_lesson.lab.checks.assertions.Row"),
         ("checks_replaced", "turtle_lesson.lab.checks.registry._checks"),
         ("runner_replaced", "turtle_lesson.lab.checks.registry.run"),
         ("lesson_patched", "turtle_lesson.session.inspection.Inspection.check"),
@@ -158,9 +158,9 @@ def test_each_report_names_the_copies_by_their_paths(run: Run) -> None:
         (line,) = [each for each in table if each["path"] == path]
         assert (line["earned"], line["counter"], line["doubler"]) == (str(points), "3", str(points - 3))
     (forged,) = [each for each in junit if each.get("name", "").endswith("forged_runner_replaced.ipynb")]
-    assert "turtle_lesson.lab.checks.run" in forged.findtext("system-out", "")
+    assert "turtle_lesson.lab.checks.registry.run" in forged.findtext("system-out", "")
     (line,) = [each for each in table if each["path"] == forged.get("name")]
-    assert "turtle_lesson.lab.checks.run" in line["remarks"]
+    assert "turtle_lesson.lab.checks.registry.run" in line["remarks"]
 
 
 def test_no_report_passes_on_what_a_terminal_or_a_browser_obeys(run: Run) -> None:

@@ -17,15 +17,15 @@ from ..ros.sim.errors import format_error
 from ..ros.sim.simulation import NANOSECONDS
 
 if TYPE_CHECKING:
-    from ..lab.checks import CheckResult
     from ..lab.checks.probe import Target
+    from ..lab.checks.results import CheckResult
     from ..lab.graph import GraphPicture
     from ..lab.picture import Picture
     from ..lab.predictions import Outcome, Question
     from ..lab.progress import Progress, ProgressFile
     from ..lab.prompts import Prompt
     from ..lab.recorder import Recorder
-    from ..lab.troubles import Case
+    from ..lab.troubles.cases import Case
     from ..ros.rmw.trace import Trace
     from ..ros.runtime.world import World
 
@@ -62,18 +62,18 @@ class Inspection:
 
         Raises ValueError for a name that no check has.
         """
-        from ..lab import checks
+        from ..lab.checks.registry import find, run
 
-        wanted = checks.find(name)
+        wanted = find(name)
         with _quiet():
-            result = checks.run(wanted, self._make_check_target())
+            result = run(wanted, self._make_check_target())
         failures = progress_file().note(result)
         so_far = self.progress().so_far(result.page)
         return dataclasses.replace(result, failures=failures, so_far=so_far)
 
     def progress(self) -> Progress:
         """The points of all pages so far. They are kept in a small file beside the notebooks."""
-        from ..lab.checks import all_checks
+        from ..lab.checks.registry import all_checks
         from ..lab.progress import Progress
 
         file = progress_file()
@@ -150,9 +150,9 @@ class Inspection:
 
         Args:
             seed: chooses the trouble; with a `name`, the fault behind that symptom. The same seed, the same case.
-            name: one of `turtle_lesson.lab.troubles.TROUBLES`, such as "turtle stands still".
+            name: one of `turtle_lesson.lab.troubles.cases.TROUBLES`, such as "turtle stands still".
         """
-        from ..lab.troubles import open_case
+        from ..lab.troubles.cases import open_case
         from .trouble_environment import TroubleEnvironment
 
         return open_case(TroubleEnvironment(self._world), seed, name, lambda: self.check("trouble"))

@@ -22,7 +22,7 @@ from ..ros.sim.process import Process
 from .packages import install
 
 if TYPE_CHECKING:
-    from ..lab.troubles import Program
+    from ..lab.troubles.faults import Program
     from ..ros.runtime.world import World
 
 

@@ -66,7 +66,7 @@ def _look(question: dict[str, Any], names: dict[str, Any], before: dict[str, Mod
     if not lessons:
         return []
     place = new["session.check_target"].CheckTarget(lessons[0]._world, lessons[0]._recording, lessons[0]._board)
-    checks = new["lab.checks"]
+    checks = new["lab.checks.registry"]
     rows: list[dict[str, str]] = checks.run(checks.find(question["check"]), place).figures()["rows"]
     return rows
 

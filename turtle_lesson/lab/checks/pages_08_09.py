@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..troubles import current_expectations, expectations_of
+from ..troubles.cases import current_expectations, expectations_of
 from ..words import number, point
 from .assertions import get_parameter, no_errors, node, offers, publishes, set_parameter
 from .navigation import NAVIGATE, NEAR, ask_for, away, where

@@ -8,7 +8,9 @@ from random import Random
 from typing import Any
 
 from ...ros.idl.names import nearest
-from ..checks import CannotLook, CheckResult, Expectation, Probe, Seen, expectation
+from ..checks.probe import Probe
+from ..checks.registry import Expectation, expectation
+from ..checks.results import CannotLook, CheckResult, Seen
 from . import faults
 from .faults import Environment, Fault, Trouble
 

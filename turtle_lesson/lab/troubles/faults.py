@@ -9,7 +9,6 @@ from pathlib import Path
 from random import Random
 from typing import Any, Protocol
 
-from ..checks import CannotLook, Expectation, Probe, Seen, expectation, interface, remembered
 from ..checks.assertions import node, publishes, subscribes
 from ..checks.navigation import (
     COMMANDS,
@@ -25,6 +24,9 @@ from ..checks.navigation import (
     where,
 )
 from ..checks.page_04 import STATUS, STATUS_TYPE
+from ..checks.probe import Probe, interface, remembered
+from ..checks.registry import Expectation, expectation
+from ..checks.results import CannotLook, Seen
 from ..checks.streams import rate
 from ..words import number, point
 
