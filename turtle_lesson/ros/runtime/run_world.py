@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from ..sim.errors import DriveTimeout, SimulationError
 from ..sim.process import Process
-from ..sim.run_blocking import DRIVE_LIMIT, drive
+from ..sim.run_blocking import DRIVE_LIMIT, drive_within
 from ..sim.simulation import NANOSECONDS
 from ..sim.strand import running_strand
 from ..stdlib.clocks import real_monotonic, real_sleep
@@ -97,10 +97,10 @@ class Waiter:
         """Run as fast as possible. A verb limits its own waits: one that goes on for longer was told so, for a day or two."""
         simulation = self._world.sim
         end = simulation.now + round(2 * LONGEST * NANOSECONDS)
-        while process.alive:
+        while process.exit_code is None:
             begun = simulation.now
             try:
-                drive(simulation, self._world.notebook, self._park, process)
+                drive_within(DRIVE_LIMIT, simulation, self._world.notebook, self._park, process)
             except DriveTimeout:
                 if begun > end:
                     raise
@@ -110,8 +110,8 @@ class Waiter:
         self._strand = strand = running_strand()
         assert strand is not None
         strand.activity = self._what
-        while process.alive:
-            strand.park()
+        while process.exit_code is None:
+            strand.simulation.park(strand)
 
 
 def run_for(world: World, seconds: float) -> None:

@@ -92,8 +92,7 @@ class World:
         arguments = list(argv) or [str(target) if isinstance(target, Path) else name]
         process = self._make_process(name, argv=arguments, stdout=stdout, stderr=stderr, stdin=stdin, on_exit=on_exit)
         self.processes.append(process)
-        process.environ = encoded(environ)
-        process.environ.setdefault(*encoded({VARIABLE: self.release.name}).popitem())
+        process.environ = encoded(environ, VARIABLE, self.release.name)
         process.start(partial(run_program, target) if isinstance(target, Path) else target, start_up)
         return process
 

@@ -50,11 +50,16 @@ class ProcessEnviron(_RealEnviron):
             raise KeyError(key)
 
 
-def encoded(variables: Mapping[str, str] | None) -> dict[Any, Any]:
-    """These variables as a process keeps them; without any, a copy of the caller's."""
+def encoded(variables: Mapping[str, str] | None, name: str, default: str) -> dict[Any, Any]:
+    """These variables as a process keeps them, and one that has a default; without any, a copy of the caller's."""
     environ: Any = os.environ
-    given = environ if variables is None else variables
-    return {environ.encodekey(name): environ.encodevalue(text) for name, text in given.items()}
+    if variables is None:
+        own = _own()
+        kept = dict(environ._data if own is None else own)  # as they are: to decode and encode each takes 70 calls
+    else:
+        kept = {environ.encodekey(each): environ.encodevalue(text) for each, text in variables.items()}
+    kept.setdefault(environ.encodekey(name), environ.encodevalue(default))
+    return kept
 
 
 def _own() -> dict[Any, Any] | None:
