@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 import simpy
+from speed_of_light import driving_speeds
 
 from turtle_lesson import start
 from turtle_lesson.ros.runtime.world import World, open_world
@@ -324,6 +325,11 @@ def main() -> None:
             f"{system_speed(100, own_package(Path(folder))):.0f}",
             "2000",
         )
+    print()
+    row("virtual s in a CPU second, driving", "turtle_lesson", "callbacks only", "ratio", "aim")
+    for source, what in (("mock", "mock scans"), ("world", "ray casts")):
+        system, light = driving_speeds(source, 100, ROUNDS)
+        row(what, f"{system:.0f}", f"{light:.0f}", f"×{light / system:.2f}", "×1.60")
     print()
     row("turtles in one simulator", "1", "10", "100", "1000")
     row("µs a virtual second and turtle", *(f"{many_turtles(count):.0f}" for count in (1, 10, 100, 1000)))
