@@ -18,10 +18,10 @@ from turtle_lesson.lab.widgets.message_types import (
     constants_of,
     find_class,
     kinds_of,
-    limits_of,
     plain,
     read_kind,
 )
+from turtle_lesson.ros.idl.names import integer_bounds
 
 
 def group(type_name: str) -> Group:
@@ -69,8 +69,8 @@ def test_kinds_are_read_as_ros_writes_them(text: str, kind: Kind, written: str) 
 
 
 def test_limits_of_whole_numbers() -> None:
-    assert [limits_of(each) for each in ("int8", "uint16", "octet")] == [(-128, 127), (0, 65535), (0, 255)]
-    assert limits_of("int64") == (-(2**63), 2**63 - 1)
+    assert [integer_bounds(each) for each in ("int8", "uint16", "octet")] == [(-128, 127), (0, 65535), (0, 255)]
+    assert integer_bounds("int64") == (-(2**63), 2**63 - 1)
 
 
 def test_constants_and_empty_messages() -> None:

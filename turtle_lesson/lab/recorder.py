@@ -18,7 +18,6 @@ from typing import TYPE_CHECKING, Any
 from ..turtlesim.obstacles import WORLDS, Box, Circle, to_marker_array
 from .graph import others, owner
 from .recording import (
-    LIMIT,
     NANOSECONDS,
     OBSTACLE_TOPIC,
     SCAN_TOPIC,
@@ -76,16 +75,14 @@ class Recorder(Recording):
         self,
         node: Node,
         *,
-        turtle: str = "turtle1",
         origin: int | None = None,
-        limit: int = LIMIT,
         advice: Advice = IN_A_LESSON,
     ) -> None:
         from rcl_interfaces.msg import ParameterEvent
 
         if origin is None:
             origin = node.get_clock().now().nanoseconds
-        super().__init__(turtle=turtle, origin=origin, limit=limit)
+        super().__init__(origin=origin)
         self.node = node
         self._closed = False
         self._channels = self._make_channels(node, advice)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 import textwrap
 from collections.abc import Sequence
@@ -11,6 +10,7 @@ from itertools import chain
 from operator import attrgetter, itemgetter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from ..ros.idl.names import nearest
 from . import drawing, style
 from .graph import LOOKS, PARAMETER_SERVICES, THEME, GraphPicture, plain_line
 from .recording import NANOSECONDS
@@ -61,8 +61,8 @@ def _nothing(trace: Trace, names: list[str], called: Sequence[Call], window: Win
         when = f"{number(called[0].asked / NANOSECONDS)} s and {number(called[-1].asked / NANOSECONDS)} s"
         return f"No node called {what} from {window.seconds}: the calls were between {when}."
     others = sorted({call.service for call in trace.calls})
-    close = difflib.get_close_matches(names[0], others, 1, 0.6) if names else []
-    meant = f" Did you mean {close[0]}?" if close else ""
+    close = nearest(names[0], others) if names else ""
+    meant = f" Did you mean {close}?" if close else ""
     return f"No node has called {what} yet.{meant} Try: ros2 service call {names[0] if names else '/navigate_to'} …"
 
 

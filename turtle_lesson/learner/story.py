@@ -9,10 +9,11 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator, Sequence
-from difflib import get_close_matches
 from functools import cache
 from itertools import chain, combinations
 from pathlib import Path
+
+from ..ros.idl.names import nearest
 
 PAGES = (
     "00_welcome",
@@ -49,8 +50,8 @@ def page_named(name: str) -> str:
     matches = [page for page in PAGES if name in (page, page.partition("_")[0])]
     if matches:
         return matches[0]
-    near = get_close_matches(name.lower(), PAGES, n=1) if isinstance(name, str) else []
-    hint = f'Did you mean "{near[0]}"?' if near else f"There are {', '.join(PAGES)}."
+    near = nearest(name, PAGES) if isinstance(name, str) else ""
+    hint = f'Did you mean "{near}"?' if near else f"There are {', '.join(PAGES)}."
     raise ValueError(f"there is no page {name!r}. {hint}")
 
 

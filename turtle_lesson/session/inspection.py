@@ -15,6 +15,7 @@ from ..learner.story import FINISHED
 from ..ros.runtime.files import home
 from ..ros.sim.errors import format_error
 from ..ros.sim.simulation import NANOSECONDS
+from .views import Views
 
 if TYPE_CHECKING:
     from ..lab.checks.probe import Target
@@ -24,7 +25,6 @@ if TYPE_CHECKING:
     from ..lab.predictions import Outcome, Question
     from ..lab.progress import Progress, ProgressFile
     from ..lab.prompts import Prompt
-    from ..lab.recorder import Recorder
     from ..lab.troubles.cases import Case
     from ..ros.rmw.trace import Trace
     from ..ros.runtime.world import World
@@ -34,16 +34,12 @@ MOST_LINES = 20
 """Lines of what programs print while a check looks that are shown; a log alone can be hundreds."""
 
 
-class Inspection:
+class Inspection(Views):
     """Checks, points and predictions; troubles, timelines and prompts. A subclass says where to look."""
 
     _world: World
 
     def _make_check_target(self) -> Target:
-        raise NotImplementedError
-
-    @property
-    def _recording(self) -> Recorder:
         raise NotImplementedError
 
     @property

@@ -21,7 +21,6 @@ from .inspection import Inspection
 from .live import Player, SimBackend
 from .packages import SIMULATOR, install, package_folder, underlay_packages
 from .robot import real_ros
-from .views import Views
 
 if TYPE_CHECKING:
     from ..lab.recorder import ObstacleBoard, Recorder
@@ -112,7 +111,7 @@ def _check_seconds(verb: str, seconds: object) -> None:
         )
 
 
-class Lesson(Views, Inspection):
+class Lesson(Inspection):
     """A running world, and what a page does with it. Times are in seconds of robot time."""
 
     def __init__(self, world: World, *, simulator: bool = True) -> None:

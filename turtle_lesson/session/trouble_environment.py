@@ -15,6 +15,7 @@ from ..ros.ament import colcon
 from ..ros.ament.package import Package, PythonProgram, Target
 from ..ros.ament.source import overlay, overlays, remove_all
 from ..ros.cli.jobs import Job, jobs
+from ..ros.idl.names import module_name
 from ..ros.idl.registry import registry
 from ..ros.runtime.console import CellOutput
 from ..ros.runtime.files import home
@@ -32,13 +33,7 @@ MARK = ".made_for_a_case"
 """An empty file in a `trouble_ws` that was made here: only such a folder is ever replaced."""
 
 DRAFTS = HERE / "lab" / "troubles" / "robot_draft"
-SMALL_NODES = {
-    "laser": "Laser",
-    "obstacle_alarm": "ObstacleAlarm",
-    "speed_limiter": "SpeedLimiter",
-    "status_text": "StatusText",
-    "status_twice": "StatusTwice",
-}
+SMALL_NODES = ("Laser", "ObstacleAlarm", "SpeedLimiter", "StatusText", "StatusTwice")
 """The programs of robot_draft that are a class in its `small_nodes.py`; the others are files."""
 
 STAYS = frozenset({"lab", "turtlesim", "turtlesim_node"})
@@ -154,9 +149,9 @@ class TroubleEnvironment:
 
 def _draft_programs() -> dict[str, Target]:
     programs: dict[str, Target] = {path.stem: path for path in DRAFTS.glob("navigator_*.py")}
-    for name, node in SMALL_NODES.items():
-        text = f"import small_nodes\nsmall_nodes.run(small_nodes.{node})\n"
-        programs[name] = PythonProgram(DRAFTS / name, (), text)
+    for node in SMALL_NODES:
+        name = module_name(node).removeprefix("_")
+        programs[name] = PythonProgram(DRAFTS / name, (), f"import small_nodes\nsmall_nodes.run(small_nodes.{node})\n")
     return programs
 
 

@@ -192,14 +192,13 @@ def returns(
     expected: str,
     advice: str | Advice = "",
     *,
-    file: str = "",
     within: float = 0.0,
 ) -> Seen:
     """The learner's function returns what these examples say; numbers may be off by `within`.
 
     The first example that it does not meet is shown, with the value that came. What it raises is shown by its line.
     """
-    function = learner_function(probe, name, file)
+    function = learner_function(probe, name)
     said = ""
     for arguments, wanted in examples:
         came = probe.call(function, *arguments)

@@ -235,15 +235,15 @@ def turning(poses: list[Pose]) -> float:
     return math.fsum(abs(turned(b - a)) for a, b in itertools.pairwise(headings))
 
 
-@expectation("time_taken within {within:g} s of the moving time")
-def honest_time(probe: Probe, way: Way, within: float = 0.1) -> Seen:
-    """time_taken is how long the turtle really moved, give or take (s)."""
+@expectation("time_taken within 0.1 s of the moving time")
+def honest_time(probe: Probe, way: Way) -> Seen:
+    """time_taken is how long the turtle really moved, give or take a tenth of a second."""
     it = drive(probe, way)
     begin, end = it.moving()
     truth, said = end - begin, float(it.response.time_taken)
     seen = f"it said {number(said)} s; the turtle moved for {number(truth)} s"
     step = "Which two moments lie between the first command and the one that stops the turtle?"
-    return Seen(abs(said - truth) <= within, seen, step)
+    return Seen(abs(said - truth) <= 0.1, seen, step)
 
 
 @expectation("the last command is zero")
@@ -261,15 +261,15 @@ def stopped(probe: Probe, way: Way) -> Seen:
 
 
 @expectation("ten commands a second on the way")
-def steady_commands(probe: Probe, way: Way, most: float = 0.15) -> Seen:
-    """No two commands on the way are farther apart than this (s): ten a second."""
+def steady_commands(probe: Probe, way: Way) -> Seen:
+    """No two commands on the way are more than 0.15 s apart: ten a second."""
     it = drive(probe, way)
     begin, end = it.moving()
     gaps = gaps_of(each.at for each in it.commands if begin - 0.2 <= each.at <= end + 0.2)
     if not gaps:
         return Seen(False, "one command for the whole way", "The turtle forgets a command after 1 s: keep sending.")
     seen = f"the longest gap was {number(1000 * max(gaps), 0)} ms"
-    return Seen(max(gaps) <= most, seen, "How much time passes between two commands, at the most?")
+    return Seen(max(gaps) <= 0.15, seen, "How much time passes between two commands, at the most?")
 
 
 @expectation("refuses {what}")

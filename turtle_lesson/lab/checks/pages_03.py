@@ -228,12 +228,12 @@ def on_arrival() -> list[Expectation]:
     ]
 
 
-@expectation("{way.name} is answered within {seconds:g} s")
-def _soon(probe: Probe, way: Way, seconds: float = 2.0) -> Seen:
+@expectation("{way.name} is answered within 2 s")
+def _soon(probe: Probe, way: Way) -> Seen:
     it = driven(probe, way)
     seen = f"after {number(it.answer.seconds)} s, {number(it.distance())} m from the goal"
     step = "How long does the answer wait once the turtle is there?"
-    return Seen(it.answer.seconds <= seconds and it.distance() <= NEAR, seen, step)
+    return Seen(it.answer.seconds <= 2.0 and it.distance() <= NEAR, seen, step)
 
 
 @expectation("it answers other questions meanwhile")

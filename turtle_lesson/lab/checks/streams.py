@@ -101,9 +101,8 @@ def relays(
     said_type: str,
     pairs: Sequence[tuple[dict[str, Any], Callable[[Any], bool], str]],
     next_step: str | Advice = "",
-    timeout: float = 1.0,
 ) -> Seen:
-    """Each message that is put on one topic is answered on another within the timeout (s).
+    """Each message that is put on one topic is answered on another within a second.
 
     `pairs`: the fields to send, whether a message is the right answer, and both in words ("21 → 42").
     """
@@ -113,8 +112,8 @@ def relays(
     for fields, right, words in pairs:
         before = len(answers)
         probe.publish(heard_on, heard_type, **fields)
-        if not probe.wait_for(_any_since(answers, before, right), timeout):
-            return _instead(probe, words, [each.message for each in answers[before:]], timeout, next_step)
+        if not probe.wait_for(_any_since(answers, before, right), 1.0):
+            return _instead(probe, words, [each.message for each in answers[before:]], next_step)
     return Seen(True, ", ".join(words for _, _, words in pairs))
 
 
@@ -122,14 +121,12 @@ def _any_since(answers: list[Heard], before: int, right: Callable[[Any], bool]) 
     return lambda: any(right(each.message) for each in answers[before:])
 
 
-def _instead(probe: Probe, words: str, came: list[Any], timeout: float, advice: str | Advice) -> Seen:
+def _instead(probe: Probe, words: str, came: list[Any], advice: str | Advice) -> Seen:
     """What is said where the right message did not come: the learner's error, or what came instead."""
     probe.raise_error()
     if came:
         return Seen(False, f"{words}: {brief(came[-1])} came", advice)
-    return Seen(
-        False, "; ".join(filter(None, (f"{words}: nothing came within {timeout:g} s", probe.unreturned()))), advice
-    )
+    return Seen(False, "; ".join(filter(None, (f"{words}: nothing came within 1 s", probe.unreturned()))), advice)
 
 
 def brief(message: Any) -> str:
@@ -150,12 +147,11 @@ def answers(
     right: Callable[[Any], bool],
     expected: str,
     next_step: str | Advice = "",
-    timeout: float = 2.0,
 ) -> Seen:
-    """A service answers a request rightly within the timeout (s). `expected` says both in words: "2 + 3 is 5"."""
-    answer = probe.ask(service, type_name, timeout, **request)
+    """A service answers a request rightly within 2 s. `expected` says both in words: "2 + 3 is 5"."""
+    answer = probe.ask(service, type_name, 2.0, **request)
     if answer.response is None:
-        return no_answer(probe, f"no answer within {timeout:g} s")
+        return no_answer(probe, "no answer within 2 s")
     return Seen(bool(right(answer.response)), brief(answer.response), next_step)
 
 

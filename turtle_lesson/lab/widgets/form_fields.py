@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Any
 
+from ...ros.idl.names import integer_bounds
 from .message_types import (
     FLOATS,
     WHOLE,
@@ -12,7 +13,6 @@ from .message_types import (
     constants_of,
     find_class,
     kinds_of,
-    limits_of,
     plain,
     read_float,
     read_integer,
@@ -106,7 +106,7 @@ class Single(Part):
         base = self.kind.base
         hint = f"at most {self.kind.longest} characters" if self.kind.longest else ""
         if base in WHOLE:
-            hint = "from {} to {}".format(*limits_of(base)).replace("-", "−")
+            hint = "from {} to {}".format(*integer_bounds(base)).replace("-", "−")
         control = {"boolean": "checkbox", "string": "text", "wstring": "text"}.get(base, "number")
         options = [[name, str(value)] for name, value in self.constants.items()]
         return {**super().state(), "control": control, "help": hint, "options": options}
@@ -119,7 +119,7 @@ class Single(Part):
             return isinstance(constant, str) and "string" in base
         if base in FLOATS:
             return isinstance(constant, float)
-        low, high = limits_of(base)
+        low, high = integer_bounds(base)
         return isinstance(constant, int) and low <= constant <= high
 
 

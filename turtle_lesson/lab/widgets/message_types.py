@@ -14,6 +14,9 @@ from typing import Any
 
 import numpy as np
 
+from ...ros.idl.checks import FLOAT_BOUNDS
+from ...ros.idl.names import integer_bounds
+
 FLOATS = {"float", "double"}
 WHOLE = {"octet", "char"} | {f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)}
 NAMES = {"float": "float32", "double": "float64", "boolean": "bool", "octet": "byte"}
@@ -88,16 +91,13 @@ def constants_of(message_class: Any) -> dict[str, Any]:
     return found
 
 
-LARGEST_FLOAT32 = 3.402823466e38
-
-
 def read_float(text: str, base: str) -> float:
     """The number that was typed. Raises ValueError, in words, for what is none or does not fit in this type."""
     try:
         value = float(text.strip().replace("−", "-"))
     except ValueError:
         raise ValueError(_no_number(text.strip(), "a number such as 1.5")) from None
-    if base == "float" and math.isfinite(value) and abs(value) > LARGEST_FLOAT32:
+    if base == "float" and math.isfinite(value) and abs(value) > FLOAT_BOUNDS["float32"]:
         raise ValueError("a float32 goes up to 3.4e38")
     return value
 
@@ -108,7 +108,7 @@ def read_integer(text: str, base: str) -> int:
         value = int(text.strip().replace("−", "-"))
     except ValueError:
         raise ValueError(_no_number(text.strip(), "a whole number such as 3")) from None
-    low, high = limits_of(base)
+    low, high = integer_bounds(base)
     if not low <= value <= high:
         raise ValueError(f"a whole number from {low} to {high} fits here, not {value}".replace("-", "−"))
     return value
@@ -119,14 +119,6 @@ def _no_number(text: str, wanted: str) -> str:
         return f"{wanted} is missing"
     shown = text if len(text) <= 30 else f"{text[:30]}…"
     return f'{wanted} is wanted, got "{shown}"' + (": write a point, not a comma" if "," in text else "")
-
-
-def limits_of(base: str) -> tuple[int, int]:
-    """Smallest and largest value of a type of whole numbers."""
-    if base in ("octet", "char"):
-        return 0, 255
-    bits = int(base.lstrip("uint"))
-    return (0, 2**bits - 1) if base.startswith("u") else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
 
 
 def find_class(type_name: str) -> Any:

@@ -36,8 +36,8 @@ _WORD_START = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|(?<=.)(?=[A-Z][a-z])")
 
 
 def integer_bounds(base: str) -> tuple[int, int]:
-    """Smallest and largest value of an integer type; byte and char count as uint8."""
-    if base in ("byte", "char"):
+    """Smallest and largest value of an integer type; byte (IDL's octet) and char count as uint8."""
+    if base in ("byte", "octet", "char"):
         return 0, 255
     unsigned = base.startswith("u")
     bits = int(base[4 if unsigned else 3 :])
