@@ -21,6 +21,7 @@ from geometry_msgs.msg import Twist
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.subscription import Subscription
 from robot_controller.msg import TurtleStatus
 from robot_controller.srv import NavigateTo
 from sensor_msgs.msg import LaserScan
@@ -132,12 +133,15 @@ async def hears_poses(stage: Any) -> Any:
     during, ended = len(recorder.poses), stage.robot.now
     await until(lambda: len(recorder.poses) > before + 25)
     stamps = recorder.poses.array()["stamp"]
+    heard = [each for each in recorder.node._entities if isinstance(each, Subscription)]
     times = recorder.seconds(stamps)
     return {
         "during": during - before,
         "stamped_meanwhile": int(((times > began) & (times < ended)).sum()),
         "least": float((stamps[1:] - stamps[:-1]).min()),
         "age": stage.robot.now - float(times[-1]),
+        "awaited": [each._full_name for each in heard if each._is_awaited()],
+        "taken": [each._full_name for each in heard if not each._is_awaited()],
     }
 
 

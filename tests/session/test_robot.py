@@ -74,6 +74,12 @@ def test_poses_are_heard_with_their_times_even_while_a_cell_computes(story):
     assert 0 <= facts["age"] < 60  # s: it is the same clock
 
 
+def test_no_thread_wakes_for_messages_that_are_only_drawn(story):
+    facts = story("hears_poses")
+    assert {"/turtle1/pose", "/robot/status", "/obstacles"} <= set(facts["taken"])
+    assert "/parameter_events" in facts["awaited"]
+
+
 def test_a_goal_reaches_the_service_and_its_answer_comes_back_in_the_loop(story):
     facts = story("goal_reaches_the_service")
     first, second = facts["goals"]

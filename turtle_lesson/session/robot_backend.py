@@ -7,16 +7,19 @@ import inspect
 import threading
 from collections.abc import Callable
 from contextlib import suppress
-from functools import wraps
+from functools import partial, wraps
+from itertools import islice
 from typing import TYPE_CHECKING, Any
 
+from rclpy.callback_groups import CallbackGroup
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.qos import ReliabilityPolicy
 from rclpy.subscription import Subscription
 
-from ..lab.recorder import ON_A_ROBOT, ObstacleBoard, Recorder
-from ..lab.widgets.backend import Clock, Loop
+from ..lab.recorder import DEPTH, ON_A_ROBOT, ObstacleBoard, Recorder
+from ..lab.widgets.backend import FRAME, Clock, Loop
 
 if TYPE_CHECKING:
     from ..ros.sim.keyboard import Keyboard
@@ -162,15 +165,39 @@ class LabNode(Node):
     def __init__(self, context: Context, hop: Hop) -> None:
         self._lab_hop = hop  # first, since a Node makes some things of its own while it is made
         self._lab_lives: dict[Any, Life] = {}
+        self._lab_drawn: dict[Any, Callable[[list[Any]], object]] = {}
+        self._lab_unawaited = Unawaited()
         super().__init__(
             "_lab", context=context, use_global_arguments=False, enable_rosout=False, start_parameter_services=False
         )
+        super().create_timer(FRAME, self._take)
 
-    def create_subscription(self, msg_type: Any, topic: str, callback: Action, *more: Any, **options: Any) -> Any:
-        """As every node's, but `callback(message, info)` works everywhere; info has at least `source_timestamp` (ns)."""
+    def create_subscription(
+        self, msg_type: Any, topic: str, callback: Action, qos_profile: Any, *more: Any, **options: Any
+    ) -> Any:
+        """As every node's, but `callback(message, info)` works everywhere; info has at least `source_timestamp` (ns).
+
+        What may be lost, a subscription of best effort, is only drawn: nothing is called when a message comes, but all that
+        have come are taken at each frame. Its callback has both arguments.
+        """
         life = Life(self._lab_hop)
         hear = self._hearing(callback, life)
-        return self._keep(super().create_subscription(msg_type, topic, hear, *more, **options), life)
+        drawn = getattr(qos_profile, "reliability", None) == ReliabilityPolicy.BEST_EFFORT
+        if drawn:
+            options["callback_group"] = self._lab_unawaited
+        subscription = super().create_subscription(msg_type, topic, hear, qos_profile, *more, **options)
+        if drawn:
+            self._lab_drawn[subscription] = partial(life.hop, _hear, callback)
+        return self._keep(subscription, life)
+
+    def _take(self) -> None:
+        """Take what has come since the last frame, in the spinning thread; the loop hears it, a topic in one go."""
+        for subscription, hear in list(self._lab_drawn.items()):
+            take = partial(subscription.handle.take_message, subscription.msg_type, subscription.raw)
+            with subscription.handle:  # raises where the loop has just destroyed it, which `_spin` knows
+                taken = list(islice(iter(take, None), DEPTH))
+            if taken:
+                hear(taken)
 
     def create_timer(self, timer_period_sec: float, callback: Action, *more: Any, **options: Any) -> Any:
         """As every node's. Ticks for which the loop had no time are left out, as an executor leaves them out."""
@@ -186,6 +213,7 @@ class LabNode(Node):
 
     def destroy_subscription(self, subscription: Any) -> bool:
         """As every node's."""
+        self._lab_drawn.pop(subscription, None)
         return self._end(subscription) and super().destroy_subscription(subscription)
 
     def destroy_timer(self, timer: Any) -> bool:
@@ -224,6 +252,26 @@ class LabNode(Node):
             return lambda message, info: life.hop(callback, message, info)
         clock = self.get_clock()  # read here, in the spinning thread: the loop may be busy for long
         return lambda message: life.hop(callback, message, {"source_timestamp": clock.now().nanoseconds})
+
+
+class Unawaited(CallbackGroup):
+    """The executor does not wait for its members: on a busy topic, waking for each message is what costs most."""
+
+    def can_execute(self, entity: object) -> bool:
+        """Never."""
+        return False
+
+    def beginning_execution(self, entity: object) -> bool:
+        """Never."""
+        return False
+
+    def ending_execution(self, entity: object) -> None:
+        """Nothing was begun."""
+
+
+def _hear(callback: Action, taken: list[tuple[Any, Any]]) -> None:
+    for message, info in taken:
+        callback(message, info)
 
 
 class Life:

@@ -10,6 +10,7 @@ from typing import Any
 
 from rclpy import _network
 from rclpy._rclpy_pybind11 import NodeNameNonExistentError
+from rclpy.callback_groups import CallbackGroup
 from rclpy.client import Client, Service
 from rclpy.clock import Clock
 from rclpy.context import Context, get_default_context
@@ -88,9 +89,17 @@ class Node:
         return self._kept(Publisher(self, msg_type, self._full(topic), profile(qos_profile)), False)
 
     def create_subscription(
-        self, msg_type: Any, topic: str, callback: Any, qos_profile: Any, *, raw: bool = False
+        self,
+        msg_type: Any,
+        topic: str,
+        callback: Any,
+        qos_profile: Any,
+        *,
+        callback_group: CallbackGroup | None = None,
+        raw: bool = False,
     ) -> Subscription:
-        return self._kept(Subscription(self, msg_type, self._full(topic), callback, profile(qos_profile), raw))
+        qos = profile(qos_profile)
+        return self._kept(Subscription(self, msg_type, self._full(topic), callback, qos, raw, callback_group))
 
     def create_client(self, srv_type: Any, srv_name: str) -> Client:
         return self._kept(Client(self, srv_type, self._full(srv_name)))

@@ -13,6 +13,8 @@ from enum import Enum
 from typing import Any
 
 from rclpy import _network
+from rclpy._rclpy_pybind11 import InvalidHandle
+from rclpy.callback_groups import CallbackGroup
 
 HUMBLE = os.environ.get("STANDIN") == "humble"
 
@@ -24,8 +26,18 @@ class Subscription(_network.End):
             MessageOnly = 0
             WithMessageInfo = 1
 
-    def __init__(self, node: Any, kind: Any, topic: str, callback: Callable[..., Any], qos: Any, raw: bool) -> None:
-        self._raw = raw
+    def __init__(
+        self,
+        node: Any,
+        kind: Any,
+        topic: str,
+        callback: Callable[..., Any],
+        qos: Any,
+        raw: bool,
+        callback_group: CallbackGroup | None,
+    ) -> None:
+        self.msg_type, self.raw, self.callback_group = kind, raw, callback_group
+        self.handle = Handle(self)
         self._callback, self._with_info = callback, not HUMBLE and not _fits(callback, 1)
         if not _fits(callback, 2 if self._with_info else 1):
             raise RuntimeError(
@@ -42,17 +54,40 @@ class Subscription(_network.End):
                 self._put(message, stamp)
 
     def _put(self, message: Any, stamp: int) -> None:
-        self._queue.append((b"its bytes" if self._raw else copy.deepcopy(message), stamp))
-        self._node._wake()
+        self._queue.append((b"its bytes" if self.raw else copy.deepcopy(message), stamp))
+        if self._is_awaited():
+            self._node._wake()
+
+    def _is_awaited(self) -> bool:
+        return self.callback_group is None or self.callback_group.can_execute(self)
 
     def _ready(self) -> Callable[[], Any] | None:
-        if not self._queue:
+        if not self._queue or not self._is_awaited():
             return None
+        message, info = self._pop()
+        return (lambda: self._callback(message, info)) if self._with_info else lambda: self._callback(message)
+
+    def _pop(self) -> tuple[Any, dict[str, int]]:
         message, stamp = self._queue.popleft()
-        if not self._with_info:
-            return lambda: self._callback(message)
-        info = {"source_timestamp": stamp, "received_timestamp": time.time_ns()}
-        return lambda: self._callback(message, info)
+        return message, {"source_timestamp": stamp, "received_timestamp": time.time_ns()}
+
+
+class Handle:
+    """Of a subscription, for those who take its messages themselves; it can be entered as long as that is there."""
+
+    def __init__(self, subscription: Subscription) -> None:
+        self._subscription = subscription
+
+    def __enter__(self) -> None:
+        if self._subscription not in self._subscription._node._entities:
+            raise InvalidHandle("cannot use Destroyable because destruction was requested")
+
+    def __exit__(self, *_: object) -> None:
+        pass
+
+    def take_message(self, msg_type: Any, raw: bool) -> tuple[Any, dict[str, int]] | None:
+        assert msg_type is self._subscription.msg_type and raw == self._subscription.raw
+        return self._subscription._pop() if self._subscription._queue else None
 
 
 class Publisher(_network.End):

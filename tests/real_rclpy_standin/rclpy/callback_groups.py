@@ -1,0 +1,14 @@
+"""Callback groups: who of an executor's entities may be called."""
+
+from __future__ import annotations
+
+
+class CallbackGroup:
+    def can_execute(self, entity: object) -> bool:
+        raise NotImplementedError
+
+    def beginning_execution(self, entity: object) -> bool:
+        raise NotImplementedError
+
+    def ending_execution(self, entity: object) -> None:
+        raise NotImplementedError
