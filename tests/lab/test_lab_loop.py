@@ -1,10 +1,16 @@
-"""What views ask for happens in the notebook's thread, wherever the message arrives."""
+"""What views ask for happens in the notebook's thread, wherever the message arrives; what is shown is shown in frames."""
 
 from __future__ import annotations
 
 import asyncio
 import threading
+from collections.abc import Callable
+from contextlib import suppress
+from types import SimpleNamespace
 
+import pytest
+
+from turtle_lesson.lab.widgets import backend
 from turtle_lesson.lab.widgets.backend import Loop
 
 
@@ -17,3 +23,76 @@ def test_an_order_that_arrives_in_another_thread_is_carried_out_in_the_notebooks
         return done
 
     assert asyncio.run(cell()) == [threading.get_ident()]
+
+
+class SteppedLoop:
+    """An event loop whose time this test lets pass."""
+
+    def __init__(self) -> None:
+        self.now = 0.0
+        self.timers: list[SimpleNamespace] = []
+
+    def time(self) -> float:
+        return self.now
+
+    def call_later(self, delay: float, action: Callable[..., object], *arguments: object) -> SimpleNamespace:
+        return self.call_at(self.now + delay, action, *arguments)
+
+    def call_at(self, due: float, action: Callable[..., object], *arguments: object) -> SimpleNamespace:
+        self.timers.append(SimpleNamespace(when=lambda: due, call=lambda: action(*arguments)))
+        return self.timers[-1]
+
+    def run(self, seconds: float) -> None:
+        end = self.now + seconds
+        while self.timers and self.timers[0].when() <= end:
+            timer = self.timers.pop(0)
+            self.now = timer.when()
+            with suppress(ZeroDivisionError):
+                timer.call()
+        self.now = end
+
+
+@pytest.fixture
+def stepped(monkeypatch: pytest.MonkeyPatch) -> SteppedLoop:
+    loop = SteppedLoop()
+    monkeypatch.setattr(backend.asyncio, "get_running_loop", lambda: loop)
+    return loop
+
+
+def test_all_widgets_of_a_system_tick_in_the_same_frames(stepped: SteppedLoop) -> None:
+    loop, ticks = Loop(), {"map": list[float](), "form": list[float]()}
+    loop.every(1 / 30, lambda: ticks["map"].append(stepped.now))
+    stop = loop.every(1 / 10, lambda: ticks["form"].append(stepped.now))
+    stepped.run(1.0)
+    assert len(ticks["map"]) in (29, 30) and len(ticks["form"]) in (9, 10)
+    assert set(ticks["form"]) < set(ticks["map"])
+    stop()
+    stepped.run(1.0)
+    assert len(ticks["form"]) in (9, 10) and len(ticks["map"]) in (59, 60)
+
+
+def test_frames_that_cost_much_come_less_often(stepped: SteppedLoop, monkeypatch: pytest.MonkeyPatch) -> None:
+    used = cost = 0.0
+    monkeypatch.setattr(backend, "thread_time", lambda: used)
+    loop, ticks = Loop(), list[float]()
+
+    def draw() -> None:
+        nonlocal used
+        used += cost
+        ticks.append(stepped.now)
+
+    loop.every(1 / 30, draw)
+    for each, rate in ((0.001, 30), (0.002, 17.5), (0.1, 10), (0.001, 30)):
+        cost = each
+        stepped.run(30)  # until the average follows
+        ticks.clear()
+        stepped.run(2)
+        assert len(ticks) / 2 == pytest.approx(rate, abs=1)
+
+
+def test_an_action_that_raises_does_not_end_the_frames(stepped: SteppedLoop) -> None:
+    loop, ticks = Loop(), list[float]()
+    loop.every(1 / 30, lambda: ticks.append(stepped.now))
+    loop.every(1 / 30, lambda: 1 / 0)
+    stepped.run(1.0)
+    assert len(ticks) in (29, 30)

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
+from dataclasses import dataclass
+from time import thread_time
 from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
@@ -18,7 +20,17 @@ if TYPE_CHECKING:
 
 
 FRAME = 1 / 30
-"""Seconds from one frame of the widgets to the next."""
+"""Seconds from one frame of the widgets to the next, where they cost little."""
+
+SHARE = 0.035
+"""Of one core, what all frames together may take: what costs more, since many widgets are shown, or the computer is slow or
+busy, is shown less often. The rest of 5 % goes to the threads that send the messages."""
+
+LONGEST_FRAME = 0.1
+"""But it is shown so often at least, s."""
+
+NEWS = 0.05
+"""How much a frame changes the average: some have much to do that the next ones have not."""
 
 
 class Clock(Protocol):
@@ -117,9 +129,9 @@ class Loop:
             self._loop: asyncio.AbstractEventLoop | None = asyncio.get_running_loop()
         except RuntimeError:
             self._loop = None
-        self._actions: dict[object, tuple[int, Callable[[], object]]] = {}
+        self._actions: dict[object, _Action] = {}
         self._next: asyncio.TimerHandle | None = None
-        self._frames = 0
+        self._cost = 0.0  # of a frame, seconds of this thread's processor time, on average
 
     def soon(self, action: Callable[..., object], *arguments: Any) -> None:
         """Have the loop call `action`, whichever thread this is. Actions keep their order."""
@@ -128,24 +140,33 @@ class Loop:
         else:
             self._loop.call_soon_threadsafe(action, *arguments)
 
-    def each_frame(self, action: Callable[[], object], frames: int = 1) -> Callable[[], object]:
-        """Call `action` at every frame, or every so many, until what this returns is called.
+    def every(self, seconds: float, action: Callable[[], object]) -> Callable[[], object]:
+        """Call `action` at a frame every so many seconds, until what this returns is called.
 
-        The actions of one frame follow each other at once, so that the kernel is woken, and its messages are sent, once for
-        all. Without a loop nothing is called.
+        The actions of one frame follow each other at once, so that the kernel is woken once for all, and so are the threads
+        that send its messages. Without a loop nothing is called.
         """
         key = object()
-        self._actions[key] = frames, action
+        self._actions[key] = _Action(seconds, action)
         if self._loop is not None and self._next is None:
             self._next = self._loop.call_later(FRAME, self._frame, self._loop)
         return lambda: self._actions.pop(key, None)
 
     def _frame(self, loop: asyncio.AbstractEventLoop) -> None:
         """Have the next frame called first: an action that raises, or is interrupted, ends this frame only."""
-        self._frames += 1
         assert self._next is not None
-        due = max(self._next.when() + FRAME, loop.time())
-        self._next = loop.call_at(due, self._frame, loop) if self._actions else None
-        for frames, action in list(self._actions.values()):
-            if self._frames % frames == 0:
-                action()
+        now, began = loop.time(), thread_time()
+        pause = min(max(FRAME, self._cost / SHARE), LONGEST_FRAME)
+        self._next = loop.call_at(max(self._next.when() + pause, now), self._frame, loop) if self._actions else None
+        for each in list(self._actions.values()):
+            if now >= each.due:
+                each.due = now + each.seconds - FRAME / 2
+                each.action()
+        self._cost += (thread_time() - began - self._cost) * NEWS
+
+
+@dataclass(slots=True)
+class _Action:
+    seconds: float
+    action: Callable[[], object]
+    due: float = 0.0

@@ -34,7 +34,7 @@ class Form(LiveWidget):
 
     SCRIPTS = ("dom", "small", "form_fields", "form")
     STYLES = ("base", "small", "form")
-    FRAMES = 3
+    RATE = 10.0
 
     name = traitlets.Unicode().tag(sync=True)
     kind = traitlets.Unicode().tag(sync=True)

@@ -199,7 +199,7 @@ class LivePlot(LiveWidget):
     label = traitlets.Unicode().tag(sync=True)
     """The text, brought up to date now and then, as the picture's description."""
 
-    FRAMES = 3
+    RATE = 10.0
 
     def __init__(self, backend: Backend, fields: Iterable[str], seconds: float) -> None:
         self._curves = [Curve(asked) for asked in dict.fromkeys(_checked(backend.node, fields))]

@@ -64,8 +64,8 @@ class LiveWidget(anywidget.AnyWidget):
     """A widget that shows a running system and acts on it.
 
     The browser sends orders (`{"do": "goal", "x": …}`), each of which is a method `do_goal(x=…)` here; state goes the other
-    way, as traits. While at least one view is open, `tick()` is called at each frame to bring the traits up to date: 30 times a
-    second, for all widgets of a system in one go.
+    way, as traits. While at least one view is open, `tick()` is called 30 times a second to bring the traits up to date, for
+    all widgets of a system in one go.
 
     When its system ends, it stays on the page as it is and says what it said last, but lets go of the system.
     """
@@ -82,8 +82,8 @@ class LiveWidget(anywidget.AnyWidget):
     SCRIPTS: ClassVar[tuple[str, ...]]
     STYLES: ClassVar[tuple[str, ...]]
     """Its files in `js`."""
-    FRAMES: ClassVar[int] = 1
-    """At every so many frames it ticks."""
+    RATE: ClassVar[float] = 30.0
+    """Ticks a second, at most."""
     is_made = False
     _last_words: str | None = None
     """What it said last, once its system has ended."""
@@ -203,7 +203,7 @@ class LiveWidget(anywidget.AnyWidget):
         if not self._is_open:
             self._is_open = True
             self.opened()
-            self._stop_ticking = self.backend.loop.each_frame(self._beat, self.FRAMES)
+            self._stop_ticking = self.backend.loop.every(1 / self.RATE, self._beat)
         self._tick()
 
     def _carry_out(self, name: object, order: dict[str, Any]) -> None:

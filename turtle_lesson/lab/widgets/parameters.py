@@ -60,7 +60,7 @@ class ParametersPanel(LiveWidget):
 
     SCRIPTS = ("dom", "small", "parameter_controls", "parameters")
     STYLES = ("base", "small", "parameters")
-    FRAMES = 3
+    RATE = 10.0
 
     node_name = traitlets.Unicode().tag(sync=True)
     items = traitlets.List(traitlets.Dict()).tag(sync=True)

@@ -39,7 +39,7 @@ class Teleop(LiveWidget):
 
     SCRIPTS = ("dom", "small", "teleop")
     STYLES = ("base", "small", "teleop")
-    FRAMES = 3
+    RATE = 10.0
 
     topic = traitlets.Unicode().tag(sync=True)
     limits = traitlets.Dict({"forward": 2.0, "turn": 2.0}).tag(sync=True)
