@@ -17,8 +17,7 @@ if TYPE_CHECKING:
     from rclpy.node import Node
 
 
-# -- values ----------------------------------------------------------------------------------------------------
-# Parameters' values: from text as typed, to text, and to what YAML has.
+# -- parameters' values: from text as typed, to text, and to what YAML has ---------------------------------------------
 # Which text becomes which type follows a recording of the real `ros2 param set`.
 
 TYPES: tuple[tuple[str, str, str], ...] = (

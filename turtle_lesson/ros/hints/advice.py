@@ -15,9 +15,6 @@ from ..sim.errors import is_ours, traceback_entries
 from . import attributes, imports
 from .attributes import message_class
 
-# -- calls --------------------------------------------------------------------------------------------------------
-# Functions that are called with something else than they take.
-
 _WRONG_CALL = re.compile(r"([\w.]+)\(\) (missing|takes|got an unexpected keyword argument '(\w+)'|got multiple values)")
 
 
@@ -92,8 +89,7 @@ def _function(name: str) -> Callable[..., Any] | None:
 _OURS = frozenset({"rclpy", "tf2_ros", "message_filters", "ament_index_python", "rosidl_runtime_py"})
 
 
-# -- values -------------------------------------------------------------------------------------------------------
-# Errors of rclpy and of messages whose own words are those of the real one, and what to try.
+# -- errors of rclpy and of messages whose own words are those of the real one ----------------------------------------
 
 Say = Callable[[re.Match[str]], str]
 
@@ -181,8 +177,7 @@ _BY_TEXT: list[tuple[str, str, Say]] = [
 ]  # fmt: skip
 
 
-# -- advice -------------------------------------------------------------------------------------------------------
-# What to try about an error of a learner's program, said below the error's own words.
+# -- all advisers ------------------------------------------------------------------------------------------------------
 # Nothing of this runs before an error is shown. Each adviser looks at an error and says a sentence, or nothing; the
 # first that has something to say is heard. An error that brings advice of its own (a note) is left as it is.
 

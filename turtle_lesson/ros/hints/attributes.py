@@ -178,8 +178,7 @@ def _case(module: str, name: str) -> str:
     return f"Did you mean '{lower[name.lower()]}'?" if name.lower() in lower else ""
 
 
-# -- left out -----------------------------------------------------------------------------------------------------
-# Parts of rclpy that are left out, because no course uses them: what to do without each.
+# -- parts of rclpy that are left out, because no course uses them: what to do without each ---------------------------
 # Most came after Humble. A program meets them as a module that is not there, or as an attribute that nothing has.
 
 _CONTENT_FILTERS = (

@@ -13,7 +13,6 @@ from ..idl.names import did_you_mean
 from ..idl.registry import FOLDERS, INSTALLED_SEPARATELY, SHARE, registry
 from .attributes import module_left_out, name_left_out
 
-# -- devices ------------------------------------------------------------------------------------------------------
 # Devices that a program in the simulation reaches in another way, or not at all: keys, a screen, a user who answers.
 
 KEYS = (

@@ -1,4 +1,9 @@
-"""Python classes for interface definitions, as Humble's `rosidl_generator_py` would make them."""
+"""Python classes for interface definitions, as Humble's `rosidl_generator_py` would make them.
+
+The classes are written as source text and executed, which is what makes them fast: each constructor, setter and
+copy is straight code for just its fields. The text stays readable in tracebacks and for `inspect.getsource`. Beyond
+ROS's classes ours have `_wire_copy()`, which gives what a subscriber on another computer would get.
+"""
 
 from __future__ import annotations
 
@@ -38,12 +43,6 @@ from .model import (
     derived_parts,
 )
 from .names import STRINGS, module_name
-
-# -- generator ----------------------------------------------------------------------------------------------------
-# Python classes for interface definitions, as Humble's `rosidl_generator_py` would make them.
-# The classes are written as source text and executed, which is what makes them fast: each constructor, setter and
-# copy is straight code for just its fields. The text stays readable in tracebacks and for `inspect.getsource`. Beyond
-# ROS's classes ours have `_wire_copy()`, which gives what a subscriber on another computer would get.
 
 Resolve = Callable[[FieldType], type]
 """Gives the class of a field's messages; raises UnknownMessageType where there is none."""
@@ -232,8 +231,7 @@ def _located(error: InvalidDefinition, definition: MessageDefinition, member: Fi
     )
 
 
-# -- buildable ----------------------------------------------------------------------------------------------------
-# What can be read in a definition and yet not be built.
+# -- what can be read in a definition and yet not be built -------------------------------------------------------------
 # ROS 2 turns each definition into an IDL file, and that into C, C++ and Python. A build stops where a name is a word
 # of one of these languages, or where a default value gets lost on the way (facts: rosidl_adapter/msg,
 # rosidl_parser/parser.py, rosidl_generator_py; for special numbers ros2/rosidl issue 351, for words of C++ issue

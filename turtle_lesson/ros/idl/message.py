@@ -11,9 +11,6 @@ from .checks import are_on, refusal
 from .model import FieldType
 from .names import did_you_mean
 
-# -- message ------------------------------------------------------------------------------------------------------
-# What all generated message classes share: how they show, compare and refuse.
-
 plain_text = str.__str__  # a plain str, even of an instance of a subclass
 
 
