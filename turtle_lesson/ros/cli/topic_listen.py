@@ -263,12 +263,14 @@ class Measure:
 
     Attributes:
         raw: whether it hears bytes, not messages.
+        begin: what is printed before the first message, with the topic in it.
     """
 
     raw = False
+    begin = ""
 
-    def __init__(self, window: int) -> None:
-        self.values: deque[Any] = deque(maxlen=window)
+    def __init__(self, args: Namespace) -> None:
+        self.values: deque[Any] = deque(maxlen=args.window)
 
     def count(self, message: Any) -> None:
         """A message comes now."""
@@ -288,32 +290,16 @@ class Measure:
         )
 
 
-def _measure(measure: Measure, topic: str, args: Namespace, begin: str = "") -> None:
-    """Listen to a topic for a measure. `begin` is printed before the first message."""
-    from rclpy.qos import qos_profile_sensor_data
-
-    with direct_node(args) as node:
-        kind = wait_for_class(node, topic, stretch_of(args))
-        print(begin, end="")
-        node.create_timer(1.0, measure.report)
-        listen(node, topic, kind, measure.count, qos_profile_sensor_data, args, raw=measure.raw)
-
-
 def _now() -> int:
     return current_process().simulation.now
-
-
-def _window(default: int) -> Argument:
-    text = "How many messages to average over (default: %(default)s)"
-    return arg("--window -w", text, metavar="WINDOW", type=positive_int, default=default)
 
 
 class Rate(Measure):
     """How often messages come that pass a filter."""
 
-    def __init__(self, window: int, wanted: Callable[[Any], bool]) -> None:
-        super().__init__(window)
-        self._wanted = wanted
+    def __init__(self, args: Namespace) -> None:
+        super().__init__(args)
+        self._wanted = filter_of(args.filter_expr)
         self._last: int | None = None
         self._printed: int | None = None
 
@@ -332,24 +318,11 @@ class Rate(Measure):
             self.print_times(lambda mean: f"average rate: {1 / mean if mean else 0:.3f}")
 
 
-@verb(
-    "topic hz",
-    arg("topic_name", "Name of the topic, such as /turtle1/pose"),
-    _window(10_000),
-    arg("--filter", "Count a message m only where this expression is true", dest="filter_expr", metavar="EXPR"),
-    flag("--wall-time", "Accepted; there is only one clock here", dest="use_wtime"),
-    *NODE_WITHOUT_DAEMON,
-    duration(),
-)
-def hz(args: Namespace) -> None:
-    """How many messages a second arrive on a topic."""
-    _measure(Rate(args.window, filter_of(args.filter_expr)), args.topic_name, args)
-
-
 class Bandwidth(Measure):
     """How many bytes come a second."""
 
     raw = True
+    begin = "Subscribed to [{}]\n"
 
     def count(self, message: bytes) -> None:
         """So many bytes come now."""
@@ -372,14 +345,6 @@ def _bytes(size: float, rate: float) -> str:
     if rate < 1e3:
         return f"{size:.0f} B"
     return f"{size / 1e3:.2f} KB" if rate < 1e6 else f"{size / 1e6:.2f} MB"
-
-
-@verb(
-    "topic bw", arg("topic", "Name of the topic, such as /turtle1/pose"), _window(100), *NODE_WITHOUT_DAEMON, duration()
-)
-def bw(args: Namespace) -> None:
-    """How many bytes a second arrive on a topic."""
-    _measure(Bandwidth(args.window), args.topic, args, f"Subscribed to [{args.topic}]\n")
 
 
 class Delay(Measure):
@@ -409,13 +374,43 @@ class Delay(Measure):
         self.print_times(lambda mean: f"average delay: {mean:.3f}")
 
 
-@verb(
-    "topic delay",
-    arg("topic", "Name of the topic, whose messages have a header"),
-    _window(10_000),
-    *NODE_WITHOUT_DAEMON,
-    duration(),
+def _add(name: str, about: str, topic: Argument, measure: type[Measure], window: int, *more: Argument) -> None:
+    """Add the verb of a measure, which looks at so many messages unless told otherwise."""
+    text = "How many messages to average over (default: %(default)s)"
+    average = arg("--window -w", text, metavar="WINDOW", type=positive_int, default=window)
+
+    @verb(f"topic {name}", topic, average, *more, *NODE_WITHOUT_DAEMON, duration(), help_text=about)
+    def work(args: Namespace) -> None:
+        from rclpy.qos import qos_profile_sensor_data
+
+        made, name = measure(args), getattr(args, "topic", None) or args.topic_name
+        with direct_node(args) as node:
+            kind = wait_for_class(node, name, stretch_of(args))
+            print(made.begin.format(name), end="")
+            node.create_timer(1.0, made.report)
+            listen(node, name, kind, made.count, qos_profile_sensor_data, args, raw=made.raw)
+
+
+_add(
+    "hz",
+    "How many messages a second arrive on a topic",
+    arg("topic_name", "Name of the topic, such as /turtle1/pose"),
+    Rate,
+    10_000,
+    arg("--filter", "Count a message m only where this expression is true", dest="filter_expr", metavar="EXPR"),
+    flag("--wall-time", "Accepted; there is only one clock here", dest="use_wtime"),
 )
-def delay(args: Namespace) -> None:
-    """How old the messages of a topic are when they arrive, judged by the stamp in their header."""
-    _measure(Delay(args.window), args.topic, args)
+_add(
+    "bw",
+    "How many bytes a second arrive on a topic",
+    arg("topic", "Name of the topic, such as /turtle1/pose"),
+    Bandwidth,
+    100,
+)
+_add(
+    "delay",
+    "How old the messages of a topic are when they arrive, judged by the stamp in their header",
+    arg("topic", "Name of the topic, whose messages have a header"),
+    Delay,
+    10_000,
+)
