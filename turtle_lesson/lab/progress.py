@@ -71,7 +71,8 @@ class ProgressFile:
         except OSError as error:
             self.remark = f"{self.path.name} cannot be read ({error.strerror}); {KERNEL_ONLY}"
         except (ValueError, RecursionError):
-            aside = unused(self.path.with_name(f"{self.path.name}.broken"))
+            file = self.path
+            aside = files.unused(lambda number: file.with_name(f"{file.name}.broken-{number}"))
             try:
                 self.path.rename(aside)
                 self.remark = f"{self.path.name} was damaged. It is kept as {aside.name}, and a new one was started."
@@ -95,14 +96,6 @@ def _numbers_in(content: Any, key: str) -> dict[str, int]:
     if not isinstance(numbers, dict) or not all(type(each) is int and each >= 0 for each in numbers.values()):
         raise ValueError("not a file of points")
     return numbers
-
-
-def unused(path: Path) -> Path:
-    """The first of path-1, path-2, … that is not there yet."""
-    number = 1
-    while (found := path.with_name(f"{path.name}-{number}")).exists():
-        number += 1
-    return found
 
 
 def progress_file(folder: Path) -> ProgressFile:

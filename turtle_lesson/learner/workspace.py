@@ -176,9 +176,7 @@ class Workspace:
 
     def _kept(self) -> Path:
         """A new folder for copies: kept/1, kept/2, …"""
-        number = 1
-        while (folder := self.folder / "kept" / str(number)).exists():
-            number += 1
+        folder = files.unused(lambda number: self.folder / "kept" / str(number))
         self._write(folder.parent / "COLCON_IGNORE", "")  # or the build would find the package twice
         return folder
 

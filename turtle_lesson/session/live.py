@@ -192,28 +192,23 @@ class Stopwatch:
     WINDOW = 1.0
 
     def __init__(self) -> None:
-        self._began = self._last = 0.0
-        self._played = 0
-        self._marks: deque[tuple[float, int]] = deque()
+        self.start(0.0)
 
     def start(self, now: float) -> None:
         """Begin anew at this moment (s)."""
-        self._began = self._last = now
-        self._played = 0
-        self._marks = deque([(now, 0)])
+        self._began = now
+        self._marks: deque[tuple[float, int]] = deque([(now, 0)])
 
     def mark(self, now: float, played: int) -> None:
         """By this moment (s) so much more robot time (ns) went by."""
-        self._last = now
-        self._played += played
-        self._marks.append((now, self._played))
+        self._marks.append((now, self._marks[-1][1] + played))
         while len(self._marks) > 2 and self._marks[1][0] < now - self.WINDOW:
             self._marks.popleft()
 
     @property
     def seconds(self) -> float:
         """Real time from the start to the last mark, s."""
-        return self._last - self._began
+        return self._marks[-1][0] - self._began
 
     @property
     def speed(self) -> float:

@@ -7,6 +7,7 @@ of a widget are always in step.
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
@@ -29,8 +30,6 @@ Widget = TypeVar("Widget")
 class Views:
     """The pictures and widgets of a running system, which a subclass names: `_make_backend()` and `_recording`."""
 
-    _widgets: dict[Hashable, Any]
-
     def _make_backend(self) -> Backend:
         raise NotImplementedError
 
@@ -42,15 +41,18 @@ class Views:
 
     def _widget(self, kind: Callable[..., Widget], *arguments: Hashable) -> Widget:
         """The widget of this kind and these arguments; made now if there is none yet."""
-        if not hasattr(self, "_widgets"):
-            self._widgets = {}
-            self._make_backend().at_close.append(self._end_widgets)
         widget = self._widgets.get((kind, arguments))
         if widget is None or widget.comm is None:  # not made yet, or closed
             from ..lab.widgets.backend import Link
 
             widget = self._widgets[kind, arguments] = kind(Link(self._make_backend()), *arguments)
         return widget
+
+    @cached_property
+    def _widgets(self) -> dict[Hashable, Any]:
+        """Those that were made, by their kind and arguments; they end with the system."""
+        self._make_backend().at_close.append(self._end_widgets)
+        return {}
 
     def _end_widgets(self) -> None:
         for widget in self._widgets.values():

@@ -116,10 +116,7 @@ def reset(path: Path, published: str | bytes) -> Path | None:
 
 def unused(path: Path, word: str) -> Path:
     """NAME.word-1.ipynb, or the first number that is free."""
-    number = 1
-    while (found := path.with_name(f"{path.stem}.{word}-{number}.ipynb")).exists():
-        number += 1
-    return found
+    return files.unused(lambda number: path.with_name(f"{path.stem}.{word}-{number}.ipynb"))
 
 
 def published(path: Path, source: Path | None = None) -> bytes:

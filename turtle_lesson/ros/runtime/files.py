@@ -9,6 +9,7 @@ writes; what Python keeps in a `__pycache__` beside an imported module does not 
 from __future__ import annotations
 
 import errno
+import itertools
 import os
 import shutil
 from collections.abc import Callable, Iterable
@@ -132,6 +133,11 @@ def copy(source: Path, target: Path, left_out: Callable[[str, list[str]], Iterab
             copy(source / name, target / name, left_out)
     else:
         shutil.copy(source, check(target))
+
+
+def unused(numbered: Callable[[int], Path]) -> Path:
+    """The first of `numbered(1)`, `numbered(2)`, … that is not there yet."""
+    return next(path for path in map(numbered, itertools.count(1)) if not path.exists())
 
 
 def write(file: Path, text: str) -> None:
