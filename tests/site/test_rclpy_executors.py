@@ -732,6 +732,50 @@ def test_a_coroutine_that_looks_again_and_again_does_not_hold_time_up(run: Run) 
     assert run(program) == [(0.5, True)]
 
 
+def test_a_coroutine_that_lets_others_go_first_goes_on_at_once_each_time(run: Run) -> None:
+    def program(found: list[Any]) -> None:
+        node, now = start(), clock()
+
+        async def tick() -> None:
+            begun = now()
+            await asyncio.sleep(0)
+            found.append((begun, now()))
+
+        node.create_timer(0.1, tick)
+        rclpy.spin(node)
+
+    assert run(program, seconds=0.45) == [(tick, tick) for tick in (0.1, 0.2, 0.3, 0.4)]
+
+
+# ---------------------------------------------------------------- a node between two spins
+
+
+@pytest.mark.parametrize("another", [False, True])
+def test_what_comes_while_a_node_is_not_spun_waits_for_the_next_executor(run: Run, another: bool) -> None:
+    def program(found: list[Any]) -> None:
+        node = start()
+        first, second = SingleThreadedExecutor(), SingleThreadedExecutor()
+        publisher = node.create_publisher(String, "old", 10)
+        later = node.create_publisher(String, "new", 10)
+        node.create_subscription(String, "old", lambda message: found.append(message.data), 10)
+        first.add_node(node)
+        first.remove_node(node)
+        node.create_subscription(String, "new", lambda message: found.append(message.data), 10)  # made in between
+        later.publish(String(data="to the new one"))
+        publisher.publish(String(data="to the old one"))
+        first.spin_once(timeout_sec=0.1)
+        found.append("not yet")
+        executor = second if another else first
+        executor.add_node(node)
+        for _ in range(3):
+            executor.spin_once(timeout_sec=0.0)
+        executor.remove_node(node)
+        publisher.publish(String(data="not heard"))
+        executor.spin_once(timeout_sec=0.1)
+
+    assert run(program) == ["not yet", "to the old one", "to the new one"]
+
+
 @pytest.mark.parametrize(("patience", "told"), [(0.0, 1), (60.0, 0)])
 def test_a_cell_that_spins_for_long_says_once_how_to_stop_it(
     world: World, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], patience: float, told: int

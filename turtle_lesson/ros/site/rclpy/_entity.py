@@ -126,6 +126,7 @@ class Entity:
                 executor._blocked.append(self)
                 return
             if self._is_async:
+                executor._has_polled = False  # a coroutine that lets others go first goes on in the next cycle
                 executor._execute(self)
             else:
                 self._run(executor)

@@ -40,7 +40,6 @@ def spin_until(executor: SingleThreadedExecutor, strand: Strand, future: Future)
                 if future._done and not executor._batch:
                     return
             if len(signalled) == 1 and not (executor._batch or executor._resumed or executor._polled):
-                executor._has_polled = False
                 signalled.pop()._answer_signal(executor)
             else:
                 job = executor._next(strand, None, future._is_done)
