@@ -35,7 +35,11 @@ def run_pytest(folder: Path, text: str, *, patience: float = 300, ignored: bool 
         command = ["sh", "-c", "trap '' INT; exec \"$@\"", "sh", *command]
     done = subprocess.run(
         [*command, str(folder)],
-        env={"PATH": "/usr/bin:/bin", "TURTLE_LESSON_PATIENCE": str(patience)},
+        env={
+            "PATH": "/usr/bin:/bin",
+            "TURTLE_LESSON_PATIENCE": str(patience),
+            "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1",  # they take longer to import than the tests to run
+        },
         capture_output=True,
         text=True,
         check=False,

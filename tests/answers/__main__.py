@@ -47,7 +47,9 @@ IMPORTS = (
     "matplotlib.backends.backend_agg",
     "matplotlib.figure",
     "rclpy",
+    "turtle_lesson.lab.progress",
     "turtle_lesson.lab.widgets.dashboard",
+    "turtle_lesson.session.check_target",
     "turtle_lesson.session.lesson",
 )
 """What most pages import: once here, instead of once a page."""
