@@ -11,7 +11,8 @@ from collections import Counter
 from collections.abc import Callable, Hashable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager, suppress
 from dataclasses import dataclass
-from functools import wraps
+from functools import reduce, wraps
+from operator import attrgetter
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
@@ -128,11 +129,8 @@ def filled(message: Any, fields: dict[str, Any], type_name: str) -> Any:
     """The message with its fields set. Raises CannotLook for a field that it does not have."""
     for path, value in fields.items():
         *way, last = path.split("__")
-        target = message
         try:
-            for part in way:
-                target = getattr(target, part)
-            setattr(target, last, value)
+            setattr(reduce(getattr, way, message), last, value)
         except (AttributeError, AssertionError, TypeError) as error:
             reason = " ".join(str(error).split())[:120]
             raise CannotLook(f"{type_name} cannot hold {path.replace('__', '.')} = {value!r} ({reason})") from None
@@ -141,13 +139,10 @@ def filled(message: Any, fields: dict[str, Any], type_name: str) -> Any:
 
 def field(message: Any, path: str) -> Any:
     """What a message has in a field such as "linear.x". Raises CannotLook where there is none."""
-    value = message
-    for part in path.split("."):
-        try:
-            value = getattr(value, part)
-        except AttributeError:
-            raise CannotLook(f"{type(message).__name__} has no field {path}") from None
-    return value
+    try:
+        return attrgetter(path)(message)
+    except AttributeError:
+        raise CannotLook(f"{type(message).__name__} has no field {path}") from None
 
 
 def _insist_on(type_name: str, words: str, ends: list[tuple[str, str]]) -> None:
