@@ -19,6 +19,7 @@ from typing import Any
 import pytest
 
 os.environ["TURTLE_LESSON_PROGRESS"] = "off"
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # or each kernel that a test starts would compile the whole lesson anew
 _folders: dict[Path, tempfile.TemporaryDirectory[str]] = {}
 
 PATIENCE = float(os.environ.get("TURTLE_LESSON_PATIENCE", 600))

@@ -8,6 +8,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import io
+import os
 import statistics
 import subprocess
 import sys
@@ -289,11 +290,25 @@ def kernel_memory() -> tuple[float, float]:
     return before, after
 
 
-def import_time(statement: str) -> float:
-    """Seconds that a fresh Python spends on a statement, the median of seven."""
-    program = f"import time; began = time.perf_counter(); {statement}; print(time.perf_counter() - began)"
-    runs = [subprocess.run([sys.executable, "-c", program], capture_output=True, text=True) for _ in range(7)]
-    return statistics.median(float(run.stdout.split()[-1]) for run in runs)
+STEPS = {
+    "import turtle_lesson": "import turtle_lesson",
+    "start()": "lesson = turtle_lesson.start()",
+    "the first launch": "lesson.launch('robot_controller', 'start_system.launch.py'); lesson.run(1)",
+    "the first picture": "lesson.plot_path().png()",
+    "a second start()": "turtle_lesson.start()",
+}
+
+
+def first_steps() -> list[float]:
+    """Seconds of computing that a fresh Python spends on each of the steps, the medians of seven."""
+    note = "times.append(time.process_time())"
+    program = "\n".join(["import time", f"times = []; {note}", *(f"{step}; {note}" for step in STEPS.values())])
+    program += "\nprint(*(end - begin for begin, end in zip(times, times[1:])))"
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+    command = [sys.executable, "-c", program]
+    runs = [subprocess.run(command, capture_output=True, text=True, check=True, env=environment) for _ in range(8)]
+    columns = zip(*(map(float, run.stdout.splitlines()[-1].split()) for run in runs[1:]), strict=True)
+    return [statistics.median(column) for column in columns]
 
 
 def row(what: str, *figures: str) -> None:
@@ -336,9 +351,12 @@ def main() -> None:
     print()
     before, after = kernel_memory()
     row("kernel, bare / with the whole system", f"{before:.0f} MB", f"{after:.0f} MB")
-    row("import turtle_lesson", f"{import_time('import turtle_lesson'):.2f} s", "aim 0.40 s")
-    begin = "from turtle_lesson import start; start()"
-    row("import and start()", f"{import_time(begin):.2f} s")
+    print()
+    steps = first_steps()
+    row("s of computing, in a fresh Python", "turtle_lesson", "aim")
+    for step, seconds in zip(STEPS, steps, strict=True):
+        row(step, f"{seconds:.3f} s", "0.50 s" if step == "the first picture" else "")
+    row("import and start() together", f"{steps[0] + steps[1]:.3f} s", "0.25 s")
 
 
 if __name__ == "__main__":

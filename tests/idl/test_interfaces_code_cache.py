@@ -31,12 +31,12 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     monkeypatch.delenv(code_cache.VARIABLE, raising=False)
     monkeypatch.setattr(sys, "dont_write_bytecode", False)
     code_cache.cache_folder.cache_clear()
-    yield tmp_path / "cache" / "turtle-lesson" / "messages"
+    yield code_cache._user_folder()
     code_cache.cache_folder.cache_clear()
 
 
 def kept(folder: Path) -> list[Path]:
-    return sorted(folder.iterdir()) if folder.is_dir() else []
+    return sorted(path for path in folder.parent.rglob("*") if path.is_file())
 
 
 def value(code: CodeType) -> int:
@@ -68,6 +68,7 @@ def test_what_the_code_depends_on_has_a_file_of_its_own(
         monkeypatch.setattr(code_cache, "MAGIC_NUMBER", b"another")
     elif change == "optimize":
         monkeypatch.setattr(code_cache, "sys", _Sys(optimize=2))
+    code_cache.cache_folder.cache_clear()
     source, name = (SOURCE.replace("42", "43") if change == "text" else SOURCE), ("b" if change == "name" else "a")
     code = compiled(source, f"generated/{name}.py")
     assert value(code) == (43 if change == "text" else 42) and code.co_filename == f"generated/{name}.py"
@@ -97,7 +98,7 @@ def test_a_damaged_file_is_replaced(folder: Path, damage: Any) -> None:
 
 @linux
 def test_a_folder_that_cannot_be_written_changes_nothing(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    folder.parents[1].write_text("a file is in the way")
+    folder.parents[2].write_text("a file is in the way")
     assert value(compiled(SOURCE, "generated/a.py")) == 42
     assert code_cache.cache_folder() is None
 

@@ -7,7 +7,6 @@ harm; it imports nothing of this library.
 
 from __future__ import annotations
 
-import configparser
 import json
 import logging
 import os
@@ -55,6 +54,8 @@ def read_setup(folder: Path) -> dict[str, Any]:
 
 def install_scripts(folder: Path) -> str | None:
     """Where `setup.cfg` puts programs, such as `lib/demo`; None if it does not say."""
+    import configparser
+
     config = configparser.ConfigParser(interpolation=None)
     try:
         config.read(folder / "setup.cfg", encoding="utf-8")

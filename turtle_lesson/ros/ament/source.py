@@ -194,13 +194,14 @@ def checked_build(found: Found, environment: Environment) -> Outcome:
     Raises:
         PackageError: a real build would refuse the package, with the build's own words.
     """
-    from .ament_cmake import build_ament_cmake
-    from .ament_python import build_ament_python
-
     if not found.buildable:
         hint = build_type_hint(found.build_type)
         raise PackageError(f"the build_type '{found.build_type}' is unknown", found.path / "package.xml", hint=hint)
-    outcome = (build_ament_python if found.is_python else build_ament_cmake)(found, environment)
+    if found.is_python:
+        from .ament_python import build_ament_python as build
+    else:
+        from .ament_cmake import build_ament_cmake as build
+    outcome = build(found, environment)
     if outcome.code:
         raise PackageError(f"a real build would refuse {found.name}:\n{outcome.stderr.strip()}")
     return outcome

@@ -1,8 +1,8 @@
 """Compiled code of generated classes, kept in the user's cache folder: to compile it takes most of the time of a start.
 
-A file is named by a hash of the source text and of all else that the code depends on, and begins with a hash of its content.
-So a newer lesson, another Python and another definition have files of their own, and a damaged file counts as none. Where the
-folder cannot be written nothing is kept. `TURTLE_LESSON_CACHE=off` switches the cache off, as grading does.
+Each Python has a folder of its own. A file is named by a hash of the source text, so that a changed definition and a newer
+lesson have another one, and begins with a hash of its content: a damaged file counts as none. Where the folder cannot be
+written nothing is kept. `TURTLE_LESSON_CACHE=off` switches the cache off, as grading does.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from contextlib import suppress
 from functools import cache
 from hashlib import sha256
 from importlib.util import MAGIC_NUMBER
+from io import FileIO
 from pathlib import Path
 from types import CodeType
 
@@ -29,8 +30,7 @@ def compiled(source: str, file: str) -> CodeType:
     """The code of a module's text, as `compile` makes it; `file` is its name in tracebacks."""
     if (folder := cache_folder()) is None:
         return compile(source, file, "exec")
-    made_of = (MAGIC_NUMBER, sys.version, sys.flags.optimize, file, source)
-    path = os.path.join(folder, sha256(repr(made_of).encode()).hexdigest())
+    path = os.path.join(folder, sha256(f"{file}\n{source}".encode()).hexdigest())
     code = _read(path)
     if code is None:
         code = compile(source, file, "exec")
@@ -41,8 +41,8 @@ def compiled(source: str, file: str) -> CodeType:
 
 def _read(path: str) -> CodeType | None:
     try:
-        with open(path, "rb") as file:
-            content = file.read()
+        with FileIO(path) as file:  # without a buffer, in a fifth of the time
+            content = file.readall()
     except OSError:
         return None
     if sha256(content[DIGEST:]).digest() != content[:DIGEST]:  # marshal would not always notice
@@ -86,4 +86,5 @@ def _user_folder() -> Path:
         place = "~/Library/Caches"
     else:
         place = os.environ.get("XDG_CACHE_HOME") or "~/.cache"
-    return Path(place).expanduser() / "turtle-lesson" / "messages"
+    python = f"{sys.implementation.cache_tag}-{MAGIC_NUMBER.hex()}-{sys.flags.optimize}"
+    return Path(place).expanduser() / "turtle-lesson" / "messages" / python

@@ -11,7 +11,6 @@ from collections.abc import Callable, Iterable
 from random import Random
 from types import GenericAlias
 from typing import TYPE_CHECKING, Any
-from uuid import UUID as Number
 
 from unique_identifier_msgs.msg import UUID
 
@@ -175,6 +174,8 @@ class _GoalIds(Random):
 
 def new_goal_id() -> Any:
     """A number that no other goal has, from a source of its own, so that a program's random numbers do not shift."""
+    from uuid import UUID as Number  # takes long to import, and few programs send goals
+
     process = current_process()
     source = process.state(_GoalIds, f"{process.seed}/goal ids")
     return UUID(uuid=list(Number(int=source.getrandbits(128), version=4).bytes))
