@@ -286,8 +286,8 @@ def picture(page: Page, wire: Wire, idle: float) -> dict[str, float]:
 
 AIMS = {
     "frames shown a second": "30",
-    "kernel CPU a frame, ms": "< 2",
-    "kB a frame": "< 10",
+    "kernel CPU a frame, ms": "< 1.5",
+    "kB a frame": "< 3",
     "kernel, with the world, % of a core": "< 33",
     "click to Python, ms": "< 10",
     "click to visible motion, ms": "< 100",
