@@ -33,9 +33,15 @@ LONG = ("browser", "test_answers.py", "test_teaching_grade.py", "test_real_colco
         "test_pages_interrupt.py", "test_pages_restart.py", "test_installation.py", "notebooks")  # fmt: skip
 """Files and folders whose tests take longest: they come first, so that no worker is left with one of them at the end."""
 
+STEPS = ("browser", "test_story.py", "notebooks")
+"""Files and folders whose tests share a window, a folder or a kernel: each goes on where the one before it has ended."""
+
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Put what takes longest first; within a file the order stays."""
+    """Put what takes longest first; within a file the order stays, for steps also with pytest-random-order."""
+    for item in items:
+        if any(name in item.path.parts for name in STEPS):
+            item.add_marker(pytest.mark.random_order(disabled=True))
     items.sort(key=lambda item: next((at for at, name in enumerate(LONG) if name in item.path.parts), len(LONG)))
 
 

@@ -141,6 +141,15 @@ def test_widgets_of_ended_worlds_are_closed_when_no_page_shows_them(monkeypatch:
     assert ended[1].comm is None
 
 
+def test_a_widget_is_kept_once_if_an_interrupt_has_it_put_aside_again() -> None:
+    first = start().teleop()
+    start()
+    live_widget.put_aside(first)
+    ended = [start().teleop() for _ in range(KEPT + 2)]
+    start()
+    assert first.comm is None and ended[-1].comm is not None
+
+
 def test_a_question_that_begins_anew_has_one_widget_in_the_end() -> None:
     lesson = start()
     before = len(registry._instances)

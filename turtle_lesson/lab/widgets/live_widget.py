@@ -278,10 +278,8 @@ class LiveWidget(anywidget.AnyWidget):
 
 def put_aside(widget: LiveWidget) -> None:
     """Keep a widget that will show nothing new as long as a page shows it, or may do so soon; then it is closed."""
-    if widget.comm is None:  # closed by hand
-        return
-    _ended.append(widget)
+    alive = (each for each in (*_ended, widget) if each.comm is not None)  # some are closed by hand
+    _ended[:] = dict.fromkeys(alive)  # one is here already if an interrupt stopped this the last time
     unseen = [each for each in _ended if not each.is_seen]
     for each in unseen[:-KEPT]:
-        _ended.remove(each)
         each.close()
