@@ -75,10 +75,12 @@ _chromium = Chromium()
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_teardown(item: pytest.Item, nextitem: pytest.Item | None) -> Iterator[None]:
-    """Close the browser after the last test of this folder."""
-    yield
-    if nextitem is None or HERE not in nextitem.path.parents:
-        _chromium.close()
+    """Close the browser after the last test of this folder, also if that ends with an error."""
+    try:
+        yield
+    finally:
+        if nextitem is None or HERE not in nextitem.path.parents:
+            _chromium.close()
 
 
 @pytest.fixture(scope="module")

@@ -11,7 +11,7 @@ import sys
 import time
 import urllib.error
 import urllib.request
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -117,12 +117,29 @@ def wait_until_it_answers(address: str, server: subprocess.Popen[bytes], log: Pa
 # -- windows and notebooks -----------------------------------------------------------------------------------------------
 
 
+OF_A_CLOSED_NOTEBOOK = "Cannot read properties of null (reading 'footer')"
+"""What JupyterLab says if it is about to focus a notebook that was closed a moment ago (`_ensureFocus` of its Notebook)."""
+
+
+def listeners(problems: list[str]) -> dict[str, Callable[[Any], None]]:
+    """By the events of a window: what adds to `problems` what the browser complains of there."""
+
+    def add(problem: str) -> None:
+        if OF_A_CLOSED_NOTEBOOK not in problem:
+            problems.append(problem)
+
+    return {
+        "pageerror": lambda error: add(str(error)),
+        "console": lambda message: add(message.text) if message.type == "error" else None,
+    }
+
+
 def new_window(browser: Browser, problems: list[str], width: int = 1280) -> Page:
     """A window of its own; what the browser complains of there is added to `problems`."""
     page = browser.new_page(viewport={"width": width, "height": 1000})
     page.set_default_timeout(PATIENCE)
-    page.on("pageerror", lambda error: problems.append(str(error)))
-    page.on("console", lambda message: problems.append(message.text) if message.type == "error" else None)
+    for event, listener in listeners(problems).items():
+        page.on(event, listener)  # type: ignore[call-overload]
     return page
 
 
@@ -132,10 +149,7 @@ def notebook_in(page: Page, lab: Lab, name: str, problems: list[str], width: int
 
     What the browser complains of meanwhile is added to `problems`.
     """
-    hear = {
-        "pageerror": lambda error: problems.append(str(error)),
-        "console": lambda message: problems.append(message.text) if message.type == "error" else None,
-    }
+    hear = listeners(problems)
     page.set_viewport_size({"width": width, "height": 1000})
     for event, listener in hear.items():
         page.on(event, listener)  # type: ignore[call-overload]
