@@ -181,6 +181,17 @@ def test_a_monitor_that_ends_is_told(lesson: Lesson, dashboard: Dashboard) -> No
     assert dashboard.scan_words["note"] == "No scan for 7 s."
 
 
+def test_a_dashboard_that_is_opened_long_after_the_last_status_says_so(lesson: Lesson) -> None:
+    launched = lesson.launch("robot_controller", "start_system.launch.py")
+    lesson.run(5)
+    launched.stop()
+    lesson.run(40)
+    dashboard = lesson.dashboard()
+    dashboard.tick()
+    assert dashboard.status_note == "No status for 40 s."
+    assert (dashboard.status, dashboard.status_tip) == (b"", b"")
+
+
 # -- scan --------------------------------------------------------------------------------------------------------------
 
 

@@ -184,11 +184,15 @@ class Dashboard(GoalPad):
             self.status_note = self._why_silent(STATUS_TOPIC)
 
     def _send_statuses(self, rows: np.ndarray) -> None:
-        if self._status_sent < 0 or (rows["stamp"] > self._status_sent).sum() > STATUS_TIP:
+        if not len(rows):  # all are older than the window
+            return
+        new = rows[rows["stamp"] > self._status_sent]
+        if self._status_sent < 0 or len(new) > STATUS_TIP:
             self._status_sent = int(rows["stamp"][-1])
             self.status_from = float(self.backend.recorder.seconds(self._status_sent))
             self.status = pack(_columns(rows, self._status_sent))
-        self.status_tip = pack(_columns(rows[rows["stamp"] > self._status_sent], self._status_sent))
+            new = rows[:0]
+        self.status_tip = pack(_columns(new, self._status_sent))
 
     def _show_scan_in_words(self) -> None:
         recorder = self.backend.recorder
