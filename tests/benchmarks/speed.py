@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 import simpy
-from speed_of_light import driving_speeds
+from speed_of_light import driving_speeds, median_time
 
 from turtle_lesson import start
 from turtle_lesson.ros.runtime.world import World, open_world
@@ -27,17 +27,6 @@ from turtle_lesson.ros.stdlib.patches import original
 clock = original(time, "perf_counter")
 ROUNDS = 5
 SIMPLE_STAGE = Path(__file__).resolve().parents[1] / "data" / "simple_stage"
-
-
-def median_time(work: Callable[[], object], rounds: int = ROUNDS) -> float:
-    """The median time in seconds of some calls, after one that does not count."""
-    work()
-    times = []
-    for _ in range(rounds):
-        began = clock()
-        work()
-        times.append(clock() - began)
-    return statistics.median(times)
 
 
 # -- a timer that ticks ------------------------------------------------------------------------------------------
@@ -228,7 +217,7 @@ def system_speed(seconds: int, package: str | Path, **arguments: str) -> float:
             lesson.set_obstacles("three pillars")
         lesson.launch("robot_controller", "start_system.launch.py", **arguments)
         lesson.run(1)
-        return seconds / median_time(lambda: lesson.run(seconds))
+        return seconds / median_time(lambda: lesson.run(seconds), ROUNDS, clock)
 
 
 def many_turtles(count: int) -> float:
@@ -245,7 +234,7 @@ def many_turtles(count: int) -> float:
         rclpy.shutdown()
         lesson.run(1)
         seconds = max(1, 200 // count)
-        return median_time(lambda: lesson.run(seconds)) / seconds / count * 1e6
+        return median_time(lambda: lesson.run(seconds), ROUNDS, clock) / seconds / count * 1e6
 
 
 def own_package(folder: Path) -> Path:
@@ -317,7 +306,7 @@ def row(what: str, *figures: str) -> None:
 
 def compare(what: str, count: int, works: list[Callable[[int], Callable[[], None]]], real: float) -> None:
     """One row: µs for each event, here, in SimPy, in asyncio, and recorded."""
-    times = [median_time(work(count)) / count * 1e6 for work in works]
+    times = [median_time(work(count), ROUNDS, clock) / count * 1e6 for work in works]
     row(what, *(f"{each:.2f} µs" for each in times), f"{real:.0f} µs", f"×{real / times[0]:.0f}")
 
 

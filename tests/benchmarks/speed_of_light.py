@@ -53,19 +53,19 @@ def driving_speeds(source: str, seconds: int, rounds: int) -> tuple[float, float
     """Virtual seconds for each second of the CPU: the system driving, and its callbacks alone. Medians of some rounds."""
     lesson = driving_system(source)
     with contextlib.redirect_stdout(io.StringIO()):
-        system = seconds / median_cpu_time(lambda: lesson.run(seconds), rounds)
+        system = seconds / median_time(lambda: lesson.run(seconds), rounds, cpu_clock)
         light = SpeedOfLight(lesson)
-        return system, seconds / median_cpu_time(lambda: light.run(seconds), rounds)
+        return system, seconds / median_time(lambda: light.run(seconds), rounds, cpu_clock)
 
 
-def median_cpu_time(work: Callable[[], object], rounds: int) -> float:
-    """The median time in seconds of the CPU of some calls, after one that does not count."""
+def median_time(work: Callable[[], object], rounds: int, clock: Callable[[], float]) -> float:
+    """The median time in seconds, by a clock, of some calls, after one that does not count."""
     work()
     times = []
     for _ in range(rounds):
-        began = cpu_clock()
+        began = clock()
         work()
-        times.append(cpu_clock() - began)
+        times.append(clock() - began)
     return statistics.median(times)
 
 

@@ -136,21 +136,20 @@ def test_pictures_leave_pyplot_alone():
     assert subprocess.run(run, capture_output=True, text=True, check=False).stderr == ""
 
 
-def test_a_start_imports_only_what_runs_then():
-    code = (
-        "import sys; from turtle_lesson import start\n"
-        "lesson = start()\n"
-        "needless = {'argparse', 'launch', 'matplotlib', 'numpy', 'statistics', 'yaml'} & set(sys.modules)\n"
-        "assert not needless, needless"
-    )
-    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False).stderr == ""
+LAUNCHED = "(package='finished'); lesson.launch('robot_controller', 'start_system.launch.py'); lesson.run(1)"
 
 
-def test_a_plain_script_starts_and_launches_without_what_only_a_page_needs():
+@pytest.mark.parametrize(
+    ("begun", "needless"),
+    [
+        ("()", {"argparse", "launch", "matplotlib", "numpy", "statistics", "yaml"}),
+        (LAUNCHED, {"IPython", "ipywidgets", "anywidget", "matplotlib", "meshcat", "nbformat"}),
+    ],
+    ids=["a start", "a start and a launch"],
+)
+def test_a_plain_script_imports_only_what_runs_then(begun: str, needless: set[str]) -> None:
     code = (
-        "import sys; from turtle_lesson import start\n"
-        "lesson = start(package='finished'); lesson.launch('robot_controller', 'start_system.launch.py'); lesson.run(1)\n"
-        "needless = {'IPython', 'ipywidgets', 'anywidget', 'matplotlib', 'meshcat', 'nbformat'} & set(sys.modules)\n"
-        "assert not needless, needless"
+        f"import sys; from turtle_lesson import start\nlesson = start{begun}\n"
+        f"needless = {needless!r} & set(sys.modules)\nassert not needless, needless"
     )
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False).stderr == ""
