@@ -75,6 +75,7 @@ class FakeWorld:
         self.packages = PackageIndex()
         self.processes: list[FakeProcess] = []
         self.at_close: list[Any] = []
+        self.start_order = None
         self.packages.add(package or robot_package())
 
     def spawn(self, target: Any, **details: Any) -> FakeProcess:

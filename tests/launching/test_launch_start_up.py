@@ -201,3 +201,24 @@ def test_ros2_run_is_up_at_once(lesson: Lesson) -> None:
     run_line(lesson._world, "ros2 run demo sender")
     assert lesson.now == 0.0
     assert "sender" in lesson._recording.node.get_node_names()
+
+
+def order_of_the_system(seed: int, start_order: str = "shuffled") -> list[str]:
+    lesson = start(seed=seed, simulator=False, start_order=start_order)
+    handle = lesson.launch("robot_controller", "start_system.launch.py")
+    assert lesson.now == 0.9 and all(process.alive for process in handle.processes)
+    return handle.names
+
+
+def test_the_seed_decides_about_a_shuffled_order_and_names_stay_as_written() -> None:
+    written = ["navigator-1", "status_monitor-2", "obstacle_detector-3"]
+    assert order_of_the_system(1, "as written") == written
+    orders = [order_of_the_system(seed) for seed in range(8)]
+    assert [order_of_the_system(seed) for seed in range(3)] == orders[:3]
+    assert all(sorted(order) == sorted(written) for order in orders)
+    assert len(set(map(tuple, orders))) > 3
+
+
+def test_another_start_order_is_refused() -> None:
+    with pytest.raises(ValueError, match=r'^start_order must be "as written" or "shuffled", got \'random\'$'):
+        start(start_order="random")

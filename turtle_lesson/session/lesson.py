@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from functools import cached_property
 from pathlib import Path
+from random import Random
 from typing import TYPE_CHECKING, Any
 
 from ..learner.story import page_named
@@ -33,6 +34,9 @@ if TYPE_CHECKING:
     from .check_target import CheckTarget
 
 
+START_ORDERS = ("as written", "shuffled")
+"""In which order the programs of a launch file come up."""
+
 LONGEST_RUN = 1e9
 """Seconds of robot time that one run may take: thirty years are enough for every mistake."""
 
@@ -44,6 +48,7 @@ def start(
     *,
     page: str | None = None,
     distro: str | None = None,
+    start_order: str = "as written",
 ) -> Lesson:
     """Make a fresh world, in which nothing of an earlier one goes on, and return the `Lesson` that runs it.
 
@@ -59,8 +64,11 @@ def start(
             package is brought where it is missing, and listed; the package that results is "mine" unless another is asked for.
         distro: the release of ROS 2 that the world behaves as where releases differ: "humble", "iron", "jazzy" or "kilted".
             None is what the environment variable ROS_DISTRO says, or else "humble".
+        start_order: in which order the programs of a launch file come up: "as written" in it, or "shuffled", an order that
+            the seed decides. Nothing promises an order on a robot.
 
-    Raises RuntimeError where a real ROS 2 is sourced, ValueError for anything else as `package`, `page` or `distro`.
+    Raises RuntimeError where a real ROS 2 is sourced, ValueError for anything else as `package`, `page`, `distro` or
+    `start_order`.
     """
     if place := real_ros():
         raise RuntimeError(
@@ -71,6 +79,8 @@ def start(
     if not isinstance(seed, int):
         raise ValueError(f"seed must be a whole number, got {seed!r}: try start(seed=0)")
     chosen_release(distro)
+    if start_order not in START_ORDERS:
+        raise ValueError(f'start_order must be "as written" or "shuffled", got {start_order!r}')
     page = None if page is None else page_named(page)
     package = "mine" if page and package == "finished" else package
     source = None if package == "mine" else package_folder(package)
@@ -79,6 +89,8 @@ def start(
         print(workspace().prepare(page).state())
     mine = _built(seed, distro, workspace()) if package == "mine" else None
     world = _fresh_world(seed, distro)
+    if start_order == "shuffled":
+        world.start_order = Random(f"{seed}/start order")
     if "robot_controller" in registry.packages():
         registry.remove("robot_controller")
     if source is not None:

@@ -1,7 +1,7 @@
 """A launch: it walks through a description and handles what happens; from a file to what a cell holds of its launch.
 
-First the whole description is walked through, then the processes start, in order; so a description with an
-error in it starts nothing. Events are handled one after the other, at the instant at which they happen.
+First the whole description is walked through, then the processes start, in order or as `World.start_order` draws them; so
+a description with an error in it starts nothing. Events are handled one after the other, at the instant at which they happen.
 """
 
 from __future__ import annotations
@@ -184,7 +184,8 @@ class LaunchService:
     def _settle(self) -> None:
         while self._waiting or self.context._event_queue:
             if self._waiting:
-                self.processes.add(self._waiting.pop(0))
+                drawn = self.world.start_order
+                self.processes.add(self._waiting.pop(0 if drawn is None else drawn.randrange(len(self._waiting))))
             else:
                 self._handle(self.context._event_queue.popleft())
 

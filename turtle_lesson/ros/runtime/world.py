@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
+from random import Random
 from typing import TYPE_CHECKING, Any
 
 from .. import hooks
@@ -47,6 +48,8 @@ class World:
         self.trace: Trace | None = None
         self.packages: PackageIndex = hooks.package_index()
         self.processes: list[Process] = []
+        self.start_order: Random | None = None
+        """What draws which program of a launch is started next; None: in the order in which they are written."""
         self.at_close: list[Callable[[], object]] = []
         """Called first when the world is closed: what outlives it lets go of it."""
         self._pid = FIRST_PID
