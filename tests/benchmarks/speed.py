@@ -1,227 +1,155 @@
-"""How fast the simulation is, beside SimPy and asyncio doing the same number of events, and beside a real rclpy.
+"""How fast the simulation is, beside its own callbacks alone, SimPy, asyncio, ir-sim (where it is installed) and a real rclpy.
 
-The real rclpy's figures were recorded on another machine (2 cores, ROS 2 Humble, one process): they are there for scale.
+All rows of a table are measured in rounds in which each work has its turn. The real rclpy's figures were recorded on another
+machine (2 cores, ROS 2 Humble, one process): they are there for scale. With `--instructions`, instructions are counted instead
+of time, by perf or else by valgrind (a quarter of an hour).
 """
 
 from __future__ import annotations
 
-import asyncio
+import argparse
 import contextlib
+import importlib.util
 import io
 import os
 import statistics
 import subprocess
 import sys
-import time
-from collections.abc import Callable
+import tempfile
 from pathlib import Path
-from typing import Any
 
-import simpy
-from speed_of_light import driving_speeds, median_time
+from events import EVENTS, Work
+from measure import clock, cpu_clock, find_counter, instructions, interleaved, ratio
+from speed_of_light import driving_system, driving_times, frozen_twin
 
 from turtle_lesson import start
-from turtle_lesson.ros.runtime.world import World, open_world
-from turtle_lesson.ros.stdlib.patches import original
 
-clock = original(time, "perf_counter")
 ROUNDS = 5
+COUNTS = {"timer callback": 50_000, "timer, publish and callback": 50_000, "service there and back": 20_000}
+REAL = {"timer callback": 47, "timer, publish and callback": 81, "service there and back": 256}
+"""µs for each event with a real rclpy."""
+
 SIMPLE_STAGE = Path(__file__).resolve().parents[1] / "data" / "simple_stage"
 
-
-# -- a timer that ticks ------------------------------------------------------------------------------------------
-
-
-def rclpy_timer(count: int) -> Callable[[], None]:
-    import rclpy
-
-    world = open_world()
-
-    def main() -> None:
-        rclpy.init()
-        node = rclpy.create_node("ticker")
-        node.create_timer(0.001, lambda: None)
-        rclpy.spin(node)
-
-    world.spawn(main, name="ticker")
-    return advance(world, count)
+# -- events and the whole system ----------------------------------------------------------------------------------
 
 
-def advance(world: World, milliseconds: int) -> Callable[[], None]:
-    return lambda: world.sim.run_until(world.now + milliseconds * 1_000_000)
+def row(what: str, *figures: str) -> None:
+    print(f"{what:42}" + "".join(f"{figure:>15}" for figure in figures), flush=True)
 
 
-def simpy_timer(count: int) -> Callable[[], None]:
+def show_events() -> None:
+    """µs for each event, here, in SimPy, in asyncio, and recorded."""
+    row("µs an event", "turtle_lesson", "SimPy", "asyncio", "to SimPy", "to asyncio", "real rclpy *")
+    for what, makers in EVENTS.items():
+        count = COUNTS[what]
+        ours, simpy, asyncio = interleaved([make(count) for make in makers], ROUNDS, clock)
+        figures = [f"{statistics.median(times) / count * 1e6:.2f} µs" for times in (ours, simpy, asyncio)]
+        row(what, *figures, f"×{ratio(ours, simpy):.2f}", f"×{ratio(ours, asyncio):.2f}", f"{REAL[what]} µs")
+    print("* recorded on another machine\n")
+
+
+def show_whole_system(seconds: int = 100) -> None:
+    """Virtual seconds in a second of the CPU: the turtle drives to one goal after the other."""
+    row(
+        "virtual s in a CPU second, driving",
+        "turtle_lesson",
+        "callbacks only",
+        "cost, to them",
+        "aim",
+        "ir-sim",
+        "to it",
+    )
+    peers = [irsim(seconds)] if importlib.util.find_spec("irsim") else []
+    for source, what, others in (("mock", "mock scans", []), ("world", "ray casts", peers)):
+        ours, light, *theirs = driving_times(source, seconds, ROUNDS, *others)
+        speeds = [f"{seconds / statistics.median(times):.0f}" for times in (ours, light, *theirs)]
+        compared = [speeds[2], f"×{ratio(ours, theirs[0]):.2f}"] if theirs else []
+        row(what, *speeds[:2], f"×{ratio(ours, light):.2f}", "×1.60", *compared)
+    with tempfile.TemporaryDirectory() as folder:
+        row("the lesson's simple nodes, at rest", f"{simple_system_speed(Path(folder), seconds):.0f}")
+    print()
+
+
+def irsim(seconds: int) -> Work:
+    """A robot in ir-sim, with the same pillars, beams and rate of scans; it moves only as often as it scans."""
+    import irsim
+
+    world = irsim.make(str(Path(__file__).with_name("irsim_world.yaml")), display=False, disable_all_plot=True)
+
     def work() -> None:
-        environment = simpy.Environment()
-
-        def tick() -> Any:
-            while True:
-                yield environment.timeout(1)
-
-        environment.process(tick())
-        environment.run(until=count)
+        for _ in range(5 * seconds):
+            world.step()
 
     return work
 
 
-def asyncio_timer(count: int) -> Callable[[], None]:
-    async def tick() -> None:
-        for _ in range(count):
-            await asyncio.sleep(0)
+def simple_system_speed(folder: Path, seconds: int) -> float:
+    """Virtual seconds in a CPU second of the simple stage of the nodes, with what makes it a package."""
+    import shutil
 
-    return lambda: asyncio.run(tick())
+    from turtle_lesson.learner.story import FINISHED
 
-
-# -- a message from one program to another --------------------------------------------------------------------------
-
-
-def rclpy_message(count: int) -> Callable[[], None]:
-    import rclpy
-    from geometry_msgs.msg import Twist
-
-    world = open_world()
-
-    def talker() -> None:
-        rclpy.init()
-        node = rclpy.create_node("talker")
-        publisher, message = node.create_publisher(Twist, "chatter", 10), Twist()
-        node.create_timer(0.001, lambda: publisher.publish(message))
-        rclpy.spin(node)
-
-    def listener() -> None:
-        rclpy.init()
-        node = rclpy.create_node("listener")
-        node.create_subscription(Twist, "chatter", lambda message: None, 10)
-        rclpy.spin(node)
-
-    world.spawn(talker, name="talker")
-    world.spawn(listener, name="listener")
-    return advance(world, count)
-
-
-def simpy_message(count: int) -> Callable[[], None]:
-    def work() -> None:
-        environment = simpy.Environment()
-        store = simpy.Store(environment)
-
-        def talker() -> Any:
-            while True:
-                yield environment.timeout(1)
-                yield store.put({"linear": (0.0, 0.0, 0.0), "angular": (0.0, 0.0, 0.0)})
-
-        def listener() -> Any:
-            while True:
-                yield store.get()
-
-        environment.process(talker())
-        environment.process(listener())
-        environment.run(until=count)
-
-    return work
-
-
-def asyncio_message(count: int) -> Callable[[], None]:
-    async def run() -> None:
-        queue: asyncio.Queue[Any] = asyncio.Queue(1)
-
-        async def listener() -> None:
-            for _ in range(count):
-                await queue.get()
-
-        task = asyncio.create_task(listener())
-        for _ in range(count):
-            await asyncio.sleep(0)
-            await queue.put({"linear": (0.0, 0.0, 0.0), "angular": (0.0, 0.0, 0.0)})
-        await task
-
-    return lambda: asyncio.run(run())
-
-
-# -- a question and its answer ------------------------------------------------------------------------------------
-
-
-def rclpy_service(count: int) -> Callable[[], None]:
-    import rclpy
-    from example_interfaces.srv import AddTwoInts
-
-    def work() -> None:
-        world = open_world()
-
-        def server() -> None:
-            rclpy.init()
-            node = rclpy.create_node("server")
-            node.create_service(AddTwoInts, "add", lambda request, response: response)
-            rclpy.spin(node)
-
-        def asker() -> None:
-            rclpy.init()
-            node = rclpy.create_node("asker")
-            client, request = node.create_client(AddTwoInts, "add"), AddTwoInts.Request()
-            for _ in range(count):
-                rclpy.spin_until_future_complete(node, client.call_async(request))
-
-        world.spawn(server, name="server")
-        world.spawn(asker, name="asker")
-        world.sim.run_until(count * 1_000_000)
-
-    return work
-
-
-def simpy_service(count: int) -> Callable[[], None]:
-    def work() -> None:
-        environment = simpy.Environment()
-        requests, answers = simpy.Store(environment), simpy.Store(environment)
-
-        def server() -> Any:
-            while True:
-                yield answers.put((yield requests.get()))
-
-        def asker() -> Any:
-            for number in range(count):
-                yield requests.put(number)
-                yield answers.get()
-
-        environment.process(server())
-        environment.run(until=environment.process(asker()))
-
-    return work
-
-
-def asyncio_service(count: int) -> Callable[[], None]:
-    async def run() -> None:
-        requests: asyncio.Queue[asyncio.Future[int]] = asyncio.Queue()
-
-        async def server() -> None:
-            while True:
-                (await requests.get()).set_result(0)
-
-        task = asyncio.create_task(server())
-        for _ in range(count):
-            future: asyncio.Future[int] = asyncio.get_running_loop().create_future()
-            await requests.put(future)
-            await future
-        task.cancel()
-
-    return lambda: asyncio.run(run())
-
-
-# -- the whole system ---------------------------------------------------------------------------------------------
-
-
-def system_speed(seconds: int, package: str | Path, **arguments: str) -> float:
-    """Virtual seconds for each second of real time: turtlesim, the three nodes and the lab's recorder."""
+    shutil.copytree(FINISHED, folder, dirs_exist_ok=True)
+    shutil.copytree(SIMPLE_STAGE, folder, dirs_exist_ok=True)
     with contextlib.redirect_stdout(io.StringIO()):
-        lesson = start(package=package)
-        if arguments.get("source") == "world":
-            lesson.set_obstacles("three pillars")
-        lesson.launch("robot_controller", "start_system.launch.py", **arguments)
+        lesson = start(package=folder)
+        lesson.launch("robot_controller", "start_system.launch.py")
         lesson.run(1)
-        return seconds / median_time(lambda: lesson.run(seconds), ROUNDS, clock)
+        (times,) = interleaved([lambda: lesson.run(seconds)], ROUNDS, cpu_clock)
+    return seconds / statistics.median(times)
 
 
-def many_turtles(count: int) -> float:
-    """Real µs for each virtual second and turtle, of one simulator with `count` turtles."""
+# -- instructions -------------------------------------------------------------------------------------------------
+
+
+def whole_system(source: str, alone: bool) -> Work:
+    """Drive for one second of robot time: the whole system, or its frozen callbacks alone."""
+    lesson = driving_system(source)
+    if not alone:
+        return lambda: lesson.run(1)
+    light = frozen_twin(lesson, source)
+    return lambda: light.run(1)
+
+
+def carry_out(name: str, count: int) -> None:
+    """What `--instructions` counts in a Python of its own: so many events, or seconds of robot time."""
+    row_name, _, column = name.partition(" / ")
+    if row_name in EVENTS:
+        EVENTS[row_name][int(column)](count)()
+        return
+    work = whole_system(row_name, column == "callbacks")
+    with contextlib.redirect_stdout(io.StringIO()):
+        for _ in range(count):
+            work()
+
+
+def show_instructions() -> None:
+    """The same two tables in thousands of instructions."""
+    counter = find_counter()
+    if counter is None:
+        sys.exit("this machine has no counter of instructions: neither perf nor valgrind tells any")
+    command = [sys.executable, __file__, "--work"]
+    print(f"thousands of instructions, counted by {counter}\n")
+    row("an event", "turtle_lesson", "SimPy", "asyncio", "to SimPy", "to asyncio")
+    for what in EVENTS:
+        ours, *peers = (instructions(counter, [*command, f"{what} / {column}"], 1000, 3000) for column in range(3))
+        figures = [f"{each / 1000:.1f}" for each in (ours, *peers)]
+        row(what, *figures, *(f"×{ours / each:.2f}" for each in peers))
+    print()
+    row("a virtual second, driving", "turtle_lesson", "callbacks only", "cost, to them")
+    for source, what in (("mock", "mock scans"), ("world", "ray casts")):
+        ours, light = (
+            instructions(counter, [*command, f"{source} / {part}"], 5, 25) for part in ("system", "callbacks")
+        )
+        row(what, f"{ours / 1000:.0f}", f"{light / 1000:.0f}", f"×{ours / light:.2f}")
+
+
+# -- many turtles, memory and starting up -------------------------------------------------------------------------
+
+
+def cost_of_a_turtle(count: int) -> float:
+    """CPU µs for each virtual second and turtle, of one simulator with `count` turtles."""
     import rclpy
     from turtlesim.srv import Spawn
 
@@ -233,22 +161,25 @@ def many_turtles(count: int) -> float:
             client.call(Spawn.Request(x=1.0 + number % 9, y=1.0 + number // 9 % 9))
         rclpy.shutdown()
         lesson.run(1)
-        seconds = max(1, 200 // count)
-        return median_time(lambda: lesson.run(seconds), ROUNDS, clock) / seconds / count * 1e6
+        seconds = max(2, 400 // count)
+        (times,) = interleaved([lambda: lesson.run(seconds)], 3, cpu_clock)
+        return statistics.median(times) / seconds / count * 1e6
 
 
-def own_package(folder: Path) -> Path:
-    """The simple stage of the nodes, with what makes it a package."""
-    import shutil
+def show_turtles() -> None:
+    """What a turtle costs among others. A world is made anew for each figure, so a round has one of each."""
+    counts = (1, 10, 100, 1000)
+    rounds = [[cost_of_a_turtle(count) for count in counts] for _ in range(3)]
+    row("turtles in one simulator", *map(str, counts), "1000 to 100")
+    costs = (statistics.median(costs) for costs in zip(*rounds, strict=True))
+    row("µs a virtual second and turtle", *(f"{cost:.0f}" for cost in costs), f"×{ratio(*columns(rounds, 3, 2)):.2f}")
+    print()
 
-    from turtle_lesson.learner.story import FINISHED
 
-    shutil.copytree(FINISHED, folder, dirs_exist_ok=True)
-    shutil.copytree(SIMPLE_STAGE, folder, dirs_exist_ok=True)
-    return folder
+def columns(rounds: list[list[float]], *numbers: int) -> list[list[float]]:
+    """Some columns of a table."""
+    return [[each[number] for each in rounds] for number in numbers]
 
-
-# -- starting up --------------------------------------------------------------------------------------------------
 
 KERNEL = """
 import psutil, os
@@ -279,6 +210,15 @@ def kernel_memory() -> tuple[float, float]:
     return before, after
 
 
+def show_memory() -> None:
+    """The memory of a kernel, with the whole system beyond a bare one."""
+    bare, whole = zip(*(kernel_memory() for _ in range(ROUNDS)), strict=True)
+    beyond = statistics.median(after - before for before, after in zip(bare, whole, strict=True))
+    row("MB of a kernel", "bare", "whole system", "beyond", "aim")
+    row("", f"{statistics.median(bare):.0f}", f"{statistics.median(whole):.0f}", f"{beyond:.1f}", "15")
+    print()
+
+
 STEPS = {
     "import turtle_lesson": "import turtle_lesson",
     "start()": "lesson = turtle_lesson.start()",
@@ -296,56 +236,32 @@ def first_steps() -> list[float]:
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
     command = [sys.executable, "-c", program]
     runs = [subprocess.run(command, capture_output=True, text=True, check=True, env=environment) for _ in range(8)]
-    columns = zip(*(map(float, run.stdout.splitlines()[-1].split()) for run in runs[1:]), strict=True)
-    return [statistics.median(column) for column in columns]
+    seconds = zip(*(map(float, run.stdout.splitlines()[-1].split()) for run in runs[1:]), strict=True)
+    return [statistics.median(column) for column in seconds]
 
 
-def row(what: str, *figures: str) -> None:
-    print(f"{what:38}" + "".join(f"{figure:>15}" for figure in figures))
-
-
-def compare(what: str, count: int, works: list[Callable[[int], Callable[[], None]]], real: float) -> None:
-    """One row: µs for each event, here, in SimPy, in asyncio, and recorded."""
-    times = [median_time(work(count), ROUNDS, clock) / count * 1e6 for work in works]
-    row(what, *(f"{each:.2f} µs" for each in times), f"{real:.0f} µs", f"×{real / times[0]:.0f}")
-
-
-def main() -> None:
-    import tempfile
-
-    print(f"Python {sys.version.split()[0]}, medians of {ROUNDS}\n")
-    row("µs an event", "turtle_lesson", "SimPy", "asyncio", "real rclpy *", "real / ours")
-    compare("timer callback", 50_000, [rclpy_timer, simpy_timer, asyncio_timer], 47)
-    compare("timer, publish and callback", 50_000, [rclpy_message, simpy_message, asyncio_message], 81)
-    compare("service there and back", 20_000, [rclpy_service, simpy_service, asyncio_service], 256)
-    print("* recorded on another machine\n")
-
-    row("virtual s in a real second", "turtle_lesson", "aim")
-    row("whole system, mock scans", f"{system_speed(100, 'finished'):.0f}", "2000")
-    row("whole system, ray casts", f"{system_speed(100, 'finished', source='world'):.0f}", "1000")
-    with tempfile.TemporaryDirectory() as folder:
-        row(
-            "whole system, the lesson's simple nodes",
-            f"{system_speed(100, own_package(Path(folder))):.0f}",
-            "2000",
-        )
-    print()
-    row("virtual s in a CPU second, driving", "turtle_lesson", "callbacks only", "ratio", "aim")
-    for source, what in (("mock", "mock scans"), ("world", "ray casts")):
-        system, light = driving_speeds(source, 100, ROUNDS)
-        row(what, f"{system:.0f}", f"{light:.0f}", f"×{light / system:.2f}", "×1.60")
-    print()
-    row("turtles in one simulator", "1", "10", "100", "1000")
-    row("µs a virtual second and turtle", *(f"{many_turtles(count):.0f}" for count in (1, 10, 100, 1000)))
-    print()
-    before, after = kernel_memory()
-    row("kernel, bare / with the whole system", f"{before:.0f} MB", f"{after:.0f} MB")
-    print()
+def show_first_steps() -> None:
+    """What a fresh Python computes until the first picture."""
     steps = first_steps()
     row("s of computing, in a fresh Python", "turtle_lesson", "aim")
     for step, seconds in zip(STEPS, steps, strict=True):
         row(step, f"{seconds:.3f} s", "0.50 s" if step == "the first picture" else "")
     row("import and start() together", f"{steps[0] + steps[1]:.3f} s", "0.25 s")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description="How fast the simulation is.")
+    parser.add_argument("--instructions", action="store_true", help="count instructions instead of time")
+    parser.add_argument("--work", nargs=2, metavar=("NAME", "COUNT"), help="only carry out one work, to count it")
+    options = parser.parse_args()
+    if options.work:
+        carry_out(options.work[0], int(options.work[1]))
+    elif options.instructions:
+        show_instructions()
+    else:
+        print(f"Python {sys.version.split()[0]}, medians of {ROUNDS} rounds; load {os.getloadavg()[0]:.1f}\n")
+        for show in (show_events, show_whole_system, show_turtles, show_memory, show_first_steps):
+            show()
 
 
 if __name__ == "__main__":

@@ -1,27 +1,121 @@
 """The whole system beside its own callbacks, called directly from a loop over a heap: what the ROS in between costs.
 
-The loop has no executors, processes or switches, keeps no trace, and knows neither quality of service nor callback groups.
-It calls the same callbacks of the same nodes at the same rates, and each subscription gets a copy of each message.
+The callbacks, the message copies and the turtle of the loop are frozen (folder `frozen`), so that the measure stays the
+same when the package changes. The loop has no executors, processes or switches, keeps no trace, and knows neither quality
+of service nor callback groups. It calls the same callbacks at the same rates, and each subscription gets a copy of each
+message. Before anything is measured, what its recorder has heard is compared with what the system's has.
 """
 
 from __future__ import annotations
 
 import contextlib
 import io
-import statistics
-import time
 from collections.abc import Callable, Iterator
 from heapq import heappop, heappush
 from itertools import count, cycle
 from typing import Any
 
+import numpy as np
+from frozen.nodes import SECOND, Goal, Navigator, ObstacleDetector, Recorder, StatusMonitor
+from frozen.turtle import Turtlesim
+from measure import cpu_clock, interleaved
+
 from turtle_lesson import start
-from turtle_lesson.ros.stdlib.patches import original
+from turtle_lesson.ros.rmw.transport import latency_of
 from turtle_lesson.session.lesson import Lesson
 
-cpu_clock = original(time, "process_time")
-SECOND = 1_000_000_000
-GOALS = ((2.0, 2.0), (9.0, 3.0), (8.5, 9.0), (2.5, 8.0))
+GOALS = (Goal(2.0, 2.0, 0.5), Goal(9.0, 3.0, 0.5), Goal(8.5, 9.0, 0.5), Goal(2.5, 8.0, 0.5))
+PILLARS = np.array([(8.5, 5.5, 0.4), (3.5, 8.0, 0.5), (4.0, 2.5, 0.6)])
+CLOCK_READ = 1_000
+"""Reading the clock takes 1 µs of robot time, as in the system."""
+
+
+class SpeedOfLight:
+    """The same robot without ROS: it drives to one goal after the other.
+
+    `first` says when (ns) each timer's callback ran first, and `on_navigate_to`.
+    """
+
+    def __init__(self, source: str, first: dict[str, int]) -> None:
+        self.now = 0
+        self._heap: list[tuple[int, int, Callable[[Any], object], Any]] = []
+        self._number = count().__next__
+        self._goals = cycle(GOALS)
+        turtlesim, self.recorder = Turtlesim(), Recorder()
+        shown, heard = turtlesim.shown, self.recorder
+        status, navigator = StatusMonitor(self._read_clock), Navigator(self._read_clock)
+        self.detector = detector = ObstacleDetector(self._read_clock, source, PILLARS)
+        poses = [navigator.on_pose, status.on_pose] + [detector.on_pose] * (source == "world")
+        shown.publish_pose = self._topic("/turtle1/pose", poses, heard.poses.hear)
+        shown.publish_colour = self._topic("/turtle1/color_sensor", [], None)
+        navigator.publish = self._topic("/turtle1/cmd_vel", [shown.on_command], heard.commands.hear)
+        navigator.answer = self._next_goal
+        status.publish = self._topic("/robot/status", [], heard.statuses.hear)
+        detector.publish = self._topic("/obstacles", [navigator.on_scan], heard.on_scan)
+        self._navigate, self._service = navigator.on_navigate_to, latency_of("/navigate_to")
+        self._at(first["_on_tick"], self._repeat, (turtlesim.on_tick, SECOND * 16 // 1000))
+        self._at(first["on_publish_timer"], self._repeat, (status.on_publish_timer, SECOND // 10))
+        self._at(first["on_scan_timer"], self._repeat, (detector.on_scan_timer, SECOND // 5))
+        self._steering = [navigator.on_steering_timer, SECOND // 10]
+        self._at(first["on_steering_timer"], self._steer, self._steering)
+        self._at(first["on_navigate_to"], self._begin_drive, next(self._goals))
+
+    def run(self, seconds: float) -> None:
+        """Call all that is due in the next seconds of robot time."""
+        heap, end = self._heap, self.now + round(seconds * SECOND)
+        while heap[0][0] < end:
+            self.now, _, action, argument = heappop(heap)
+            action(argument)
+        self.now = end
+
+    def _at(self, time: int, action: Callable[[Any], object], argument: Any) -> None:
+        heappush(self._heap, (time, self._number(), action, argument))
+
+    def _read_clock(self) -> int:
+        self.now += CLOCK_READ
+        return self.now
+
+    def _repeat(self, timer: tuple[Callable[[], object], int]) -> None:
+        callback, period = timer
+        due = self.now
+        callback()
+        self._at(due + period, self._repeat, timer)
+
+    def _steer(self, timer: list[Any]) -> None:
+        """The steering timer begins anew with each goal: ticks of before are no longer its own."""
+        if timer is self._steering:
+            callback, period = timer
+            self._at(self.now + period, self._steer, timer)
+            callback()
+
+    def _begin_drive(self, goal: Goal) -> None:
+        self._steering = list(self._steering)
+        self._at(self.now + SECOND // 10, self._steer, self._steering)
+        self._navigate(goal)
+
+    def _next_goal(self, _: bool) -> None:
+        """The answer travels to the client, and its next request to the navigator."""
+        self._at(self.now + 2 * self._service, self._begin_drive, next(self._goals))
+
+    def _topic(
+        self, name: str, plain: list[Callable[[Any], object]], recorded: Callable[[Any, dict[str, int]], object] | None
+    ) -> Callable[[Any], None]:
+        latency = latency_of(name)
+
+        def deliver(message: Any) -> None:
+            for callback in plain:
+                callback(message.copy())
+            if recorded is not None:
+                recorded(message.copy(), {"source_timestamp": self.now - latency, "received_timestamp": self.now})
+
+        def publish(message: Any) -> None:
+            if plain or recorded is not None:
+                self._at(self.now + latency, deliver, message.copy())
+
+        return publish
+
+
+# -- the whole system ---------------------------------------------------------------------------------------------
 
 
 def driving_system(source: str) -> Lesson:
@@ -45,102 +139,32 @@ def send_goals() -> None:
     rclpy.init()
     node = rclpy.create_node("goals")
     client = node.create_client(NavigateTo, "/navigate_to")
-    for x, y in cycle(GOALS):
-        rclpy.spin_until_future_complete(node, client.call_async(NavigateTo.Request(x=x, y=y, theta=0.5)))
+    for x, y, theta in cycle(GOALS):
+        rclpy.spin_until_future_complete(node, client.call_async(NavigateTo.Request(x=x, y=y, theta=theta)))
 
 
-def driving_speeds(source: str, seconds: int, rounds: int) -> tuple[float, float]:
-    """Virtual seconds for each second of the CPU: the system driving, and its callbacks alone. Medians of some rounds."""
-    lesson = driving_system(source)
+def frozen_twin(lesson: Lesson, source: str) -> SpeedOfLight:
+    """The same robot without ROS, at the same time. RuntimeError if for 10 s it does not hear what the system hears."""
+    trace = lesson._world.trace
+    assert trace is not None
+    runs = {each.name: each.runs(trace.now)["ready"] for each in trace.callbacks}
+    light = SpeedOfLight(source, {name: int(times[0]) for name, times in runs.items() if len(times)})
+    light.run(lesson.now)
+    detector = next(node for node in nodes_of(lesson) if node.get_name() == "obstacle_detector")
+    light.detector.random.set_state(detector._random.get_state())
     with contextlib.redirect_stdout(io.StringIO()):
-        system = seconds / median_time(lambda: lesson.run(seconds), rounds, cpu_clock)
-        light = SpeedOfLight(lesson)
-        return system, seconds / median_time(lambda: light.run(seconds), rounds, cpu_clock)
-
-
-def median_time(work: Callable[[], object], rounds: int, clock: Callable[[], float]) -> float:
-    """The median time in seconds, by a clock, of some calls, after one that does not count."""
-    work()
-    times = []
-    for _ in range(rounds):
-        began = clock()
-        work()
-        times.append(clock() - began)
-    return statistics.median(times)
-
-
-class SpeedOfLight:
-    """The callbacks of a system, which is of no use for anything else afterwards."""
-
-    def __init__(self, lesson: Lesson) -> None:
-        self._simulation = lesson._world.sim
-        self._simulation.running = True  # or a callback that looks at the clock would run it
-        self._heap: list[tuple[int, int, Callable[[Any], object], Any]] = []
-        self._numbers = count()
-        self.calls = 0
-        nodes = list(nodes_of(lesson))
-        listeners = {each._reader: each for node in nodes for each in node.subscriptions}
-        for node in nodes:
-            for publisher in node.publishers:
-                publisher._write = self._sender(publisher._writer, listeners)
-            for timer in node.timers:
-                self._at(timer._next, self._tick, timer)
-        self._navigator = next(node for node in nodes if node.get_name() == "navigator")
-        self._goals = cycle(GOALS)
-        self._drive: Any = None
-        self._at(self._simulation.now, self._send_goal, None)
-
-    def run(self, seconds: float) -> None:
-        """Call all that is due in the next seconds of robot time."""
-        heap, simulation = self._heap, self._simulation
-        end = simulation.now + int(seconds * SECOND)
-        while heap[0][0] < end:
-            simulation.now, _, action, argument = heappop(heap)
-            action(argument)
-        simulation.now = end
-
-    def _at(self, time: int, action: Callable[[Any], object], argument: Any) -> None:
-        heappush(self._heap, (time, next(self._numbers), action, argument))
-
-    def _tick(self, timer: Any) -> None:
-        if not timer._canceled:
-            self.calls += 1
-            timer.callback()
-        self._at(self._simulation.now + timer._period, self._tick, timer)
-
-    def _sender(self, writer: Any, listeners: dict[Any, Any]) -> Callable[[Any], None]:
-        simulation, latency = self._simulation, writer.topic.latency
-        found = [listeners[reader] for reader in writer.readers if reader in listeners]
-        plain = [each.callback for each in found if each._reader.times is None]
-        with_times = [each.callback for each in found if each._reader.times is not None]
-
-        def deliver(message: Any) -> None:
-            now = simulation.now
-            for callback in plain:
-                callback(message._wire_copy())
-            for callback in with_times:
-                callback(message._wire_copy(), {"source_timestamp": now - latency, "received_timestamp": now})
-            self.calls += len(found)
-
-        def send(message: Any) -> None:
-            if found:
-                self._at(simulation.now + latency, deliver, message._wire_copy())
-
-        return send
-
-    def _send_goal(self, _: None) -> None:
-        """Look ten times a second whether the goal is reached, and send the next one."""
-        from robot_controller.srv import NavigateTo
-
-        if self._drive is None:
-            x, y = next(self._goals)
-            request = NavigateTo.Request(x=x, y=y, theta=0.5)
-            self._drive = self._navigator.on_navigate_to(request, NavigateTo.Response())
-        try:
-            self._drive.send(None)
-        except StopIteration:
-            self._drive = None
-        self._at(self._simulation.now + SECOND // 10, self._send_goal, None)
+        lesson.run(10)
+    light.run(10)
+    heard, recorder = lesson._recording, light.recorder
+    for name, frozen in (("poses", recorder.poses), ("statuses", recorder.statuses)):
+        rows = getattr(heard, name).array()
+        twin = np.frombuffer(bytes(frozen.rows), rows.dtype)[-len(rows) :].copy()
+        twin["stamp"] += heard.origin
+        if not np.array_equal(twin[-600:], rows[-600:]):
+            raise RuntimeError(f"the frozen robot's {name} are not those of the system")
+    if list(recorder.last_scan.ranges) != list(heard.last_scan.ranges):
+        raise RuntimeError("the frozen robot's scan is not that of the system")
+    return light
 
 
 def nodes_of(lesson: Lesson) -> Iterator[Any]:
@@ -151,3 +175,11 @@ def nodes_of(lesson: Lesson) -> Iterator[Any]:
         executor = process.state(RclpyState).executor
         if executor is not None:
             yield from executor.get_nodes()
+
+
+def driving_times(source: str, seconds: int, rounds: int, *peers: Callable[[], object]) -> list[list[float]]:
+    """CPU seconds that some robot time takes in each round: of the system driving, of its callbacks alone, and of peers."""
+    lesson = driving_system(source)
+    light = frozen_twin(lesson, source)
+    with contextlib.redirect_stdout(io.StringIO()):
+        return interleaved([lambda: lesson.run(seconds), lambda: light.run(seconds), *peers], rounds, cpu_clock)
