@@ -32,5 +32,5 @@ def test_there_is_a_row_for_each_combination_and_seed_in_their_order() -> None:
 
 
 def test_a_parameter_that_the_function_does_not_have_is_named() -> None:
-    with pytest.raises(ExperimentError, match="drive has no parameter 'gian'. Did you mean \"gain\""):
+    with pytest.raises(ExperimentError, match=r"drive has no parameter 'gian'\. Did you mean \"gain\""):
         experiment(drive, gian=[1.0])

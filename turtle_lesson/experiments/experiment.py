@@ -8,8 +8,9 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 from ..lab.words import did_you_mean, enumerated
-from .one_run import ExperimentError, Run, Setting
-from .pools import carry_out_here, cores
+from .one_run import ExperimentError, Run
+from .payload import setting_for
+from .pools import LocalPool, cores
 from .results import Results
 
 
@@ -32,8 +33,12 @@ def experiment(
 ) -> Results:
     """Call `function(lesson, **parameters)` in a fresh world for each seed and combination of parameter values."""
     runs, swept = plan(function, seeds, parameters, package=package, distro=distro, start_order=start_order)
-    setting = Setting(pickled(function), simulator, robot_time, cpu_time)
-    endings = list(carry_out_here(setting, runs, jobs or cores()))
+    setting = setting_for(function, runs, simulator=simulator, robot_time=robot_time, cpu_time=cpu_time)
+    pool = LocalPool(setting, min(jobs or cores(), len(runs)))
+    try:
+        endings = list(pool.carry_out(runs))
+    finally:
+        pool.close()
     return Results.of(endings, swept, function=function, setting=setting)
 
 
@@ -75,14 +80,3 @@ def _check_names(function: Callable[..., Any], parameters: Iterable[str]) -> Non
         if each not in known:
             guess = did_you_mean(each, known) or f"Its parameters are {enumerated(known)}."
             raise ExperimentError(f"{name} has no parameter {each!r}. {guess}")
-
-
-def pickled(function: Callable[..., Any]) -> bytes:
-    """The function as cloudpickle sends it to a worker."""
-    import cloudpickle
-
-    try:
-        return cloudpickle.dumps(function)
-    except Exception as error:
-        name = getattr(function, "__name__", "the function")
-        raise ExperimentError(f"{name} cannot be sent to a worker process: {error}") from None

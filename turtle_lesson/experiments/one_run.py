@@ -11,24 +11,29 @@ import pickle
 import random
 import shutil
 import signal
-import sys
+import tarfile
 import threading
-import traceback
-import zipfile
+import zlib
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from multiprocessing import parent_process
 from pathlib import Path
+from traceback import format_exception_only
 from typing import TYPE_CHECKING, Any
 
 from ..ros.sim import errors
+from ..ros.sim.simulation import NANOSECONDS
 from ..ros.stdlib.ownership import Notebook
+from ..session import inspection
 
 if TYPE_CHECKING:
     from ..session.lesson import Lesson
 
 OK, RAISED, ROBOT_TIME, CPU_TIME, DIED = "ok", "raised", "robot time", "CPU time", "worker died"
 """How a run can end."""
+
+STACK = "stack"
+"""The file in a worker's folder to which it writes where it is, when it is asked by SIGUSR1."""
 
 TAIL = 4000
 """How many characters of what a failed run has printed are kept."""
@@ -48,9 +53,11 @@ class Setting:
     robot_time: float = 600.0
     cpu_time: float = 60.0
     folders: dict[str, bytes] = field(default_factory=dict)
-    """Zip archives of the learner's folders, by where they belong in the folder of a run."""
+    """Archives of the learner's folders, by where they belong in the folder of a run."""
+    places: dict[str, str] = field(default_factory=dict)
+    """By the folder that a run names as its `package`, where it is in the folder of a run."""
     sources: dict[str, str] = field(default_factory=dict)
-    """The text of notebook cells by file name, for tracebacks."""
+    """The texts of the notebook's cells and the learner's files, by file name, for tracebacks."""
 
 
 @dataclass(frozen=True)
@@ -83,31 +90,52 @@ class Ending:
 
 def open_run(setting: Setting, run: Run) -> Lesson:
     """The fresh world of a run, in which the function has not been called yet."""
+    import numpy
+
     from ..session.lesson import start
 
     random.seed(run.seed)
-    if "numpy" in sys.modules:
-        sys.modules["numpy"].random.seed(run.seed % 2**32)
-    return start(run.seed, run.package, setting.simulator, distro=run.distro)
+    numpy.random.seed(run.seed % 2**32)
+    lesson = start(run.seed, run.package, setting.simulator, distro=run.distro, start_order=run.start_order)
+    lesson._world.sim.end = round(setting.robot_time * NANOSECONDS)
+    return lesson
 
 
 def call_in(lesson: Lesson, function: Callable[..., Any], run: Run) -> Ending:
     """Call the function in its world; what came of it. No error is raised."""
-    try:
-        ending = Ending(OK, plain_values(function, function(lesson, **run.parameters)))
-    except BaseException as error:
-        said = str(error).strip().partition("\n")[0]
-        line = f"{type(error).__name__}: {said}" if said else type(error).__name__
-        ending = Ending(RAISED, error=line, traceback=errors.format_error(error))
-    ending.robot_time = round(lesson.now, 9)
+    ending = _called(lesson, function, run)
+    ending.robot_time = lesson.now
     return ending
+
+
+def _called(lesson: Lesson, function: Callable[..., Any], run: Run) -> Ending:
+    try:
+        returned = function(lesson, **run.parameters)
+    except errors.OutOfTime as error:
+        return Ending(ROBOT_TIME, error=f"the run was not over when {error}", traceback=errors.format_error(error))
+    except BaseException as error:
+        return Ending(RAISED, error=_in_a_line(error), traceback=errors.format_error(error))
+    try:
+        return Ending(OK, plain_values(function, returned))
+    except TypeError as error:
+        return Ending(RAISED, error=_in_a_line(error))
+
+
+def _in_a_line(error: BaseException) -> str:
+    said = str(error).strip().partition("\n")[0]
+    return f"{type(error).__name__}: {said}" if said else type(error).__name__
+
+
+def name_of(function: Any) -> str:
+    """What messages call a function."""
+    return getattr(function, "__name__", None) or "the function"
 
 
 def plain_values(function: Callable[..., Any], returned: Any) -> dict[str, Any]:
     """What a function has returned, as values that a table can hold. Raises TypeError for anything else."""
     if returned is None:
         return {}
-    name = getattr(function, "__name__", "the function")
+    name = name_of(function)
     if not isinstance(returned, dict):
         raise TypeError(
             f'{name} must return a dict of what was measured, such as {{"seconds": 4.2}}, or nothing, got {returned!r:.80}'
@@ -130,38 +158,60 @@ def plain_values(function: Callable[..., Any], returned: Any) -> dict[str, Any]:
 # -- in a worker process -------------------------------------------------------------------------------------------------
 
 
-@dataclass
 class _Worker:
-    """What this process works on: an experiment, in a folder of its own."""
+    """What this process works on: an experiment, in a folder of its own.
 
-    setting: Setting
-    folder: Path
+    `fresh` holds what each run finds in its folder, and `run` is that folder: its path is the same for each run, so that a
+    workspace which the first one has built stays built.
+    """
 
-    @property
-    def run_folder(self) -> Path:
-        """The current folder of every run: it has the same path each time, so that what was built stays valid."""
-        return self.folder / "run"
+    def __init__(self, setting: Setting, folder: Path) -> None:
+        self.setting, self.fresh, self.run = setting, folder / "fresh", folder / "run"
+        self.fresh.mkdir()
+        for name, packed in setting.folders.items():
+            unpack(packed, self.fresh / name)
+        self.built = False
+
+    def enter(self) -> None:
+        """Make the folder of the next run, and go there."""
+        os.chdir(self.fresh.parent)
+        shutil.rmtree(self.run, ignore_errors=True)
+        shutil.copytree(self.fresh, self.run)
+        os.chdir(self.run)
+
+    def keep_build(self) -> None:
+        """Have further runs find the workspace built."""
+        if not self.built and (self.run / "workspace" / "install").is_dir():
+            shutil.rmtree(self.fresh / "workspace")
+            shutil.copytree(self.run / "workspace", self.fresh / "workspace", symlinks=True)
+        self.built = True
+
+
+def unpack(packed: bytes, folder: Path) -> None:
+    """Write the files of an archive into a folder."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with tarfile.open(fileobj=io.BytesIO(zlib.decompress(packed))) as tar:
+        if hasattr(tarfile, "data_filter"):
+            tar.extractall(folder, filter="data")
+        else:  # Python 3.11 before 3.11.4
+            tar.extractall(folder)
 
 
 _worker: _Worker | None = None
 
 
 def begin(setting: Setting, folder: Path) -> None:
-    """Make this process a worker: what each of its runs needs is unpacked once."""
+    """Make this process a worker: what each of its runs needs is made once."""
     global _worker
     with contextlib.suppress(AttributeError, PermissionError):
-        os.setpgid(0, 0)  # Ctrl-C in the terminal is for the process that waits for this one
+        os.setpgid(0, 0)  # Ctrl-C in a terminal is for the process that waits for this one
     threading.Thread(target=_end_with_parent, daemon=True).start()
     if hasattr(faulthandler, "register"):
-        faulthandler.register(signal.SIGUSR1, (folder / "stack").open("w"), all_threads=False)
-    os.environ["TURTLE_LESSON_PROGRESS"] = "off"
+        faulthandler.register(signal.SIGUSR1, (folder / STACK).open("w"), all_threads=False)
     for name, text in setting.sources.items():
         linecache.cache[name] = (len(text), None, text.splitlines(keepends=True), name)
-    for name, archive in setting.folders.items():
-        with zipfile.ZipFile(io.BytesIO(archive)) as files:
-            files.extractall(folder / "fresh" / name)
-    (folder / "fresh").mkdir(exist_ok=True)
     Notebook.is_learners = staticmethod(errors.is_learners)
+    os.environ["TURTLE_LESSON_PROGRESS"] = "off"
     _worker = _Worker(setting, folder)
 
 
@@ -175,20 +225,20 @@ def _end_with_parent() -> None:
 def carry_out(run: Run) -> Ending:
     """Carry a run out in this worker process, in a fresh folder. Raises ExperimentError if the function cannot be loaded."""
     assert _worker is not None, "begin() comes first"
-    setting, here = _worker.setting, _worker.run_folder
-    os.chdir(_worker.folder)
-    shutil.rmtree(here, ignore_errors=True)
-    shutil.copytree(_worker.folder / "fresh", here, symlinks=True)
-    os.chdir(here)
+    setting = _worker.setting
+    run = replace(run, package=setting.places.get(run.package or "", run.package))
+    _worker.enter()
     with _printed() as printed:
         lesson = open_run(setting, run)
         try:
+            if run.package == "mine":
+                _worker.keep_build()
             ending = call_in(lesson, load(setting), run)
         finally:
             lesson._world.close()
-    if ending.outcome != OK:
-        ending.printed = printed.tail()
-    for text in (str(here), os.path.realpath(here)):  # or a row would tell which worker it came from
+            inspection.progress_file.cache_clear()
+    ending.printed = "" if ending.outcome == OK else printed.tail()
+    for text in {str(_worker.run), os.path.realpath(_worker.run)}:  # by which a row would tell where it was made
         ending.error = ending.error.replace(text, ".")
         ending.traceback = ending.traceback.replace(text, ".")
         ending.printed = ending.printed.replace(text, ".")
@@ -199,8 +249,8 @@ def load(setting: Setting) -> Callable[..., Any]:
     """The experiment's function, unpickled anew."""
     try:
         return pickle.loads(setting.function)
-    except BaseException as error:
-        said = traceback.format_exception_only(error)[-1].strip()
+    except Exception as error:
+        said = "".join(format_exception_only(error)).strip()
         raise ExperimentError(f"the function cannot be loaded in a worker process: {said}") from None
 
 

@@ -1,130 +1,230 @@
-"""Worker processes: each carries out one run at a time, and one that dies takes no other run with it."""
+"""Worker processes of this computer: each carries out one run at a time, and one that dies takes no other run with it.
+
+Each worker is a `ProcessPoolExecutor` of one process. So it is known which run a process died of, and one that computes for
+too long can be killed.
+"""
 
 from __future__ import annotations
 
 import contextlib
 import multiprocessing
 import os
+import re
 import shutil
 import signal
 import sys
 import tempfile
 import threading
+import time
 from collections import deque
 from collections.abc import Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
+from linecache import getline
+from math import ceil
 from pathlib import Path
 from types import ModuleType
+from typing import Any, Protocol
 
+import psutil
+
+from ..ros.sim.defer_sigint import defer_sigint
+from ..ros.sim.errors import is_learners, shown_path
 from . import one_run
-from .one_run import DIED, Ending, Run, Setting
+from .one_run import CPU_TIME, DIED, STACK, Ending, Run, Setting
 
 LOOK = 0.25
-"""How often, in seconds, running workers are looked at."""
+"""How often, in seconds of real time, busy workers are looked at."""
+
+WINDOW, WAITING = 5.0, 0.02
+"""A process that computes for less than this share of so many seconds of real time waits for something."""
+
+WAITS = 60.0
+"""How long, in seconds of real time, a run may wait for something outside, if its CPU time is no longer limit."""
+
+_KILL = getattr(signal, "SIGKILL", signal.SIGTERM)
+
+
+class Pool(Protocol):
+    """Carries out runs, wherever that is."""
+
+    def carry_out(self, runs: Sequence[Run]) -> Iterator[tuple[Run, Ending]]:
+        """Carry out runs; they come in the order in which they end."""
+
+    def close(self) -> None:
+        """End it all, whatever goes on."""
 
 
 class Worker:
-    """A worker process of this computer, and the next one where it has died."""
+    """A worker process, and the next one where it has died or was killed."""
 
     def __init__(self, setting: Setting) -> None:
         self._setting = setting
         self._pool: ProcessPoolExecutor | None = None
-        self._folder: Path | None = None
         self._pid: Future[int] | None = None
+        self._folder = Path()
+        self._watch: _Watch | None = None
+        self._verdict: Ending | None = None
 
     def submit(self, run: Run) -> Future[Ending]:
-        """Have it carry out a run. BrokenProcessPool is raised by the future if the process dies."""
-        with _alone():
+        """Have it carry out a run; `ending` says what came of the future."""
+        self._watch = self._verdict = None
+        with _starting(), defer_sigint():
             if self._pool is None:
                 self._folder = Path(tempfile.mkdtemp(prefix="turtle-lesson-"))
-                spawn = multiprocessing.get_context(
-                    "spawn"
-                )  # to fork a kernel, which is full of threads, would be unsafe
+                spawn = multiprocessing.get_context("spawn")  # a kernel is full of threads: no fork of it would be safe
                 self._pool = ProcessPoolExecutor(1, spawn, one_run.begin, (self._setting, self._folder))
                 self._pid = self._pool.submit(os.getpid)
             return self._pool.submit(one_run.carry_out, run)
 
+    def look(self) -> None:
+        """Kill the process if its run has computed, or waited, for longer than it may."""
+        if self._pid is None or not self._pid.done() or self._pid.exception() is not None:
+            return
+        if self._watch is None:
+            with contextlib.suppress(psutil.Error):
+                self._watch = _Watch(self._pid.result(), self._setting.cpu_time)
+        elif self._verdict is None and (too_long := self._watch.too_long()):
+            self._verdict = Ending(CPU_TIME, error=too_long, traceback=self._where())
+            os.kill(self._pid.result(), _KILL)
+
+    def ending(self, future: Future[Ending]) -> Ending:
+        """What came of a run that is done."""
+        try:
+            return future.result()
+        except BrokenProcessPool:
+            self.close()
+            return self._verdict or Ending(DIED, error="the worker process died, twice, in the middle of this run")
+
     def close(self) -> None:
         """End the process, whatever it does."""
-        pool, self._pool = self._pool, None
-        if pool is None:
-            return
-        pool.shutdown(wait=False, cancel_futures=True)
-        self.kill()
-        pool.shutdown()
-        if self._folder is not None:
+        with defer_sigint():
+            pool, self._pool = self._pool, None
+            if pool is None or self._pid is None:
+                return
+            with contextlib.suppress(Exception):
+                os.kill(self._pid.result(timeout=60), _KILL)
+            pool.shutdown(cancel_futures=True)
             shutil.rmtree(self._folder, ignore_errors=True)
 
-    def kill(self) -> None:
-        """Kill the process, if it has begun."""
-        with contextlib.suppress(Exception):
-            if self._pid is not None:
-                os.kill(self._pid.result(timeout=30), getattr(signal, "SIGKILL", signal.SIGTERM))
+    def _where(self) -> str:
+        """Where its main thread is, as the end of a traceback; "" where the system cannot tell."""
+        assert self._pid is not None
+        file = self._folder / STACK
+        if not hasattr(signal, "SIGUSR1") or not file.exists():
+            return ""
+        os.kill(self._pid.result(), signal.SIGUSR1)
+        time.sleep(LOOK)
+        said = file.read_text(errors="replace").replace(str(self._folder / "run"), ".")
+        frames = re.findall(r'File "(.+)", line (\d+) in (.+)', said)
+        lines = []
+        for name, line, function in reversed([frame for frame in frames if is_learners(frame[0])]):
+            code = getline(name, int(line)).strip()
+            lines.append(
+                f'  File "{shown_path(name)}", line {line}, in {function}\n' + (f"    {code}\n" if code else "")
+            )
+        return "".join(["Where it was:\n", *lines]) if lines else ""
 
 
-_starting = threading.Lock()
+class _Watch:
+    """The CPU time and the waiting of one run, seen from outside."""
+
+    def __init__(self, pid: int, limit: float) -> None:
+        self._process, self._limit = psutil.Process(pid), limit
+        self._began = self._mark = self._computed()
+        self._since, self._waited = time.monotonic(), 0.0
+
+    def _computed(self) -> float:
+        times = self._process.cpu_times()
+        return times.user + times.system
+
+    def too_long(self) -> str:
+        """What it has done for too long, in words; "" if it goes on."""
+        try:
+            now, computed = time.monotonic(), self._computed()
+        except psutil.Error:  # it has ended a moment ago
+            return ""
+        if now - self._since > WINDOW:
+            waits = computed - self._mark < WAITING * (now - self._since)
+            self._waited = self._waited + now - self._since if waits else 0.0
+            self._since, self._mark = now, computed
+        if computed - self._began > self._limit:
+            return f"the run took more than {self._limit:g} s of CPU time"
+        if self._waited > max(self._limit, WAITS):
+            return f"the run waited for something outside its world for {max(self._limit, WAITS):g} s"
+        return ""
+
+
+_start = threading.Lock()
 
 
 @contextlib.contextmanager
-def _alone() -> Iterator[None]:
-    """Within this block a process that begins does not import the caller's program as its own `__main__`.
+def _starting() -> Iterator[None]:
+    """Within this block, processes begin without importing the caller's program, and with one order of elements in sets.
 
-    So a program needs no `if __name__ == "__main__"`, and a notebook's kernel is none to be started again.
-    All workers also order the elements of sets alike.
+    The caller's `__main__` is what multiprocessing would import: a program without `if __name__ == "__main__"` would run once
+    more in each worker. And a worker of Dask's is a daemon, which must have no children otherwise; these end by themselves.
     """
-    with _starting:
-        main, hashes = sys.modules["__main__"], os.environ.get("PYTHONHASHSEED")
+    settings: dict[str, Any] = multiprocessing.current_process()._config  # type: ignore[attr-defined]
+    with _start:
+        main, hashes, daemon = sys.modules["__main__"], os.environ.get("PYTHONHASHSEED"), settings.get("daemon")
         sys.modules["__main__"] = ModuleType("__main__")
-        os.environ["PYTHONHASHSEED"] = "0"
+        os.environ["PYTHONHASHSEED"], settings["daemon"] = "0", False
         try:
             yield
         finally:
-            sys.modules["__main__"] = main
+            sys.modules["__main__"], settings["daemon"] = main, daemon
             if hashes is None:
                 del os.environ["PYTHONHASHSEED"]
             else:
                 os.environ["PYTHONHASHSEED"] = hashes
 
 
-def carry_out_here(setting: Setting, runs: Sequence[Run], jobs: int) -> Iterator[tuple[Run, Ending]]:
-    """Carry out runs on worker processes of this computer, as they end. A run whose worker died is tried once more, alone."""
-    died: list[Run] = []
-    for run, ending in _carry_out(setting, runs, jobs):
-        if ending.outcome == DIED:
-            died.append(run)
-        else:
-            yield run, ending
-    yield from _carry_out(setting, died, 1)
+class LocalPool:
+    """Some worker processes of this computer. They go on to wait for further runs until `close`."""
 
+    def __init__(self, setting: Setting, jobs: int) -> None:
+        self._workers = [Worker(setting) for _ in range(jobs)]
 
-def _carry_out(setting: Setting, runs: Sequence[Run], jobs: int) -> Iterator[tuple[Run, Ending]]:
-    waiting = deque(runs)
-    idle = [Worker(setting) for _ in range(min(jobs, len(runs)))]
-    workers = list(idle)
-    busy: dict[Future[Ending], tuple[Worker, Run]] = {}
-    try:
+    def carry_out(self, runs: Sequence[Run]) -> Iterator[tuple[Run, Ending]]:
+        """Carry out runs; one whose worker died is tried once more in the end, alone."""
+        died = []
+        for run, ending in self._carry_out(runs, self._workers):
+            if ending.outcome == DIED:
+                died.append(run)
+            else:
+                yield run, ending
+        yield from self._carry_out(died, self._workers[:1])
+
+    def _carry_out(self, runs: Sequence[Run], workers: Sequence[Worker]) -> Iterator[tuple[Run, Ending]]:
+        waiting, idle = deque(runs), deque(workers)
+        busy: dict[Future[Ending], tuple[Worker, Run]] = {}
+        looked = time.monotonic()
         while waiting or busy:
             while waiting and idle:
-                worker, run = idle.pop(), waiting.popleft()
+                worker, run = idle.popleft(), waiting.popleft()
                 busy[worker.submit(run)] = worker, run
             for future in wait(busy, timeout=LOOK, return_when=FIRST_COMPLETED).done:
                 worker, run = busy.pop(future)
                 idle.append(worker)
-                yield run, _ending(worker, future)
-    finally:
-        for worker in workers:
+                yield run, worker.ending(future)
+            if time.monotonic() > looked + LOOK:
+                looked = time.monotonic()
+                for worker, _ in busy.values():
+                    worker.look()
+
+    def close(self) -> None:
+        """End all workers, whatever they do."""
+        for worker in self._workers:
             worker.close()
 
 
-def _ending(worker: Worker, future: Future[Ending]) -> Ending:
-    try:
-        return future.result()
-    except BrokenProcessPool:
-        worker.close()
-        return Ending(DIED, error="the worker process ended in the middle of this run")
-
-
 def cores() -> int:
-    """How many cores this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    """How many cores this process may use: those that the system, a container or a hub gives it."""
+    limits = [len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1]
+    with contextlib.suppress(KeyError, ValueError):
+        limits.append(ceil(float(os.environ["CPU_LIMIT"])))  # JupyterHub's
+    with contextlib.suppress(OSError, ValueError):
+        quota, period = Path("/sys/fs/cgroup/cpu.max").read_text().split()
+        limits.append(ceil(int(quota) / int(period)))  # it may be "max"
+    return max(1, min(limits))

@@ -34,6 +34,10 @@ class NeverReturns(SimulationError):
     """A callback computes on and on and lets no time pass, so that nothing else can happen."""
 
 
+class OutOfTime(BaseException):
+    """The world has reached the end that was set for it; no `except Exception` has it go on."""
+
+
 class WorldClosed(SimulationError):
     """Something of an earlier world was used after `start()` had made a fresh one."""
 

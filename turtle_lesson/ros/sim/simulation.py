@@ -21,7 +21,7 @@ from typing import Any
 
 from greenlet import GreenletExit
 
-from .errors import SimulationError, WorldClosed
+from .errors import OutOfTime, SimulationError, WorldClosed
 from .interrupts import Guard
 from .keyboard import Keyboard
 from .strand import Cell, Face, LoopAside, Strand, running_greenlet, running_strand
@@ -32,6 +32,9 @@ EPOCH = 1_800_000_000 * NANOSECONDS
 
 CLOCK_READ = 1_000
 """What reading the clock costs in virtual time, in ns, so that a loop that only looks at the clock comes to an end."""
+
+NEVER = 2**63
+"""A virtual time (ns) that is not reached."""
 
 PATIENCE = 3
 """How often a strand that does not want to end is told to, when its world closes."""
@@ -60,6 +63,8 @@ class Simulation(Face):
         self._limit = 0
         self._halted = False
         self._raising = False
+        self.end = NEVER
+        """The virtual time (ns) that no run may pass: it ends there with OutOfTime."""
         self.thread = get_ident()
         self.work_until: float | None = None
         """The CPU time of the main thread (s) after which a learner's call that goes on is stopped; None: it may go on."""
@@ -154,6 +159,7 @@ class Simulation(Face):
             self.check_it_can_run()
             self.run_guarded(time)
             if not self._halted:
+                self._check_end(time)
                 self.now = time
         guard.raise_if_interrupted()
 
@@ -223,7 +229,7 @@ class Simulation(Face):
     def run_guarded(self, limit: int) -> None:
         """Run everything before `limit` (ns). The caller holds a Guard, so that no interrupt can come in between."""
         self._take_hub()
-        self._limit = limit
+        self._limit = min(limit, self.end)
         self._halted = False
         self.running = True
         with LoopAside():  # a simulated process is no part of Jupyter's event loop
@@ -233,6 +239,13 @@ class Simulation(Face):
                 self.running = False
                 self._limit = 0
                 self._leave()
+        if self._heap and not self._halted:
+            self._check_end(limit)
+
+    def _check_end(self, time: int) -> None:
+        if time > self.end:
+            self.now = self.end
+            raise OutOfTime(f"its world ended, at {self.end / NANOSECONDS:g} s of robot time")
 
     def scheduled(self) -> list[tuple[int, int, Callable[[Any], object], Any]]:
         """What `at` was asked for and has not happened yet, in its order: time (ns), a number, action, argument."""
