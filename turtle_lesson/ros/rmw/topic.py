@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import TYPE_CHECKING
 
 from .endpoint import INCOMPATIBLE_QOS, INCOMPATIBLE_TYPE, End
@@ -31,6 +32,7 @@ class Topic:
         self.conditions = network.of(name)
         self.writers: list[tuple[Writer, str]] = []
         self.readers: list[tuple[Reader, str]] = []
+        self._types: Counter[str] = Counter()
 
     @property
     def soon(self) -> int:
@@ -40,7 +42,7 @@ class Topic:
     @property
     def types(self) -> list[str]:
         """The type names in use here, sorted: more than one is a mistake that ROS allows between processes."""
-        return sorted({type_name for _, type_name in [*self.writers, *self.readers]})
+        return sorted(self._types)
 
     def has(self, writer: Writer) -> bool:
         """Whether a publisher is (still) here."""
@@ -56,12 +58,14 @@ class Topic:
     def add_writer(self, writer: Writer, type_name: str) -> None:
         """Let a new publisher meet the readers that are there."""
         self.writers.append((writer, type_name))
+        self._types[type_name] += 1
         for reader, reader_type in self.readers:
             _introduce(writer, reader, reader_type == type_name)
 
     def add_reader(self, reader: Reader, type_name: str) -> None:
         """Let a new subscription meet the writers that are there."""
         self.readers.append((reader, type_name))
+        self._types[type_name] += 1
         for writer, writer_type in self.writers:
             _introduce(writer, reader, writer_type == type_name)
 
@@ -69,6 +73,7 @@ class Topic:
         """Take a publisher or subscription away; messages under way to it are lost."""
         self.writers = [entry for entry in self.writers if entry[0] is not end]
         self.readers = [entry for entry in self.readers if entry[0] is not end]
+        self._types = Counter(type_name for _, type_name in (*self.writers, *self.readers))
         if isinstance(end, Writer):
             end.retire()
             for reader in end.readers:

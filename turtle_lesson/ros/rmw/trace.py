@@ -139,9 +139,9 @@ class Callback:
     process: int
     awaits: bool
     arrivals: deque[int] | None = None
-    open: deque[tuple[int, int]] = field(default_factory=deque)
+    open: list[tuple[int, int]] = field(default_factory=list)
     _newest: list[Run] = field(default_factory=list)
-    _packed: deque[bytes] = field(default_factory=lambda: deque(maxlen=LIMIT // CHUNK))
+    _packed: list[bytes] = field(default_factory=list)  # a deque takes half a kB while it is empty, as most stay
 
     def end_run(self, begun: tuple[int, int], now: int) -> None:
         """One of the open runs is over."""
@@ -154,6 +154,7 @@ class Callback:
         if len(newest) == CHUNK:
             self._packed.append(struct.pack(f"={3 * CHUNK}q", *chain.from_iterable(newest)))
             newest.clear()
+            del self._packed[: -(LIMIT // CHUNK)]
 
     @property
     def ended(self) -> list[Run]:

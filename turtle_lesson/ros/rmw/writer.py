@@ -67,11 +67,19 @@ class Writer(End):
     def arrange(self) -> None:
         """Decide again by which way each reader is served, and what else is done with each message."""
         for reader in self.readers:
-            if reader not in self._lines and self._wants_line(reader):
-                self._lines[reader] = self._line_to(reader)
-        for line in self._lines.values():
-            line.use(self.topic.conditions)
-        self._usual = tuple(reader for reader in self.readers if reader not in self._lines)
+            self._choose_way(reader)
+        self._plan()
+
+    def _choose_way(self, reader: Reader) -> None:
+        if reader not in self._lines and self._wants_line(reader):
+            self._lines[reader] = self._line_to(reader)
+        if reader in self._lines:
+            self._lines[reader].use(self.topic.conditions)
+
+    def _plan(self) -> None:
+        """Put together what is done with each message. Looks at the readers one by one only where some have lines."""
+        lines = self._lines
+        self._usual = tuple(reader for reader in self.readers if reader not in lines) if lines else self.readers
         steps: list[Callable[[Any], object]] = []
         if self._kept is not None:
             steps.append(self._keep)
@@ -144,7 +152,8 @@ class Writer(End):
     def meet(self, reader: Reader) -> None:
         """Send to this reader, too: from now on, and what has been kept for those who join late."""
         self.readers = (*self.readers, reader)
-        self.arrange()
+        self._choose_way(reader)
+        self._plan()
         for end in (self, reader):
             end.will_happen(MATCHED, (1, 1))
         reader.will_happen(LIVELINESS, (1, 0) if self.alive else (0, 1))
@@ -169,7 +178,7 @@ class Writer(End):
             line.close()
         elif line is not None:
             line.linger()
-        self.arrange()
+        self._plan()
         for end in (self, reader):
             end.will_happen(MATCHED, (0, -1))
         reader.will_happen(LIVELINESS, (-1, 0) if self.alive else (0, -1))

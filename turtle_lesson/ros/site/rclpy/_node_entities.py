@@ -130,6 +130,8 @@ class NodeEntities(NodeGraph):
     def _ros_check_one_type(self, what: str, full_name: str, msg_type: Any) -> None:
         """Within one process ROS refuses a second type on a topic; between processes it only never connects."""
         topic = self._ros_graph.topic(full_name)
+        if topic.types in ([], [msg_type._TYPE_NAME]):
+            return
         ends: list[tuple[Any, str]] = [*topic.writers, *topic.readers]
         for end, type_name in ends:
             if end.node.process is self._ros_entry.process and type_name != msg_type._TYPE_NAME:

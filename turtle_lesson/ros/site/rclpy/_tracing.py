@@ -42,7 +42,7 @@ def trace_entity(entity: Any, node: Node, trace: Trace) -> None:
     entity._traced = Callback(entry.full_name, name, kind, source, period, entry.process.pid, entity._is_async)
     trace.callbacks.append(entity._traced)
     if end is not None:  # note beside each message or request that waits when it came
-        arrivals = deque([trace.simulation.now] * len(end.queue), maxlen=end.queue.maxlen)
+        arrivals = deque([trace.simulation.now] * len(end.queue), maxlen=getattr(end.queue, "maxlen", None))
         end.arrivals = entity._traced.arrivals = arrivals
         getattr(end, "beside", []).append(arrivals)  # or what expires in the queue would leave its time behind
 

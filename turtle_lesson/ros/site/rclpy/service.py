@@ -58,7 +58,7 @@ class Service(Entity):
 
     def _take(self) -> tuple[Any, ...]:
         queue = self._server.queue
-        request = queue.popleft()
+        request = queue.pop(0)
         if queue:
             self._signal()
         message = request.message
