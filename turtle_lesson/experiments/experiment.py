@@ -5,13 +5,37 @@ from __future__ import annotations
 import inspect
 import itertools
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import closing
+from contextvars import ContextVar
+from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from ..lab.words import did_you_mean, enumerated
-from .one_run import ExperimentError, Run
+from ..ros.distro import chosen_release
+from ..ros.sim.strand import running_strand
+from ..session.lesson import START_ORDERS
+from ..session.packages import package_folder
+from . import one_run
+from .one_run import OK, PLAIN, Ending, ExperimentError, Run, name_of
 from .payload import setting_for
-from .pools import LocalPool, cores
+from .pools import LocalPool, Pool, cores
+from .progress import bar
 from .results import Results
+
+MOST_JOBS = 512
+
+
+@dataclass(frozen=True)
+class Defaults:
+    """What `turtle-lesson run` says for the experiments of a script."""
+
+    jobs: int | None = None
+    finished: Callable[[Results], object] = lambda results: None
+    """Is given each table."""
+
+
+defaults: ContextVar[Defaults] = ContextVar("defaults", default=Defaults())  # noqa: B039  # it never changes
 
 
 def experiment(
@@ -27,56 +51,184 @@ def experiment(
     robot_time: float = 600.0,
     cpu_time: float = 60.0,
     until: str | None = None,
-    resume: Any = None,
+    resume: str | Path | None = None,
     progress: bool | None = None,
     **parameters: Any,
 ) -> Results:
-    """Call `function(lesson, **parameters)` in a fresh world for each seed and combination of parameter values."""
+    """Call `function(lesson, **parameters)` in a fresh world for each seed and each combination of parameter values.
+
+    The runs are numbered in the order of the parameters, the seeds innermost, and the table is in that order: it is the same
+    for any number of workers. A run that raises an error, takes too long or kills its worker is a row that says so. The stop
+    button, or Ctrl-C, ends the experiment; the rows that are there are returned.
+
+    Args:
+        function: such as `def drive(lesson, gain): …`, also of a cell; it returns a dict of numbers and texts, or nothing.
+        seeds: one world each; see `start`.
+        jobs: how many worker processes there are; None: one for each core that may be used.
+        client: a `dask.distributed.Client`, or the address of a scheduler, to use a cluster instead.
+        package, distro, start_order: as for `start`; a list of several is swept as parameters are.
+        simulator: as for `start`.
+        robot_time, cpu_time: how many seconds a run may take, of robot time and of computing.
+        until: "failure" carries out runs in order until one fails, and looks for the smallest change that still fails.
+        resume: a file of `results.save(…)`: runs that are in it are not carried out again.
+        progress: whether a bar is shown; None: in a live notebook and in a terminal.
+        parameters: by name, a list of values to sweep, or a single one. The function's own defaults hold for all others.
+
+    Raises ExperimentError, a ValueError, for an experiment that cannot be carried out.
+    """
+    _check_place()
     runs, swept = plan(function, seeds, parameters, package=package, distro=distro, start_order=start_order)
+    _check_limits(jobs, robot_time=robot_time, cpu_time=cpu_time)
     setting = setting_for(function, runs, simulator=simulator, robot_time=robot_time, cpu_time=cpu_time)
-    pool = LocalPool(setting, min(jobs or cores(), len(runs)))
+    with closing(open_pool(setting, len(runs), jobs, client)) as pool:
+        endings = carry_out(pool, runs, progress)
+    results = Results.of(endings, swept, function=function, setting=setting, missing=len(runs) - len(endings))
+    defaults.get().finished(results)
+    return results
+
+
+def open_pool(setting: one_run.Setting, runs: int, jobs: int | None = None, client: Any = None) -> Pool:
+    """What carries out so many runs: a cluster, or worker processes of this computer."""
+    if client is not None:
+        from .cluster import ClusterPool
+
+        return ClusterPool(setting, client)
+    return LocalPool(setting, min(jobs or defaults.get().jobs or cores(), runs))
+
+
+def carry_out(pool: Pool, runs: Sequence[Run], progress: bool | None) -> list[tuple[Run, Ending]]:
+    """Carry out runs; those that were over when the user interrupted."""
+    done: list[tuple[Run, Ending]] = []
     try:
-        endings = list(pool.carry_out(runs))
-    finally:
-        pool.close()
-    return Results.of(endings, swept, function=function, setting=setting)
+        with bar(len(runs), progress) as told:
+            for run, ending in pool.carry_out(runs):
+                done.append((run, ending))
+                told(ending.outcome != OK)
+    except KeyboardInterrupt:
+        print(
+            f"Stopped: {len(done)} of {len(runs)} runs were over. They are in the table; resume= goes on from a saved one."
+        )
+    return done
+
+
+# -- the plan ------------------------------------------------------------------------------------------------------------
 
 
 def plan(
     function: Callable[..., Any], seeds: Iterable[int], parameters: dict[str, Any], **options: Any
 ) -> tuple[list[Run], list[str]]:
-    """The runs of an experiment in their order, and the names of what is swept: parameters first to last, seeds innermost."""
-    _check_names(function, parameters)
+    """The runs of an experiment in their order, and the names of what is swept. Raises ExperimentError."""
+    _check_function(function, parameters)
     lists = {name: values for name, values in options.items() if isinstance(values, (list, tuple))}
-    swept = {name: _values(values) for name, values in {**lists, **parameters}.items()}
+    swept = {name: _values(name, values) for name, values in {**lists, **parameters}.items()}
     fixed = {name: value for name, value in options.items() if name not in lists}
-    seeds = [int(seed) for seed in seeds]
-    if not seeds:
-        raise ExperimentError("there are no seeds, so there is nothing to run: try seeds=range(10)")
+    for name in options:
+        for value in swept.get(name, [fixed.get(name)]):
+            _check_option(name, value)
     runs = []
-    for number, (*values, seed) in enumerate(itertools.product(*swept.values(), seeds)):
+    for number, (*values, seed) in enumerate(itertools.product(*swept.values(), _seeds(seeds))):
         given = dict(zip(swept, values, strict=True))
         mine = {name: value for name, value in given.items() if name in parameters}
-        runs.append(Run(number, seed, mine, **fixed, **{name: given[name] for name in lists}))
+        world = fixed | {name: given[name] for name in lists}
+        if isinstance(world.get("package"), Path):
+            world["package"] = str(world["package"])
+        runs.append(Run(number, seed, mine, **world))
     return runs, list(swept)
 
 
-def _values(values: Any) -> Sequence[Any]:
-    """The values to sweep: those of a list, range or array; a single value is a sweep of one."""
+def _seeds(seeds: Any) -> list[int]:
+    try:
+        found = [] if isinstance(seeds, (str, bytes)) else [_plain(seed) for seed in seeds]
+    except TypeError:
+        found = [seeds]
+        seeds = None
+    if seeds is None or any(isinstance(seed, bool) or not isinstance(seed, int) for seed in found):
+        shown = found[0] if seeds is None else seeds
+        raise ExperimentError(f"seeds must be a list or range of whole numbers, got {shown!r:.80}: try seeds=range(10)")
+    if not found:
+        raise ExperimentError("there are no seeds, so there is nothing to run: try seeds=range(10)")
+    return found
+
+
+def _values(name: str, values: Any) -> list[Any]:
+    """The values to sweep: those of a list, a range or an array; a single value is a sweep of one."""
     if hasattr(values, "tolist"):
         values = values.tolist()
-    return list(values) if isinstance(values, (list, tuple, range)) else [values]
+    found = [_plain(value) for value in (values if isinstance(values, (list, range)) else [values])]
+    if not found:
+        raise ExperimentError(f"{name} has no values, so there is nothing to run: try {name}=[1.0, 2.0]")
+    return found
 
 
-def _check_names(function: Callable[..., Any], parameters: Iterable[str]) -> None:
-    name = getattr(function, "__name__", "the function")
+def _plain(value: Any) -> Any:
+    """A value as a table holds it: numbers of Python's own, tuples instead of lists."""
+    if isinstance(value, (list, tuple)):
+        return tuple(map(_plain, value))
+    return value.item() if hasattr(value, "item") and getattr(value, "ndim", None) == 0 else value
+
+
+# -- what is asked for ---------------------------------------------------------------------------------------------------
+
+
+def _check_place() -> None:
+    if running_strand() is not None:
+        raise ExperimentError("a simulated program cannot carry out an experiment: call it in a cell or a script")
+    if one_run.is_worker():
+        raise ExperimentError("a run of an experiment cannot carry out an experiment of its own")
+
+
+def _check_function(function: Callable[..., Any], parameters: dict[str, Any]) -> None:
     if not callable(function):
         raise ExperimentError(f"an experiment needs a function such as `def drive(lesson): …`, got {function!r:.80}")
-    accepted = inspect.signature(function).parameters
-    if any(each.kind is inspect.Parameter.VAR_KEYWORD for each in accepted.values()):
-        return
-    known = list(accepted)[1:]
+    name, kinds = name_of(function), inspect.Parameter
+    accepted = list(inspect.signature(function).parameters.values())
+    if not accepted or accepted[0].kind not in (
+        kinds.POSITIONAL_ONLY,
+        kinds.POSITIONAL_OR_KEYWORD,
+        kinds.VAR_POSITIONAL,
+    ):
+        raise ExperimentError(f"{name} must take the lesson as its first parameter: def {name}(lesson): …")
+    known = [each.name for each in accepted[1:] if each.kind in (kinds.POSITIONAL_OR_KEYWORD, kinds.KEYWORD_ONLY)]
+    own = [each for each in known if each in inspect.signature(experiment).parameters]
+    if own:
+        raise ExperimentError(f"{name} has a parameter {own[0]!r}, as experiment() itself has: give it another name")
     for each in parameters:
-        if each not in known:
-            guess = did_you_mean(each, known) or f"Its parameters are {enumerated(known)}."
-            raise ExperimentError(f"{name} has no parameter {each!r}. {guess}")
+        if each not in known and accepted[-1].kind is not kinds.VAR_KEYWORD:
+            there = did_you_mean(each, known) or f"It has {enumerated(known)}."
+            raise ExperimentError(f"{name} has no parameter {each!r}. {there}")
+    for parameter in accepted[1:]:
+        if parameter.name in known and parameter.default is kinds.empty and parameter.name not in parameters:
+            raise ExperimentError(
+                f"{name} needs a value of {parameter.name!r}: add {parameter.name}=[…] with the values to try"
+            )
+    for each, values in parameters.items():
+        for value in _values(each, values):
+            if not _is_plain(value):
+                raise ExperimentError(
+                    f"{each} must be numbers, texts, True, False, None or tuples of these, got {value!r:.80} "
+                    f"({type(value).__name__})"
+                )
+
+
+def _is_plain(value: Any) -> bool:
+    return all(map(_is_plain, value)) if isinstance(value, tuple) else isinstance(value, PLAIN)
+
+
+def _check_option(name: str, value: Any) -> None:
+    try:
+        if name == "package" and value != "mine":
+            package_folder(value)
+        elif name == "distro":
+            chosen_release(value)
+        elif name == "start_order" and value not in START_ORDERS:
+            raise ValueError(f"start_order must be {' or '.join(map(repr, START_ORDERS))}, got {value!r}")
+    except ValueError as error:
+        raise ExperimentError(str(error)) from None
+
+
+def _check_limits(jobs: Any, **limits: Any) -> None:
+    if jobs is not None and (isinstance(jobs, bool) or not isinstance(jobs, int) or not 1 <= jobs <= MOST_JOBS):
+        raise ExperimentError(f"jobs must be a whole number from 1 to {MOST_JOBS}, got {jobs!r}")
+    for name, seconds in limits.items():
+        if isinstance(seconds, bool) or not isinstance(seconds, (int, float)) or not 0 < seconds <= 1e9:
+            raise ExperimentError(f"{name} must be a number of seconds above 0, got {seconds!r}")

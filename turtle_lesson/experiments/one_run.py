@@ -16,10 +16,12 @@ import threading
 import zlib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
+from importlib import import_module
 from multiprocessing import parent_process
 from pathlib import Path
 from traceback import format_exception_only
 from typing import TYPE_CHECKING, Any
+from uuid import uuid4
 
 from ..ros.sim import errors
 from ..ros.sim.simulation import NANOSECONDS
@@ -32,8 +34,13 @@ if TYPE_CHECKING:
 OK, RAISED, ROBOT_TIME, CPU_TIME, DIED = "ok", "raised", "robot time", "CPU time", "worker died"
 """How a run can end."""
 
+VERSION: str = import_module("turtle_lesson").__version__  # the package itself imports no room before it is used
+
 STACK = "stack"
 """The file in a worker's folder to which it writes where it is, when it is asked by SIGUSR1."""
+
+PLAIN = (bool, int, float, str, type(None))
+"""The types of what a table holds."""
 
 TAIL = 4000
 """How many characters of what a failed run has printed are kept."""
@@ -58,6 +65,8 @@ class Setting:
     """By the folder that a run names as its `package`, where it is in the folder of a run."""
     sources: dict[str, str] = field(default_factory=dict)
     """The texts of the notebook's cells and the learner's files, by file name, for tracebacks."""
+    key: str = field(default_factory=lambda: uuid4().hex)
+    """What tells this experiment from others."""
 
 
 @dataclass(frozen=True)
@@ -146,7 +155,7 @@ def plain_values(function: Callable[..., Any], returned: Any) -> dict[str, Any]:
             raise TypeError(f"{name} must name what it returns by texts, got {key!r:.80}")
         if hasattr(value, "item") and getattr(value, "ndim", None) == 0:
             value = value.item()  # a number of numpy's
-        if not (value is None or isinstance(value, (bool, int, float, str))):
+        if not isinstance(value, PLAIN):
             raise TypeError(
                 f"{name} must return numbers, texts, True, False or None, got {key!r}: {value!r:.80} "
                 f"({type(value).__name__}), which has no place in a table"
@@ -213,6 +222,11 @@ def begin(setting: Setting, folder: Path) -> None:
     Notebook.is_learners = staticmethod(errors.is_learners)
     os.environ["TURTLE_LESSON_PROGRESS"] = "off"
     _worker = _Worker(setting, folder)
+
+
+def is_worker() -> bool:
+    """Whether this process is a worker."""
+    return _worker is not None
 
 
 def _end_with_parent() -> None:

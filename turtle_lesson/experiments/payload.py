@@ -17,12 +17,10 @@ from typing import Any
 
 from ..ros.runtime.files import home
 from ..ros.sim.errors import is_learners
-from .one_run import ExperimentError, Run, Setting, name_of
+from .one_run import PLAIN, ExperimentError, Run, Setting, name_of
 
 MADE = ("build", "install", "log", "kept")
 """Folders of a workspace that are made from the others: each worker builds by itself."""
-
-PLAIN = (bool, int, float, complex, str, bytes, type(None))
 
 
 def setting_for(function: Callable[..., Any], runs: Iterable[Run], **limits: Any) -> Setting:

@@ -65,6 +65,7 @@ class Worker:
         self._folder = Path()
         self._watch: _Watch | None = None
         self._verdict: Ending | None = None
+        self._ended = False
 
     def submit(self, run: Run) -> Future[Ending]:
         """Have it carry out a run; `ending` says what came of the future."""
@@ -76,6 +77,17 @@ class Worker:
                 self._pool = ProcessPoolExecutor(1, spawn, one_run.begin, (self._setting, self._folder))
                 self._pid = self._pool.submit(os.getpid)
             return self._pool.submit(one_run.carry_out, run)
+
+    def carry_out(self, run: Run) -> Ending:
+        """Carry out a run, and wait for its end; if the process dies, it is tried once more."""
+        ending = Ending(DIED)
+        for _ in range(2):
+            if ending.outcome == DIED and not self._ended:
+                future = self.submit(run)
+                while not wait([future], LOOK).done:
+                    self.look()
+                ending = self.ending(future)
+        return ending
 
     def look(self) -> None:
         """Kill the process if its run has computed, or waited, for longer than it may."""
@@ -106,6 +118,11 @@ class Worker:
                 os.kill(self._pid.result(timeout=60), _KILL)
             pool.shutdown(cancel_futures=True)
             shutil.rmtree(self._folder, ignore_errors=True)
+
+    def end(self) -> None:
+        """End the process for good, from another thread than the one that waits for it."""
+        self._ended = True
+        self.close()
 
     def _where(self) -> str:
         """Where its main thread is, as the end of a traceback; "" where the system cannot tell."""

@@ -1,0 +1,152 @@
+"""The same runs on a cluster of dask.distributed: each of its workers has worker processes as they are used on one computer.
+
+A run gets a process of its own there, too: a world needs the main thread and a current folder, and Dask's tasks are threads.
+If one of Dask's workers dies, Dask has its runs carried out by another one.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import platform
+import socket
+import threading
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+from .one_run import DIED, VERSION, Ending, ExperimentError, Run, Setting
+from .pools import Worker
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+PATIENCE = 10.0
+"""Seconds of real time within which a scheduler answers."""
+
+FIRST_WORKER = 60.0
+"""Seconds of real time within which a cluster has its first worker."""
+
+
+class ClusterPool:
+    """A cluster that carries out runs: `client` is a `dask.distributed.Client`, a cluster, or the address of a scheduler."""
+
+    def __init__(self, setting: Setting, client: Any) -> None:
+        self._client, self._is_own = _connected(client)
+        self._key = setting.key
+        self._futures: list[Any] = []
+        try:
+            _check_workers(self._client)
+        except BaseException:
+            self.close()
+            raise
+        # a task, and nothing scattered: Dask makes it once more if the only worker that has it dies
+        self._setting = self._client.submit(_itself, setting, pure=False)
+
+    def carry_out(self, runs: Sequence[Run]) -> Iterator[tuple[Run, Ending]]:
+        """Carry out runs; they come in the order in which they end."""
+        from distributed import KilledWorker, as_completed
+
+        self._futures = self._client.map(_carry_out_there, runs, setting=self._setting, pure=False)
+        of = dict(zip((future.key for future in self._futures), runs, strict=True))
+        for future in as_completed(self._futures):
+            try:
+                ending = future.result()
+            except KilledWorker:
+                ending = Ending(DIED, error="several workers of the cluster died in the middle of this run")
+            yield of[future.key], ending
+
+    def close(self) -> None:
+        """End what goes on, and the connection if it was made here."""
+        with contextlib.suppress(Exception):  # a cluster that is gone has nothing to end
+            self._client.cancel(self._futures)
+            self._client.run(_end_there, self._key, on_error="ignore")
+        self._futures = []
+        if self._is_own:
+            self._client.close()
+
+
+def _connected(client: Any) -> tuple[Client, bool]:
+    """A client, and whether it was made here. Raises ExperimentError where there is none to be had."""
+    try:
+        from distributed import Client
+        from distributed.comm.addressing import get_address_host_port
+    except ImportError:
+        raise ExperimentError(
+            "client= needs dask.distributed, which is not installed here: pip install turtle-lesson[cluster]"
+        ) from None
+    if isinstance(client, Client):
+        if client.status != "running":
+            raise ExperimentError(
+                f"this client is {client.status}, so it has no cluster any more: make a new Client(…)"
+            )
+        if client.asynchronous:
+            raise ExperimentError(
+                "client= needs a client that waits for answers: make it by Client(…) without asynchronous=True"
+            )
+        return client, False
+    try:
+        if isinstance(client, str):  # a Client that cannot connect complains once more when it is collected
+            with socket.create_connection(get_address_host_port(client), PATIENCE):
+                pass
+        return Client(client, timeout=PATIENCE, set_as_default=False), True
+    except (OSError, ValueError, TypeError) as error:
+        raise ExperimentError(
+            f'no scheduler of Dask answers at {client!r} ({error}). An address looks like "tcp://10.0.0.1:8786"; '
+            "`dask scheduler` prints its own"
+        ) from None
+
+
+def _check_workers(client: Client) -> None:
+    """Raise ExperimentError for a cluster without workers, or with workers that lack what runs need."""
+    try:
+        client.wait_for_workers(1, timeout=FIRST_WORKER)
+    except TimeoutError:
+        raise ExperimentError(f"the cluster has no workers, and none came within {FIRST_WORKER:g} s") from None
+    try:
+        there = client.run(_about)
+    except Exception as error:
+        raise ExperimentError(
+            f"the cluster's workers cannot import turtle_lesson ({error}): install {_about()} there"
+        ) from None
+    mine = _about()
+    for address, about in there.items():
+        if about != mine:
+            raise ExperimentError(f"the worker {address} has {about}, and this notebook {mine}: they must be the same")
+
+
+# -- on a worker of the cluster ------------------------------------------------------------------------------------------
+
+_change = threading.Lock()
+_idle: dict[str, list[Worker]] = {}
+_all: dict[str, list[Worker]] = {}
+"""By experiment, the worker processes that are kept here."""
+
+
+def _itself(setting: Setting) -> Setting:
+    return setting
+
+
+def _about() -> str:
+    return f"turtle_lesson {VERSION} on Python {'.'.join(platform.python_version_tuple()[:2])}"
+
+
+def _carry_out_there(run: Run, setting: Setting) -> Ending:
+    """Carry out a run in a process of this worker's."""
+    with _change:
+        idle = _idle.setdefault(setting.key, [])
+        if not idle:
+            idle.append(Worker(setting))
+            _all.setdefault(setting.key, []).append(idle[0])
+        worker = idle.pop()
+    try:
+        return worker.carry_out(run)
+    finally:
+        with _change:
+            idle.append(worker)
+
+
+def _end_there(key: str) -> None:
+    with _change:
+        workers = _all.pop(key, [])
+        _idle.pop(key, None)
+    for worker in workers:
+        worker.end()
