@@ -51,7 +51,7 @@ class CellNodes:
 
     def run_until(self, end: int) -> None:
         """Go on until `end` (ns of robot time). Raises what a callback raises; then not all of that time has passed."""
-        if not self._spin(end):
+        if self._world.sim.stepped is not None or not self._spin(end):  # what is stepped spins its nodes itself
             self._world.sim.run_until(end)
 
     def _spin(self, end: int) -> bool:

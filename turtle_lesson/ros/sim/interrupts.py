@@ -71,7 +71,8 @@ class Guard:
         self.interrupted = False
         self._previous: Any = None
         self._outer: Guard | None = None
-        self._active = _thread.get_ident() == _main_thread.ident
+        stepped = simulation.stepped  # what is run step by step is guarded by the one that steps it
+        self._active = _thread.get_ident() == _main_thread.ident and (stepped is None or not stepped.runs_here)
 
     def __enter__(self) -> Guard:
         if self._active:
@@ -194,6 +195,11 @@ class Watchdog:
                     self._wanted.set()
         return before
 
+    @property
+    def interrupted(self) -> bool:
+        """Whether the user has interrupted the run that is watched."""
+        return self._guard is not None and self._guard.interrupted
+
     def start(self) -> None:
         """Have the thread run."""
         if self._thread is None:
@@ -230,7 +236,11 @@ class Watchdog:
 
     def _look_at(self, guard: Guard) -> None:
         state, now, work = (guard.simulation.now, guard.interrupted), _monotonic(), work_done()
-        if state != guard.seen or _is_excused(sys._current_frames().get(_main_thread.ident or 0)):
+        stepped = guard.simulation.stepped
+        excused = (
+            stepped is not None and stepped.computes and not guard.interrupted
+        )  # it may compute for as long as a cell
+        if state != guard.seen or excused or _is_excused(sys._current_frames().get(_main_thread.ident or 0)):
             guard.seen, guard.since, guard.computed = state, now, work
         waited, computed = now - guard.since, work - guard.computed
         waiting = computed < WAITING * waited

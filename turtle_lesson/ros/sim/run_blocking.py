@@ -49,8 +49,7 @@ class Call:
         except BaseException as error:
             self.error = error
         self.done = True
-        if self.simulation.driven is self.strand:
-            self.simulation.halt()
+        self.simulation.call_done(self.strand)
 
     def give_up(self, error: BaseException) -> None:
         """Raise `error` where the call waits; if it goes on waiting all the same, it is never run again."""

@@ -17,7 +17,7 @@ from collections.abc import Callable
 from contextvars import copy_context
 from heapq import heappop, heappush
 from types import FrameType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from greenlet import GreenletExit
 
@@ -25,6 +25,9 @@ from .errors import OutOfTime, SimulationError, WorldClosed
 from .interrupts import Guard
 from .keyboard import Keyboard
 from .strand import Cell, Face, LoopAside, Strand, running_greenlet, running_strand
+
+if TYPE_CHECKING:
+    from .stepped_call import SteppedCall
 
 NANOSECONDS = 1_000_000_000
 EPOCH = 1_800_000_000 * NANOSECONDS
@@ -71,6 +74,8 @@ class Simulation(Face):
         self.suspect: FrameType | None = None
         """The call that went on when that was last looked at."""
         self.driven: Strand | None = None
+        self.stepped: SteppedCall | None = None
+        """A function that runs the simulation and is itself run step by step."""
         self._cell = Cell(copy_context())
         self._for_the_hub: deque[tuple[Callable[..., object], tuple[Any, ...]]] = deque()
         self._strands: weakref.WeakSet[Strand] = weakref.WeakSet()
@@ -157,10 +162,7 @@ class Simulation(Face):
             raise SimulationError(f"cannot run back in time: it is {self.now} ns, asked for {time} ns")
         with Guard(self) as guard:
             self.check_it_can_run()
-            self.run_guarded(time)
-            if not self._halted:
-                self._check_end(time)
-                self.now = time
+            self.run_guarded(time, time_passes=True)
         guard.raise_if_interrupted()
 
     def settle(self) -> None:
@@ -226,8 +228,18 @@ class Simulation(Face):
                 "with loop.call_soon_threadsafe"
             )
 
-    def run_guarded(self, limit: int) -> None:
-        """Run everything before `limit` (ns). The caller holds a Guard, so that no interrupt can come in between."""
+    def run_guarded(self, limit: int, *, time_passes: bool = False) -> None:
+        """Run everything before `limit` (ns), and let it be `limit` then if time passes by itself.
+
+        The caller holds a Guard, so that no interrupt can come in between.
+        """
+        if self.stepped is None:
+            self.run_events(limit, time_passes)
+        else:
+            self.stepped.run(limit, time_passes)
+
+    def run_events(self, limit: int, time_passes: bool) -> None:
+        """What `run_guarded` does where nothing is run step by step."""
         self._take_hub()
         self._limit = min(limit, self.end)
         self._halted = False
@@ -239,10 +251,13 @@ class Simulation(Face):
                 self.running = False
                 self._limit = 0
                 self._leave()
-        if self._heap and not self._halted:
-            self._check_end(limit)
+        if not self._halted and (time_passes or self._heap):
+            self.check_end(limit)
+        if time_passes and not self._halted:
+            self.now = limit
 
-    def _check_end(self, time: int) -> None:
+    def check_end(self, time: int) -> None:
+        """Raise OutOfTime at the world's end if it was to run until `time` (ns)."""
         if time > self.end:
             self.now = self.end
             raise OutOfTime(f"its world ended, at {self.end / NANOSECONDS:g} s of robot time")
@@ -260,6 +275,27 @@ class Simulation(Face):
     def busy(self) -> bool:
         """Whether anything is going to happen at all."""
         return bool(self._heap)
+
+    def has_events_before(self, time: int) -> bool:
+        """Whether anything is going to happen before `time` (ns), as far as is known now."""
+        return bool(self._heap) and self._heap[0][0] < time
+
+    @property
+    def halted(self) -> bool:
+        """Whether the last run was ended before its time, by `halt`."""
+        return self._halted
+
+    def show_cell_to(self, line: Any) -> None:
+        """Have a greenlet that is about to go on print to the cell that runs now."""
+        self._cell = self._cell.now()
+        self._cell.show_to(line)
+
+    def call_done(self, strand: Strand) -> None:
+        """A blocking call has returned: whoever waits for it goes on."""
+        if self.stepped is not None:
+            self.stepped.call_done(strand)
+        if self.driven is strand:
+            self.halt()
 
     def _take_hub(self) -> None:
         """The greenlet that runs now becomes the hub. Strands end where their parent goes on: there, too."""
