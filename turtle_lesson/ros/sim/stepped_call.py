@@ -10,15 +10,14 @@ Whatever else runs the simulation meanwhile (another cell, live mode, a button o
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
-from pathlib import Path
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from typing import TYPE_CHECKING, Any
 
+from . import interrupts
 from .errors import WorldClosed
-from .interrupts import Guard, watchdog
+from .interrupts import Guard
 from .strand import GreenletExit, LoopAside, Strand, greenlet, running_greenlet
 
 if TYPE_CHECKING:
@@ -37,25 +36,34 @@ _undead: list[SteppedCall] = []
 class SteppedCall:
     """A call of `function`, which has not begun yet. There is one at a time in a simulation.
 
+    `around` makes what surrounds each of its pieces, and what the world does meanwhile: it sets what the function should find,
+    and puts it back for the caller.
+
     Attributes:
         done: whether it has returned or raised.
         value, error: what it returned, or what it raised.
     """
 
-    def __init__(self, simulation: Simulation, function: Callable[[], Any], folder: Path | None = None) -> None:
+    def __init__(
+        self,
+        simulation: Simulation,
+        function: Callable[[], Any],
+        around: Callable[[], AbstractContextManager[object]] = nullcontext,
+    ) -> None:
         self.simulation = simulation
         self.function = function
         self.done = False
         self.value: Any = None
         self.error: BaseException | None = None
+        self._around = around
         self._greenlet: Any = greenlet(self._call)
-        self._begun = self._waits = self._met = False
-        # begun: it has been switched to; waits: it has asked for a run; met: that has happened, or a call has returned
+        self._begun = False
+        self._waits = False  # it has asked for a run …
+        self._met = False  # … and that is over, or the call for whose sake it was has returned
         self._limit = 0
         self._passes = False
         self._driven: Strand | None = None
-        self._own: dict[str, Any] = {}
-        self._folder = folder
+        self._streams: dict[str, Any] = {}
         self._refusals: int | None = None
         simulation.stepped = self
 
@@ -142,14 +150,14 @@ class SteppedCall:
             while True:
                 if not self._waits or self._met:
                     self._switch(driven)
-                    if watchdog.interrupted or (self.done and only_to_its_end):
+                    if interrupts.watchdog.interrupted or (self.done and only_to_its_end):
                         return
                 if self.done:
                     simulation.run_events(limit, time_passes)
                     return
                 until = min(limit, self._limit)
                 simulation.run_events(until, False)
-                if watchdog.interrupted:
+                if interrupts.watchdog.interrupted:
                     return
                 self._met = self._met or self._is_met(until)
                 if not self._met:
@@ -182,30 +190,14 @@ class SteppedCall:
 
     @contextmanager
     def _surroundings(self) -> Iterator[None]:
-        """Within this block the function's streams and current folder hold; after it, those of the caller."""
-        before = {name: getattr(sys, name) for name in STREAMS}
-        folder = _current_folder()
-        driven = self.simulation.driven
-        for name, value in self._own.items():
-            setattr(sys, name, value)
-        if self._folder is not None:
-            os.chdir(self._folder)
+        """Within this block the function's streams hold, and what else surrounds it; after it, those of the caller."""
+        before, driven = {name: getattr(sys, name) for name in STREAMS}, self.simulation.driven
+        vars(sys).update(self._streams)
         self.simulation.driven = driven or self._driven
         try:
-            yield
+            with self._around():
+                yield
         finally:
             self.simulation.driven = driven
-            self._own = {name: getattr(sys, name) for name in STREAMS if getattr(sys, name) is not before[name]}
-            for name, value in before.items():
-                setattr(sys, name, value)
-            here = _current_folder()
-            if here != folder:
-                self._folder = here
-                if folder is not None:
-                    os.chdir(folder)
-
-
-def _current_folder() -> Path | None:
-    with suppress(FileNotFoundError):
-        return Path.cwd()
-    return None
+            self._streams = {name: getattr(sys, name) for name in STREAMS if getattr(sys, name) is not before[name]}
+            vars(sys).update(before)
