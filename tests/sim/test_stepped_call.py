@@ -24,8 +24,8 @@ from turtlesim.srv import TeleportAbsolute
 
 from turtle_lesson import Lesson, start
 from turtle_lesson.ros.runtime.world import open_world
-from turtle_lesson.ros.sim import interrupts
-from turtle_lesson.ros.sim.errors import NeverWakes, WorldClosed
+from turtle_lesson.ros.sim import interrupts, run_blocking
+from turtle_lesson.ros.sim.errors import NeverWakes, OutOfTime, WorldClosed
 from turtle_lesson.ros.sim.stepped_call import SteppedCall
 
 SECOND = 1_000_000_000
@@ -69,7 +69,7 @@ def trace(lesson: Lesson) -> list[object]:
         [(each.node, each.name, each.ended, list(each.open)) for each in noted.callbacks],
         [(each.service, each.asked, each.received, each.answered, each.told) for each in noted.calls],
         list(noted.log),
-        lesson._recording.poses.tolist() if hasattr(lesson._recording, "poses") else None,
+        lesson._recording.poses.array().tolist(),
         lesson._world.now,
     ]
 
@@ -122,18 +122,14 @@ def test_neither_do_a_dashboard_and_what_else_runs_the_world(without_steps: tupl
 
 def test_a_blocking_call_of_another_cell_steps_it_too(without_steps: tuple[list[object], list[object]]) -> None:
     lesson, call = stepped(drive, seed=3)
+    world = lesson._world
     call.go_on(SECOND)
-    other = lesson._world.spawn(lambda: time.sleep(1.05), name="other")
-    with pytest.raises(NeverWakes):
-        from turtle_lesson.ros.sim.run_blocking import drive as wait
-
-        wait(lesson._world.sim, other, lambda: threading.Lock().acquire() and threading.Lock().acquire() and never())
-    call.go_on(100 * SECOND)
+    while not call.done:
+        before = world.now
+        run_blocking.drive(world.sim, world.notebook, time.sleep, 0.23)
+        assert world.now == before + 230_000_000
     assert call.value == without_steps[0]
-
-
-def never() -> None:
-    raise NeverWakes("as said")
+    assert trace(lesson)[2] == without_steps[1][2]
 
 
 def test_what_nothing_can_end_fails_at_the_same_instant() -> None:
@@ -143,10 +139,9 @@ def test_what_nothing_can_end_fails_at_the_same_instant() -> None:
         lesson.run(2.5)
         for process in lesson._world.processes:
             process.kill()
-        lesson._world.sim._heap.clear()
         rclpy.init()
         with pytest.raises(NeverWakes):
-            rclpy.create_node("client").create_client(TeleportAbsolute, "/nobody").wait_for_service()
+            rclpy.spin_until_future_complete(rclpy.create_node("client"), Future())
         return lesson.now
 
     plain = waits(start(simulator=False))
@@ -205,7 +200,7 @@ def test_an_interrupt_pauses_it_and_the_next_step_goes_on(without_steps: tuple[l
             call.go_on(100 * SECOND)
         assert not call.done
     call.go_on(100 * SECOND)
-    assert (call.value, trace(lesson)[2:]) == (without_steps[0], without_steps[1][2:])
+    assert (call.value, trace(lesson)) == without_steps
 
 
 def test_one_in_its_own_code_waits_for_its_next_run() -> None:
@@ -240,6 +235,22 @@ def test_code_that_computes_for_ever_gets_it(monkeypatch: pytest.MonkeyPatch) ->
     assert lesson.now == 1
 
 
+def test_where_the_world_ends_the_function_hears_of_it() -> None:
+    def waits(lesson: Lesson) -> None:
+        try:
+            lesson.run(9)
+        finally:
+            rclpy.init()
+            with pytest.raises(OutOfTime):
+                rclpy.create_node("client").create_client(TeleportAbsolute, "/nobody").wait_for_service()
+
+    lesson, call = stepped(waits)
+    lesson._world.sim.end = 2 * SECOND
+    for _ in range(4):
+        call.go_on(lesson._world.now + SECOND)
+    assert isinstance(call.error, OutOfTime) and lesson.now == 2
+
+
 # -- the end -----------------------------------------------------------------------------------------------------------
 
 
@@ -263,7 +274,7 @@ def test_a_closed_world_ends_it_and_keeps_nothing_of_it() -> None:
     ended, gone = weakref.ref(call._greenlet), weakref.ref(world)
     world.close()
     assert call.done and said == ["closed"]
-    del call, lesson, world
+    call = lesson = world = None  # type: ignore[assignment]
     open_world()
     gc.collect()
     assert ended() is None and gone() is None

@@ -61,6 +61,7 @@ class SteppedCall:
         self._waits = False  # it has asked for a run …
         self._met = False  # … and that is over, or the call for whose sake it was has returned
         self._limit = 0
+        self._out_of_time = False  # the world ends before that limit
         self._passes = False
         self._driven: Strand | None = None
         self._streams: dict[str, Any] = {}
@@ -121,8 +122,6 @@ class SteppedCall:
     def close(self) -> None:
         """End the function, since its world is closed: its `finally` blocks run, but the world does not."""
         self._refusals = 0
-        if self.simulation.stepped is self:
-            self.simulation.stepped = None
         for _ in range(PATIENCE):
             if self._begun and not self.done and not self.runs_here:
                 with self._surroundings():
@@ -131,6 +130,8 @@ class SteppedCall:
                     self._greenlet.throw(GreenletExit)
         if self._begun and not self.done and not self.runs_here:
             _undead.append(self)
+        if self.simulation.stepped is self:
+            self.simulation.stepped = None
 
     # -- both sides ----------------------------------------------------------------------------------------------------
 
@@ -142,6 +143,8 @@ class SteppedCall:
         self._limit, self._passes, self._waits = limit, time_passes, True
         while self._waits:  # a strand that ends may come by here
             self._greenlet.parent.switch()
+        if self._out_of_time:
+            self.simulation.check_end(limit)
 
     def _step(self, limit: int, time_passes: bool, only_to_its_end: bool = False) -> None:
         """Run the simulation until `limit`, and the function where its requests are met."""
@@ -155,7 +158,7 @@ class SteppedCall:
                 if self.done:
                     simulation.run_events(limit, time_passes)
                     return
-                until = min(limit, self._limit)
+                until = min(limit, self._limit, simulation.end)
                 simulation.run_events(until, False)
                 if interrupts.watchdog.interrupted:
                     return
@@ -170,6 +173,9 @@ class SteppedCall:
         simulation = self.simulation
         if simulation.halted:
             return False
+        self._out_of_time = self._limit > simulation.end and (self._passes or simulation.busy)
+        if self._out_of_time:
+            return until == simulation.end
         if not self._passes:
             return not simulation.has_events_before(self._limit)
         if until < self._limit:
@@ -186,14 +192,14 @@ class SteppedCall:
         simulation.driven = self._driven
         self._greenlet.switch()
         self._driven = None if self.done else simulation.driven
-        simulation.driven = driven or self._driven
+        simulation.driven = self._driven if driven is None else driven
 
     @contextmanager
     def _surroundings(self) -> Iterator[None]:
         """Within this block the function's streams hold, and what else surrounds it; after it, those of the caller."""
         before, driven = {name: getattr(sys, name) for name in STREAMS}, self.simulation.driven
         vars(sys).update(self._streams)
-        self.simulation.driven = driven or self._driven
+        self.simulation.driven = self._driven if driven is None else driven
         try:
             with self._around():
                 yield
