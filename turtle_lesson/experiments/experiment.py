@@ -16,8 +16,8 @@ from ..ros.distro import chosen_release
 from ..ros.sim.strand import running_strand
 from ..session.lesson import START_ORDERS
 from ..session.packages import package_folder
-from . import one_run
-from .one_run import OK, PLAIN, Ending, ExperimentError, Run, name_of
+from . import one_run, storage
+from .one_run import OK, OPTIONS, PLAIN, Ending, ExperimentError, Run, name_of, plain
 from .payload import setting_for
 from .pools import LocalPool, Pool, cores
 from .progress import bar
@@ -80,9 +80,15 @@ def experiment(
     runs, swept = plan(function, seeds, parameters, package=package, distro=distro, start_order=start_order)
     _check_limits(jobs, robot_time=robot_time, cpu_time=cpu_time)
     setting = setting_for(function, runs, simulator=simulator, robot_time=robot_time, cpu_time=cpu_time)
-    with closing(open_pool(setting, len(runs), jobs, client)) as pool:
-        endings = carry_out(pool, runs, progress)
-    results = Results.of(endings, swept, function=function, setting=setting, missing=len(runs) - len(endings))
+    world = {name: getattr(runs[0], name) for name in OPTIONS if name not in swept}
+    about = storage.about(function, setting, world)
+    endings = [] if resume is None else storage.known(Path(resume), runs, swept, about)
+    known = {run.number for run, _ in endings}
+    if left := [run for run in runs if run.number not in known]:
+        with closing(open_pool(setting, len(left), jobs, client)) as pool:
+            endings += carry_out(pool, left, progress)
+    missing = len(runs) - len(endings)
+    results = Results.of(endings, swept, about=about, missing=missing, function=function, setting=setting)
     defaults.get().finished(results)
     return results
 
@@ -138,7 +144,7 @@ def plan(
 
 def _seeds(seeds: Any) -> list[int]:
     try:
-        found = [] if isinstance(seeds, (str, bytes)) else [_plain(seed) for seed in seeds]
+        found = [] if isinstance(seeds, (str, bytes)) else [plain(seed) for seed in seeds]
     except TypeError:
         found = [seeds]
         seeds = None
@@ -154,17 +160,10 @@ def _values(name: str, values: Any) -> list[Any]:
     """The values to sweep: those of a list, a range or an array; a single value is a sweep of one."""
     if hasattr(values, "tolist"):
         values = values.tolist()
-    found = [_plain(value) for value in (values if isinstance(values, (list, range)) else [values])]
+    found = [plain(value) for value in (values if isinstance(values, (list, range)) else [values])]
     if not found:
         raise ExperimentError(f"{name} has no values, so there is nothing to run: try {name}=[1.0, 2.0]")
     return found
-
-
-def _plain(value: Any) -> Any:
-    """A value as a table holds it: numbers of Python's own, tuples instead of lists."""
-    if isinstance(value, (list, tuple)):
-        return tuple(map(_plain, value))
-    return value.item() if hasattr(value, "item") and getattr(value, "ndim", None) == 0 else value
 
 
 # -- what is asked for ---------------------------------------------------------------------------------------------------

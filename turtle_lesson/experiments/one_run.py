@@ -42,6 +42,9 @@ STACK = "stack"
 PLAIN = (bool, int, float, str, type(None))
 """The types of what a table holds."""
 
+OPTIONS = ("package", "distro", "start_order")
+"""What of a run is asked for beside the function's parameters."""
+
 TAIL = 4000
 """How many characters of what a failed run has printed are kept."""
 
@@ -140,6 +143,13 @@ def name_of(function: Any) -> str:
     return getattr(function, "__name__", None) or "the function"
 
 
+def plain(value: Any) -> Any:
+    """A value as a table holds it: numbers of Python's own for numpy's, tuples for lists."""
+    if isinstance(value, (list, tuple)):
+        return tuple(map(plain, value))
+    return value.item() if hasattr(value, "item") and getattr(value, "ndim", None) == 0 else value
+
+
 def plain_values(function: Callable[..., Any], returned: Any) -> dict[str, Any]:
     """What a function has returned, as values that a table can hold. Raises TypeError for anything else."""
     if returned is None:
@@ -153,8 +163,7 @@ def plain_values(function: Callable[..., Any], returned: Any) -> dict[str, Any]:
     for key, value in returned.items():
         if not isinstance(key, str):
             raise TypeError(f"{name} must name what it returns by texts, got {key!r:.80}")
-        if hasattr(value, "item") and getattr(value, "ndim", None) == 0:
-            value = value.item()  # a number of numpy's
+        value = plain(value)
         if not isinstance(value, PLAIN):
             raise TypeError(
                 f"{name} must return numbers, texts, True, False or None, got {key!r}: {value!r:.80} "

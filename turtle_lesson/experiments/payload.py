@@ -50,6 +50,12 @@ def archive(folder: Path, left_out: Collection[str] = ()) -> bytes:
     return zlib.compress(packed.getvalue(), 1)
 
 
+def hash_of_folders(folders: dict[str, bytes]) -> str:
+    """A hash of what is in archives, "" for none."""
+    packed = b"".join(name.encode() + data for name, data in folders.items())
+    return hashlib.sha256(packed).hexdigest()[:16] if packed else ""
+
+
 # -- the function --------------------------------------------------------------------------------------------------------
 
 

@@ -1,30 +1,35 @@
-"""The table of an experiment: a row for each run, whatever worker it came from."""
+"""What comes out of an experiment: a row for each run, in the order of the runs, whatever workers carried them out."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..lab.words import count, did_you_mean, enumerated
-from .one_run import OK, Ending, ExperimentError, Run, Setting
+from ..lab.words import count, enumerated
+from .one_run import OK, OPTIONS, Ending, Run, Setting
+from .table import Table
 
 if TYPE_CHECKING:
-    import numpy as np
+    from ..lab.picture import Picture
 
-MOST_ROWS = 20
-"""Rows that are printed."""
-
+FIRST = ("run", "seed")
 LAST = ("robot_time", "error", "traceback", "printed")
-"""The columns at the end."""
-
-LONG = ("traceback", "printed")
-"""The columns that are not printed."""
+"""The columns at the beginning, and at the end. Between them are what was swept, the outcome and what the function returned."""
 
 
-class Results:
-    """The rows of an experiment, in the order of its runs; each is a dict.
+class Results(Table):
+    """The rows of an experiment. `results["seconds"]` is a column as a numpy array: nan where a run has failed.
 
-    `results["seconds"]` is a column as a numpy array.
+    Attributes:
+        rows: a dict for each run: its number and seed, what was swept, `outcome` ("ok", "raised", "robot time", "CPU time" or
+            "worker died"), what the function has returned, and then `robot_time` (s), `error`, `traceback` and `printed`.
+        columns: the names in that order.
+        swept: the names of those that were inputs.
+        missing: how many runs were not carried out, since the experiment was stopped.
+        about: versions, hashes and settings, which are saved with the rows.
+        function, setting: what was run; None where the rows were read from a file.
     """
 
     def __init__(
@@ -32,46 +37,30 @@ class Results:
         rows: Iterable[dict[str, Any]],
         columns: Sequence[str],
         *,
+        swept: Sequence[str] = (),
+        about: dict[str, Any] | None = None,
+        missing: int = 0,
         function: Callable[..., Any] | None = None,
         setting: Setting | None = None,
-        runs: Sequence[Run] = (),
-        missing: int = 0,
     ) -> None:
-        self.rows = list(rows)
-        self.columns = list(columns)
-        self.missing = missing
+        super().__init__(rows, columns)
+        self.swept, self.about, self.missing = list(swept), about or {}, missing
         self.function, self.setting = function, setting
-        self.runs = {run.number: run for run in runs}
 
     @classmethod
     def of(cls, endings: Iterable[tuple[Run, Ending]], swept: Sequence[str], **more: Any) -> Results:
         """The table of what came of some runs; `swept` names the inputs that are columns."""
         done = sorted(endings, key=lambda each: each[0].number)
         values = list(dict.fromkeys(name for _, ending in done for name in ending.values))
-        columns = ["run", "seed", *swept, "outcome", *values, *LAST]
         rows = [_row(run, ending, swept, values) for run, ending in done]
-        return cls(rows, columns, runs=[run for run, _ in done], **more)
+        return cls(rows, [*FIRST, *swept, "outcome", *values, *LAST], swept=swept, **more)
 
-    def __len__(self) -> int:
-        return len(self.rows)
-
-    def __iter__(self) -> Iterator[dict[str, Any]]:
-        return iter(self.rows)
-
-    def __getitem__(self, column: str) -> np.ndarray:
-        import numpy as np
-
-        self._check(column)
-        values = [row[column] for row in self.rows]
-        numbers = all(value is None or isinstance(value, (bool, int, float)) for value in values)
-        if not numbers:
-            return np.array(values, dtype=object)
-        return np.array([np.nan if value is None else value for value in values])
+    # -- parts -------------------------------------------------------------------------------------------------------
 
     def where(self, **values: Any) -> Results:
-        """The rows in which columns have these values."""
+        """The rows in which columns have these values: `results.where(gain=2.0)`."""
         for column in values:
-            self._check(column)
+            self.check(column)
         return self._with(row for row in self.rows if all(row[name] == value for name, value in values.items()))
 
     @property
@@ -85,49 +74,89 @@ class Results:
         return self._with(row for row in self.rows if row["outcome"] != OK)
 
     def _with(self, rows: Iterable[dict[str, Any]]) -> Results:
-        some = Results(rows, self.columns, function=self.function, setting=self.setting)
-        some.runs = self.runs
-        return some
+        return Results(
+            rows, self.columns, swept=self.swept, about=self.about, function=self.function, setting=self.setting
+        )
 
-    def _check(self, column: str) -> None:
-        if column not in self.columns:
-            guess = did_you_mean(str(column), self.columns)
-            raise ExperimentError(f"there is no column {column!r}. {guess or f'There are {enumerated(self.columns)}.'}")
-
-    def __repr__(self) -> str:
-        shown = [column for column in self.columns if column not in LONG]
-        rows = [[_text(row[column]) for column in shown] for row in self.rows[:MOST_ROWS]]
-        widths = [max(map(len, cells)) for cells in zip(shown, *rows, strict=True)]
-        lines = [
-            "  ".join(cell.rjust(width) for cell, width in zip(cells, widths, strict=True)) for cells in [shown, *rows]
-        ]
-        if len(self.rows) > MOST_ROWS:
-            lines.append("…")
-        return "\n".join([*map(str.rstrip, lines), self.summary])
+    @cached_property
+    def runs(self) -> dict[int, Run]:
+        """By number, the run of each row."""
+        return {row["run"]: run_of(row, self.swept, self.about.get("world", {})) for row in self.rows}
 
     @property
     def summary(self) -> str:
         """How many runs there are, and which of them failed, in a sentence."""
         failed = [str(row["run"]) for row in self.failed]
-        text = (
-            f"{count(len(self), 'run')}, {f'{len(failed)} failed: {enumerated(failed)}' if failed else 'none failed'}"
-        )
-        return f"{text}; {self.missing} not carried out" if self.missing else text
+        said = f"{len(failed)} failed: {enumerated(failed)}" if failed else "none failed"
+        return f"{count(len(self), 'run')}, {said}" + (f"; {self.missing} not carried out" if self.missing else "")
+
+    # -- files -------------------------------------------------------------------------------------------------------
+
+    def save(self, path: str | Path) -> Path:
+        """Write the table to a file, "runs.csv" or "runs.parquet", with versions and settings; `experiment(resume=…)` reads it.
+
+        In a CSV file these are the lines at its beginning that start with "#": `pandas.read_csv(path, comment="#")` passes
+        over them. Raises ExperimentError for another kind of file.
+        """
+        from .storage import save
+
+        return save(self, Path(path))
+
+    @staticmethod
+    def read(path: str | Path) -> Results:
+        """The table of a file that `save` has written. Raises ExperimentError where it is none."""
+        from .storage import read
+
+        return read(Path(path))
+
+    # -- statistics --------------------------------------------------------------------------------------------------
+
+    def plot(self, column: str, by: str | None = None) -> Picture:
+        """A dot for each run, with quartiles and median; `by` names a column whose values are drawn side by side."""
+        from .pictures import plot
+
+        return plot(self, column, by)
+
+    def rate(self, by: str | None = None) -> Table:
+        """How many runs ended well: the share, and the interval in which the true rate lies, with 95 % confidence.
+
+        The interval is Wilson's score interval, which is right for few runs and rates near 0 or 1, too: E. B. Wilson,
+        "Probable inference, the law of succession, and statistical inference", Journal of the American Statistical
+        Association 22 (1927), pages 209 to 212.
+        """
+        from .pictures import rate
+
+        return rate(self, by)
+
+    def quantiles(
+        self, column: str, by: str | None = None, at: Sequence[float] = (0.05, 0.25, 0.5, 0.75, 0.95)
+    ) -> Table:
+        """The values of a column below which these shares of the runs lie, of runs that have one."""
+        from .pictures import quantiles
+
+        return quantiles(self, column, by, at)
 
 
 def _row(run: Run, ending: Ending, swept: Sequence[str], values: Sequence[str]) -> dict[str, Any]:
     row: dict[str, Any] = {"run": run.number, "seed": run.seed}
-    for name in swept:
-        row[name] = run.parameters[name] if name in run.parameters else getattr(run, name)
+    row |= {name: getattr(run, name) if name in OPTIONS else run.parameters[name] for name in swept}
     row["outcome"] = ending.outcome
     row |= {name: ending.values.get(name) for name in values}
-    return row | {name: getattr(ending, name) or None if name != "robot_time" else ending.robot_time for name in LAST}
+    row["robot_time"] = ending.robot_time
+    return row | {name: getattr(ending, name) or None for name in LAST[1:]}
 
 
-def _text(value: Any) -> str:
-    if value is None:
-        return ""
-    if isinstance(value, float):
-        return f"{value:.4g}"
-    text = str(value)
-    return text if len(text) <= 60 else f"{text[:59]}…"
+def run_of(row: dict[str, Any], swept: Sequence[str], world: dict[str, Any]) -> Run:
+    """The run that a row is of; `world` is what was not swept."""
+    given = {name: row[name] for name in swept}
+    parameters = {name: value for name, value in given.items() if name not in OPTIONS}
+    return Run(
+        row["run"], row["seed"], parameters, **(world | {name: given[name] for name in OPTIONS if name in given})
+    )
+
+
+def ending_of(row: dict[str, Any], swept: Sequence[str]) -> Ending:
+    """What came of the run that a row is of."""
+    inputs = {*FIRST, *swept, "outcome", *LAST}
+    values = {name: value for name, value in row.items() if name not in inputs} if row["outcome"] == OK else {}
+    return Ending(row["outcome"], values, row["robot_time"], *(row[name] or "" for name in LAST[1:]))

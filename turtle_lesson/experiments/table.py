@@ -1,0 +1,105 @@
+"""A table: rows as dicts, columns as arrays, and what print and a notebook show of it."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+from ..lab.words import did_you_mean, enumerated
+from .one_run import ExperimentError
+
+if TYPE_CHECKING:
+    import numpy as np
+
+MOST_ROWS = 20
+"""Rows that are shown."""
+
+WIDEST = 60
+"""Characters of a value that are shown."""
+
+HIDDEN = ("traceback", "printed")
+"""Columns of long texts, which are not shown."""
+
+AT_TIMES = ("error",)
+"""Columns that are shown if there is anything in them."""
+
+
+class Table:
+    """Rows, each a dict with the same keys. `table["seconds"]` is a column as a numpy array, in which None is nan."""
+
+    def __init__(self, rows: Iterable[dict[str, Any]], columns: Sequence[str]) -> None:
+        self.rows = list(rows)
+        self.columns = list(columns)
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def __iter__(self) -> Iterator[dict[str, Any]]:
+        return iter(self.rows)
+
+    def __getitem__(self, column: str) -> np.ndarray:
+        import numpy as np
+
+        self.check(column)
+        values = [row[column] for row in self.rows]
+        kinds = {type(value) for value in values} - {type(None)}
+        if kinds == {bool} and None not in values:
+            return np.array(values)
+        if kinds <= {bool, int, float}:
+            return np.array([np.nan if value is None else value for value in values])
+        array = np.empty(len(values), object)
+        array[:] = values
+        return array
+
+    @property
+    def table(self) -> Any:
+        """All of it as a `pandas.DataFrame`, or as a list of rows where pandas is not installed."""
+        try:
+            import pandas
+        except ImportError:
+            return self.rows
+        return pandas.DataFrame(self.rows, columns=self.columns)
+
+    @property
+    def summary(self) -> str:
+        """A sentence below the rows."""
+        return ""
+
+    def check(self, column: str) -> None:
+        """Raise ExperimentError, which is a ValueError, if there is no such column."""
+        if column not in self.columns:
+            there = did_you_mean(str(column), self.columns) or f"There are {enumerated(self.columns)}."
+            raise ExperimentError(f"there is no column {column!r}. {there}")
+
+    # -- what is shown -----------------------------------------------------------------------------------------------
+
+    def __repr__(self) -> str:
+        head, rows = self._shown()
+        widths = [max(map(len, cells)) for cells in zip(head, *rows, strict=True)]
+        lines = ["  ".join(map(str.rjust, cells, widths)) for cells in [head, *rows]]
+        more = ["…"] if len(self.rows) > MOST_ROWS else []
+        return "\n".join([*map(str.rstrip, lines), *more, *filter(None, [self.summary])])
+
+    def _repr_html_(self) -> str:
+        head, rows = self._shown()
+        titles = "".join(f"<th>{html.escape(each)}</th>" for each in head)
+        body = "".join(f"<tr>{''.join(f'<td>{html.escape(cell)}</td>' for cell in cells)}</tr>" for cells in rows)
+        more = f'<tr><td colspan="{len(head)}">…</td></tr>' if len(self.rows) > MOST_ROWS else ""
+        below = f"<p>{html.escape(self.summary)}</p>" if self.summary else ""
+        return f"<table><thead><tr>{titles}</tr></thead><tbody>{body}{more}</tbody></table>{below}"
+
+    def _shown(self) -> tuple[list[str], list[list[str]]]:
+        """The heads and cells that are shown, as texts."""
+        rows = self.rows[:MOST_ROWS]
+        empty = {name for name in AT_TIMES if all(row.get(name) is None for row in rows)}
+        shown = [name for name in self.columns if name not in HIDDEN and name not in empty]
+        return shown, [[text_of(row[name]) for name in shown] for row in rows]
+
+
+def text_of(value: Any) -> str:
+    """A value as it is shown: numbers with five digits, long texts cut."""
+    if value is None:
+        return ""
+    text = f"{value:.5g}" if isinstance(value, float) else " ".join(str(value).split())
+    return text if len(text) <= WIDEST else f"{text[: WIDEST - 1]}…"
