@@ -16,12 +16,13 @@ from ..ros.distro import chosen_release
 from ..ros.sim.strand import running_strand
 from ..session.lesson import START_ORDERS
 from ..session.packages import package_folder
-from . import one_run, storage
+from . import one_run
 from .one_run import OK, OPTIONS, PLAIN, Ending, ExperimentError, Run, name_of, plain
 from .payload import setting_for
 from .pools import LocalPool, Pool, cores
 from .progress import bar
 from .results import Results
+from .resume import described, rows_of
 
 MOST_JOBS = 512
 
@@ -81,10 +82,10 @@ def experiment(
     _check_limits(jobs, robot_time=robot_time, cpu_time=cpu_time)
     setting = setting_for(function, runs, simulator=simulator, robot_time=robot_time, cpu_time=cpu_time)
     world = {name: getattr(runs[0], name) for name in OPTIONS if name not in swept}
-    about = storage.about(function, setting, world)
-    endings = [] if resume is None else storage.known(Path(resume), runs, swept, about)
-    known = {run.number for run, _ in endings}
-    if left := [run for run in runs if run.number not in known]:
+    about = described(function, setting, world)
+    endings = [] if resume is None else rows_of(resume, runs, swept, about)
+    there = {run.number for run, _ in endings}
+    if left := [run for run in runs if run.number not in there]:
         with closing(open_pool(setting, len(left), jobs, client)) as pool:
             endings += carry_out(pool, left, progress)
     missing = len(runs) - len(endings)

@@ -108,7 +108,8 @@ def plot(results: Results, column: str, by: str | None) -> Picture:
     told = [_in_words(name, numbers, runs, np) for name, (_, numbers, runs) in zip(names, parts, strict=True)]
     text = f"{column} of {count(amount, 'run')}{'' if by is None else f' by {by}'}. {' '.join(told)}"
     labels = ["all runs" if by is None else text_of(value) or "None" for value, _, _ in parts]
-    return Picture(text, _draw(column, by, labels, [numbers for _, numbers, _ in parts], amount, np))
+    with style.applied():
+        return Picture(text, _draw(column, by, labels, [numbers for _, numbers, _ in parts], amount, np))
 
 
 def _in_words(name: str, numbers: np.ndarray, runs: int, np: Any) -> str:

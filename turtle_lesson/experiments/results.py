@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..lab.words import count, enumerated
-from .one_run import OK, OPTIONS, Ending, Run, Setting
+from .one_run import OK, OPTIONS, Ending, ExperimentError, Run, Setting
 from .table import Table
 
 if TYPE_CHECKING:
@@ -100,14 +100,19 @@ class Results(Table):
         """
         from .storage import save
 
-        return save(self, Path(path))
+        return save(self, self.about | {"swept": self.swept, "missing": self.missing}, Path(path))
 
     @staticmethod
     def read(path: str | Path) -> Results:
         """The table of a file that `save` has written. Raises ExperimentError where it is none."""
         from .storage import read
 
-        return read(Path(path))
+        table, about = read(Path(path))
+        try:
+            swept, missing = about.pop("swept"), about.pop("missing")
+        except KeyError:
+            raise ExperimentError(f"{path} is no table of an experiment") from None
+        return Results(table.rows, table.columns, swept=swept, about=about, missing=missing)
 
     # -- statistics --------------------------------------------------------------------------------------------------
 

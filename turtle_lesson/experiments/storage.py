@@ -1,49 +1,28 @@
-"""Tables in files: CSV that any program reads, or Parquet; with versions and settings, and every value as it was."""
+"""Tables in files: CSV that any program reads, or Parquet; with what belongs to them, and every value as it was."""
 
 from __future__ import annotations
 
 import csv
 import io
 import json
-import platform
-from collections.abc import Callable, Sequence
-from importlib.metadata import version
+from collections.abc import Sequence
 from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
-from ..lab.words import listed
 from ..ros.runtime import files
-from .one_run import CPU_TIME, DIED, OPTIONS, VERSION, Ending, ExperimentError, Run, Setting, name_of, plain
-from .payload import hash_of, hash_of_folders
-from .results import Results, ending_of
+from .one_run import ExperimentError, plain
+from .table import Table
 
 KEY = b"turtle_lesson"
 """What a Parquet file's metadata calls ours."""
 
 
-def about(function: Callable[..., Any], setting: Setting, world: dict[str, Any]) -> dict[str, Any]:
-    """What is saved with the rows of an experiment; `world` is what all of its runs have in common."""
-    return {
-        "turtle_lesson": VERSION,
-        "python": platform.python_version(),
-        "numpy": version("numpy"),
-        "function": f"{name_of(function)} {hash_of(function)}",
-        "folders": hash_of_folders(setting.folders),
-        "simulator": setting.simulator,
-        "robot_time": float(setting.robot_time),
-        "world": world,
-    }
-
-
-# -- files ---------------------------------------------------------------------------------------------------------------
-
-
-def save(results: Results, path: Path) -> Path:
-    """Write a table to a CSV or Parquet file."""
-    kinds = {column: _kind([row[column] for row in results.rows]) for column in results.columns}
-    head = results.about | {"swept": results.swept, "missing": results.missing, "columns": kinds}
-    cells = [{name: _cell(row[name], kind) for name, kind in kinds.items()} for row in results.rows]
+def save(table: Table, head: dict[str, Any], path: Path) -> Path:
+    """Write a table to a CSV or Parquet file, and what else is known of it: by name, what JSON can hold."""
+    kinds = {column: _kind([row[column] for row in table.rows]) for column in table.columns}
+    head = head | {"columns": kinds}
+    cells = [{name: _cell(row[name], kind) for name, kind in kinds.items()} for row in table.rows]
     if path.suffix.lower() == ".csv":
         files.write(path, _as_csv(head, cells))
     elif path.suffix.lower() == ".parquet":
@@ -57,17 +36,18 @@ def save(results: Results, path: Path) -> Path:
     return path
 
 
-def read(path: Path) -> Results:
-    """Read a table from a CSV or Parquet file."""
+def read(path: Path) -> tuple[Table, dict[str, Any]]:
+    """Read a table from a CSV or Parquet file, and what else was saved with it."""
     try:
-        head, rows = _from_parquet(path) if path.suffix.lower() == ".parquet" else _from_csv(path)
-        kinds, swept, missing = head.pop("columns"), head.pop("swept"), head.pop("missing")
-        rows = [{name: _value(row[name], kind) for name, kind in kinds.items()} for row in rows]
+        head, cells = _from_parquet(path) if path.suffix.lower() == ".parquet" else _from_csv(path)
+        kinds = head.pop("columns")
+        return Table(
+            [{name: _value(row[name], kind) for name, kind in kinds.items()} for row in cells], list(kinds)
+        ), head
     except FileNotFoundError:
         raise ExperimentError(f"there is no file {path}") from None
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise ExperimentError(f"{path} is no table that results.save() has written ({error})") from None
-    return Results(rows, list(kinds), swept=swept, about=head, missing=missing)
 
 
 def _as_csv(head: dict[str, Any], rows: list[dict[str, Any]]) -> str:
@@ -127,37 +107,3 @@ def _value(cell: Any, kind: str) -> Any:
     if not isinstance(cell, str) or kind == "text":
         return cell
     return int(cell) if kind == "int" else float(cell) if kind == "float" else cell == "True"
-
-
-# -- going on with an experiment -----------------------------------------------------------------------------------------
-
-
-def known(path: Path, runs: Sequence[Run], swept: Sequence[str], mine: dict[str, Any]) -> list[tuple[Run, Ending]]:
-    """What came of those runs that a saved table has. Runs whose process was ended are not among them: they are tried again.
-
-    Raises ExperimentError, which says what differs, where the table is of another experiment.
-    """
-    table = read(path)
-    theirs = table.about
-    if table.swept != list(swept):
-        raise ExperimentError(
-            f"{path} cannot be resumed: it sweeps {listed(table.swept) or 'nothing'}, and this experiment "
-            f"{listed(list(swept)) or 'nothing'}"
-        )
-    for name in ("turtle_lesson", "function", "folders", "simulator", "robot_time", "world"):
-        if theirs.get(name) != mine[name]:
-            raise ExperimentError(
-                f"{path} cannot be resumed: its {name} is {theirs.get(name)!r}, and that of this experiment {mine[name]!r}"
-            )
-    rows = {_inputs(row["seed"], [row[name] for name in swept]): row for row in table.rows}
-    found = []
-    for run in runs:
-        given = [getattr(run, name) if name in OPTIONS else run.parameters[name] for name in swept]
-        row = rows.get(_inputs(run.seed, given))
-        if row is not None and row["outcome"] not in (CPU_TIME, DIED):
-            found.append((run, ending_of(row, swept)))
-    return found
-
-
-def _inputs(seed: int, values: Sequence[Any]) -> str:
-    return repr((seed, *values))
