@@ -21,6 +21,7 @@ from .one_run import OK, OPTIONS, PLAIN, Ending, ExperimentError, Run, name_of, 
 from .payload import setting_for
 from .pools import LocalPool, Pool, cores
 from .progress import bar
+from .replay import Replay
 from .results import Results
 from .resume import described, rows_of
 
@@ -92,6 +93,31 @@ def experiment(
     results = Results.of(endings, swept, about=about, missing=missing, function=function, setting=setting)
     defaults.get().finished(results)
     return results
+
+
+def replay(
+    function: Callable[..., Any],
+    *,
+    seed: int = 0,
+    package: Any = "finished",
+    simulator: bool = True,
+    distro: Any = None,
+    start_order: str = "as written",
+    robot_time: float = 600.0,
+    **parameters: Any,
+) -> Replay:
+    """Open one run in this notebook, as `results.replay` opens one of a table: `replay(drive, seed=17, gain=4.0).step(1.0)`.
+
+    It stands before the function's first line. The world is closed by the next `start()`, and the run ends with it. Raises
+    ExperimentError for a run that cannot be carried out.
+    """
+    _check_place()
+    given = {name: [value] for name, value in parameters.items()}
+    runs, swept = plan(function, [seed], given, package=package, distro=distro, start_order=start_order)
+    _check_limits(None, robot_time=robot_time)
+    setting = setting_for(function, runs, simulator=simulator, robot_time=robot_time)
+    table = Results.of([], swept)
+    return Replay(setting, runs[0], lambda ending: table.row_of(runs[0], ending))
 
 
 def open_pool(setting: one_run.Setting, runs: int, jobs: int | None = None, client: Any = None) -> Pool:

@@ -261,11 +261,16 @@ def carry_out(run: Run) -> Ending:
             lesson._world.close()
             inspection.progress_file.cache_clear()
     ending.printed = "" if ending.outcome == OK else printed.tail()
-    for text in {str(_worker.run), os.path.realpath(_worker.run)}:  # by which a row would tell where it was made
+    forget_folder(ending, _worker.run)
+    return ending
+
+
+def forget_folder(ending: Ending, folder: Path) -> None:
+    """Take out the folder of a run, by which a row would tell where it was carried out."""
+    for text in {str(folder), os.path.realpath(folder)}:
         ending.error = ending.error.replace(text, ".")
         ending.traceback = ending.traceback.replace(text, ".")
         ending.printed = ending.printed.replace(text, ".")
-    return ending
 
 
 def load(setting: Setting) -> Callable[..., Any]:
@@ -277,24 +282,26 @@ def load(setting: Setting) -> Callable[..., Any]:
         raise ExperimentError(f"the function cannot be loaded in a worker process: {said}") from None
 
 
-class _Tail(io.TextIOBase):
+class Tail(io.TextIOBase):
     """A stream of which the end is kept."""
 
     def __init__(self) -> None:
         self._text = ""
 
     def write(self, text: str) -> int:
+        """Take a text."""
         self._text += text
         if len(self._text) > 4 * TAIL:
             self._text = self._text[-TAIL:]
         return len(text)
 
     def tail(self) -> str:
+        """What was printed last."""
         return self._text[-TAIL:]
 
 
 @contextlib.contextmanager
-def _printed() -> Iterator[_Tail]:
-    tail = _Tail()
+def _printed() -> Iterator[Tail]:
+    tail = Tail()
     with contextlib.redirect_stdout(tail), contextlib.redirect_stderr(tail):
         yield tail

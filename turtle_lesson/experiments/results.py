@@ -13,6 +13,7 @@ from .table import Table
 
 if TYPE_CHECKING:
     from ..lab.picture import Picture
+    from .replay import Replay
 
 FIRST = ("run", "seed")
 LAST = ("robot_time", "error", "traceback", "printed")
@@ -83,12 +84,27 @@ class Results(Table):
         """By number, the run of each row."""
         return {row["run"]: run_of(row, self.swept, self.about.get("world", {})) for row in self.rows}
 
+    def row_of(self, run: Run, ending: Ending) -> dict[str, Any]:
+        """The row that this table would have for what came of a run."""
+        inputs = {*FIRST, *self.swept, "outcome", *LAST}
+        known = [name for name in self.columns if name not in inputs]
+        return _row(run, ending, self.swept, list(dict.fromkeys([*known, *ending.values])))
+
     @property
     def summary(self) -> str:
         """How many runs there are, and which of them failed, in a sentence."""
         failed = [str(row["run"]) for row in self.failed]
         said = f"{len(failed)} failed: {enumerated(failed)}" if failed else "none failed"
         return f"{count(len(self), 'run')}, {said}" + (f"; {self.missing} not carried out" if self.missing else "")
+
+    def replay(self, number: int | None = None, function: Callable[..., Any] | None = None) -> Replay:
+        """Open a run in this notebook, as it was, to go on step by step: the first one that failed, unless told.
+
+        A table that was read from a file does not hold the function: it must be given. Raises ExperimentError.
+        """
+        from .replay import replay_of
+
+        return replay_of(self, number, function)
 
     # -- files -------------------------------------------------------------------------------------------------------
 

@@ -62,6 +62,17 @@ def begin_terminal() -> None:
     begin()
 
 
+def places() -> tuple[Path | None, bool, Path | None]:
+    """Where the notebook and its terminal are, for `set_places` to put back."""
+    return _home, _of_notebook, last_cd
+
+
+def set_places(there: tuple[Path | None, bool, Path | None]) -> None:
+    """Put back what `places()` has told; (None, False, None) is a program that has not begun."""
+    global _home, _of_notebook, last_cd
+    _home, _of_notebook, last_cd = there
+
+
 def begin_notebook() -> None:
     """The notebook begins: its folder is what `~` is from now on."""
     if last_cd is None:

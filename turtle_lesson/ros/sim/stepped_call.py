@@ -197,13 +197,13 @@ class SteppedCall:
     @contextmanager
     def _surroundings(self) -> Iterator[None]:
         """Within this block the function's streams hold, and what else surrounds it; after it, those of the caller."""
-        before, driven = {name: getattr(sys, name) for name in STREAMS}, self.simulation.driven
-        vars(sys).update(self._streams)
-        self.simulation.driven = self._driven if driven is None else driven
-        try:
-            with self._around():
+        with self._around():
+            before, driven = {name: getattr(sys, name) for name in STREAMS}, self.simulation.driven
+            vars(sys).update(self._streams)
+            self.simulation.driven = self._driven if driven is None else driven
+            try:
                 yield
-        finally:
-            self.simulation.driven = driven
-            self._streams = {name: getattr(sys, name) for name in STREAMS if getattr(sys, name) is not before[name]}
-            vars(sys).update(before)
+            finally:
+                self.simulation.driven = driven
+                self._streams = {name: getattr(sys, name) for name in STREAMS if getattr(sys, name) is not before[name]}
+                vars(sys).update(before)

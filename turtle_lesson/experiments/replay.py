@@ -1,0 +1,316 @@
+"""A run of an experiment, opened in this notebook: it goes on step by step, and is the run that it was.
+
+The function is called in a fresh world of the same seed, in a folder of its own, as a worker does it. It runs in steps
+(`ros/sim/stepped_call.py`), between which widgets and pictures of `replay.lesson` show what goes on.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import random
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..lab.words import enumerated, number
+from ..ros.runtime import files
+from ..ros.sim import errors
+from ..ros.sim.errors import WorldClosed
+from ..ros.sim.simulation import NANOSECONDS, NEVER
+from ..ros.sim.stepped_call import SteppedCall
+from ..ros.stdlib.ownership import Notebook
+from ..session import inspection
+from ..session.lesson import LONGEST_RUN, Lesson
+from .one_run import (
+    CPU_TIME,
+    DIED,
+    OK,
+    Ending,
+    ExperimentError,
+    Run,
+    Setting,
+    Tail,
+    call_in,
+    forget_folder,
+    load,
+    name_of,
+    open_run,
+    unpack,
+)
+from .payload import hash_of, setting_for
+
+if TYPE_CHECKING:
+    from .results import Results
+
+PROGRESS = "TURTLE_LESSON_PROGRESS"
+
+
+class Replay:
+    """A run that goes on when it is told to.
+
+    Attributes:
+        lesson: the run's `Lesson`: its dashboard, timeline and pictures show what goes on. `lesson.run`, `lesson.play` and a
+            dashboard's buttons also let the run go on.
+    """
+
+    def __init__(
+        self,
+        setting: Setting,
+        run: Run,
+        as_row: Callable[[Ending], dict[str, Any]],
+        expected: dict[str, Any] | None = None,
+    ) -> None:
+        self._run, self._as_row, self._expected = run, as_row, expected
+        self._ending: Ending | None = None
+        self._closed = False
+        function = load(setting)
+        self._name = name_of(function)
+        self._folder = tempfile.TemporaryDirectory(prefix="turtle-lesson-", ignore_cleanup_errors=True)
+        place = Path(self._folder.name)
+        for name, packed in setting.folders.items():
+            unpack(packed, place / name)
+        self._surroundings = _Surroundings(place)
+        run = replace(run, package=setting.places.get(run.package or "", run.package))
+        with self._surroundings.hold(), self._surroundings.printed():
+            self.lesson: Lesson = open_run(setting, run)
+        self._world = self.lesson._world
+        self._call = SteppedCall(self._world.sim, lambda: self._call_function(function, run), self._surroundings.hold)
+        self._world.at_close.append(self._close)
+
+    def _call_function(self, function: Callable[..., Any], run: Run) -> None:
+        with self._surroundings.printed():
+            ending = call_in(self.lesson, function, run)
+        if self._closed:
+            return
+        self._world.sim.end = NEVER  # the end was the run's; whoever looks at its world may let that go on
+        ending.printed = "" if ending.outcome == OK else self._surroundings.tail.tail()
+        forget_folder(ending, Path(self._folder.name))
+        self._ending = ending
+
+    def _close(self) -> None:
+        self._closed = True
+        self._call.close()
+        self._folder.cleanup()
+
+    # -- going on ------------------------------------------------------------------------------------------------------
+
+    def step(self, seconds: float = 1.0) -> None:
+        """Let the run go on for some robot time, or to its end. The stop button pauses it; the next step goes on from there."""
+        if isinstance(seconds, bool) or not isinstance(seconds, (int, float)) or not 0 <= seconds <= LONGEST_RUN:
+            raise ValueError(
+                f"seconds must be a number of seconds of robot time, got {seconds!r}: try replay.step(1.0)"
+            )
+        self._go_on(self._world.now + round(seconds * NANOSECONDS))
+
+    def run(self, until: float | None = None) -> None:
+        """Let the run go on until a moment, in seconds of robot time since its start, or to its end."""
+        if until is None:
+            self._go_on(NEVER)
+            return
+        if isinstance(until, bool) or not isinstance(until, (int, float)) or not self.now <= until <= LONGEST_RUN:
+            raise ValueError(
+                f"until must be a moment of robot time in seconds, from {number(self.now, 3)} on, got {until!r}: "
+                "a run never goes back; open it anew for that"
+            )
+        self._go_on(max(self._world.now, round(until * NANOSECONDS)))
+
+    def _go_on(self, until: int) -> None:
+        if self._closed:
+            raise WorldClosed(
+                f"{self._title} has ended here, because a later start() or replay closed its world: open it anew"
+            )
+        if self.done:
+            print(f"{self._title} was over before this: {self._told()}")
+            return
+        self._call.go_on(until)
+        if self.done:
+            print(f"{self._title} {self._told()}")
+
+    # -- what came of it -----------------------------------------------------------------------------------------------
+
+    @property
+    def now(self) -> float:
+        """Robot time: seconds since the run's start."""
+        return self.lesson.now
+
+    @property
+    def done(self) -> bool:
+        """Whether the run is over."""
+        return self._ending is not None
+
+    @property
+    def row(self) -> dict[str, Any]:
+        """The row of this run as a table has it. Raises ExperimentError while it is not over."""
+        if self._ending is None:
+            raise ExperimentError(f"{self._title} is not over yet: replay.run() lets it go on to its end")
+        return self._as_row(self._ending)
+
+    @property
+    def _title(self) -> str:
+        return f"Run {self._run.number}"
+
+    def __repr__(self) -> str:
+        given = {"seed": self._run.seed, **self._run.parameters}
+        inputs = ", ".join(f"{name}={value!r}" for name, value in given.items())
+        state = "it stands before its first line" if self.now == 0 else f"at {number(self.now, 3)} s of robot time"
+        if self._closed:
+            state = "its world was closed by a later start()"
+        return f"<Replay of {self._name}({inputs}): {self._told() if self.done else state}>"
+
+    def _told(self) -> str:
+        """How the run ended, in a sentence, and how that compares with the table."""
+        ending = self._ending
+        assert ending is not None
+        if self.interrupted:
+            return "was interrupted in the middle of its own code, so it is no replay any more: open it anew."
+        how = "" if ending.outcome == OK else f": {ending.error or ending.outcome}"
+        at = (
+            f"ended at {number(self._world.now / NANOSECONDS if ending.robot_time is None else ending.robot_time, 3)} s"
+        )
+        if self._expected is None:
+            return f"{at} of robot time{how or ', without an error'}."
+        row = self.row
+        differing = [name for name, value in row.items() if not _same(value, self._expected.get(name))]
+        if not differing:
+            return f"{at} of robot time, as in the table{how or ', without an error'}."
+        name = differing[0]
+        return (
+            f"{at} of robot time{how}. That is not as in the table: {name} was {_shown(self._expected.get(name))} there, "
+            f"and is {_shown(row[name])} here. The function, or something that it uses, has changed since then."
+        )
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether the function's own code had to be interrupted, so that this is not the run any more."""
+        return self._ending is not None and self._ending.error.startswith("KeyboardInterrupt")
+
+
+def replay_of(results: Results, wanted: int | None, function: Callable[..., Any] | None) -> Replay:
+    """Open a run of a table. Raises ExperimentError where that cannot be."""
+    row = _row_of(results, wanted)
+    run, then = results.runs[row["run"]], results.about.get("function")
+    if (setting := results.setting) is None or function is not None:
+        if function is None:
+            raise ExperimentError(
+                "this table was read from a file, which does not hold the function: give it, as in "
+                f"results.replay({row['run']}, drive)"
+            )
+        limits = {name: results.about[name] for name in ("simulator", "robot_time") if name in results.about}
+        setting = setting_for(function, [run], **limits)
+        now, what = function, "it is replayed as it is now, and may end otherwise."
+    else:
+        assert results.function is not None
+        now, what = _as_it_is_now(results.function), "it is replayed as it was then."
+    if then is not None and then != f"{name_of(now)} {hash_of(now)}":
+        print(f"{name_of(now)}, or something that it uses, has changed since this experiment; {what}")
+    if row["outcome"] == DIED:
+        print(f"Run {run.number} ended its worker process. What did that may end this kernel, too.")
+    if row["outcome"] == CPU_TIME:
+        print(f"Run {run.number} computed for too long. Nothing limits that here; the stop button interrupts it.")
+    return Replay(setting, run, lambda ending: results.row_of(run, ending), row)
+
+
+def _row_of(results: Results, wanted: int | None) -> dict[str, Any]:
+    if wanted is None:
+        if not results.failed.rows:
+            raise ExperimentError("no run of this table has failed: say which one to open, as in results.replay(0)")
+        return results.failed.rows[0]
+    for row in results.rows:
+        if row["run"] == wanted:
+            return row
+    there = enumerated(str(row["run"]) for row in results.rows)
+    raise ExperimentError(f"there is no run {wanted!r} in this table: it has {there}")
+
+
+def _as_it_is_now(function: Callable[..., Any]) -> Callable[..., Any]:
+    """What its name means in the notebook now."""
+    module = sys.modules.get(getattr(function, "__module__", ""))
+    now = getattr(module, getattr(function, "__qualname__", ""), function)
+    return now if callable(now) else function
+
+
+def _same(mine: Any, other: Any) -> bool:
+    return mine == other or (mine != mine and other != other)
+
+
+def _shown(value: Any) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else f"{text[:59]}…"
+
+
+class _Surroundings:
+    """What a worker's process has one of, for a function that runs in this one: folder, chance, and where it prints."""
+
+    def __init__(self, folder: Path) -> None:
+        self._state: tuple[Any, ...] = (folder, (None, False, None), None, None, errors.is_learners, "off")
+        self.tail = Tail()
+        self._shown = (sys.stdout, sys.stderr)
+
+    @contextmanager
+    def hold(self) -> Iterator[None]:
+        """Within this block they are the function's; after it, those of the notebook again."""
+        before, self._shown = _state(), (sys.stdout, sys.stderr)
+        _set(self._state)
+        try:
+            yield
+        finally:
+            self._state = _state()
+            _set(before)
+
+    @contextmanager
+    def printed(self) -> Iterator[None]:
+        """Within this block the end of what is printed is kept, and all of it shown."""
+        with redirect_stdout(_Tee(self, 0)), redirect_stderr(_Tee(self, 1)):
+            yield
+
+    def shown(self, which: int) -> Any:
+        """The notebook's own stream."""
+        return self._shown[which]
+
+
+def _state() -> tuple[Any, ...]:
+    return (
+        files.here(),
+        files.places(),
+        random.getstate(),
+        np.random.get_state(),
+        Notebook.is_learners,
+        os.environ.get(PROGRESS),
+    )
+
+
+def _set(state: tuple[Any, ...]) -> None:
+    folder, places, chance, numpys_chance, is_learners, progress = state
+    os.chdir(folder)
+    files.set_places(places)
+    if chance is not None:
+        random.setstate(chance)
+        np.random.set_state(numpys_chance)
+    Notebook.is_learners = staticmethod(is_learners)
+    inspection.progress_file.cache_clear()
+    if progress is None:
+        os.environ.pop(PROGRESS, None)
+    else:
+        os.environ[PROGRESS] = progress
+
+
+class _Tee(io.TextIOBase):
+    """A stream that shows what is printed in the notebook, and keeps the end of it."""
+
+    def __init__(self, surroundings: _Surroundings, which: int) -> None:
+        self._surroundings, self._which = surroundings, which
+
+    def write(self, text: str) -> int:
+        self._surroundings.tail.write(text)
+        self._surroundings.shown(self._which).write(text)
+        return len(text)
+
+    def flush(self) -> None:
+        self._surroundings.shown(self._which).flush()
