@@ -163,13 +163,12 @@ def plain_values(function: Callable[..., Any], returned: Any) -> dict[str, Any]:
     for key, value in returned.items():
         if not isinstance(key, str):
             raise TypeError(f"{name} must name what it returns by texts, got {key!r:.80}")
-        value = plain(value)
-        if not isinstance(value, PLAIN):
+        if not isinstance(plain(value), PLAIN):
             raise TypeError(
                 f"{name} must return numbers, texts, True, False or None, got {key!r}: {value!r:.80} "
                 f"({type(value).__name__}), which has no place in a table"
             )
-        values[key] = value
+        values[key] = plain(value)
     return values
 
 
@@ -223,7 +222,7 @@ def begin(setting: Setting, folder: Path) -> None:
     global _worker
     with contextlib.suppress(AttributeError, PermissionError):
         os.setpgid(0, 0)  # Ctrl-C in a terminal is for the process that waits for this one
-    threading.Thread(target=_end_with_parent, daemon=True).start()
+    threading.Thread(target=_end_with_parent, args=(folder,), daemon=True).start()
     if hasattr(faulthandler, "register"):
         faulthandler.register(signal.SIGUSR1, (folder / STACK).open("w"), all_threads=False)
     for name, text in setting.sources.items():
@@ -238,10 +237,11 @@ def is_worker() -> bool:
     return _worker is not None
 
 
-def _end_with_parent() -> None:
+def _end_with_parent(folder: Path) -> None:
     parent = parent_process()
     if parent is not None:
         parent.join()
+        shutil.rmtree(folder, ignore_errors=True)
         os._exit(1)
 
 

@@ -20,20 +20,25 @@ KEY = b"turtle_lesson"
 
 def save(table: Table, head: dict[str, Any], path: Path) -> Path:
     """Write a table to a CSV or Parquet file, and what else is known of it: by name, what JSON can hold."""
+    check_suffix(path)
     kinds = {column: _kind([row[column] for row in table.rows]) for column in table.columns}
     head = head | {"columns": kinds}
     cells = [{name: _cell(row[name], kind) for name, kind in kinds.items()} for row in table.rows]
     if path.suffix.lower() == ".csv":
         files.write(path, _as_csv(head, cells))
-    elif path.suffix.lower() == ".parquet":
+    else:
         arrow, parquet = _pyarrow()
         types = {"int": arrow.int64(), "float": arrow.float64(), "bool": arrow.bool_()}
         fields = [(name, types.get(kind, arrow.string())) for name, kind in kinds.items()]
         schema = arrow.schema(fields, metadata={KEY: json.dumps(head)})
         parquet.write_table(arrow.Table.from_pylist(cells, schema=schema), path)
-    else:
-        raise ExperimentError(f'a table is saved as "….csv" or "….parquet", got {str(path)!r}')
     return path
+
+
+def check_suffix(path: Path) -> None:
+    """Raise ExperimentError for a file that no table is saved in."""
+    if path.suffix.lower() not in (".csv", ".parquet"):
+        raise ExperimentError(f'a table is saved as "….csv" or "….parquet", got {str(path)!r}')
 
 
 def read(path: Path) -> tuple[Table, dict[str, Any]]:

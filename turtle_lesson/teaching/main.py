@@ -61,7 +61,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="turtle-lesson",
-        description="Open the lesson's pages in JupyterLab (the default), reset them, grade copies, strip solutions.",
+        description="Open the lesson's pages in JupyterLab (the default), reset them, grade copies, run experiments.",
     )
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
@@ -92,6 +92,16 @@ def _parser() -> argparse.ArgumentParser:
     jobs = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     many = f"copies at once (default: one for each core, here {jobs})"
     grading.add_argument("--jobs", type=_number(int, 1, 256), default=jobs, metavar="N", help=many)
+
+    text = "Run a Python script that calls turtle_lesson.experiments.experiment(), and print its tables. The exit code is 1 if"
+    text += " a run has failed."
+    running = commands.add_parser("run", help="an experiment of many runs", description=text)
+    running.set_defaults(act=_run)
+    running.add_argument("script", type=Path, metavar="EXPERIMENT.py", help="the script")
+    many = "worker processes (default: one for each core that may be used)"
+    running.add_argument("--jobs", type=_number(int, 1, 512), metavar="N", help=many)
+    where = "also save the table, to NAME.csv or NAME.parquet (further ones of the script: NAME-2.csv, …)"
+    running.add_argument("--csv", type=Path, metavar="FILE", help=where)
 
     text = "Restore the published state of a page, in your folder without outputs."
     text += " Your version is kept beside it, as NAME.mine-1.ipynb."
@@ -205,6 +215,15 @@ def _reset(options: argparse.Namespace) -> int:
     yours = f"Yours is kept as {kept.name}." if kept else "It already was."
     print(f"{options.notebook} is as it was published. {yours}")
     return 0
+
+
+def _run(options: argparse.Namespace) -> int:
+    from ..experiments.script import run_script
+
+    try:
+        return run_script(options.script, options.jobs, options.csv)
+    except ValueError as error:
+        raise pages.PageError(str(error)) from None
 
 
 def _student(options: argparse.Namespace) -> int:
