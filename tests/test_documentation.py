@@ -13,7 +13,9 @@ from turtle_lesson.learner.story import PAGES
 
 PACKAGE = Path(turtle_lesson.__file__).parent
 ROOT = PACKAGE.parent
-DOCUMENTS = sorted([*ROOT.glob("*.md"), *PACKAGE.rglob("*.md"), *ROOT.glob("tests/*/README.md")])
+DOCUMENTS = sorted(
+    [*ROOT.glob("*.md"), *PACKAGE.rglob("*.md"), *ROOT.glob("tests/*/README.md"), *ROOT.glob("deploy/**/*.md")]
+)
 LINK = re.compile(r"\]\((?!https?:)([^)#]*)(?:#([^)]*))?\)")
 FILE = re.compile(r"`((?:[\w.]+/)+(?:[\w.]+)?|\w+\.py)`")
 PLACEHOLDER = re.compile(r"NN|NAME|COMMAND")

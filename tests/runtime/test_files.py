@@ -393,7 +393,7 @@ def test_open_says_which_folder_it_opens(mine: Path, monkeypatch: pytest.MonkeyP
     given: list[dict[str, str]] = []
     monkeypatch.setattr(main.os, "execve", lambda program, words, environment: given.append(environment))
     monkeypatch.setattr(main.subprocess, "call", lambda words, env: given.append(env))
-    main.serve(Path("inner/.."), None, False, [])
+    main.serve(Path("inner/.."), "jupyterlab", [])
     assert given[0][files.OPENED] == str(mine)
 
 

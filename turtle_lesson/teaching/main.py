@@ -22,6 +22,9 @@ JUPYTER = Path(__file__).resolve().parent / "jupyter"
 
 FIRST = "00_welcome.ipynb"
 
+SERVICE = "JUPYTERHUB_SERVICE_URL"
+"""The environment variable in which JupyterHub names the address that a server is to listen at."""
+
 GRADE = """\
 Run copies of pages, each in a kernel and a folder of its own, and print the points for each check.
 
@@ -76,6 +79,8 @@ def _parser() -> argparse.ArgumentParser:
     opening.add_argument("--port", type=int, metavar="N", help=port)
     begun = "copy the pages, the workspace and the points that you began in the checkout's notebooks"
     opening.add_argument("--take-along", action="store_true", help=begun)
+    hub = "be a learner's server of JupyterHub, which calls this command (deploy/jupyterhub shows how)"
+    opening.add_argument("--hub", action="store_true", help=hub)
 
     grading = commands.add_parser("grade", help="points for each check", description=GRADE)
     grading.formatter_class = argparse.RawDescriptionHelpFormatter
@@ -154,6 +159,12 @@ def _grade(options: argparse.Namespace) -> int:
 
 
 def _open(options: argparse.Namespace) -> int:
+    if options.hub:
+        if SERVICE not in os.environ:
+            raise pages.PageError(
+                "--hub is for JupyterHub, which calls this command. Without it, JupyterLab opens here."
+            )
+        os.umask(0o077)  # from the folder on, nothing that is made here is for other users of the computer
     path = options.folder or Path("." if pages.is_learners(Path(".")) else pages.FOLDER)
     new = not pages.is_learners(path)
     folder = pages.LearnersFolder(path)
@@ -162,30 +173,31 @@ def _open(options: argparse.Namespace) -> int:
         said += folder.take_along()
     elif new and (begun := pages.begun()):
         said.append(f"You began {', '.join(begun)} in {pages.PUBLISHED}. Add --take-along to bring your work here.")
-    print(
-        "\n".join([*said, f"Your pages are in {folder.path.resolve()}. Ctrl-C, pressed twice here, ends JupyterLab."])
-    )
-    return serve(folder.path, options.port, not options.no_browser, options.more)
+    said.append(f"Your pages are in {folder.path.resolve()}.")
+    if options.hub:
+        print("\n".join(said))
+        return serve(folder.path, "jupyterhub.singleuser", options.more)
+    print("\n".join(said), "Ctrl-C, pressed twice here, ends JupyterLab.")
+    words = ["--Application.log_level=ERROR", *options.more, "--ServerApp.ip=127.0.0.1"]
+    words.append(f"--LabApp.default_url=/lab/tree/{FIRST}")
+    if options.port is not None:
+        _check_free(options.port)
+        words += [f"--ServerApp.port={options.port}", "--ServerApp.port_retries=0"]
+    if options.no_browser:
+        words.append("--no-browser")
+    return serve(folder.path, "jupyterlab", words)
 
 
-def serve(folder: Path, port: int | None, browser: bool, more: Sequence[str]) -> int:
-    """Run JupyterLab on the first page of a folder until it is stopped; where the system can, in place of this process.
+def serve(folder: Path, server: str, options: Sequence[str]) -> int:
+    """Run a Jupyter server until it is stopped; where the system can, in place of this process.
 
     Args:
         folder: all that it shows.
-        port: None takes 8888, or the next one that is free.
-        browser: whether to open one.
-        more: further options of JupyterLab's.
+        server: the module that is the server.
+        options: of its command line.
     """
-    words = [sys.executable, "-P", "-m", "jupyterlab", "--Application.log_level=ERROR", *more]
-    words.append(f"--LabApp.default_url=/lab/tree/{FIRST}")
-    words += [f"--ServerApp.root_dir={folder.resolve()}", "--ServerApp.ip=127.0.0.1"]
-    if port is not None:
-        _check_free(port)
-        words += [f"--ServerApp.port={port}", "--ServerApp.port_retries=0"]
-    if not browser:
-        words.append("--no-browser")
-    environment = dict(os.environ) | {OPENED: str(folder.resolve())}
+    words = [sys.executable, "-P", "-m", server, *options, f"--ServerApp.root_dir={folder.resolve()}"]
+    environment = dict(os.environ) | {OPENED: str(folder.resolve()), "JUPYTERHUB_DEFAULT_URL": f"/lab/tree/{FIRST}"}
     for name in ("JUPYTER_PATH", "JUPYTER_CONFIG_PATH"):
         environment[name] = os.pathsep.join([str(JUPYTER), *filter(None, [os.environ.get(name)])])
     sys.stdout.flush()
