@@ -8,10 +8,11 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
+from threading import Event
 from typing import Any
 from xml.etree import ElementTree
 
@@ -22,10 +23,12 @@ import teaching_copies as copies
 from forgeries import FORGERIES, FORKED, PACKAGE_BESIDE
 
 from turtle_lesson.lab.checks.registry import checks_of
-from turtle_lesson.teaching import grade
-from turtle_lesson.teaching.grade import CheckScore, Graded, Grader
+from turtle_lesson.teaching import limits, runner
+from turtle_lesson.teaching.copies import Copy
+from turtle_lesson.teaching.grade import CheckScore, Graded, grade, judged
 from turtle_lesson.teaching.main import main
 from turtle_lesson.teaching.report import as_csv, as_json, in_words, plain
+from turtle_lesson.teaching.runner import Runner, Seen
 from turtle_lesson.teaching.worker import _parts
 
 
@@ -58,7 +61,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Run]:
     reports = ["--junit", str(folder / "junit.xml"), "--csv", str(folder / "points.csv")]
     with pytest.MonkeyPatch.context() as patch, redirect_stdout(out), redirect_stderr(err):
         patch.setenv("TEACHERS_TOKEN", "of-the-teacher")
-        patch.setattr(grade, "_installed", dict)  # work on the lesson may go on meanwhile
+        patch.setattr(runner, "installed", dict)  # work on the lesson may go on meanwhile
         code = main(["grade", str(folder), "--json", *reports, "--timeout", "8", "--memory", "1.5"])
     graded = {each["path"].removeprefix(f"{folder}{os.sep}"): each for each in json.loads(out.getvalue())["copies"]}
     by_name = {path.removesuffix(".ipynb"): each for path, each in graded.items()}
@@ -185,6 +188,12 @@ def test_no_report_passes_on_what_a_terminal_or_a_browser_obeys(run: Run) -> Non
     assert as_csv([Graded(Path("-1.ipynb"))]).splitlines()[1].startswith("'-1.ipynb,")
 
 
+def ran(path: Path, found: Iterable[dict[str, Any]], monkeypatch: pytest.MonkeyPatch) -> Graded:
+    """The verdict on a copy, if what runs it says this."""
+    monkeypatch.setattr(Runner, "_run", lambda self, content, folder, stopped: iter(found))
+    return judged(Copy(path), Runner(10, 1).run(b"", Event()))
+
+
 def test_a_verdict_needs_every_row_of_its_check(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     good = [
         {"mark": "✓", "expected": each.expected, "seen": "", "next": ""}
@@ -197,10 +206,9 @@ def test_a_verdict_needs_every_row_of_its_check(tmp_path: Path, monkeypatch: pyt
             {"check": "counter", "rows": rows, "replaced": replaced},
             {"end": True} | more,
         ]
-        monkeypatch.setattr(Grader, "_run", lambda self, path, folder: iter(found))
-        return Grader(10, 1).grade(tmp_path / f"{copies.PAGE}.ipynb").scores[0].state
+        return ran(tmp_path / f"{copies.PAGE}.ipynb", found, monkeypatch).scores[0].state
 
-    monkeypatch.setattr(grade, "_installed", dict)
+    monkeypatch.setattr(runner, "installed", dict)
     assert verdict(good, []) == "passed"
     assert verdict(good[1:], []) == "failed"
     assert verdict([*good, good[0] | {"mark": "–"}], []) == "failed"
@@ -210,9 +218,8 @@ def test_a_verdict_needs_every_row_of_its_check(tmp_path: Path, monkeypatch: pyt
 
 def test_a_grader_that_was_changed_meanwhile_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     states = iter([{"teaching/grade.py": b"1"}, {"teaching/grade.py": b"2"}])
-    monkeypatch.setattr(grade, "_installed", lambda: next(states))
-    monkeypatch.setattr(Grader, "_run", lambda self, path, folder: iter([{"end": True}]))
-    graded = Grader(10, 1).grade(tmp_path / "00_welcome.ipynb")
+    monkeypatch.setattr(runner, "installed", lambda: next(states))
+    graded = ran(tmp_path / "00_welcome.ipynb", [{"end": True}], monkeypatch)
     assert graded.earned == 0
     assert "changed" in graded.problem and "teaching/grade.py" in graded.errors[0]
 
@@ -220,12 +227,12 @@ def test_a_grader_that_was_changed_meanwhile_says_so(tmp_path: Path, monkeypatch
 CASE = """
 import json
 from turtle_lesson import start
-from turtle_lesson.teaching import grade, observer
+from turtle_lesson.teaching import observer, runner
 
 lesson = start(seed=0)
 case = lesson.trouble(9, name="topic silent")
 for _ in range(2):
-    question = {**grade.checking_code(), "check": "topic_case", "variable": "lesson", "secret": b""}
+    question = {**runner.checking_code(), "check": "topic_case", "variable": "lesson", "secret": b""}
     print(observer.answer(question, globals(), b"key")[32:].decode())
 """
 
@@ -244,41 +251,40 @@ def test_the_open_case_is_known_to_checking_code_that_is_imported_afresh(tmp_pat
 def test_an_interrupt_ends_all_copies_that_still_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     ended = []
 
-    def wait(self: Grader, path: Path) -> Graded:
-        if path.stem != "first":
-            assert self.stopped.wait(60)
-            ended.append(path.stem)
-        return Graded(path)
+    def wait(self: Runner, content: bytes, stopped: Event) -> Seen:
+        if content != b"first":
+            assert stopped.wait(60)
+            ended.append(content)
+        return Seen()
 
     def interrupt(*_: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(Grader, "grade", wait)
+    monkeypatch.setattr(Runner, "run", wait)
+    monkeypatch.setattr(Copy, "content", lambda self: self.path.name.encode())
     with pytest.raises(KeyboardInterrupt):
-        grade.grade([Path("first"), Path("second"), Path("third")], 10, 2, interrupt)
-    assert "second" in ended
+        grade([Copy(Path("first")), Copy(Path("second")), Copy(Path("third"))], 10, 2, interrupt)
+    assert b"second" in ended
 
 
 def test_a_machine_that_is_full_is_an_answer_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def full(self: Grader, path: Path, folder: Path) -> Iterator[dict[str, Any]]:
+    def full() -> Iterator[dict[str, Any]]:
         yield {"metadata": {}, "asked": []}
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(Grader, "_run", full)
-    assert Grader(10, 1).grade(tmp_path / "00_welcome.ipynb").problem == "it could not be run: No space left on device"
+    graded = ran(tmp_path / "00_welcome.ipynb", full(), monkeypatch)
+    assert graded.problem == "it could not be run: No space left on device"
 
 
 def test_a_package_beside_a_copy_is_named_and_not_used(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "turtle_lesson").mkdir()
-    monkeypatch.setattr(Grader, "_run", lambda self, path, folder: iter([{"end": True}]))
-    graded = Grader(10, 1).grade(tmp_path / "00_welcome.ipynb")
+    graded = ran(tmp_path / "00_welcome.ipynb", [{"end": True}], monkeypatch)
     assert "a package turtle_lesson lies beside it; the installed one was used" in graded.errors
 
 
 def test_a_page_that_metadata_claim_is_compared_with_the_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     said = {"metadata": {"turtle_lesson": {"page": "00_welcome"}}, "asked": [], "end": True}
-    monkeypatch.setattr(Grader, "_run", lambda self, path, folder: iter([said]))
-    graded = Grader(10, 1).grade(tmp_path / "10_test_and_validate.ipynb")
+    graded = ran(tmp_path / "10_test_and_validate.ipynb", [said], monkeypatch)
     assert "its metadata say that it is 00_welcome, and its name that it is 10_test_and_validate" in graded.errors
 
 
@@ -302,7 +308,7 @@ def test_the_cells_say_where_a_check_is_due(cell: str, parts: list[tuple[str, st
 def test_a_copy_gets_few_variables(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("GITHUB_TOKEN", "secret")
     monkeypatch.setenv("LC_ALL", "C.UTF-8")
-    given = grade.environment(tmp_path, "mark", "package")
+    given = limits.environment(tmp_path, "mark", "package")
     assert "GITHUB_TOKEN" not in given
     assert given["LC_ALL"] == "C.UTF-8" and given["PATH"] == os.environ["PATH"]
     assert given["HOME"] == given["TMPDIR"] == str(tmp_path)
@@ -310,9 +316,9 @@ def test_a_copy_gets_few_variables(tmp_path: Path, monkeypatch: pytest.MonkeyPat
 
 def test_a_full_folder_is_noticed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "file").write_bytes(bytes(100))
-    assert not grade.is_too_full(tmp_path)
-    monkeypatch.setattr(grade, "MOST_BYTES", 99)
-    assert grade.is_too_full(tmp_path)
+    assert not limits.is_too_full(tmp_path)
+    monkeypatch.setattr(limits, "MOST_BYTES", 99)
+    assert limits.is_too_full(tmp_path)
 
 
 def test_the_table_says_what_was_missed() -> None:

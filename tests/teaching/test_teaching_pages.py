@@ -8,7 +8,7 @@ import nbformat
 import pytest
 import teaching_copies as copies
 
-from turtle_lesson.teaching import pages
+from turtle_lesson.teaching.copies import find
 from turtle_lesson.teaching.main import main
 
 
@@ -92,4 +92,4 @@ def test_notebooks_are_found_once_and_hidden_ones_are_not(tmp_path: Path, mine: 
     hidden = tmp_path / "mine" / ".ipynb_checkpoints"
     hidden.mkdir()
     copies.write(hidden, "old", nbformat.v4.new_notebook())
-    assert pages.find([tmp_path, mine]) == [mine]
+    assert [copy.path for copy in find([tmp_path, mine])] == [mine]

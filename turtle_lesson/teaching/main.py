@@ -13,9 +13,10 @@ from pathlib import Path
 
 from ..ros.runtime.files import OPENED
 from . import pages, report
-from .grade import MEMORY, TIMEOUT, Graded, grade
+from .copies import find
+from .grade import Graded, grade
+from .limits import MEMORY, PATIENCE, TIMEOUT
 from .report import as_csv, as_json, in_a_line, in_words
-from .worker import PATIENCE
 
 JUPYTER = Path(__file__).resolve().parent / "jupyter"
 """Holds the kernel that says which cell to run after a restart, and settings: no news, and no look for updates."""
@@ -85,7 +86,9 @@ def _parser() -> argparse.ArgumentParser:
     grading = commands.add_parser("grade", help="points for each check", description=GRADE)
     grading.formatter_class = argparse.RawDescriptionHelpFormatter
     grading.set_defaults(act=_grade)
-    grading.add_argument("paths", nargs="+", type=Path, metavar="PATH", help="a notebook, or a folder of notebooks")
+    grading.add_argument(
+        "paths", nargs="+", type=Path, metavar="PATH", help="a notebook, or a folder or zip file of notebooks"
+    )
     grading.add_argument("--json", action="store_true", help="print JSON, with every row of every check")
     grading.add_argument("--junit", type=Path, metavar="FILE", help="also write a JUnit report")
     grading.add_argument("--csv", type=Path, metavar="FILE", help="also write a table with a line for each copy")
@@ -95,8 +98,11 @@ def _parser() -> argparse.ArgumentParser:
     how_much = f"memory that each process of a copy may take, where the system limits that (default: {MEMORY:g})"
     grading.add_argument("--memory", type=_number(float, 0.5, 1000, " GB"), default=MEMORY, metavar="GB", help=how_much)
     jobs = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    place = grading.add_mutually_exclusive_group()
     many = f"copies at once (default: one for each core, here {jobs})"
-    grading.add_argument("--jobs", type=_number(int, 1, 256), default=jobs, metavar="N", help=many)
+    place.add_argument("--jobs", type=_number(int, 1, 256), default=jobs, metavar="N", help=many)
+    cluster = "run them on a Dask cluster instead; the address of its scheduler, such as tcp://10.0.0.1:8786"
+    place.add_argument("--client", metavar="ADDRESS", help=cluster)
 
     text = "Run a Python script that calls turtle_lesson.experiments.experiment(), and print its tables. The exit code is 1 if"
     text += " a run has failed."
@@ -139,7 +145,7 @@ def _number(kind: type[int] | type[float], least: float, most: float, unit: str 
 
 
 def _grade(options: argparse.Namespace) -> int:
-    copies = pages.find(options.paths)
+    copies = find(options.paths)
     if not copies:
         raise pages.PageError(f"there is no notebook in {', '.join(map(str, options.paths))}")
 
@@ -147,7 +153,7 @@ def _grade(options: argparse.Namespace) -> int:
         print(f"{done} of {amount}: {in_a_line(copy)}", file=sys.stderr, flush=True)
 
     os.environ["TURTLE_LESSON_CACHE"] = "off"  # a copy runs with the teacher's rights, and could have written into it
-    graded = grade(copies, options.timeout, options.jobs, tell, options.memory)
+    graded = grade(copies, options.timeout, options.jobs, tell, options.memory, options.client)
     print(json.dumps(as_json(graded), indent=1, ensure_ascii=False) if options.json else in_words(graded))
     for file, text in ((options.junit, report.report), (options.csv, as_csv)):
         if file is not None:

@@ -1,4 +1,4 @@
-"""Pages as files: finding them, clearing outputs, stripping solutions, putting them back as published; the learner's folder.
+"""Pages as files: clearing outputs, stripping solutions, putting them back as published; the learner's folder.
 
 What a learner has worked on is never overwritten. A small hidden file in the learner's folder remembers from which published
 version each copy was made.
@@ -10,7 +10,6 @@ import hashlib
 import json
 import shutil
 import subprocess
-from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -38,18 +37,6 @@ NOT_TAKEN = ("build", "install", "log")
 
 class PageError(Exception):
     """Something that cannot be done with a page, and what to try."""
-
-
-def find(paths: Iterable[Path]) -> list[Path]:
-    """The files that are named, and the notebooks in the folders that are; each once, in order."""
-    found: list[Path] = []
-    for path in paths:
-        if path.is_dir():
-            inside = sorted(path.rglob("*.ipynb"))
-            found += [each for each in inside if not any(part[0] == "." for part in each.relative_to(path).parts)]
-        else:
-            found.append(path)
-    return list(dict.fromkeys(found))
 
 
 def read(path: Path) -> nbformat.NotebookNode:

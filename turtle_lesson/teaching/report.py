@@ -34,8 +34,9 @@ def plain(text: str) -> str:
 
 
 def in_words(graded: Sequence[Graded]) -> str:
-    """A block for each copy: its path and its points, then a line for each check and for what went wrong."""
-    names = [_name(copy) for copy in graded]
+    """A block for each copy: its learner, its path and its points, then a line for each check and for what went wrong."""
+    learners = max(len(_in_line(copy.learner)) for copy in graded)
+    names = [_named(copy, learners) for copy in graded]
     wide = max(map(len, names))
     lines: list[str] = []
     for copy, name in zip(graded, names, strict=True):
@@ -47,13 +48,19 @@ def in_words(graded: Sequence[Graded]) -> str:
 
 
 def in_a_line(copy: Graded) -> str:
-    """A copy's path and points, and why it was not run to its end."""
+    """A copy's learner, path and points, and why it was not run to its end."""
     why = f": {plain(copy.problem)}" if copy.problem else ""
-    return f"{_name(copy)}  {copy.earned} of {copy.points} points{why}"
+    return f"{_named(copy)}  {copy.earned} of {copy.points} points{why}"
 
 
-def _name(copy: Graded) -> str:
-    return " ".join(plain(str(copy.path)).split())
+def _named(copy: Graded, wide: int = 0) -> str:
+    """The learner, in a column of this width, and the copy's path."""
+    path = _in_line(str(copy.path))
+    return f"{_in_line(copy.learner).ljust(wide)}  {path}" if wide or copy.learner else path
+
+
+def _in_line(text: str) -> str:
+    return " ".join(plain(text).split())
 
 
 def _of(score: CheckScore) -> str:
@@ -75,13 +82,14 @@ def _sum(graded: Sequence[Graded]) -> str:
 
 
 def as_json(graded: Sequence[Graded]) -> dict[str, Any]:
-    """Everything: `{"copies": [{"path", "page", "earned", "points", "problem", "errors", "checks": [{…, "rows"}]}]}`."""
+    """Everything: `{"copies": [{"path", "learner", "page", "earned", "points", "problem", "errors", "checks": [{…}]}]}`."""
     return {"format": 1, "copies": [_copy(each) for each in graded]}
 
 
 def _copy(copy: Graded) -> dict[str, Any]:
     return {
         "path": plain(str(copy.path)),
+        "learner": _in_line(copy.learner),
         "page": copy.page,
         "earned": copy.earned,
         "points": copy.points,
@@ -101,22 +109,23 @@ def _copy(copy: Graded) -> dict[str, Any]:
 
 
 def as_csv(graded: Sequence[Graded]) -> str:
-    """A line for each copy: its path, page, points and what went wrong, then a column for each check with its points."""
+    """A line for each copy: path, learner, page, points and what went wrong, then a column for each check with its points."""
     checks = list(dict.fromkeys(score.name for copy in graded for score in copy.scores))
     text = io.StringIO()
     table = csv.writer(text, lineterminator="\n")
-    table.writerow(["path", "page", "earned", "points", "remarks", *checks])
+    table.writerow(["path", "learner", "page", "earned", "points", "remarks", *checks])
     for copy in graded:
         earned = {score.name: "" if score.state == "not run" else score.earned for score in copy.scores}
         remarks = "; ".join(filter(None, [copy.problem, *copy.errors]))
         points = [earned.get(name, "") for name in checks]
-        table.writerow([_cell(str(copy.path)), copy.page, copy.earned, copy.points, _cell(remarks), *points])
+        who = [_cell(str(copy.path)), _cell(copy.learner)]
+        table.writerow([*who, copy.page, copy.earned, copy.points, _cell(remarks), *points])
     return text.getvalue()
 
 
 def _cell(text: str) -> str:
     """A text that a spreadsheet does not take for a formula."""
-    words = " ".join(plain(text).split())
+    words = _in_line(text)
     return f"'{words}" if words.startswith(("=", "+", "-", "@")) else words
 
 
@@ -139,6 +148,9 @@ def _suite(copy: Graded) -> ElementTree.Element:
         skipped=str(states["not run"]),
         errors=str(int(bool(copy.problem))),
     )
+    if copy.learner:
+        properties = ElementTree.SubElement(suite, "properties")
+        ElementTree.SubElement(properties, "property", name="learner", value=_in_line(copy.learner))
     name = plain(str(copy.path.with_suffix("")))
     for score in copy.scores:
         case = ElementTree.SubElement(suite, "testcase", classname=name, name=score.name)

@@ -1,4 +1,5 @@
-"""Runs one copy of a page in a kernel, and tells the grader line by line what it finds: `worker NOTEBOOK FOLDER SECONDS GB`.
+"""Runs one copy of a page in a kernel, and tells the grader line by line what it finds: `worker FOLDER SECONDS GB`.
+The checking code and the notebook come on the standard input.
 
 The calls of `lesson.check` in a copy only say where a check is due. It is carried out by the code in `observer.py`, which the
 grader sends, and answered on a line of its own, which is opened after the cells before it have run, with a secret made then.
@@ -19,35 +20,25 @@ import marshal
 import os
 import re
 import secrets
+import shutil
 import socket
 import sys
 import time
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
 from queue import Empty
-from threading import Event, Thread
+from threading import Event
 from typing import Any
 
 import psutil
 
+from .limits import LARGEST, MARK, end_all, limit, real_time
+
 SHARE = 0.4
 """What part of the copy's time one cell may take."""
-
-PATIENCE, LEAST = 4, 240.0
-"""How many seconds of real time count as one of computing, for a cell that waits; and the least real time, s, for a copy: it
-may have to share the machine with many others."""
-
-LARGEST = 50_000_000
-"""Bytes of a notebook, and of an answer, that are read at most."""
-
-PROCESSES = 300
-"""How many processes and threads a copy may add to those of the user, where the system limits that."""
-
-LARGEST_FILE = 200_000_000
-"""Bytes of one file, where the system limits that."""
 
 DUE = re.compile(r"^(?![ \t]*#).*?\b(\w+)\.check\(\s*(?:[\"'](\w+)[\"'])?\s*\)", re.MULTILINE)
 """A call of `lesson.check("name")`, or of `case.check()`."""
@@ -76,69 +67,37 @@ with socket.socket({family}) as line:
 kernel's place has not both."""
 
 
-def real_time(seconds: float) -> float:
-    """Real time, s, that a copy may take which may compute for so many seconds."""
-    return max(PATIENCE * seconds, LEAST)
-
-
 class EndedEarly(Exception):
     """The copy cannot be run to its end; the message says why."""
 
 
 def main(arguments: list[str]) -> None:
     """Run a copy; what is found goes to the standard output, which the kernel does not get, as a line of JSON each."""
-    notebook, folder, seconds, memory = arguments
+    folder, seconds, memory = arguments
+    grader = os.getppid()
     with open(os.dup(1), "w", encoding="utf-8") as line:
         quiet = os.open(os.devnull, os.O_WRONLY)
         os.dup2(quiet, 1)
         os.dup2(quiet, 2)
         logging.disable(logging.CRITICAL)
         warnings.simplefilter("ignore")
-        sent = sys.stdin.buffer.read()
+        sent = marshal.load(sys.stdin.buffer)
+        notebook = sys.stdin.buffer.read()
         limit(float(memory))
-        for found in examine(Path(notebook), Path(folder), float(seconds), marshal.loads(sent)):
-            print(json.dumps(found), file=line, flush=True)
+        try:
+            with contextlib.closing(examine(notebook, Path(folder), float(seconds), sent)) as found:
+                for each in found:
+                    print(json.dumps(each), file=line, flush=True)
+        finally:
+            if os.getppid() != grader:  # it was killed, and cannot clean up
+                shutil.rmtree(Path(folder).parent, ignore_errors=True)
+                end_all([], os.environ.get(MARK, ""))
 
 
-def limit(memory: float) -> None:
-    """Limit this process and its children, where the system can: memory (GB), files, and how many processes there are."""
-    try:
-        import resource
-    except ImportError:  # Windows
-        return
-    most = {
-        "RLIMIT_AS": round(memory * 1e9),
-        "RLIMIT_FSIZE": LARGEST_FILE,
-        "RLIMIT_CORE": 0,
-        "RLIMIT_NOFILE": 2048,
-        "RLIMIT_NPROC": _threads_of_this_user() + PROCESSES,
-    }
-    for name, value in most.items():
-        with contextlib.suppress(AttributeError, OSError, ValueError):  # macOS refuses some
-            kind = getattr(resource, name)
-            _, hard = resource.getrlimit(kind)
-            limit = value if hard == resource.RLIM_INFINITY else min(value, hard)
-            resource.setrlimit(kind, (limit, hard))
-            try:
-                Thread(target=bool).start()
-            except RuntimeError:  # in a container: the user has more processes than are seen from within
-                resource.setrlimit(kind, (hard, hard))
-            else:
-                resource.setrlimit(kind, (limit, limit))
-
-
-def _threads_of_this_user() -> int:
-    found = 0
-    for each in psutil.process_iter():
-        with contextlib.suppress(psutil.Error):
-            found += each.num_threads() if each.uids().real == os.getuid() else 0
-    return found
-
-
-def examine(path: Path, folder: Path, seconds: float, sent: dict[str, Any]) -> Iterator[dict[str, Any]]:
+def examine(content: bytes, folder: Path, seconds: float, sent: dict[str, Any]) -> Generator[dict[str, Any]]:
     """Run a copy for at most `seconds` of computing: its metadata and what it asks for, then what is found, and an end."""
     try:
-        notebook = _read(path)
+        notebook = _parsed(content)
     except EndedEarly as reason:
         yield {"problem": str(reason), "end": True}
         return
@@ -160,23 +119,21 @@ def examine(path: Path, folder: Path, seconds: float, sent: dict[str, Any]) -> I
         kernel.stop()
 
 
-def _read(path: Path) -> dict[str, Any]:
-    """The notebook in a file, as JSON has it. Raises EndedEarly, which says why it cannot be read."""
-    if not path.exists():
-        raise EndedEarly("does not exist")
-    with contextlib.suppress(OSError, ValueError, RecursionError, AttributeError, KeyError, TypeError):
-        if path.stat().st_size > LARGEST:
-            raise EndedEarly(f"is larger than {LARGEST // 1_000_000} MB")
-        found = json.loads(path.read_text(encoding="utf-8-sig"))
+def _parsed(content: bytes) -> dict[str, Any]:
+    """The notebook in a file's content, as JSON has it. Raises EndedEarly, which says why it is none."""
+    with contextlib.suppress(ValueError, RecursionError, AttributeError, KeyError, TypeError):
+        found = json.loads(content.decode("utf-8-sig"))
         if found.get("nbformat") == 4 and all({"cell_type", "source"} <= cell.keys() for cell in found["cells"]):
             return dict(found)
     # For older formats, and to say what is wrong; nbformat, which this imports, takes seconds.
-    from .pages import PageError, read
+    from .pages import PageError, parse
 
     try:
-        return dict(read(path))
+        return dict(parse(content.decode("utf-8-sig"), Path("it")))
+    except UnicodeDecodeError:
+        raise EndedEarly("is not a notebook: it holds no text") from None
     except PageError as error:
-        raise EndedEarly(str(error).removeprefix(f"{path} ")) from None
+        raise EndedEarly(str(error).removeprefix("it ")) from None
 
 
 def _source(cell: dict[str, Any]) -> str:
@@ -235,6 +192,7 @@ class Kernel:
         self._manager = KernelManager(kernel_name="python3")
         self._client: Any = None
         self._began = time.monotonic()
+        self._grader = os.getppid()
         self._process: Any = None
 
     def start(self) -> int:
@@ -267,6 +225,8 @@ class Kernel:
                 if reply["parent_header"].get("msg_id") == asked:
                     return reply["content"], bool(stopped)
             used = self._used()
+            if os.getppid() != self._grader:
+                raise EndedEarly("its grader has ended")
             if used > self.seconds:
                 raise EndedEarly(f"it had not finished after {self.seconds:g} s, and was stopped")
             if used - began > SHARE * self.seconds + stopped:

@@ -1,0 +1,230 @@
+"""Runs copies, each by a process of its own, and notes what its checks saw. What that is worth is decided in `grade`.
+
+Whatever a copy does, the others are run, too. The checking code is read before any copy runs.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import json
+import marshal
+import os
+import secrets
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Generator, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import dataclass, field
+from pathlib import Path
+from queue import Empty, Queue
+from threading import Event, Thread
+from typing import Any, Protocol
+
+from ..lab.checks.results import BAD, GOOD
+from .copies import Copy
+from .limits import LARGEST, end_all, environment, is_too_full, real_time, take_fonts
+from .pages import PageError
+
+GRACE = 15.0
+"""Real time, s, that a copy's process has to start and to clean up; after that it is killed."""
+
+HOME = Path(__file__).resolve().parents[1]
+FRESH = ("lab/checks/*.py", "lab/troubles/*.py", "lab/words.py", "session/check_target.py")
+"""The checking code in the package: what decides whether something that was seen is as it should be."""
+
+
+@dataclass
+class Seen:
+    """What was seen of one copy while it ran: raw rows, and no verdict."""
+
+    problem: str = "what ran it was ended from inside, before it was done"
+    """Why it could not be run, or not to its end."""
+    metadata: Any = None
+    """The notebook's."""
+    asked: list[str] = field(default_factory=list)
+    """The checks that its cells ask for."""
+    rows: dict[str, list[dict[str, str]]] = field(default_factory=dict)
+    """What each check saw, by its name."""
+    errors: list[str] = field(default_factory=list)
+    """Cells that raised something, in words."""
+    replaced: list[str] = field(default_factory=list)
+    """What the copy has replaced in the lesson."""
+    changed: list[str] = field(default_factory=list)
+    """Files of the installed lesson that are not as they were before."""
+
+
+class Stopped(Protocol):
+    """What says whether copies are to be ended that still run."""
+
+    def is_set(self) -> bool: ...
+
+
+def run_here(copies: Sequence[Copy], timeout: float, memory: float, jobs: int) -> Generator[tuple[int, Seen]]:
+    """Run copies on this machine, `jobs` at once; gives the number of each that is done, and what was seen of it."""
+    stopped = Event()
+    runner = Runner(timeout, memory)
+    with ThreadPoolExecutor(max_workers=jobs) as pool:
+        numbers = {pool.submit(_run, runner, copy, stopped): number for number, copy in enumerate(copies)}
+        try:
+            for future in as_completed(numbers):
+                yield numbers[future], future.result()
+        except BaseException:
+            stopped.set()
+            pool.shutdown(cancel_futures=True, wait=False)
+            raise
+
+
+def _run(runner: Runner, copy: Copy, stopped: Stopped) -> Seen:
+    try:
+        return runner.run(copy.content(), stopped)
+    except PageError as error:
+        return Seen(str(error))
+
+
+def checking_code() -> dict[str, Any]:
+    """What is sent to a copy's kernel for each check: the observer and the checking code, compiled, and where the lesson is."""
+    files = sorted(file for pattern in FRESH for file in HOME.glob(pattern))
+    names = [".".join((HOME.name, *file.relative_to(HOME).with_suffix("").parts)) for file in files]
+    modules = {
+        name.removesuffix(".__init__"): (str(file), _compiled(file)) for name, file in zip(names, files, strict=True)
+    }
+    return {"observer": _compiled(Path(__file__).with_name("observer.py")), "modules": modules, "home": str(HOME)}
+
+
+def _compiled(file: Path) -> Any:
+    return compile(file.read_bytes(), str(file), "exec", dont_inherit=True)
+
+
+def installed() -> dict[str, bytes]:
+    """A digest of each file of the lesson, as it is on the disk now."""
+    files = {file.relative_to(HOME).as_posix(): file for file in HOME.rglob("*.py")}
+    return {name: hashlib.sha256(file.read_bytes()).digest() for name, file in files.items()}
+
+
+class Runner:
+    """Runs copies, one by one or some at once, with the checking code that there was when it was made."""
+
+    def __init__(self, timeout: float, memory: float) -> None:
+        self.installed = installed()
+        self._timeout, self._memory = timeout, memory
+        self._sent = marshal.dumps(checking_code())
+
+    def run(self, content: bytes, stopped: Stopped) -> Seen:
+        """Run a notebook in a folder of its own that is thrown away, until its end or until this is set."""
+        seen = Seen()
+        try:
+            with tempfile.TemporaryDirectory(prefix="turtle-lesson-", ignore_cleanup_errors=True) as folder:
+                for found in self._run(content, Path(folder), stopped):
+                    _note(seen, found)
+        except OSError as error:  # no more processes, a full disk
+            seen.problem = f"it could not be run: {error.strerror}"
+        seen.changed = sorted({name for name, _ in self.installed.items() ^ installed().items()})
+        return seen
+
+    def _run(self, content: bytes, folder: Path, stopped: Stopped) -> Iterator[dict[str, Any]]:
+        """What the worker says while it runs a copy. Afterwards nothing that the copy has started runs any longer."""
+        home, desk, mark = folder / "home", folder / "desk", secrets.token_hex(8)
+        home.mkdir()
+        desk.mkdir()
+        take_fonts(home)
+        words = [
+            sys.executable,
+            "-m",
+            "turtle_lesson.teaching.worker",
+            str(desk),
+            str(self._timeout),
+            str(self._memory),
+        ]
+        # A socket, where there is one: a pipe could be opened by the copy, too, through /proc.
+        ours, theirs = socket.socketpair() if os.name == "posix" else (None, None)
+        process = subprocess.Popen(
+            words,
+            cwd=desk,
+            env=environment(home, mark, str(HOME.parent)),
+            stdin=subprocess.PIPE,
+            stdout=theirs.fileno() if theirs is not None else subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            start_new_session=True,
+        )
+        groups = [process.pid]
+        lines: Queue[bytes] = Queue()
+        with contextlib.ExitStack() as open_files:
+            if theirs is not None and ours is not None:
+                theirs.close()
+                open_files.enter_context(ours)
+            file = open_files.enter_context(ours.makefile("rb") if ours is not None else process.stdout)  # type: ignore[arg-type]
+            reader = Thread(target=_read, args=(file, lines), daemon=True)
+            reader.start()
+            try:
+                with contextlib.suppress(BrokenPipeError):
+                    process.stdin.write(self._sent + content)  # type: ignore[union-attr]
+                    process.stdin.close()  # type: ignore[union-attr]
+                for found in self._heard(lines, folder, stopped):
+                    groups += [found["kernel"]] if isinstance(found.get("kernel"), int) else []
+                    yield found
+            finally:
+                end_all(groups, mark)
+                process.wait()
+                reader.join()
+
+    def _heard(self, lines: Queue[bytes], folder: Path, stopped: Stopped) -> Iterator[dict[str, Any]]:
+        """What comes, until the end, or until too much time is over or too much is written."""
+        seconds = real_time(self._timeout) + GRACE
+        end = time.monotonic() + seconds
+        while time.monotonic() < end and not stopped.is_set():
+            try:
+                line = lines.get(timeout=0.5)
+            except Empty:
+                if is_too_full(folder):
+                    yield {"problem": "it wrote too many files, or too large ones, and was stopped"}
+                    return
+                continue
+            try:
+                found = json.loads(line)
+            except ValueError:  # the end, or half a line
+                return
+            yield found
+        yield {"problem": f"it did not end within {seconds:g} s of real time, and was killed"}
+
+
+def _read(file: Any, lines: Queue[bytes]) -> None:
+    """Put each line into the queue, and an empty one at the end."""
+    with contextlib.suppress(OSError, ValueError):
+        while line := file.readline(LARGEST):
+            lines.put(line)
+    lines.put(b"")
+
+
+def _note(seen: Seen, found: dict[str, Any]) -> None:
+    """Add what the worker has found."""
+    if found.get("end"):
+        seen.problem = ""
+    if "check" in found:
+        seen.replaced += [each for each in found["replaced"] if each not in seen.replaced]
+        _keep_the_best(seen.rows, found, seen.replaced)
+    elif "error" in found:
+        seen.errors.append(found["error"])
+    seen.problem = found.get("problem", seen.problem)
+    seen.metadata = found.get("metadata", seen.metadata)
+    seen.asked = found.get("asked", seen.asked)
+
+
+def _keep_the_best(rows: dict[str, list[dict[str, str]]], found: dict[str, Any], replaced: list[str]) -> None:
+    """Note the rows of a check, unless they were good before. Nothing is good in a copy that has replaced checking code."""
+    name, seen = str(found["check"]), [{key: str(value) for key, value in row.items()} for row in found["rows"]]
+    if replaced:
+        seen.insert(
+            0, _row(BAD, "the lesson's own code, as it was installed", f"this copy replaced {', '.join(replaced)}")
+        )
+    elif not seen:
+        seen = [_row(BAD, "a lesson to look at, and an end of the check", "there was none")]
+    if not all(row["mark"] == GOOD for row in rows.get(name, [_row(BAD, "", "")])):
+        rows[name] = seen
+
+
+def _row(mark: str, expected: str, seen: str) -> dict[str, str]:
+    return {"mark": mark, "expected": expected, "seen": seen, "next": ""}
