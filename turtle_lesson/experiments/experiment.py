@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ..lab.words import did_you_mean, enumerated
+from ..lab.words import count, did_you_mean, enumerated
 from ..ros.distro import chosen_release
 from ..ros.sim.strand import running_strand
 from ..session.lesson import START_ORDERS
@@ -24,8 +24,12 @@ from .progress import bar
 from .replay import Replay
 from .results import Results
 from .resume import described, rows_of
+from .shrink import Smallest, smallest_change, value_of
 
 MOST_JOBS = 512
+
+AT_ONCE = 32
+"""How many runs are carried out before it is looked whether one has failed, where only the first failure is wanted."""
 
 
 @dataclass(frozen=True)
@@ -81,16 +85,23 @@ def experiment(
     _check_place()
     runs, swept = plan(function, seeds, parameters, package=package, distro=distro, start_order=start_order)
     _check_limits(jobs, robot_time=robot_time, cpu_time=cpu_time)
+    if until not in (None, "failure"):
+        raise ExperimentError(f'until must be "failure" or None, got {until!r}')
     setting = setting_for(function, runs, simulator=simulator, robot_time=robot_time, cpu_time=cpu_time)
     world = {name: getattr(runs[0], name) for name in OPTIONS if name not in swept}
     about = described(function, setting, world)
     endings = [] if resume is None else rows_of(resume, runs, swept, about)
     there = {run.number for run, _ in endings}
-    if left := [run for run in runs if run.number not in there]:
-        with closing(open_pool(setting, len(left), jobs, client)) as pool:
-            endings += carry_out(pool, left, progress)
+    smallest = None
+    if (left := [run for run in runs if run.number not in there]) or until:
+        with closing(open_pool(setting, max(len(left), 1), jobs, client)) as pool:
+            if until is None:
+                endings += carry_out(pool, left, progress)
+            else:
+                endings, smallest = search_failure(pool, runs, endings, swept, progress)
     missing = len(runs) - len(endings)
     results = Results.of(endings, swept, about=about, missing=missing, function=function, setting=setting)
+    results.found = smallest
     defaults.get().finished(results)
     return results
 
@@ -129,19 +140,50 @@ def open_pool(setting: one_run.Setting, runs: int, jobs: int | None = None, clie
     return LocalPool(setting, min(jobs or defaults.get().jobs or cores(), runs))
 
 
-def carry_out(pool: Pool, runs: Sequence[Run], progress: bool | None) -> list[tuple[Run, Ending]]:
-    """Carry out runs; those that were over when the user interrupted."""
+def carry_out(
+    pool: Pool, runs: Sequence[Run], progress: bool | None, at_once: int | None = None
+) -> list[tuple[Run, Ending]]:
+    """Carry out runs; those that were over when the user interrupted. `at_once`: so many, and no more once one has failed."""
     done: list[tuple[Run, Ending]] = []
     try:
         with bar(len(runs), progress) as told:
-            for run, ending in pool.carry_out(runs):
-                done.append((run, ending))
-                told(ending.outcome != OK)
+            for first in range(0, len(runs), at_once or len(runs)):
+                for run, ending in pool.carry_out(runs[first : first + (at_once or len(runs))]):
+                    done.append((run, ending))
+                    told(ending.outcome != OK)
+                if at_once and any(ending.outcome != OK for _, ending in done):
+                    break
     except KeyboardInterrupt:
         print(
             f"Stopped: {len(done)} of {len(runs)} runs were over. They are in the table; resume= goes on from a saved one."
         )
     return done
+
+
+def search_failure(
+    pool: Pool, runs: Sequence[Run], known: list[tuple[Run, Ending]], swept: Sequence[str], progress: bool | None
+) -> tuple[list[tuple[Run, Ending]], Smallest | None]:
+    """Carry out runs in their order until one fails; then look for the smallest change with which that fails.
+
+    What was carried out beyond the failing run, since workers work side by side, is left out of the table.
+    """
+    failing = [run.number for run, ending in known if ending.outcome != OK]
+    there = {run.number for run, _ in known}
+    left = [run for run in runs if run.number not in there and run.number < min(failing, default=len(runs))]
+    done = sorted([*known, *carry_out(pool, left, progress, AT_ONCE)], key=lambda each: each[0].number)
+    first = next((at for at, (_, ending) in enumerate(done) if ending.outcome != OK), None)
+    if first is None:
+        if len(done) == len(runs):
+            print(f"None of the {count(len(runs), 'run')} failed." if len(runs) > 1 else "The run did not fail.")
+        return done, None
+    run, ending = done[first]
+    if first != run.number:  # the user has stopped it before all others of a lower number were over
+        return done, None
+    print(f"Run {run.number} (seed {run.seed}) failed: {ending.error or ending.outcome}")
+    base = {name: value_of(runs[0], name) for name in swept}
+    found = smallest_change(run, ending, base, lambda another: next(iter(pool.carry_out([another])))[1])
+    print(found.told())
+    return done[: first + 1], found
 
 
 # -- the plan ------------------------------------------------------------------------------------------------------------

@@ -192,10 +192,17 @@ class Replay:
         return self._ending is not None and self._ending.error.startswith("KeyboardInterrupt")
 
 
-def replay_of(results: Results, wanted: int | None, function: Callable[..., Any] | None) -> Replay:
+def replay_of(results: Results, wanted: int | str | None, function: Callable[..., Any] | None) -> Replay:
     """Open a run of a table. Raises ExperimentError where that cannot be."""
-    row = _row_of(results, wanted)
-    run, then = results.runs[row["run"]], results.about.get("function")
+    if wanted == "smallest":
+        if results.found is None:
+            raise ExperimentError('no smallest change is known: experiment(…, until="failure") looks for one')
+        run = results.found.run
+        row = results.row_of(run, results.found.ending)
+    else:
+        row = _row_of(results, wanted)
+        run = results.runs[row["run"]]
+    then = results.about.get("function")
     if (setting := results.setting) is None or function is not None:
         if function is None:
             raise ExperimentError(
@@ -217,7 +224,7 @@ def replay_of(results: Results, wanted: int | None, function: Callable[..., Any]
     return Replay(setting, run, lambda ending: results.row_of(run, ending), row)
 
 
-def _row_of(results: Results, wanted: int | None) -> dict[str, Any]:
+def _row_of(results: Results, wanted: int | str | None) -> dict[str, Any]:
     if wanted is None:
         if not results.failed.rows:
             raise ExperimentError("no run of this table has failed: say which one to open, as in results.replay(0)")

@@ -14,6 +14,7 @@ from .table import Table
 if TYPE_CHECKING:
     from ..lab.picture import Picture
     from .replay import Replay
+    from .shrink import Smallest
 
 FIRST = ("run", "seed")
 LAST = ("robot_time", "error", "traceback", "printed")
@@ -47,6 +48,7 @@ class Results(Table):
         super().__init__(rows, columns)
         self.swept, self.about, self.missing = list(swept), about or {}, missing
         self.function, self.setting = function, setting
+        self.found: Smallest | None = None
 
     @classmethod
     def of(cls, endings: Iterable[tuple[Run, Ending]], swept: Sequence[str], **more: Any) -> Results:
@@ -97,10 +99,19 @@ class Results(Table):
         said = f"{len(failed)} failed: {enumerated(failed)}" if failed else "none failed"
         return f"{count(len(self), 'run')}, {said}" + (f"; {self.missing} not carried out" if self.missing else "")
 
-    def replay(self, number: int | None = None, function: Callable[..., Any] | None = None) -> Replay:
+    @property
+    def smallest(self) -> dict[str, Any] | None:
+        """What `until="failure"` has found: the values that differ from the first ones in the smallest change that still fails.
+
+        None where nothing failed, or nothing was looked for.
+        """
+        return None if self.found is None else self.found.change
+
+    def replay(self, number: int | str | None = None, function: Callable[..., Any] | None = None) -> Replay:
         """Open a run in this notebook, as it was, to go on step by step: the first one that failed, unless told.
 
-        A table that was read from a file does not hold the function: it must be given. Raises ExperimentError.
+        "smallest" is the run with the smallest change that `until="failure"` has found. A table that was read from a file does
+        not hold the function: it must be given. Raises ExperimentError where there is no such run.
         """
         from .replay import replay_of
 

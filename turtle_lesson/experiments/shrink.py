@@ -1,0 +1,172 @@
+"""`until="failure"`: the smallest change of the parameters with which a run still fails, found by delta debugging.
+
+The base of each parameter is the first of its values. A failing run differs from the base in some parameters. Each of them is
+put back to its base where the run still fails, then numbers are brought nearer to it by bisection, until nothing changes. Every
+value that is reported was tried, so it fails, also where larger ones do not. Runs are tried one after the other, so the outcome
+does not depend on how many workers there are.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
+from typing import Any
+
+from .one_run import OPTIONS, RAISED, Ending, Run
+
+MOST_RUNS = 200
+"""How many runs are tried at most."""
+
+STEPS = 12
+"""How many steps a bisection has at most."""
+
+NEAR = 0.01
+"""A bisection ends when it knows the value to this share of the whole change."""
+
+
+@dataclass
+class Smallest:
+    """The smallest change that is known to fail.
+
+    Attributes:
+        run, ending: the run, and what came of it.
+        base: the first value of each parameter.
+        tried: how many runs were needed.
+        complete: whether nothing smaller fails, as far as this search can tell; False if it was ended before.
+    """
+
+    run: Run
+    ending: Ending
+    base: dict[str, Any]
+    tried: int = 0
+    complete: bool = False
+    _known: dict[str, Ending | None] = field(default_factory=dict)
+
+    @property
+    def change(self) -> dict[str, Any]:
+        """The parameters that differ from their base, with their values."""
+        return {name: value for name, value in self.values.items() if not _equal(value, self.base[name])}
+
+    @property
+    def values(self) -> dict[str, Any]:
+        """The values of all parameters."""
+        return {name: value_of(self.run, name) for name in self.base}
+
+    def told(self) -> str:
+        """The change in a sentence."""
+        tried = f"{self.tried} more run{'s' * (self.tried != 1)}"
+        if not self.base or all(_equal(value, self.base[name]) for name, value in self.values.items()):
+            return f"All parameters have their first values there, so no change is needed for that ({tried})."
+        parts = [f"{name}={value!r} instead of {self.base[name]!r}" for name, value in self.change.items()]
+        rest = "" if self.complete else " A smaller one was not looked for to the end."
+        return f"The smallest change that still fails with this seed: {', '.join(parts)} ({tried}).{rest}"
+
+
+def value_of(run: Run, name: str) -> Any:
+    """The value of a parameter in a run, or of an option of its world."""
+    return getattr(run, name) if name in OPTIONS else run.parameters[name]
+
+
+def smallest_change(
+    failed: Run, ending: Ending, base: Mapping[str, Any], carry_out: Callable[[Run], Ending]
+) -> Smallest:
+    """Look for the smallest change from `base` with which this run fails as it did.
+
+    A stop by the user (KeyboardInterrupt) ends the search with what is known by then.
+    """
+    found = Smallest(failed, ending, dict(base))
+    search = _Search(found, carry_out)
+    try:
+        found.complete = search.go()
+    except KeyboardInterrupt:
+        print("Stopped; a smaller change was not looked for any further.")
+    return found
+
+
+class _Search:
+    def __init__(self, found: Smallest, carry_out: Callable[[Run], Ending]) -> None:
+        self.found, self.carry_out = found, carry_out
+        self.kind = _kind(found.ending)
+        self.spans = {name: value_of(found.run, name) for name in found.base}
+        self.passes: dict[str, bool] = {}
+
+    def go(self) -> bool:
+        """Make the change smaller until nothing changes; whether that was reached before there were too many runs."""
+        searched: dict[str, list[Any]] = {}
+        while True:
+            before = self.found.values
+            for name in before:
+                self.fails_with(name, self.found.base[name])
+            for name in before:
+                others = [value for other, value in self.found.values.items() if other != name]
+                if searched.get(name) != others:  # or it is known already
+                    searched[name] = others
+                    self.bisect(name)
+            if self.found.tried >= MOST_RUNS:
+                return False
+            if self.found.values == before:
+                return True
+
+    def fails_with(self, name: str, value: Any) -> bool:
+        """Whether the run still fails with another value; then it is kept."""
+        found = self.found
+        if _equal(value_of(found.run, name), value):
+            return True
+        changed: dict[str, Any] = {name: value}
+        run = replace(found.run, **(changed if name in OPTIONS else {"parameters": found.run.parameters | changed}))
+        key = repr([value_of(run, each) for each in found.base])
+        if key in self.passes:
+            return False
+        if found.tried >= MOST_RUNS:
+            return False
+        found.tried += 1
+        ending = self.carry_out(run)
+        if _kind(ending) != self.kind:
+            self.passes[key] = True
+            return False
+        found.run, found.ending = run, ending
+        return True
+
+    def bisect(self, name: str) -> None:
+        """Bring a number nearer to its base, which does not fail, and make it a round one."""
+        passes, fails = self.found.base[name], value_of(self.found.run, name)
+        if not (_is_number(passes) and _is_number(fails)) or _equal(passes, fails):
+            return
+        whole = isinstance(passes, int) and isinstance(fails, int)
+        near = 1 if whole else NEAR * abs(self.spans[name] - passes)
+        for _ in range(STEPS):
+            if abs(fails - passes) <= near:
+                break
+            middle = (passes + fails) // 2 if whole else (passes + fails) / 2
+            if self.fails_with(name, middle):
+                fails = middle
+            else:
+                passes = middle
+        if not whole:
+            self.fails_with(name, rounder(passes, fails))
+
+
+def rounder(passes: float, fails: float) -> float:
+    """The number with the fewest digits beyond `passes` and up to `fails`, the nearest such one to `fails`."""
+    size = math.floor(math.log10(max(abs(passes), abs(fails))))
+    rounding = ROUND_FLOOR if fails > passes else ROUND_CEILING
+    for digits in range(17):
+        candidate = float(Decimal(fails).quantize(Decimal(1).scaleb(size - digits), rounding=rounding))
+        if min(passes, fails) <= candidate <= max(passes, fails) and candidate != passes:
+            return candidate
+    return fails
+
+
+def _kind(ending: Ending) -> tuple[str, str]:
+    """How a run has failed: another error would be another failure."""
+    return ending.outcome, ending.error.partition(":")[0] if ending.outcome == RAISED else ""
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def _equal(one: Any, other: Any) -> bool:
+    return type(one) is type(other) and repr(one) == repr(other)
