@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 import string
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import NamedTuple
 
 WORD = frozenset(string.ascii_letters + string.digits + "_")
@@ -74,6 +75,7 @@ def namespace_flaw(namespace: str) -> Flaw | None:
     return None
 
 
+@lru_cache(maxsize=1000)  # a program that counts publishers once a second names the same topics
 def topic_name_flaw(name: str) -> Flaw | None:
     """What is wrong with a topic's or service's name as a program gives it (`~`, `{node}` and relative names allowed)."""
     if not name:
@@ -85,6 +87,7 @@ def topic_name_flaw(name: str) -> Flaw | None:
     return _letters_flaw(name) or _tokens_flaw(name)
 
 
+@lru_cache(maxsize=1000)
 def full_topic_name_flaw(name: str) -> Flaw | None:
     """What is wrong with a topic's or service's full name, as it is in the graph."""
     if not name:
