@@ -1,0 +1,164 @@
+"""Tests of robots in many worlds: `@pytest.mark.worlds(seeds=100)` makes a test of each seed, in a fresh world of its own.
+
+    # conftest.py
+    pytest_plugins = ["turtle_lesson.experiments.pytest_plugin"]
+
+    # test_robot.py
+    @pytest.mark.worlds(seeds=100, package="my_robot", gain=[1.0, 2.0])
+    def test_it_arrives(lesson, gain):
+        lesson.launch("my_robot", "start.launch.py", gain=gain)
+        ...
+
+That is `test_it_arrives[gain=1.0-seed0]` and 199 more: `-k`, pytest-xdist and reports know them as any other test. A test that
+takes `lesson` without the mark gets a world of seed 0. The plugin is not loaded by itself, since the lesson puts its packages
+on `sys.path`.
+"""
+
+from __future__ import annotations
+
+import inspect
+import random
+from collections.abc import Generator, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+from ..ros.sim import errors
+from ..ros.stdlib.ownership import Notebook
+from .experiment import plan
+from .one_run import OPTIONS, ExperimentError, Run, Setting, open_run
+
+if TYPE_CHECKING:
+    from ..session.lesson import Lesson
+
+MARK = "worlds"
+
+WORLD = {"package": "finished", "distro": None, "start_order": "as written"}
+SETTING = {"simulator": True, "robot_time": 600.0}
+
+
+@dataclass(frozen=True)
+class Place:
+    """The world of one test."""
+
+    run: Run
+    setting: Setting
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Make the mark known."""
+    config.addinivalue_line(
+        "markers",
+        f"{MARK}(seeds=10, package='finished', simulator=True, distro=None, start_order='as written', robot_time=600, "
+        "**sweeps): run the test in a fresh world for each seed, and for each combination of the values of its parameters",
+    )
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    """Make the tests of a mark."""
+    mark = metafunc.definition.get_closest_marker(MARK)
+    if mark is None:
+        return
+    name, wrong = metafunc.function.__name__, ""
+    try:
+        if mark.args:
+            raise ExperimentError(f"give what you mean by name: @pytest.mark.{MARK}(seeds={mark.args[0]!r})")
+        if "lesson" not in metafunc.fixturenames:
+            raise ExperimentError(f"it must take the world as its parameter: def {name}(lesson): …")
+        places, swept = _places(metafunc, dict(mark.kwargs))
+    except ExperimentError as error:
+        wrong = str(error)
+    if wrong:
+        pytest.fail(f"{name}, marked with @pytest.mark.{MARK}: {wrong}", pytrace=False)
+    names = [each for each in swept if each not in OPTIONS]
+    metafunc.parametrize(
+        [*names, "lesson"],
+        [[*(place.run.parameters[each] for each in names), place] for place in places],
+        ids=[_id(place.run, swept) for place in places],
+        indirect=["lesson"],
+    )
+
+
+def _places(metafunc: pytest.Metafunc, given: dict[str, Any]) -> tuple[list[Place], list[str]]:
+    """The worlds of a test in their order, and the names of what is swept. Raises ExperimentError."""
+    seeds = given.pop("seeds", 10)
+    seeds = range(seeds) if isinstance(seeds, int) and not isinstance(seeds, bool) else seeds
+    setting = {name: given.pop(name, value) for name, value in SETTING.items()}
+    world = {name: given.pop(name, value) for name, value in WORLD.items()}
+    world["package"] = _from_root(world["package"], metafunc.config.rootpath)
+    limit = setting["robot_time"]
+    if isinstance(limit, bool) or not isinstance(limit, (int, float)) or limit <= 0:
+        raise ExperimentError(f"robot_time must be a number of seconds above 0, got {limit!r}")
+    runs, swept = plan(_template(metafunc), seeds, given, **world)
+    return [Place(run, Setting(b"", **setting)) for run in runs], swept
+
+
+def _from_root(package: Any, root: Path) -> Any:
+    """The folder of a package as pytest's root folder has it, wherever pytest was started."""
+    if isinstance(package, list):
+        return [_from_root(each, root) for each in package]
+    return str(root / package) if isinstance(package, (str, Path)) and (root / package).is_dir() else package
+
+
+def _template(metafunc: pytest.Metafunc) -> Any:
+    """A function whose parameters are those of the test that a mark may give values: `plan` checks names by it."""
+
+    def function(lesson: object) -> None:
+        """Stand for the test."""
+
+    own = inspect.signature(metafunc.function).parameters
+    taken = [name for name in metafunc.fixturenames if name in own and name != "lesson"]
+    kind = inspect.Parameter.KEYWORD_ONLY
+    parameters = [inspect.Parameter(name, kind, default=None) for name in taken]
+    first = inspect.Parameter("lesson", inspect.Parameter.POSITIONAL_ONLY)
+    function.__name__ = metafunc.function.__name__
+    function.__signature__ = inspect.Signature([first, *parameters])  # type: ignore[attr-defined]
+    return function
+
+
+def _id(run: Run, swept: list[str]) -> str:
+    values = {name: getattr(run, name) if name in OPTIONS else run.parameters[name] for name in swept}
+    return "-".join([*(f"{name}={value}" for name, value in values.items()), f"seed{run.seed}"])
+
+
+@pytest.fixture
+def lesson(request: pytest.FixtureRequest) -> Iterator[Lesson]:
+    """A fresh world, which is closed at the end of the test: see `turtle_lesson.start`."""
+    place = getattr(request, "param", None) or Place(Run(0, 0), Setting(b""))
+    chance, numpys_chance, is_learners = random.getstate(), np.random.get_state(), Notebook.is_learners
+    Notebook.is_learners = staticmethod(errors.is_learners)  # as in a worker of an experiment
+    try:
+        opened = open_run(place.setting, place.run)
+        try:
+            yield opened
+        finally:
+            opened._world.close()
+    finally:
+        Notebook.is_learners = staticmethod(is_learners)
+        random.setstate(chance)
+        np.random.set_state(numpys_chance)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, pytest.TestReport, pytest.TestReport]:
+    """Say below a failure how to open its run in a notebook."""
+    report = yield
+    place = getattr(item, "callspec", None) and item.callspec.params.get("lesson")  # type: ignore[attr-defined]
+    if report.when == "call" and report.failed and isinstance(place, Place):
+        given = {"seed": place.run.seed, **place.run.parameters}
+        given |= {name: getattr(place.run, name) for name, value in WORLD.items() if getattr(place.run, name) != value}
+        given |= {name: getattr(place.setting, name) for name, value in SETTING.items()}
+        given = {name: value for name, value in given.items() if SETTING.get(name) != value or name not in SETTING}
+        function = item.originalname  # type: ignore[attr-defined]
+        words = ", ".join([function, *(f"{name}={value!r}" for name, value in given.items())])
+        report.sections.append(
+            (
+                "to go through it step by step in a notebook",
+                f"from turtle_lesson.experiments import replay\nfrom {item.path.stem} import {function}\n"
+                f"again = replay({words})\nagain.step(1.0)",
+            )
+        )
+    return report
