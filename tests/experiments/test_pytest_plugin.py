@@ -52,6 +52,7 @@ WRONG = {
     "seeds='many'": "seeds must be a list or range of whole numbers",
     "5": "give what you mean by name: @pytest.mark.worlds(seeds=5)",
     "gian=[1.0]": "test_wrong has no parameter 'gian'. Did you mean \"gain\"?",
+    "rate=[1.0]": "rate has a default, which pytest never replaces",
     "gain=[]": "gain has no values",
     "distro='indigo'": "distro must be one of the releases",
     "package='nowhere'": 'package must be "finished", "mine", None or the folder of a package, got \'nowhere\'',
@@ -69,7 +70,7 @@ def this_checkout(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_each_seed_is_a_test_in_a_world_of_its_own_and_a_wrong_mark_is_a_sentence(pytester: pytest.Pytester) -> None:
     wrong = {
-        f"test_{number}": f"{HEAD}({mark})\ndef test_wrong(lesson, gain=1.0): pass\n"
+        f"test_{number}": f"{HEAD}({mark})\ndef test_wrong(lesson, gain, rate=1.0): pass\n"
         for number, mark in enumerate(WRONG)
     }
     pytester.makepyfile(test_robot=TESTS, test_none=f"{HEAD}(seeds=2)\ndef test_wrong(): pass\n", **wrong)

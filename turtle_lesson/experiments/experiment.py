@@ -213,7 +213,7 @@ def plan(
 
 def _seeds(seeds: Any) -> list[int]:
     try:
-        found = [] if isinstance(seeds, (str, bytes)) else [plain(seed) for seed in seeds]
+        found: list[Any] = [seeds] if isinstance(seeds, (str, bytes)) else [plain(seed) for seed in seeds]
     except TypeError:
         found = [seeds]
         seeds = None

@@ -93,6 +93,9 @@ def _places(metafunc: pytest.Metafunc, given: dict[str, Any]) -> tuple[list[Plac
     if isinstance(limit, bool) or not isinstance(limit, (int, float)) or limit <= 0:
         raise ExperimentError(f"robot_time must be a number of seconds above 0, got {limit!r}")
     runs, swept = plan(_template(metafunc), seeds, given, **world)
+    for name in given:
+        if inspect.signature(metafunc.function).parameters[name].default is not inspect.Parameter.empty:
+            raise ExperimentError(f"{name} has a default, which pytest never replaces: leave =… out in the parameters")
     return [Place(run, Setting(b"", **setting)) for run in runs], swept
 
 
@@ -109,9 +112,8 @@ def _template(metafunc: pytest.Metafunc) -> Any:
     def function(lesson: object) -> None:
         """Stand for the test."""
 
-    own = inspect.signature(metafunc.function).parameters
-    taken = [name for name in metafunc.fixturenames if name in own and name != "lesson"]
     kind = inspect.Parameter.KEYWORD_ONLY
+    taken = [name for name in inspect.signature(metafunc.function).parameters if name not in ("self", "lesson")]
     parameters = [inspect.Parameter(name, kind, default=None) for name in taken]
     first = inspect.Parameter("lesson", inspect.Parameter.POSITIONAL_ONLY)
     function.__name__ = metafunc.function.__name__
