@@ -47,6 +47,8 @@ def run_script(path: Path, jobs: int | None = None, table: Path | None = None) -
         ended_well = False
     except SystemExit as error:
         ended_well = error.code in (None, 0)
+        if isinstance(error.code, str):
+            print(error.code, file=sys.stderr)
     except Exception as error:
         print_error(error)
         ended_well = False
