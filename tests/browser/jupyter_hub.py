@@ -163,7 +163,7 @@ class Person:
                 raise RuntimeError(
                     f"{page.url}: {page.status_code}. The hub's log:\n{self._hub.log.read_text()[-3000:]}"
                 )
-            time.sleep(0.2)
+            time.sleep(0.5)
 
     def get(self, address: str) -> requests.Response:
         """What is at an address; logins on the way to it are followed."""

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import psutil
 import pytest
-from jupyter_hub import PROXY, Hub, Person, find_proxy, jupyterhub, python_for_everyone
+from jupyter_hub import PROXY, Channels, Hub, Person, find_proxy, jupyterhub, python_for_everyone
 from jupyter_pages import KERNEL, NOTEBOOK, execute, listeners, python
 from playwright.sync_api import Browser, Page, expect
 
@@ -26,7 +26,7 @@ def hub() -> Iterator[Hub]:
         if os.environ.get("CI"):
             pytest.fail(reason)
         pytest.skip(reason)
-    with tempfile.TemporaryDirectory() as name:
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as name:
         folder = Path(name)
         folder.chmod(0o711)  # people come into their homes
         python = python_for_everyone(folder) if hasattr(os, "geteuid") and os.geteuid() == 0 else None
@@ -54,6 +54,13 @@ def ben(hub: Hub) -> Person:
     person = Person(hub, "ben")
     person.start_server()
     return person
+
+
+@pytest.fixture(scope="module")
+def bens_page(ben: Person) -> Iterator[Channels]:
+    """A kernel of ben's, and its channels."""
+    with ben.connected(ben.kernel()) as channels:
+        yield channels
 
 
 def test_after_the_login_page_00_is_open_in_a_folder_with_all_pages(ann: Page, hub: Hub) -> None:
@@ -87,14 +94,11 @@ def test_the_dashboard_lives_behind_the_proxy(ann: Page) -> None:
     assert problems == []
 
 
-def test_a_second_learner_has_a_folder_and_a_kernel_too(ann: Page, ben: Person, hub: Hub) -> None:
+def test_a_second_learner_has_pages_and_a_kernel_too(ann: Page, ben: Person, bens_page: Channels) -> None:
     listed = ben.get(f"{ben.server}/api/contents").json()["content"]
     assert sorted(each["name"] for each in listed) == sorted(NAMES)
-    with ben.connected(ben.kernel()) as channels:
-        said = channels.run(
-            "%load_ext turtle_lesson\nfrom turtle_lesson import start\nlesson = start(seed=0)\nros2 node list"
-        )
-        assert said.endswith("/turtlesim\n")
+    cell = "%load_ext turtle_lesson\nfrom turtle_lesson import start\nlesson = start(seed=0)\nros2 node list"
+    assert bens_page.run(cell).endswith("/turtlesim\n")
 
 
 def test_the_hub_gives_nobody_the_files_of_another(ann: Page, ben: Person, hub: Hub) -> None:
@@ -106,15 +110,14 @@ def test_the_hub_gives_nobody_the_files_of_another(ann: Page, ben: Person, hub: 
     assert ann.request.get(f"{hub.address}/user/ben/files/lab.ipynb").status == 403
 
 
-def test_no_cell_can_read_the_files_of_another(ann: Page, ben: Person, hub: Hub) -> None:
+def test_no_cell_can_read_the_files_of_another(ann: Page, bens_page: Channels, hub: Hub) -> None:
     if not hub.separate:
         pytest.skip("only root can start servers as users of their own, with a Python that they may run")
     theirs = hub.folder("ann") / "lab.ipynb"
     assert theirs.is_file()
-    with ben.connected(ben.kernel()) as channels:
-        assert channels.run("print(open('lab.ipynb').read(1))") == "{\n"
-        assert "PermissionError" in channels.run(f"open({str(theirs)!r})")
-        assert "PermissionError" in channels.run(f"import os; os.listdir({str(theirs.parent)!r})")
+    assert bens_page.run("print(open('lab.ipynb').read(1))") == "{\n"
+    assert "PermissionError" in bens_page.run(f"open({str(theirs)!r})")
+    assert "PermissionError" in bens_page.run(f"import os; os.listdir({str(theirs.parent)!r})")
 
 
 def test_nothing_listens_beyond_this_machine(ann: Page, ben: Person, hub: Hub) -> None:
