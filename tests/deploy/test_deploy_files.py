@@ -116,9 +116,33 @@ def test_what_the_image_copies_is_enough_to_install_the_lesson(tmp_path: Path) -
     assert done.returncode == 0, done.stderr
 
 
-@needs_sh
-def test_the_script_for_the_littlest_jupyterhub_is_sound_shell() -> None:
-    subprocess.run(["bash", "-n", HUB / "tljh.sh"], check=True)
+@pytest.mark.skipif(sys.platform != "linux", reason="it is for Linux, and uses GNU's install")
+def test_the_script_for_the_littlest_jupyterhub_installs_the_hubs_version_and_sets_its_limits(tmp_path: Path) -> None:
+    """In a folder that stands for /opt, with stand-ins for the Littlest JupyterHub's programs that note how they are called."""
+    said, opt = tmp_path / "said", tmp_path / "opt"
+    note = f'echo "${{0##*/}} $*" >> {said}'
+    stand_ins = {
+        "tljh/hub/bin/python": "echo 5.4.3",
+        "tljh/user/bin/python3": f'{note}\nmkdir -p .venv/bin\ntest "$1" != -m -o "$2" != venv || cp "$0" .venv/bin/python',
+        "bin/tljh-config": note,
+    }
+    for name, what in stand_ins.items():
+        (opt / name).parent.mkdir(parents=True)
+        (opt / name).write_text(f"#!/bin/sh\n{what}\n")
+        (opt / name).chmod(0o755)
+    shutil.copytree(HUB, opt / "turtle-lesson" / "deploy" / "jupyterhub")
+    script = text("tljh.sh").replace("/opt/", f"{opt}/")
+    subprocess.run(["bash", "-c", script], check=True, env={"PATH": f"{opt / 'bin'}:{os.environ['PATH']}"})
+    assert said.read_text().splitlines() == [
+        "python3 -m venv .venv",
+        "python -m pip install -r environment.txt jupyterhub==5.4.3",
+        "python -m compileall -q turtle_lesson",
+        "tljh-config set limits.memory 1G",
+        "tljh-config set services.cull.timeout 3600",
+        "tljh-config set services.cull.max_age 28800",
+        "tljh-config reload hub",
+    ]
+    assert (opt / "tljh" / "config" / "jupyterhub_config.d" / SHARED).read_text() == text(SHARED)
 
 
 # -- Binder --------------------------------------------------------------------------------------------------------------
