@@ -74,7 +74,7 @@ def test_each_seed_is_a_test_in_a_world_of_its_own_and_a_wrong_mark_is_a_sentenc
         for number, mark in enumerate(WRONG)
     }
     pytester.makepyfile(test_robot=TESTS, test_none=f"{HEAD}(seeds=2)\ndef test_wrong(): pass\n", **wrong)
-    result = pytester.runpytest_subprocess(*PLUGIN, "-rA", "--continue-on-collection-errors")
+    result = pytester.runpytest_subprocess(*PLUGIN, "-rA", "--continue-on-collection-errors", "-n", "1")
     result.assert_outcomes(passed=11, failed=2, errors=len(WRONG) + 1)
     said = result.stdout.str()
     names = re.findall(r"^(PASSED|FAILED) test_robot\.py::(.+?)(?: - .*)?$", said, re.MULTILINE)
@@ -91,15 +91,9 @@ def test_each_seed_is_a_test_in_a_world_of_its_own_and_a_wrong_mark_is_a_sentenc
             ),
         ]
     )
+    assert "in world 1" in said
     assert "again = replay(test_seeds, seed=1, simulator=False)" in said
     for sentence in WRONG.values():
         assert f"test_wrong, marked with @pytest.mark.worlds: {sentence}" in said
     assert "it must take the world as its parameter: def test_wrong(lesson): …" in said
     assert "OutOfTime: its world ended, at 2 s of robot time" in said
-
-
-def test_the_failure_of_a_seed_is_found_by_its_name_in_another_process(pytester: pytest.Pytester) -> None:
-    pytester.makepyfile(test_robot=TESTS)
-    result = pytester.runpytest_subprocess(*PLUGIN, "-n", "1", "-k", "test_seeds and seed1")
-    result.assert_outcomes(failed=1)
-    result.stdout.fnmatch_lines(["*AssertionError: the turtle did not arrive", "*in world 1"])

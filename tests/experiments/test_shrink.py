@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
 from turtle_lesson.experiments import ExperimentError, Results, experiment
-from turtle_lesson.experiments.one_run import OK, RAISED, Ending, Run
+from turtle_lesson.experiments.experiment import plan, search_failure
+from turtle_lesson.experiments.one_run import OK, RAISED, Ending, Run, call_in
 from turtle_lesson.experiments.shrink import MOST_RUNS, Smallest, rounder, smallest_change
 
 
@@ -149,27 +151,62 @@ def breaks(lesson: Any, loss: float, gain: float = 1.0, driver: str = "calm") ->
 SWEEP: dict[str, Any] = {"loss": [0.0, 0.4], "gain": [1.0, 2.0], "driver": ["calm", "hasty"]}
 
 
+class Backwards:
+    """A pool that carries runs out in this process, the last one first."""
+
+    def __init__(self) -> None:
+        self.carried_out: list[int] = []
+
+    def carry_out(self, runs: Sequence[Run]) -> Iterator[tuple[Run, Ending]]:
+        for run in reversed(runs):
+            self.carried_out.append(run.number)
+            lesson: Any = SimpleNamespace(run=lambda seconds: None, _world=SimpleNamespace(seed=run.seed), now=0.1)
+            yield run, call_in(lesson, breaks, run)
+
+    def close(self) -> None:
+        """Nothing is open."""
+
+
+SAID = (
+    "Run 28 (seed 3) failed: AssertionError: lost\n"
+    "The smallest change that still fails with this seed: loss=0.2 instead of 0.0, driver='hasty' instead of 'calm' "
+    "(10 more runs).\n"
+)
+
+
 def test_the_same_failure_whatever_the_workers(capsys: pytest.CaptureFixture[str]) -> None:
-    tables: list[Results] = []
-    for jobs in (1, 2):
-        tables.append(experiment(breaks, seeds=range(5), until="failure", simulator=False, jobs=jobs, **SWEEP))
-        assert capsys.readouterr().out == (
-            "Run 28 (seed 3) failed: AssertionError: lost\n"
-            "The smallest change that still fails with this seed: loss=0.2 instead of 0.0, driver='hasty' instead of 'calm' "
-            "(10 more runs).\n"
-        )
-    one, two = tables
-    assert one.rows == two.rows and len(one) == 29 and one.missing == 11
-    assert one.smallest == two.smallest == {"loss": 0.2, "driver": "hasty"}
-    again = one.replay("smallest")
+    results = experiment(breaks, seeds=range(5), until="failure", simulator=False, jobs=2, **SWEEP)
+    assert capsys.readouterr().out == SAID
+    assert len(results) == 29 and results.missing == 11 and [row["run"] for row in results.failed] == [28]
+    assert results.smallest == {"loss": 0.2, "driver": "hasty"}
+    runs, swept = plan(breaks, range(5), SWEEP, package=None, distro=None, start_order="as written")
+    endings, found = search_failure(Backwards(), runs, [], swept, False)
+    assert capsys.readouterr().out == SAID
+    assert [(run.number, ending.outcome) for run, ending in endings] == [
+        (row["run"], row["outcome"]) for row in results
+    ]
+    assert found is not None and found.change == results.smallest
+    again = results.replay("smallest")
     again.run()
     assert again.row["error"] == "AssertionError: lost" and again.row["loss"] == 0.2
 
 
+def test_what_is_known_already_is_not_carried_out_again() -> None:
+    runs, swept = plan(breaks, range(5), SWEEP, package=None, distro=None, start_order="as written")
+    first, pool = Backwards(), Backwards()
+    known = list(first.carry_out([run for run in runs if run.number in (0, 5, 29, 38)]))
+    endings, _ = search_failure(pool, runs, known, swept, False)
+    assert [run.number for run, _ in endings] == list(range(29))
+    assert sorted(pool.carried_out[:27]) == [number for number in range(29) if number not in (0, 5)]
+
+
 def test_nothing_that_fails_is_said(capsys: pytest.CaptureFixture[str]) -> None:
-    results = experiment(breaks, seeds=range(3), until="failure", simulator=False, jobs=1, loss=0.1)
+    runs, swept = plan(breaks, range(3), {"loss": [0.1]}, package=None, distro=None, start_order="as written")
+    endings, found = search_failure(Backwards(), runs, [], swept, False)
     assert capsys.readouterr().out == "None of the 3 runs failed.\n"
-    assert results.smallest is None and results.missing == 0
+    assert len(endings) == 3 and found is None
+    results = Results.of(endings, swept)
+    assert results.smallest is None
     with pytest.raises(ExperimentError, match="no smallest change is known"):
         results.replay("smallest")
     with pytest.raises(ExperimentError, match='until must be "failure" or None'):
