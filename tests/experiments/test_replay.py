@@ -171,6 +171,23 @@ def test_a_run_that_is_in_no_table_and_comes_to_its_limit(capsys: pytest.Capture
         replay(drive)
 
 
+def spins(lesson: Any) -> dict[str, Any]:
+    import rclpy
+
+    rclpy.init()
+    node = rclpy.create_node("waiter")
+    for _ in range(10):
+        rclpy.spin_once(node, timeout_sec=0.3)
+    return {"seconds": lesson.now}
+
+
+def test_a_step_may_end_within_a_call_that_could_wait_beyond_the_limit() -> None:
+    again = replay(spins, simulator=False)
+    again.step(1.0)
+    again.run()
+    assert again.row["outcome"] == "ok" and again.row["seconds"] == pytest.approx(3.0, abs=0.1)
+
+
 def test_an_interrupt_leaves_it_usable(results: Results) -> None:
     from turtle_lesson.ros.sim import interrupts
 

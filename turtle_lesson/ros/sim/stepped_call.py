@@ -104,7 +104,7 @@ class SteppedCall:
     def call_done(self, strand: Strand) -> None:
         """A blocking call has returned; if it is the one that the function waits for, its request is met."""
         if strand is self._driven and self._waits:
-            self._met = True
+            self._met, self._out_of_time = True, False  # a call may wait beyond the world's end, and return before
             self.simulation.halt()
 
     def go_on(self, until: int) -> None:
