@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -82,3 +83,12 @@ def test_what_is_no_experiment_is_told_in_a_sentence(
     assert main(["run", "it.py", *options]) == 1
     captured = capsys.readouterr()
     assert captured.err.endswith(said) and captured.out == ""
+
+
+def test_the_example_of_readme_runs_and_ends_as_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    readme = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
+    code = readme.partition("<!-- experiment -->\n```python\n")[2].partition("```")[0]
+    monkeypatch.chdir(tmp_path)
+    space: dict[str, Any] = {"__name__": "__main__"}
+    exec(compile(code.replace("seeds=range(50)", "seeds=[0, 1], jobs=1"), "readme.py", "exec"), space)
+    assert [row["ok"] for row in space["results"].rate(by="latency")] == [2, 2, 1]

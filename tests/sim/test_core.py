@@ -16,7 +16,7 @@ import pytest
 
 from turtle_lesson.ros.runtime.world import World, open_world
 from turtle_lesson.ros.sim import interrupts
-from turtle_lesson.ros.sim.errors import DriveTimeout, NeverReturns, NeverWakes, SimulationError, WorldClosed
+from turtle_lesson.ros.sim.errors import DriveTimeout, NeverReturns, NeverWakes, OutOfTime, SimulationError, WorldClosed
 from turtle_lesson.ros.sim.run_blocking import drive
 from turtle_lesson.ros.sim.simulation import EPOCH
 
@@ -323,6 +323,28 @@ def test_a_cell_that_waits_for_nothing_is_told_so(world: World) -> None:
 
     with pytest.raises(NeverWakes, match="can never happen"):
         drive(world.sim, world.notebook, waits)
+
+
+@pytest.mark.parametrize("busy", [True, False])
+def test_no_run_passes_the_end_that_a_world_was_given(world: World, busy: bool) -> None:
+    ticks = []
+    if busy:
+        world.spawn(lambda: [(time.sleep(1), ticks.append(world.now)) for _ in range(10)], name="ticker")
+    world.sim.end = 3 * SECOND
+    world.sim.run_until(3 * SECOND)
+    for _ in range(2):
+        with pytest.raises(OutOfTime, match=r"its world ended, at 3 s of robot time"):
+            world.sim.run_until(5 * SECOND)
+        assert world.now == 3 * SECOND
+    with pytest.raises(OutOfTime):
+        drive(world.sim, world.notebook, time.sleep, 4.0)
+    assert ticks == [SECOND, 2 * SECOND] * busy
+
+
+def test_a_call_may_end_just_before_its_world_does(world: World) -> None:
+    world.sim.end = 3 * SECOND
+    drive(world.sim, world.notebook, time.sleep, 2.9)
+    assert world.now == 2.9 * SECOND
 
 
 def test_an_interrupted_call_gets_the_interrupt_and_cleans_up(world: World) -> None:

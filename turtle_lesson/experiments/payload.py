@@ -11,6 +11,7 @@ import sys
 import tarfile
 import zlib
 from collections.abc import Callable, Collection, Iterable, Iterator
+from functools import partial
 from pathlib import Path
 from types import CodeType, FunctionType, ModuleType
 from typing import Any
@@ -83,6 +84,8 @@ def hash_of(function: Callable[..., Any]) -> str:
     """A hash of a function's source, and that of the learner's functions, classes and plain values which it uses."""
     texts = sorted(_source(each) for each in _own(function))
     values = sorted(f"{name}={value!r}" for name, value in _used(function) if isinstance(value, PLAIN))
+    if isinstance(function, partial):
+        values.append(repr((function.args, function.keywords)))
     return hashlib.sha256("\n".join(texts + values).encode()).hexdigest()[:16]
 
 
@@ -102,7 +105,8 @@ def _source(thing: Any) -> str:
 
 def _own(function: Callable[..., Any]) -> list[Any]:
     """The function, and the functions and classes of the learner's own that it uses, directly or not."""
-    found: list[Any] = [inspect.unwrap(getattr(function, "func", function))]
+    first = inspect.unwrap(function.func if isinstance(function, partial) else function)
+    found: list[Any] = [first if isinstance(first, (FunctionType, type)) else type(first)]
     for each in found:  # which grows
         for _, value in _names_in(each):
             value = inspect.unwrap(value) if callable(value) else value

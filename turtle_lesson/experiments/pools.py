@@ -31,7 +31,7 @@ import psutil
 from ..ros.sim.defer_sigint import defer_sigint
 from ..ros.sim.errors import is_learners, shown_path
 from . import one_run
-from .one_run import CPU_TIME, DIED, STACK, Ending, Run, Setting
+from .one_run import CPU_TIME, DIED, STACK, Ending, ExperimentError, Run, Setting
 
 LOOK = 0.25
 """How often, in seconds of real time, busy workers are looked at."""
@@ -41,6 +41,9 @@ WINDOW, WAITING = 5.0, 0.02
 
 WAITS = 60.0
 """How long, in seconds of real time, a run may wait for something outside, if its CPU time is no longer limit."""
+
+MOST_STARTS = 3
+"""How often in a row a process may die before it has begun to work."""
 
 _KILL = getattr(signal, "SIGKILL", signal.SIGTERM)
 
@@ -66,6 +69,7 @@ class Worker:
         self._watch: _Watch | None = None
         self._verdict: Ending | None = None
         self._ended = False
+        self._failed_starts = 0
 
     def submit(self, run: Run) -> Future[Ending]:
         """Have it carry out a run; `ending` says what came of the future."""
@@ -103,8 +107,15 @@ class Worker:
     def ending(self, future: Future[Ending]) -> Ending:
         """What came of a run that is done."""
         try:
-            return future.result()
+            ending = future.result()
+            self._failed_starts = 0
+            return ending
         except BrokenProcessPool:
+            self._failed_starts += self._pid is not None and self._pid.exception() is not None
+            if self._failed_starts == MOST_STARTS:
+                raise ExperimentError(
+                    "worker processes end here as soon as they begin: what they print says why"
+                ) from None
             self.close()
             return self._verdict or Ending(DIED, error="the worker process died, twice, in the middle of this run")
 
