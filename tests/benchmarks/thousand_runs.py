@@ -90,7 +90,7 @@ def main() -> None:
         one = measured("one worker", runs, folder, jobs=1)
         two = measured("two workers", runs, folder, jobs=2)
         print(f"{'':22} {one / two:.2f} times as fast as one")
-        options: dict[str, Any] = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": None}
+        options: dict[str, Any] = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": "127.0.0.1:0"}
         with LocalCluster(**options) as cluster, Client(cluster) as client:
             measured("Dask, two workers", runs, folder, client=client)
         killing = kill_some(3, two / 5)
