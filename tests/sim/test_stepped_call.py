@@ -84,6 +84,7 @@ def without_steps() -> Iterator[tuple[list[object], list[object]]]:
 
 def stepped(function: Callable[[Lesson], Any], **options: Any) -> tuple[Lesson, SteppedCall]:
     lesson = start(**options)
+    lesson._world.sim.end = 60 * SECOND  # sooner than a blocking call gives up
     return lesson, SteppedCall(lesson._world.sim, lambda: function(lesson))
 
 

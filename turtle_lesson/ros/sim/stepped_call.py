@@ -140,7 +140,7 @@ class SteppedCall:
         if self._refusals is not None and self._refusals < PATIENCE:
             self._refusals += 1
             raise WorldClosed("this world was closed by a later start(): what ran step by step in it has ended")
-        self._limit, self._passes, self._waits = limit, time_passes, True
+        self._limit, self._passes, self._waits, self._out_of_time = limit, time_passes, True, False
         while self._waits:  # a strand that ends may come by here
             self._greenlet.parent.switch()
         if self._out_of_time:
@@ -173,9 +173,9 @@ class SteppedCall:
         simulation = self.simulation
         if simulation.halted:
             return False
-        self._out_of_time = self._limit > simulation.end and (self._passes or simulation.busy)
-        if self._out_of_time:
-            return until == simulation.end
+        if self._limit > simulation.end and (self._passes or simulation.busy):
+            self._out_of_time = until == simulation.end
+            return self._out_of_time
         if not self._passes:
             return not simulation.has_events_before(self._limit)
         if until < self._limit:
