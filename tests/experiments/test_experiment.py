@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import os
 import random
+import re
 import signal
+import socket
 import subprocess
 import sys
 import threading
@@ -18,8 +20,7 @@ import pytest
 
 import turtle_lesson
 from turtle_lesson import start
-from turtle_lesson.experiments import ExperimentError, Results, experiment
-from turtle_lesson.experiments.pools import cores
+from turtle_lesson.experiments import ExperimentError, Results, experiment, pools
 from turtle_lesson.learner.workspace import workspace
 
 NEEDS_SIGNALS = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such signals")
@@ -138,18 +139,26 @@ def test_three_workers_that_are_killed_lose_nothing_and_a_run_that_kills_its_own
     assert results.failed.rows[0]["error"] == "the worker process died, twice, in the middle of this run"
 
 
-def computes(lesson: Any) -> None:
+def takes_long(lesson: Any) -> None:
     if lesson._world.seed == 0:
         while True:
             pass
+    if lesson._world.seed == 1:
+        mine, its = socket.socketpair()
+        mine.recv(1)
+        its.close()
 
 
 @NEEDS_SIGNALS
-def test_a_run_that_computes_for_ever_is_a_row_that_says_where() -> None:
-    results = experiment(computes, seeds=range(2), cpu_time=0.3, jobs=1, simulator=False)
-    assert list(results["outcome"]) == ["CPU time", "ok"]
+def test_a_run_that_computes_or_waits_for_ever_is_a_row_that_says_where(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pools, "WINDOW", 0.3)
+    monkeypatch.setattr(pools, "WAITS", 1.0)
+    results = experiment(takes_long, seeds=range(3), cpu_time=0.3, jobs=1, simulator=False)
+    assert list(results["outcome"]) == ["CPU time", "CPU time", "ok"]
     assert results.rows[0]["error"] == "the run took more than 0.3 s of CPU time"
-    assert ", in computes\n    while True:\n" in results.rows[0]["traceback"].replace("    pass\n", "    while True:\n")
+    assert re.search(r", in takes_long\n    (while True:|pass)\n$", results.rows[0]["traceback"])
+    assert results.rows[1]["error"] == "the run waited for something outside its world for 1 s"
+    assert results.rows[1]["traceback"].endswith(", in takes_long\n    mine.recv(1)\n")
 
 
 def interrupts(lesson: Any) -> dict[str, int]:
@@ -209,6 +218,18 @@ def test_what_cannot_be_carried_out_gets_one_sentence(function: Any, options: di
     with pytest.raises(ExperimentError) as refused:
         experiment(function, **options)
     assert str(refused.value).startswith(said)
+
+
+def test_a_function_that_uses_the_notebooks_own_lesson_is_refused() -> None:
+    mine = start(simulator=False)
+
+    def uses_it(lesson: Any) -> None:
+        mine.run(1)
+
+    with pytest.raises(
+        ExperimentError, match="uses_it cannot be sent to a worker process: it uses mine, a Lesson that"
+    ):
+        experiment(uses_it)
 
 
 def within(lesson: Any) -> None:
@@ -273,6 +294,6 @@ def test_a_run_has_a_copy_of_the_learners_workspace_which_is_built_once(
 def test_the_cores_of_a_hub_or_a_container_count(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(os, "sched_getaffinity", lambda pid: set(range(8)), raising=False)
     monkeypatch.setenv("CPU_LIMIT", "1.5")
-    assert cores() <= 2
+    assert pools.cores() <= 2
     monkeypatch.setenv("CPU_LIMIT", "nonsense")
-    assert 1 <= cores() <= 8
+    assert 1 <= pools.cores() <= 8
