@@ -52,7 +52,8 @@ def find_counter() -> str | None:
 
 def _count(counter: str, command: list[str]) -> int | None:
     prefix, pattern = COUNTERS[counter]
-    environment = {**os.environ, "PYTHONHASHSEED": "0"}  # or each run would have dictionaries of its own
+    # or each run would have dictionaries of its own, and numpy's threads, which wait busily at first
+    environment = {**os.environ, "PYTHONHASHSEED": "0", "OPENBLAS_NUM_THREADS": "1"}
     ended = subprocess.run([*prefix, *command], capture_output=True, text=True, env=environment)
     found = re.search(pattern, ended.stderr, re.MULTILINE)
     if ended.returncode:

@@ -142,7 +142,7 @@ def show_instructions() -> None:
     row("a virtual second, driving", "turtle_lesson", "callbacks only", "cost, to them")
     for source, what in (("mock", "mock scans"), ("world", "ray casts")):
         ours, light = (
-            instructions(counter, [*command, f"{source} / {part}"], 5, 45) for part in ("system", "callbacks")
+            instructions(counter, [*command, f"{source} / {part}"], 5, 85) for part in ("system", "callbacks")
         )
         row(what, f"{ours / 1000:.0f}", f"{light / 1000:.0f}", f"×{ours / light:.2f}")
 
