@@ -12,7 +12,6 @@ from collections.abc import Callable
 
 from turtle_lesson.ros.stdlib.patches import original
 
-clock: Callable[[], float] = original(time, "perf_counter")
 cpu_clock: Callable[[], float] = original(time, "process_time")
 
 

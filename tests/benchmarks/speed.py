@@ -20,7 +20,7 @@ import tempfile
 from pathlib import Path
 
 from events import EVENTS, Work
-from measure import clock, cpu_clock, find_counter, instructions, interleaved, ratio
+from measure import cpu_clock, find_counter, instructions, interleaved, ratio
 from speed_of_light import driving_system, driving_times, frozen_twin
 
 from turtle_lesson import start
@@ -40,11 +40,11 @@ def row(what: str, *figures: str) -> None:
 
 
 def show_events() -> None:
-    """µs for each event, here, in SimPy, in asyncio, and recorded."""
-    row("µs an event", "turtle_lesson", "SimPy", "asyncio", "to SimPy", "to asyncio", "real rclpy *")
+    """µs of the CPU for each event, here, in SimPy, in asyncio, and recorded."""
+    row("CPU µs an event", "turtle_lesson", "SimPy", "asyncio", "to SimPy", "to asyncio", "real rclpy *")
     for what, makers in EVENTS.items():
         count = COUNTS[what]
-        ours, simpy, asyncio = interleaved([make(count) for make in makers], ROUNDS, clock)
+        ours, simpy, asyncio = interleaved([make(count) for make in makers], ROUNDS, cpu_clock)
         figures = [f"{statistics.median(times) / count * 1e6:.2f} µs" for times in (ours, simpy, asyncio)]
         row(what, *figures, f"×{ratio(ours, simpy):.2f}", f"×{ratio(ours, asyncio):.2f}", f"{REAL[what]} µs")
     print("* recorded on another machine\n")
