@@ -33,6 +33,7 @@ HERE = "turtle_lesson.teaching.cluster"
 
 DIED = "the worker that ran it died, and so did the one that tried again"
 LOST = "no worker of the cluster was left to run it"
+GONE = "the cluster's scheduler was gone before it was done"
 
 
 def run_on_cluster(copies: Sequence[Copy], timeout: float, memory: float, address: str) -> Generator[tuple[int, Seen]]:
@@ -109,7 +110,8 @@ def _connected(address: str) -> Iterator[Any]:
         from distributed import Client
     except ImportError:
         raise PageError("--client needs Dask: pip install 'turtle-lesson[cluster]'") from None
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what goes wrong is said in the reports
+    for name in ("distributed", "distributed.client"):  # what goes wrong is said in the reports
+        logging.getLogger(name).setLevel(logging.CRITICAL)
     try:
         client = Client(address, timeout=CONNECTING)
     except ValueError as error:
@@ -170,11 +172,14 @@ class _Run:
 
         try:
             while self._waiting or self._sent:
-                if self._is_alive():
-                    yield from self._send()
-                    yield from self._done()
-                else:
-                    yield from self._lost()
+                try:
+                    if self._has_workers():
+                        yield from self._send()
+                        yield from self._done()
+                    else:
+                        yield from self._rest(LOST)
+                except OSError:
+                    yield from self._rest(GONE)
         finally:
             with suppress(Exception):  # a scheduler that is gone
                 if self._sent:
@@ -186,10 +191,11 @@ class _Run:
     def _send(self) -> Iterator[tuple[int, Seen]]:
         """Fill the workers; gives copies that cannot be read."""
         while self._waiting and len(self._sent) < max(self._threads, 1):
-            number, copy = self._waiting.pop()
+            number, copy = self._waiting[-1]
             try:
                 content = copy.content()
             except PageError as error:
+                self._waiting.pop()
                 yield number, Seen(str(error))
                 continue
             if not self._times[number]:
@@ -204,6 +210,7 @@ class _Run:
                 pure=False,
             )
             self._sent[future] = number
+            self._waiting.pop()
 
     def _done(self) -> Iterator[tuple[int, Seen]]:
         """Wait a moment for some to be done; gives them."""
@@ -227,6 +234,8 @@ class _Run:
         """What was seen of a copy; None if it has to be sent again."""
         from distributed import KilledWorker
 
+        if future.status in {"cancelled", "lost"}:
+            return Seen(GONE)
         if future.status == "finished":
             found: Seen = future.result(timeout=CONNECTING)
             return found
@@ -236,22 +245,20 @@ class _Run:
                 return Seen(DIED)
             self._waiting.append((number, self._copies[number]))
             return None
-        return Seen(f"it could not be run on the cluster: {error or future.status}")
+        return Seen(f"it could not be run on the cluster: {error}")
 
-    def _lost(self) -> Iterator[tuple[int, Seen]]:
-        """Gives all that are left, as lost."""
+    def _rest(self, problem: str) -> Iterator[tuple[int, Seen]]:
+        """Gives all that are left, with this problem."""
         left = [*self._sent.values(), *(number for number, _ in self._waiting)]
         self._waiting.clear()
         self._sent.clear()
-        yield from ((number, Seen(LOST)) for number in left)
+        yield from ((number, Seen(problem)) for number in left)
 
-    def _is_alive(self) -> bool:
-        """Whether the cluster has workers, or had some a moment ago."""
-        try:
-            workers = self._client.scheduler_info(n_workers=-1)["workers"].values()
-        except OSError:  # the scheduler is gone
-            return False
-        self._threads = sum(each["nthreads"] for each in workers)
+    def _has_workers(self) -> bool:
+        """Whether the cluster has workers, or had some a moment ago. Raises OSError if the scheduler is gone."""
+        if self._client.status != "running":
+            raise ConnectionError
+        self._threads = sum(self._client.nthreads().values())
         if self._threads:
             self._seen_worker = time.monotonic()
-        return self._client.status == "running" and time.monotonic() - self._seen_worker < ALONE
+        return time.monotonic() - self._seen_worker < ALONE

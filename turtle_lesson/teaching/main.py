@@ -33,9 +33,12 @@ Checks are carried out and judged by the installed lesson's code: what a copy sh
 that has replaced code of the lesson is named, and earns nothing from then on. Cells and checks share one process, though: a
 copy that fakes what the checks observe cannot be stopped, nor can one that attacks the grader itself.
 
-The cells are run with your rights. They get few of your environment variables, and limits on time, memory (Linux, macOS), files
-and processes (not for root); what leaves its group of processes and hides its variables is not found and goes on. Grade what
-you do not trust in a container (the folder must hold the copies; the image, an installed lesson):
+What nbgrader, Moodle and GitHub Classroom hand out, in folders or a zip file, is reported with the learners' names.
+
+The cells are run with your rights; with --client, with those of the cluster's workers. They get few environment variables, and
+limits on time, memory (Linux, macOS), files and processes (not for root); what leaves its group of processes and hides its
+variables is not found and goes on. Grade what you do not trust in a container (the folder must hold the copies; the image, an
+installed lesson):
 
   docker run --rm --network none --memory 4g --pids-limit 500 --user 1000 -v "$PWD/copies:/copies:ro" \\
     IMAGE turtle-lesson grade --json /copies > points.json"""
