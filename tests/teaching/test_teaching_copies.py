@@ -44,6 +44,8 @@ def test_nbgrader(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     expected = [("anna", PAGE), ("anna", OTHER), ("ben", PAGE)]
     assert learners(tmp_path) == learners(tmp_path / "submitted") == expected
     monkeypatch.chdir(tmp_path / "submitted" / "ben")
+    assert learners(Path("w1") / PAGE) == [("", PAGE)], "a folder above that only has the same name says nothing"
+    (tmp_path / "gradebook.db").touch()
     assert learners(Path("w1") / PAGE) == [("ben", PAGE)]
 
 

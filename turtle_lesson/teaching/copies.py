@@ -26,6 +26,9 @@ MOODLE = re.compile(r"([^_]+)(?:_(\d+))?_assignsubmission_file(?:_.*)?")
 SUBMITTED = "submitted"
 """nbgrader's folder of what it has collected."""
 
+OF_A_COURSE = ("nbgrader_config.py", "gradebook.db")
+"""What shows that a folder above the one that is named is nbgrader's folder of a course."""
+
 CLONED = "-submissions"
 """How the folder's name ends that `gh classroom clone student-repos` makes for an assignment."""
 
@@ -127,7 +130,7 @@ def _owner(path: Path, root: Path) -> tuple[Path, str, str]:
         if found := MOODLE.fullmatch(part):
             return Path(*parts[:index]), found[1].strip(), found[2] or ""
     for index, part in enumerate(parts[:-3]):
-        if part == SUBMITTED:
+        if part == SUBMITTED and (index >= len(root.parts) - 1 or _is_course(Path(*parts[:index]))):
             return Path(*parts[: index + 1]), parts[index + 1], ""
     for index, part in enumerate(parts[:-2]):
         assignment = part.removesuffix(CLONED)
@@ -137,6 +140,10 @@ def _owner(path: Path, root: Path) -> tuple[Path, str, str]:
         if (clone / ".git").exists() and (assignment := _assignment(clone.parent)):
             return clone.parent, clone.name.removeprefix(f"{assignment}-"), ""
     return path, "", ""
+
+
+def _is_course(folder: Path) -> bool:
+    return any((folder / name).exists() for name in OF_A_COURSE)
 
 
 @lru_cache(maxsize=64)
