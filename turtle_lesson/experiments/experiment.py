@@ -182,7 +182,8 @@ def search_failure(
     print(f"Run {run.number} (seed {run.seed}) failed: {ending.error or ending.outcome}")
     base = {name: value_of(runs[0], name) for name in swept}
     found = smallest_change(run, ending, base, lambda another: next(iter(pool.carry_out([another])))[1])
-    print(found.told())
+    if text := found.told():
+        print(text)
     return done[: first + 1], found
 
 

@@ -2,6 +2,9 @@
 
 The function is called in a fresh world of the same seed, in a folder of its own, as a worker does it. It runs in steps
 (`ros/sim/stepped_call.py`), between which widgets and pictures of `replay.lesson` show what goes on.
+
+What a worker has and this process has not is the same order of texts in a set: a function that depends on it may end otherwise,
+and the replay says so.
 """
 
 from __future__ import annotations
@@ -129,9 +132,11 @@ class Replay:
         if self.done:
             print(f"{self._title} was over before this: {self._told()}")
             return
-        self._call.go_on(until)
-        if self.done:
-            print(f"{self._title} {self._told()}")
+        try:
+            self._call.go_on(until)
+        finally:
+            if self.done:
+                print(f"{self._title} {self._told()}")
 
     # -- what came of it -----------------------------------------------------------------------------------------------
 

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field, replace
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 from typing import Any
 
+from ..lab.words import count
 from .one_run import OPTIONS, RAISED, Ending, Run
 
 MOST_RUNS = 200
@@ -56,8 +57,10 @@ class Smallest:
 
     def told(self) -> str:
         """The change in a sentence."""
-        tried = f"{self.tried} more run{'s' * (self.tried != 1)}"
-        if not self.base or all(_equal(value, self.base[name]) for name, value in self.values.items()):
+        tried = count(self.tried, "more run")
+        if not self.base:
+            return ""
+        if not self.change:
             return f"All parameters have their first values there, so no change is needed for that ({tried})."
         parts = [f"{name}={value!r} instead of {self.base[name]!r}" for name, value in self.change.items()]
         rest = "" if self.complete else " A smaller one was not looked for to the end."
