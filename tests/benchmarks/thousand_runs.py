@@ -70,17 +70,18 @@ def cpu_time() -> float:
     return times.user + times.system + times.children_user + times.children_system
 
 
-def kill_some(amount: int, every: float) -> threading.Thread:
-    """Kill so many of this process's workers, one after the other, while they work."""
+def kill_some(amount: int, every: float = 5.0) -> threading.Thread:
+    """Kill so many of this process's workers, one every few seconds, while they work."""
 
     def kill() -> None:
-        for _ in range(amount):
+        killed = 0
+        while killed < amount:
             time.sleep(every)
-            workers = [
-                each for each in psutil.Process().children(recursive=True) if "spawn_main" in " ".join(each.cmdline())
-            ]
+            workers = [each for each in psutil.Process().children() if "spawn_main" in " ".join(each.cmdline())]
             if workers:
                 random.choice(workers).kill()
+                killed += 1
+        print(f"{killed} workers were killed", flush=True)
 
     thread = threading.Thread(target=kill, daemon=True)
     thread.start()
@@ -93,9 +94,9 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         speed_up(folder, runs // 10)
-        took = measured("two workers", runs, folder, jobs=2)
+        measured("two workers", runs, folder, jobs=2)
         measured("one worker", runs, folder, jobs=1)
-        killing = kill_some(3, took / 5)
+        killing = kill_some(3)
         measured("two, three killed", runs, folder, jobs=2)
         killing.join()
         with_dask(folder, runs)

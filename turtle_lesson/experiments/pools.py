@@ -122,11 +122,14 @@ class Worker:
     def close(self) -> None:
         """End the process, whatever it does."""
         with defer_sigint():
-            pool, self._pool = self._pool, None
-            if pool is None or self._pid is None:
-                return
-            with contextlib.suppress(Exception):
-                os.kill(self._pid.result(timeout=60), _KILL)
+            if self._pool is not None and self._pid is not None:
+                with contextlib.suppress(Exception):  # it has ended by itself
+                    os.kill(self._pid.result(timeout=60), _KILL)
+            self._clear()
+
+    def _clear(self) -> None:
+        pool, self._pool = self._pool, None
+        if pool is not None:
             pool.shutdown(cancel_futures=True)
             shutil.rmtree(self._folder, ignore_errors=True)
 
