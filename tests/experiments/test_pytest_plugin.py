@@ -66,6 +66,7 @@ HEAD = "import pytest\n\n@pytest.mark.worlds"
 def this_checkout(monkeypatch: pytest.MonkeyPatch) -> None:
     """The processes that a test starts import the code beside this file."""
     monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parents[2]))
+    monkeypatch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")  # those of the notebooks take long to import
 
 
 def test_each_seed_is_a_test_in_a_world_of_its_own_and_a_wrong_mark_is_a_sentence(pytester: pytest.Pytester) -> None:
@@ -74,7 +75,7 @@ def test_each_seed_is_a_test_in_a_world_of_its_own_and_a_wrong_mark_is_a_sentenc
         for number, mark in enumerate(WRONG)
     }
     pytester.makepyfile(test_robot=TESTS, test_none=f"{HEAD}(seeds=2)\ndef test_wrong(): pass\n", **wrong)
-    result = pytester.runpytest_subprocess(*PLUGIN, "-rA", "--continue-on-collection-errors", "-n", "1")
+    result = pytester.runpytest_subprocess(*PLUGIN, "-rA", "--continue-on-collection-errors", "-p", "xdist", "-n", "1")
     result.assert_outcomes(passed=11, failed=2, errors=len(WRONG) + 1)
     said = result.stdout.str()
     names = re.findall(r"^(PASSED|FAILED) test_robot\.py::(.+?)(?: - .*)?$", said, re.MULTILINE)

@@ -65,7 +65,8 @@ def test_each_row_comes_out_again_in_steps(results: Results, capsys: pytest.Capt
     for row in results:
         again = results.replay(row["run"])
         assert again.now == 0 and repr(again).endswith("it stands before its first line>")
-        again.lesson.dashboard()
+        if row["run"] == 0:
+            again.lesson.dashboard()
         while not again.done:
             again.step(drawn.choice([0.016, 0.3, 1e-9, 0.11]))
         assert again.row == row

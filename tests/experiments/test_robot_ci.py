@@ -23,6 +23,7 @@ PROJECT = ROOT / "deploy" / "robot_ci"
 def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A copy, whose processes import the code of this checkout."""
     monkeypatch.setenv("PYTHONPATH", str(ROOT))
+    monkeypatch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")  # those of the notebooks take long to import
     return Path(shutil.copytree(PROJECT, tmp_path / "robot", ignore=shutil.ignore_patterns("__pycache__")))
 
 
