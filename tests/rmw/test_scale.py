@@ -35,6 +35,7 @@ def rclpy() -> Any:
     import rclpy
 
     rclpy.init()
+    steps(lambda: None)  # in Python 3.12.1 the first call of all is not counted
     return rclpy
 
 
@@ -45,7 +46,7 @@ def test_the_four_hundredth_subscription_of_a_topic_costs_what_an_early_one_does
     publisher = node.create_publisher(String, "news", 10)
     costs = [steps(node.create_subscription, String, "news", print, 10) for _ in range(400)]
     assert publisher.get_subscription_count() == 400
-    assert costs[-1] <= 1.1 * costs[20]
+    assert 0 < costs[-1] <= 1.1 * costs[20]
 
 
 def test_a_tick_costs_each_of_many_turtles_the_same(rclpy: Any) -> None:
