@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import random
 import re
@@ -21,6 +22,8 @@ import pytest
 import turtle_lesson
 from turtle_lesson import start
 from turtle_lesson.experiments import ExperimentError, Results, experiment, pools
+from turtle_lesson.experiments.one_run import Run
+from turtle_lesson.experiments.payload import setting_for
 from turtle_lesson.learner.workspace import workspace
 
 NEEDS_SIGNALS = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such signals")
@@ -137,6 +140,21 @@ def test_three_workers_that_are_killed_lose_nothing_and_a_run_that_kills_its_own
     results = experiment(dies, seeds=range(7), folder=str(tmp_path), simulator=False, jobs=2)
     assert [row["outcome"] for row in results] == ["ok"] * 4 + ["worker died"] + ["ok"] * 2
     assert results.failed.rows[0]["error"] == "the worker process died, twice, in the middle of this run"
+
+
+def test_a_process_that_has_died_between_two_runs_is_replaced() -> None:
+    run = Run(0, 0, {"kind": "well"})
+    worker = pools.Worker(setting_for(drive, [run], simulator=False))
+    try:
+        first = worker.carry_out(run)
+        assert worker._pid is not None
+        process = psutil.Process(worker._pid.result())
+        process.kill()
+        with contextlib.suppress(psutil.Error):
+            process.wait()
+        assert worker.carry_out(run) == first and first.outcome == "ok"
+    finally:
+        worker.close()
 
 
 def takes_long(lesson: Any) -> None:

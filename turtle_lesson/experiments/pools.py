@@ -75,11 +75,14 @@ class Worker:
         """Have it carry out a run; `ending` says what came of the future."""
         self._watch = self._verdict = None
         with _starting(), defer_sigint():
-            if self._pool is None:
-                self._folder = Path(tempfile.mkdtemp(prefix="turtle-lesson-"))
-                spawn = multiprocessing.get_context("spawn")  # a kernel is full of threads: no fork of it would be safe
-                self._pool = ProcessPoolExecutor(1, spawn, one_run.begin, (self._setting, self._folder))
-                self._pid = self._pool.submit(os.getpid)
+            if self._pool is not None:
+                with contextlib.suppress(BrokenProcessPool):  # it has died since its last run
+                    return self._pool.submit(one_run.carry_out, run)
+                self._clear()
+            self._folder = Path(tempfile.mkdtemp(prefix="turtle-lesson-"))
+            spawn = multiprocessing.get_context("spawn")  # a kernel is full of threads: no fork of it would be safe
+            self._pool = ProcessPoolExecutor(1, spawn, one_run.begin, (self._setting, self._folder))
+            self._pid = self._pool.submit(os.getpid)
             return self._pool.submit(one_run.carry_out, run)
 
     def carry_out(self, run: Run) -> Ending:
@@ -101,8 +104,9 @@ class Worker:
             with contextlib.suppress(psutil.Error):
                 self._watch = _Watch(self._pid.result(), self._setting.cpu_time)
         elif self._verdict is None and (too_long := self._watch.too_long()):
-            self._verdict = Ending(CPU_TIME, error=too_long, traceback=self._where())
-            os.kill(self._pid.result(), _KILL)
+            with contextlib.suppress(ProcessLookupError):  # it has ended a moment ago
+                self._verdict = Ending(CPU_TIME, error=too_long, traceback=self._where())
+                os.kill(self._pid.result(), _KILL)
 
     def ending(self, future: Future[Ending]) -> Ending:
         """What came of a run that is done."""
@@ -116,7 +120,7 @@ class Worker:
                 raise ExperimentError(
                     "worker processes end here as soon as they begin: what they print says why"
                 ) from None
-            self.close()
+            self._clear()
             return self._verdict or Ending(DIED, error="the worker process died, twice, in the middle of this run")
 
     def close(self) -> None:
