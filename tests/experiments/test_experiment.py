@@ -44,6 +44,8 @@ def drive(lesson: Any, kind: str, gain: float = 1.0) -> dict[str, Any] | None:
         sys.exit("enough")
     if seed == 1 and kind == "long":
         lesson.run(1000)
+    if seed == 1 and kind == "nested":
+        experiment(drive, kind="well")
     if seed == 1 and kind == "list":
         return {"path": [1, 2]}
     chance = random.random(), float(np.random.random())
@@ -56,7 +58,7 @@ def drive(lesson: Any, kind: str, gain: float = 1.0) -> dict[str, Any] | None:
     }
 
 
-KINDS = ["well", "raises", "exits", "long", "list"]
+KINDS = ["well", "raises", "exits", "long", "list", "nested"]
 
 
 @pytest.fixture(scope="module")
@@ -65,9 +67,9 @@ def results() -> Results:
 
 
 def test_there_is_a_row_for_each_combination_and_seed_in_their_order(results: Results) -> None:
-    assert len(results) == 15 and results.missing == 0
-    assert [row["run"] for row in results] == list(range(15))
-    assert [row["seed"] for row in results] == [0, 1, 7] * 5
+    assert len(results) == 18 and results.missing == 0
+    assert [row["run"] for row in results] == list(range(18))
+    assert [row["seed"] for row in results] == [0, 1, 7] * 6
     assert [row["kind"] for row in results] == [kind for kind in KINDS for _ in range(3)]
     seeds = ["run", "seed", "kind", "outcome", "seconds", "calls", "chance", "numpys", "even"]
     assert results.columns == [*seeds, "robot_time", "error", "traceback", "printed"]
@@ -83,10 +85,11 @@ def test_a_run_that_fails_is_a_row_and_the_others_go_on(results: Results) -> Non
         "exits": "raised",
         "long": "robot time",
         "list": "raised",
+        "nested": "raised",
     }
     assert set(results.where(seed=0)["outcome"]) == set(results.where(seed=7)["outcome"]) == {"ok"}
-    assert [row["run"] for row in results.failed] == [4, 7, 10, 13]
-    assert repr(results).splitlines()[-1] == "15 runs, 4 failed: 4, 7, 10, 13"
+    assert [row["run"] for row in results.failed] == [4, 7, 10, 13, 16]
+    assert repr(results).splitlines()[-1] == "18 runs, 5 failed: 4, 7, 10, 13, 16"
 
 
 def test_a_failed_row_says_where_and_what_was_printed_and_not_which_worker_it_was(results: Results) -> None:
@@ -250,17 +253,12 @@ def test_a_function_that_uses_the_notebooks_own_lesson_is_refused() -> None:
         experiment(uses_it)
 
 
-def within(lesson: Any) -> None:
-    experiment(within)
-
-
-def test_a_run_carries_out_no_experiment_of_its_own_and_no_simulated_program_does() -> None:
-    with pytest.raises(ExperimentError, match="a simulated program cannot carry out an experiment"):
-        world = start(simulator=False)._world
-        process = world.spawn(lambda: experiment(drive, kind=1), name="program")
-        world.sim.settle()
-        raise process.error or AssertionError
-    said = experiment(within, seeds=[0], simulator=False).rows[0]["error"]
+def test_a_simulated_program_carries_out_no_experiment_and_no_run_one_of_its_own(results: Results) -> None:
+    world = start(simulator=False)._world
+    process = world.spawn(lambda: experiment(drive, kind=1), name="program")
+    world.sim.settle()
+    assert str(process.error).startswith("a simulated program cannot carry out an experiment")
+    said = results.where(kind="nested", seed=1).rows[0]["error"]
     assert said == "ExperimentError: a run of an experiment cannot carry out an experiment of its own"
 
 
@@ -273,13 +271,11 @@ def test_a_program_is_not_run_again_by_its_workers_and_needs_no_guard(tmp_path: 
         "from helpers import double\nfrom turtle_lesson.experiments import experiment\n"
         "print('this program runs')\n"
         "def drive(lesson, gain):\n    return {'doubled': double(gain)}\n"
-        "print(list(experiment(drive, seeds=range(2), gain=[3, 4], simulator=False)['doubled']))\n"
+        "print(experiment(drive, seeds=range(2), gain=[3, 4], simulator=False, jobs=1)['doubled'].tolist())\n"
     )
     environment = dict(os.environ) | {"PYTHONPATH": str(Path(turtle_lesson.__file__).parents[1])}
     said = subprocess.check_output([sys.executable, "program.py"], text=True, cwd=tmp_path, env=environment)
-    assert said == "this program runs\n[np.float64(6.0), np.float64(6.0), np.float64(8.0), np.float64(8.0)]\n".replace(
-        ".0", ""
-    ).replace("float64", "int64")
+    assert said == "this program runs\n[6, 6, 8, 8]\n"
 
 
 def looks_around(lesson: Any) -> dict[str, Any]:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import sys
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from turtle_lesson.experiments import Results
+from turtle_lesson.experiments.one_run import Ending, Run
 from turtle_lesson.teaching.main import main
 
 SCRIPT = """\
@@ -54,7 +56,22 @@ def test_its_tables_are_printed_and_saved_and_the_exit_code_tells_of_failures(
     assert Results.read("runs-2.csv").failed.rows[0]["error"] == "AssertionError: too much"
 
 
-def test_the_exit_code_is_0_if_all_runs_ended_well(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+class Well:
+    """Stands for the worker processes: each run ends well."""
+
+    def __init__(self, setting: Any, jobs: int) -> None:
+        assert jobs == 1
+
+    def carry_out(self, runs: list[Run]) -> Any:
+        return [(run, Ending("ok", {}, 1.0)) for run in runs]
+
+    def close(self) -> None: ...
+
+
+def test_the_exit_code_is_0_if_all_runs_ended_well(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(import_module("turtle_lesson.experiments.experiment"), "LocalPool", Well)
     (folder / "how_many.txt").write_text("1")
     assert main(["run", "robot/check.py", "--jobs", "1"]) == 0
     assert capsys.readouterr().out.endswith("2 runs, none failed\n")
