@@ -189,6 +189,38 @@ def test_a_step_may_end_within_a_call_that_could_wait_beyond_the_limit() -> None
     assert again.row["outcome"] == "ok" and again.row["seconds"] == pytest.approx(3.0, abs=0.1)
 
 
+def spins_on(lesson: Any, limit: int) -> dict[str, float]:
+    """Ends by an error that a callback raises, as many programs do, or not at all."""
+    import rclpy
+    from turtlesim.msg import Pose
+
+    rclpy.init()
+    node, seen = rclpy.create_node("listener"), []
+
+    def on_pose(pose: Pose) -> None:
+        seen.append(pose)
+        if len(seen) == limit:
+            raise SystemExit
+
+    node.create_subscription(Pose, "/turtle1/pose", on_pose, 10)
+    try:
+        rclpy.spin(node)
+    except SystemExit:
+        return {"seconds": lesson.now}
+    return {}
+
+
+def test_a_function_that_spins_goes_as_fast_as_possible_and_in_steps() -> None:
+    again = replay(spins_on, limit=1000)
+    while not again.done:
+        again.step(1.7)
+    assert again.row["outcome"] == "ok" and 15.9 < again.row["seconds"] < 16.1
+    endless = replay(spins_on, limit=100_000, robot_time=20.0)
+    endless.step(7)
+    endless.run()
+    assert endless.row["outcome"] == "robot time" and endless.now == 20.0
+
+
 def test_an_interrupt_leaves_it_usable(results: Results) -> None:
     from turtle_lesson.ros.sim import interrupts
 

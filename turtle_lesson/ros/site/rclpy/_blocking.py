@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from turtle_lesson.ros.runtime.world import current_world
 from turtle_lesson.ros.sim import run_blocking
 from turtle_lesson.ros.sim.run_blocking import Call
-from turtle_lesson.ros.sim.simulation import NANOSECONDS
+from turtle_lesson.ros.sim.simulation import NANOSECONDS, NEVER
 from turtle_lesson.ros.sim.strand import Strand, running_strand
 from turtle_lesson.ros.stdlib.clocks import real_monotonic, real_sleep
 from turtle_lesson.ros.stdlib.deadlock import wait_in_vain
@@ -51,9 +51,15 @@ def drive(function: Callable[..., T], *arguments: Any, **keywords: Any) -> T:
 
 
 def spin_live(function: Callable[[], None]) -> None:
-    """Run `function` in the notebook's process, with the simulation paced to the wall clock, until it returns."""
+    """Run `function` in the notebook's process, with the simulation paced to the wall clock, until it returns.
+
+    In a world that has an end nobody watches, and it goes as fast as possible.
+    """
     world = current_world()
     simulation = world.sim
+    if simulation.end != NEVER:
+        run_blocking.drive_within(simulation.end - simulation.now + 1, simulation, world.notebook, function)
+        return
     simulation.check_it_can_run()
     call = Call(simulation, world.notebook, function)
     try:
