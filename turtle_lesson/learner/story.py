@@ -29,6 +29,7 @@ PAGES = (
     "09_debugging_lab",
     "10_test_and_validate",
     "11_to_a_real_robot",
+    "12_a_thousand_runs",
 )
 """The lesson's pages, in their order."""
 

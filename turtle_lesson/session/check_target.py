@@ -98,6 +98,34 @@ class CheckTarget:
                 handle.stop()
                 self.step(0.1)
 
+    @contextmanager
+    def ending_programs(self) -> Iterator[None]:
+        """Programs that are started within this block are interrupted at its end, as by Ctrl-C."""
+        before = list(self._world.processes)
+        try:
+            yield
+        finally:
+            with redirect_stdout(io.StringIO()):
+                for each in list(self._world.processes):
+                    if each.alive and all(each is not old for old in before):
+                        each.interrupt()
+                self.step(0.1)
+
+    @contextmanager
+    def network(self, topic: str, latency: float | None = None, loss: float | None = None) -> Iterator[None]:
+        """Within this block the messages of a topic travel like this (see `Lesson.network`); after it, all travel as before."""
+        from ..ros.rmw.network import set_conditions
+
+        graph = self._world.graph
+        before = set_conditions(graph, "", None, None, None)
+        set_conditions(graph, topic, latency, None, loss)
+        try:
+            yield
+        finally:
+            set_conditions(graph, None, None, None, None)
+            for name, conditions in before.items():
+                graph.set_network(name, conditions)
+
     def published(self, topic: str, by: str) -> int:
         """How many messages a node's newest publisher of a topic has sent so far; 0 if there is none."""
         trace = self._world.trace

@@ -30,7 +30,17 @@ from .results import (
     row_of,
 )
 
-MODULES = ("pages_00_02", "pages_03", "page_04", "page_05", "pages_06_07", "pages_08_09", "page_10", "page_11")
+MODULES = (
+    "pages_00_02",
+    "pages_03",
+    "page_04",
+    "page_05",
+    "pages_06_07",
+    "pages_08_09",
+    "page_10",
+    "page_11",
+    "page_12",
+)
 """The modules beside this one that define checks; they are imported when a check is first asked for."""
 
 P = ParamSpec("P")
