@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 from typing import Any
 
@@ -43,7 +43,6 @@ class Smallest:
     base: dict[str, Any]
     tried: int = 0
     complete: bool = False
-    _known: dict[str, Ending | None] = field(default_factory=dict)
 
     @property
     def change(self) -> dict[str, Any]:
