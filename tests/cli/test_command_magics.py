@@ -28,10 +28,12 @@ Run = Callable[..., str]
 
 @pytest.fixture(scope="module")
 def ipython() -> Iterator[InteractiveShell]:
+    main = sys.modules["__main__"]
     shell = InteractiveShell(config=Config(HistoryManager={"enabled": False}))
     shell.colors = "nocolor"
     shell.run_line_magic("load_ext", "turtle_lesson")
     yield shell
+    sys.modules["__main__"] = main  # IPython has put its own in its place
 
 
 @pytest.fixture
