@@ -7,6 +7,7 @@ import os
 import random
 import weakref
 from collections.abc import Iterator
+from contextlib import redirect_stdout
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ import pytest
 
 from turtle_lesson import start
 from turtle_lesson.experiments import ExperimentError, Results, experiment, replay
+from turtle_lesson.experiments.replay import _Surroundings, _Tee
 from turtle_lesson.ros.runtime import files
 from turtle_lesson.ros.sim.errors import WorldClosed
 
@@ -110,6 +112,14 @@ def test_the_notebook_keeps_its_own_folder_chance_and_streams(
     assert (place / "notes.txt").exists()
     start(simulator=False)
     assert not place.exists()
+
+
+def test_its_stream_may_outlive_the_notebooks(tmp_path: Path) -> None:
+    with (tmp_path / "shown").open("w") as shown, redirect_stdout(shown):
+        stream = _Tee(_Surroundings(tmp_path), 0)
+        stream.write("a word")
+    assert (tmp_path / "shown").read_text() == "a word"
+    stream.close()  # as the garbage collector does it
 
 
 def test_a_later_start_ends_it(results: Results) -> None:

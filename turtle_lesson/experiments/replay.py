@@ -325,4 +325,6 @@ class _Tee(io.TextIOBase):
         return len(text)
 
     def flush(self) -> None:
-        self._surroundings.shown(self._which).flush()
+        shown = self._surroundings.shown(self._which)
+        if not getattr(shown, "closed", False):  # as it may be when the garbage collector closes this one
+            shown.flush()
