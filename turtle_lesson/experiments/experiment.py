@@ -24,7 +24,7 @@ from .progress import bar
 from .replay import Replay
 from .results import Results
 from .resume import described, rows_of
-from .shrink import Smallest, smallest_change, value_of
+from .shrink import Smallest, smallest_change
 
 MOST_JOBS = 512
 
@@ -180,7 +180,7 @@ def search_failure(
     if first != run.number:  # the user has stopped it before all others of a lower number were over
         return done, None
     print(f"Run {run.number} (seed {run.seed}) failed: {ending.error or ending.outcome}")
-    base = {name: value_of(runs[0], name) for name in swept}
+    base = {name: runs[0].value_of(name) for name in swept}
     found = smallest_change(run, ending, base, lambda another: next(iter(pool.carry_out([another])))[1])
     if text := found.told():
         print(text)

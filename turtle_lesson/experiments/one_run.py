@@ -83,6 +83,10 @@ class Run:
     distro: str | None = None
     start_order: str = "as written"
 
+    def value_of(self, name: str) -> Any:
+        """The value of a parameter, or of an option of the world."""
+        return getattr(self, name) if name in OPTIONS else self.parameters[name]
+
 
 @dataclass
 class Ending:

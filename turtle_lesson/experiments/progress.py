@@ -1,4 +1,4 @@
-"""A bar for who waits for an experiment: in a live notebook or a terminal, and gone without a trace when it is over."""
+"""A progress bar while an experiment runs, in a live notebook or a terminal; nothing of it is left afterwards."""
 
 from __future__ import annotations
 

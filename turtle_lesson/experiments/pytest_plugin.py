@@ -122,7 +122,7 @@ def _template(metafunc: pytest.Metafunc) -> Any:
 
 
 def _id(run: Run, swept: list[str]) -> str:
-    values = {name: getattr(run, name) if name in OPTIONS else run.parameters[name] for name in swept}
+    values = {name: run.value_of(name) for name in swept}
     return "-".join([*(f"{name}={value}" for name, value in values.items()), f"seed{run.seed}"])
 
 

@@ -92,7 +92,7 @@ class Replay:
             ending = call_in(self.lesson, function, run)
         if self._closed:
             return
-        self._world.sim.end = NEVER  # the end was the run's; whoever looks at its world may let that go on
+        self._world.sim.end = NEVER  # the end was the run's; its world may go on beyond it
         ending.printed = "" if ending.outcome == OK else self._surroundings.tail.tail()
         forget_folder(ending, Path(self._folder.name))
         self._ending = ending

@@ -171,7 +171,7 @@ class Results(Table):
 
 def _row(run: Run, ending: Ending, swept: Sequence[str], values: Sequence[str]) -> dict[str, Any]:
     row: dict[str, Any] = {"run": run.number, "seed": run.seed}
-    row |= {name: getattr(run, name) if name in OPTIONS else run.parameters[name] for name in swept}
+    row |= {name: run.value_of(name) for name in swept}
     row["outcome"] = ending.outcome
     row |= {name: ending.values.get(name) for name in values}
     row["robot_time"] = ending.robot_time

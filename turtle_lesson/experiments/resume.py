@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ..lab.words import listed
-from .one_run import CPU_TIME, DIED, OPTIONS, VERSION, Ending, ExperimentError, Run, Setting, name_of
+from .one_run import CPU_TIME, DIED, VERSION, Ending, ExperimentError, Run, Setting, name_of
 from .payload import hash_of, hash_of_folders
 from .results import Results, ending_of
 
@@ -50,7 +50,7 @@ def rows_of(
     rows = {_inputs(row["seed"], [row[name] for name in swept]): row for row in table.rows}
     found = []
     for run in runs:
-        given = [getattr(run, name) if name in OPTIONS else run.parameters[name] for name in swept]
+        given = [run.value_of(name) for name in swept]
         row = rows.get(_inputs(run.seed, given))
         if row is not None and row["outcome"] not in (CPU_TIME, DIED):
             found.append((run, ending_of(row, swept)))

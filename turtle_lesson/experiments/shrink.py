@@ -52,7 +52,7 @@ class Smallest:
     @property
     def values(self) -> dict[str, Any]:
         """The values of all parameters."""
-        return {name: value_of(self.run, name) for name in self.base}
+        return {name: self.run.value_of(name) for name in self.base}
 
     def told(self) -> str:
         """The change in a sentence."""
@@ -64,11 +64,6 @@ class Smallest:
         parts = [f"{name}={value!r} instead of {self.base[name]!r}" for name, value in self.change.items()]
         rest = "" if self.complete else " A smaller one was not looked for to the end."
         return f"The smallest change that still fails with this seed: {', '.join(parts)} ({tried}).{rest}"
-
-
-def value_of(run: Run, name: str) -> Any:
-    """The value of a parameter in a run, or of an option of its world."""
-    return getattr(run, name) if name in OPTIONS else run.parameters[name]
 
 
 def smallest_change(
@@ -91,7 +86,7 @@ class _Search:
     def __init__(self, found: Smallest, carry_out: Callable[[Run], Ending]) -> None:
         self.found, self.carry_out = found, carry_out
         self.kind = _kind(found.ending)
-        self.spans = {name: value_of(found.run, name) for name in found.base}
+        self.spans = {name: found.run.value_of(name) for name in found.base}
         self.passes: dict[str, bool] = {}
 
     def go(self) -> bool:
@@ -114,11 +109,11 @@ class _Search:
     def fails_with(self, name: str, value: Any) -> bool:
         """Whether the run still fails with another value; then it is kept."""
         found = self.found
-        if _equal(value_of(found.run, name), value):
+        if _equal(found.run.value_of(name), value):
             return True
         changed: dict[str, Any] = {name: value}
         run = replace(found.run, **(changed if name in OPTIONS else {"parameters": found.run.parameters | changed}))
-        key = repr([value_of(run, each) for each in found.base])
+        key = repr([run.value_of(each) for each in found.base])
         if key in self.passes:
             return False
         if found.tried >= MOST_RUNS:
@@ -133,7 +128,7 @@ class _Search:
 
     def bisect(self, name: str) -> None:
         """Bring a number nearer to its base, which does not fail, and make it a round one."""
-        passes, fails = self.found.base[name], value_of(self.found.run, name)
+        passes, fails = self.found.base[name], self.found.run.value_of(name)
         if not (_is_number(passes) and _is_number(fails)) or _equal(passes, fails):
             return
         whole = isinstance(passes, int) and isinstance(fails, int)

@@ -49,7 +49,7 @@ def set_player(world: World, player: Pace) -> None:
 def live_rate(world: World) -> float | None:
     """How many times as fast as real time the world goes in live mode; None if it is not live, or unpaced."""
     if world.sim.stepped is not None and world.sim.stepped.runs_here:
-        return None  # whoever steps it sees to the pace
+        return None  # what steps it sees to the pace
     player = world.notebook.state(_Live).player
     return player.rate if player is not None and player.playing and math.isfinite(player.rate) else None
 

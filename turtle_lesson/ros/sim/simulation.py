@@ -291,7 +291,7 @@ class Simulation(Face):
         self._cell.show_to(line)
 
     def call_done(self, strand: Strand) -> None:
-        """A blocking call has returned: whoever waits for it goes on."""
+        """A blocking call has returned: what waits for it goes on."""
         if self.stepped is not None:
             self.stepped.call_done(strand)
         if self.driven is strand:
