@@ -84,7 +84,7 @@ def experiment(
     """
     _check_place()
     runs, swept = plan(function, seeds, parameters, package=package, distro=distro, start_order=start_order)
-    _check_limits(jobs, robot_time=robot_time, cpu_time=cpu_time)
+    check_limits(jobs, robot_time=robot_time, cpu_time=cpu_time)
     if until not in (None, "failure"):
         raise ExperimentError(f'until must be "failure" or None, got {until!r}')
     setting = setting_for(function, runs, simulator=simulator, robot_time=robot_time, cpu_time=cpu_time)
@@ -125,7 +125,7 @@ def replay(
     _check_place()
     given = {name: [value] for name, value in parameters.items()}
     runs, swept = plan(function, [seed], given, package=package, distro=distro, start_order=start_order)
-    _check_limits(None, robot_time=robot_time)
+    check_limits(None, robot_time=robot_time)
     setting = setting_for(function, runs, simulator=simulator, robot_time=robot_time)
     table = Results.of([], swept)
     return Replay(setting, runs[0], lambda ending: table.row_of(runs[0], ending))
@@ -295,7 +295,8 @@ def _check_option(name: str, value: Any) -> None:
         raise ExperimentError(str(error)) from None
 
 
-def _check_limits(jobs: Any, **limits: Any) -> None:
+def check_limits(jobs: Any, **limits: Any) -> None:
+    """Raise ExperimentError for a number of workers, or a limit in seconds, that makes no sense."""
     if jobs is not None and (isinstance(jobs, bool) or not isinstance(jobs, int) or not 1 <= jobs <= MOST_JOBS):
         raise ExperimentError(f"jobs must be a whole number from 1 to {MOST_JOBS}, got {jobs!r}")
     for name, seconds in limits.items():

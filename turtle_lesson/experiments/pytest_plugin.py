@@ -28,7 +28,7 @@ import pytest
 
 from ..ros.sim import errors
 from ..ros.stdlib.ownership import Notebook
-from .experiment import plan
+from .experiment import check_limits, plan
 from .one_run import OPTIONS, ExperimentError, Run, Setting, open_run
 
 if TYPE_CHECKING:
@@ -36,8 +36,8 @@ if TYPE_CHECKING:
 
 MARK = "worlds"
 
-WORLD = {"package": "finished", "distro": None, "start_order": "as written"}
-SETTING = {"simulator": True, "robot_time": 600.0}
+WORLD = {name: getattr(Run(0, 0), name) for name in OPTIONS}
+SETTING = {name: getattr(Setting(b""), name) for name in ("simulator", "robot_time")}
 
 
 @dataclass(frozen=True)
@@ -89,9 +89,7 @@ def _places(metafunc: pytest.Metafunc, given: dict[str, Any]) -> tuple[list[Plac
     setting = {name: given.pop(name, value) for name, value in SETTING.items()}
     world = {name: given.pop(name, value) for name, value in WORLD.items()}
     world["package"] = _from_root(world["package"], metafunc.config.rootpath)
-    limit = setting["robot_time"]
-    if isinstance(limit, bool) or not isinstance(limit, (int, float)) or limit <= 0:
-        raise ExperimentError(f"robot_time must be a number of seconds above 0, got {limit!r}")
+    check_limits(None, robot_time=setting["robot_time"])
     runs, swept = plan(_template(metafunc), seeds, given, **world)
     for name in given:
         if inspect.signature(metafunc.function).parameters[name].default is not inspect.Parameter.empty:
