@@ -56,6 +56,12 @@ def running() -> Lesson:
     return lesson
 
 
+def test_all_widgets_of_a_system_share_the_frames_of_one_loop() -> None:
+    lesson = running()
+    *shown, _question = all_widgets(lesson)
+    assert len({id(widget.backend.loop) for widget in shown}) == 1
+
+
 def kept_of_a_world(path: Path) -> tuple[list[Any], list[weakref.ref[Any]]]:
     """What a page keeps of a world in the middle of its work (Jupyter's `Out`, and its views), and that world, weakly."""
     lesson = running()

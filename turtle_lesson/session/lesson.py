@@ -350,5 +350,6 @@ class Lesson(Inspection):
 
         return CheckTarget(self._world, self._recording, self._board)
 
-    def _make_backend(self) -> Backend:
+    @cached_property
+    def _backend(self) -> Backend:
         return SimBackend(self._world, self._recording, self._player, self._board)

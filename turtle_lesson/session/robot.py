@@ -15,7 +15,6 @@ from .views import Views, Widget
 if TYPE_CHECKING:
     from ..lab.graph import GraphPicture
     from ..lab.recorder import Recorder
-    from ..lab.widgets.backend import Backend
     from .robot_backend import RobotBackend
 
 
@@ -64,6 +63,8 @@ def connect() -> Robot:
 class Robot(Views):
     """A real system, seen from a notebook. Times are in seconds since `connect()`."""
 
+    _backend: RobotBackend
+
     def __init__(self, backend: RobotBackend) -> None:
         self._backend = backend
 
@@ -91,9 +92,6 @@ class Robot(Views):
     def _check_connected(self) -> None:
         if self._backend.ended:
             raise RuntimeError("this connection has ended: robot = connect() makes a new one")
-
-    def _make_backend(self) -> Backend:
-        return self._backend
 
     @property
     def _recording(self) -> Recorder:

@@ -28,9 +28,11 @@ Widget = TypeVar("Widget")
 
 
 class Views:
-    """The pictures and widgets of a running system, which a subclass names: `_make_backend()` and `_recording`."""
+    """The pictures and widgets of a running system, which a subclass names: `_backend` and `_recording`."""
 
-    def _make_backend(self) -> Backend:
+    @cached_property
+    def _backend(self) -> Backend:
+        """One for all widgets, since they share the frames of its loop."""
         raise NotImplementedError
 
     @property
@@ -45,13 +47,13 @@ class Views:
         if widget is None or widget.comm is None:  # not made yet, or closed
             from ..lab.widgets.backend import Link
 
-            widget = self._widgets[kind, arguments] = kind(Link(self._make_backend()), *arguments)
+            widget = self._widgets[kind, arguments] = kind(Link(self._backend), *arguments)
         return widget
 
     @cached_property
     def _widgets(self) -> dict[Hashable, Any]:
         """Those that were made, by their kind and arguments; they end with the system."""
-        self._make_backend().at_close.append(self._end_widgets)
+        self._backend.at_close.append(self._end_widgets)
         return {}
 
     def _end_widgets(self) -> None:
